@@ -1,0 +1,3 @@
+program wavycon_main
+   implicit none (type, external)
+end program wavycon_main

@@ -1,0 +1,50 @@
+/* The few calls to the operating system that Fortran has no word for. */
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/types.h>
+#include <unistd.h>
+
+/* 0 nothing there, 1 a directory, 2 something else. */
+int wavycon_path_kind(const char *path)
+{
+    struct stat info;
+    if (stat(path, &info) != 0)
+        return 0;
+    return S_ISDIR(info.st_mode) ? 1 : 2;
+}
+
+/* Makes one directory; one that is there already is fine. Returns errno, 0 if all is well. */
+int wavycon_make_directory(const char *path)
+{
+    if (mkdir(path, 0777) == 0 || (errno == EEXIST && wavycon_path_kind(path) == 1))
+        return 0;
+    return errno;
+}
+
+int wavycon_rename(const char *from, const char *to)
+{
+    return rename(from, to) == 0 ? 0 : errno;
+}
+
+int wavycon_remove(const char *path)
+{
+    return unlink(path) == 0 ? 0 : errno;
+}
+
+int wavycon_process_id(void)
+{
+    return (int)getpid();
+}
+
+int wavycon_stdout_is_terminal(void)
+{
+    return isatty(STDOUT_FILENO);
+}
+
+/* The words for an errno, cut to fit. */
+void wavycon_error_text(int number, char *text, size_t length)
+{
+    snprintf(text, length, "%s", strerror(number));
+}

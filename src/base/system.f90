@@ -1,0 +1,122 @@
+!> Directories, renaming and the terminal: thin wrappers of the C calls in system.c.
+module wavycon_system
+   use, intrinsic :: iso_c_binding, only: c_char, c_int, c_null_char, c_size_t
+   implicit none (type, external)
+   private
+
+   public :: path_kind, make_directories, rename_file, remove_file, process_id, stdout_is_terminal
+
+   !> What `path_kind` can answer.
+   integer, parameter, public :: path_absent = 0, path_directory = 1, path_other = 2
+
+   interface
+      integer(c_int) function c_path_kind(path) bind(c, name='wavycon_path_kind')
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: path(*)
+      end function c_path_kind
+
+      integer(c_int) function c_make_directory(path) bind(c, name='wavycon_make_directory')
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: path(*)
+      end function c_make_directory
+
+      integer(c_int) function c_rename(from, to) bind(c, name='wavycon_rename')
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: from(*), to(*)
+      end function c_rename
+
+      integer(c_int) function c_remove(path) bind(c, name='wavycon_remove')
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: path(*)
+      end function c_remove
+
+      integer(c_int) function c_process_id() bind(c, name='wavycon_process_id')
+         import :: c_int
+      end function c_process_id
+
+      integer(c_int) function c_stdout_is_terminal() bind(c, name='wavycon_stdout_is_terminal')
+         import :: c_int
+      end function c_stdout_is_terminal
+
+      subroutine c_error_text(number, text, length) bind(c, name='wavycon_error_text')
+         import :: c_char, c_int, c_size_t
+         integer(c_int), value :: number
+         character(kind=c_char), intent(out) :: text(*)
+         integer(c_size_t), value :: length
+      end subroutine c_error_text
+   end interface
+
+contains
+
+   !> Whether a path names nothing, a directory or something else.
+   integer function path_kind(path)
+      character(*), intent(in) :: path
+
+      path_kind = int(c_path_kind(path//c_null_char))
+   end function path_kind
+
+   !> Makes a directory and those above it.
+   subroutine make_directories(path, failure)
+      character(*), intent(in) :: path
+      character(:), allocatable, intent(out) :: failure  !! the system's words; not allocated if all is well
+
+      integer :: i, number
+
+      do i = 2, len(path) + 1
+         if (i <= len(path)) then
+            if (path(i:i) /= '/') cycle
+         end if
+         number = int(c_make_directory(path(:i - 1)//c_null_char))
+         if (number /= 0) then
+            failure = error_text(number)
+            return
+         end if
+      end do
+   end subroutine make_directories
+
+   !> Renames a file; one that has the new name already is replaced in the same instant.
+   subroutine rename_file(from, to, failure)
+      character(*), intent(in) :: from, to
+      character(:), allocatable, intent(out) :: failure  !! the system's words; not allocated if all is well
+
+      integer :: number
+
+      number = int(c_rename(from//c_null_char, to//c_null_char))
+      if (number /= 0) failure = error_text(number)
+   end subroutine rename_file
+
+   !> Removes a file; one that is not there is fine.
+   subroutine remove_file(path)
+      character(*), intent(in) :: path
+
+      integer :: ignored
+
+      ignored = int(c_remove(path//c_null_char))
+   end subroutine remove_file
+
+   !> This process's number, for names of files that no other process uses.
+   integer function process_id()
+      process_id = int(c_process_id())
+   end function process_id
+
+   !> Whether standard output is a terminal.
+   logical function stdout_is_terminal()
+      stdout_is_terminal = c_stdout_is_terminal() /= 0
+   end function stdout_is_terminal
+
+   function error_text(number) result(text)
+      integer, intent(in) :: number  !! an errno
+      character(:), allocatable :: text
+
+      character(kind=c_char) :: buffer(256)
+      integer :: i
+
+      call c_error_text(int(number, c_int), buffer, size(buffer, kind=c_size_t))
+      text = ''
+      do i = 1, size(buffer)
+         if (buffer(i) == c_null_char) exit
+         text = text//buffer(i)
+      end do
+   end function error_text
+
+end module wavycon_system

@@ -1,0 +1,11 @@
+set(revision unknown)
+find_package(Git QUIET)
+if(GIT_FOUND AND EXISTS ${source_dir}/.git)
+  execute_process(COMMAND ${GIT_EXECUTABLE} describe --always --dirty --abbrev=10 --exclude=*
+    WORKING_DIRECTORY ${source_dir} OUTPUT_VARIABLE described OUTPUT_STRIP_TRAILING_WHITESPACE
+    RESULT_VARIABLE failed ERROR_QUIET)
+  if(NOT failed)
+    set(revision ${described})
+  endif()
+endif()
+configure_file(${template} ${output} @ONLY)
