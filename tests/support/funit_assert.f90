@@ -286,8 +286,8 @@ contains
       first = findloc(e .eqv. a, .false., dim=1)
       if (first == 0) return
       call fail_elements(assertion, '==', merge('.true. ', '.false.', e(first)), &
-         merge('.true. ', '.false.', a(first)), '', first, count(e .neqv. a), shape(actual), message, &
-         location)
+         merge('.true. ', '.false.', a(first)), '', first, count(e .neqv. a), &
+         shape(actual), message, location)
    end subroutine check_logicals
 
    ! ---- comparing ----
@@ -365,14 +365,19 @@ contains
    end function signed_difference
 
    !> Fails unless the shapes agree, or the expected value is a scalar and there is something to compare.
-   subroutine require_conformable(assertion, expected, actual, message, location, conform)
+   subroutine require_conformable(assertion, expected_shape, actual_shape, message, location, conform)
       character(*), intent(in) :: assertion
-      integer, intent(in) :: expected(:), actual(:)  !! shapes
+      integer, intent(in) :: expected_shape(:), actual_shape(:)
       character(*), intent(in), optional :: message
       type(SourceLocation), intent(in) :: location
       logical, intent(out) :: conform
 
       integer, parameter :: highest_rank = 2
+      integer :: expected(size(expected_shape)), actual(size(actual_shape))
+
+      ! gfortran 12 gives an empty array of assumed rank the extent -1.
+      expected = max(expected_shape, 0)
+      actual = max(actual_shape, 0)
 
       conform = size(actual) <= highest_rank
       if (size(expected) == 0) then
@@ -444,14 +449,14 @@ contains
       call throw(heading//details, location)
    end subroutine fail
 
-   subroutine fail_elements(assertion, relation, expected, actual, difference, first, failures, extents, &
-         message, location)
+   subroutine fail_elements(assertion, relation, expected, actual, difference, first, failures, &
+         actual_shape, message, location)
       character(*), intent(in) :: assertion, relation
       character(*), intent(in) :: expected, actual  !! of the first failing element
       character(*), intent(in) :: difference        !! likewise; may be empty
       integer, intent(in) :: first       !! its place in array element order
       integer, intent(in) :: failures    !! how many elements fail
-      integer, intent(in) :: extents(:)  !! shape of actual
+      integer, intent(in) :: actual_shape(:)
       character(*), intent(in), optional :: message
       type(SourceLocation), intent(in) :: location
 
@@ -463,15 +468,15 @@ contains
          details = indent//'expected:   '//trim(expected)//indent//'actual:     '//trim(actual)
       end if
       if (difference /= '') details = details//indent//'difference: '//difference
-      if (size(extents) == 1) then
+      if (size(actual_shape) == 1) then
          details = details//indent//'element:    '//list_text([first])
-      else if (size(extents) == 2) then
+      else if (size(actual_shape) == 2) then
          details = details//indent//'element:    '// &
-            list_text([1 + modulo(first - 1, extents(1)), 1 + (first - 1)/extents(1)])
+            list_text([1 + modulo(first - 1, actual_shape(1)), 1 + (first - 1)/actual_shape(1)])
       end if
-      if (size(extents) > 0) then
+      if (size(actual_shape) > 0) then
          details = details//', the first of '//integer_text(failures)//' that fail, out of '// &
-            integer_text(product(extents))
+            integer_text(product(actual_shape))
       end if
       call fail(assertion, details, message, location)
    end subroutine fail_elements

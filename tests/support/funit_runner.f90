@@ -93,7 +93,7 @@ contains
             ' tests failed, ', empty_suites, ' suites without tests'
       else
          write (output_unit, '(a, i0, a)') 'OK: ', tests_run, ' tests passed'
-         stop
+         stop, quiet=.true.
       end if
       flush (output_unit)
       stop 1, quiet=.true.

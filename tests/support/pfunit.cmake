@@ -1,4 +1,5 @@
 # pFUnit, or the stand-in for it that compiles the same .pf files.
+find_package(Python3 3.8 REQUIRED COMPONENTS Interpreter)
 find_package(PFUNIT QUIET)
 if(PFUNIT_FOUND)
   message(STATUS "wavycon: tests use pFUnit ${PFUNIT_VERSION} (${PFUNIT_DIR})")
@@ -25,4 +26,11 @@ function(wavycon_add_pf_tests label)
       set_tests_properties(${name} PROPERTIES PASS_REGULAR_EXPRESSION "OK\n \\([1-9][0-9]* tests?\\)")
     endif()
   endforeach()
+  if(PFUNIT_FOUND)
+    # What the stand-in's preprocessor would refuse is an error here too.
+    add_test(NAME ${label}.pf_subset
+      COMMAND Python3::Interpreter ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/pf2f90.py --check ${sources}
+      WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
+    set_tests_properties(${label}.pf_subset PROPERTIES LABELS ${label})
+  endif()
 endfunction()

@@ -1,5 +1,4 @@
 # The stand-in for pFUnit's add_pfunit_ctest, as far as wavycon uses it.
-find_package(Python3 3.8 REQUIRED COMPONENTS Interpreter)
 
 # wavycon_standin_executable(name source.pf ...): the test program alone, without a ctest.
 function(wavycon_standin_executable name)
