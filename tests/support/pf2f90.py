@@ -31,7 +31,7 @@ PROCEDURES = ('test', 'before', 'after')
 FORBIDDEN = set('run initialize finalize stub test throw is not every predicate subject t suite'.split())
 
 PLAIN_SUBROUTINE = re.compile(r'\s*subroutine\s+(\w+)\s*(\(\s*\))?\s*$')
-PROCEDURE = re.compile(r'\s*(?:(?!end\b)[\w()=*,: ]+\s)?(?:subroutine|function)\s+(\w+)', re.I)
+PROCEDURE = re.compile(r'(?!\s*end\b)(?:[\w()=*,: ]+\s|\s*)(?:subroutine|function)\s+(\w+)', re.I)
 TYPE = re.compile(r'\s*type\s*(?:,[^:!]*)?(?:::\s*|\s)\s*(\w+)\s*(?:!.*)?$', re.I)
 DIRECTIVE = re.compile(r'\s*@\s*(\w*)\s*(.*?)\s*$')
 
@@ -146,24 +146,25 @@ class TestFile:
         if [use.strip() for use in uses] != ['use funit']:
             self.refuse(modules[0] if modules else 1, "the module must have 'use funit', once and whole")
 
-        in_type = in_procedures = False
+        in_block = in_procedures = False  # a block: a type definition or an interface
         for number, code in enumerate(codes, 1):
-            if re.match(r'\s*end\s*type\b', code, re.I):
-                in_type = False
-            elif in_type:
+            if re.match(r'\s*end\s*(?:type|interface)\b', code, re.I):
+                in_block = False
+            elif in_block:
                 continue
             elif match := TYPE.match(code):
-                in_type = True
+                in_block = True
                 self.check_names(number, [match[1].lower()])
             elif match := PROCEDURE.match(code):
                 self.check_names(number, [match[1].lower()])
             elif code.strip().lower() == 'contains':
                 in_procedures = True
+            elif match := re.match(r'\s*(?:abstract\s+)?interface\b\s*(\w*)', code, re.I):
+                in_block = True
+                self.check_names(number, [match[1].lower()])
             elif not in_procedures:
                 if re.match(r'\s*private\b', code, re.I):
                     self.refuse(number, 'a test module is not private: its suite function lies outside')
-                elif match := re.match(r'\s*(?:abstract\s+)?interface\s+(\w+)', code, re.I):
-                    self.check_names(number, [match[1].lower()])
                 elif '::' in code and not re.match(r'\s*use\b', code, re.I):
                     self.check_names(number, declared_names(code))
 

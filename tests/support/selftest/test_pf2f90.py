@@ -131,6 +131,20 @@ class Preprocessor(unittest.TestCase):
         self.assertEqual((run.returncode, run.stderr, self.output.exists()), (0, '', True))
         self.assertEqual(self.run_program('--check', self.source, self.source).returncode, 0)
 
+    def test_names_that_are_not_the_modules_own(self):
+        lines = SOUND.copy()
+        lines[5] = '''\
+   abstract interface
+      real function f(t)
+         real, intent(in) :: t
+      end function f
+   end interface
+   type :: plain
+      private
+      integer :: is
+   end type plain'''
+        self.translate(lines)
+
     def test_longest_line(self):
         lines = SOUND.copy()
         lines[17] = '      a = 1 !'.ljust(119, '.')
