@@ -1,0 +1,43 @@
+!> Kalker's principle for a wavy surface, as a quadratic programme.
+!>
+!> The pressure p >= 0 of the given mean minimises the complementary energy (Johnson, Greenwood & Higginson 1985,
+!> eqs. 1, 2). In the amplitudes x_k of the Fourier terms that is, to a constant and a factor,
+!>
+!>     f' = 1/2 sum_k w_k c_k x_k^2 - x_1    (eqs. 17, 26)   with   sum_k x_k t_k >= -P at the points (18, 27),
+!>
+!> w_k the weight, c_k the compliance of term t_k, x_1 the amplitude of the term of the surface's shape.
+!> The unconstrained minimum x_1 = 1 is full contact.
+module wavycon_complementary_energy
+   use wavycon_constraint_points, only: choose_points, term_values
+   use wavycon_fourier_terms, only: fourier_terms
+   use wavycon_kinds, only: dp
+   use wavycon_qp_problem, only: qp_problem
+   implicit none (type, external)
+   private
+
+   public :: energy_problem
+
+contains
+
+   !> The quadratic programme of some terms at zero load: its bounds are b = 0 and move as -P.
+   type(qp_problem) function energy_problem(terms, points_per_side, symmetry) result(problem)
+      type(fourier_terms), intent(in) :: terms
+      integer, intent(in) :: points_per_side   !! N >= 2 constraint points on [0, pi]
+      integer, intent(in) :: symmetry          !! the terms'
+
+      integer, allocatable :: k(:), l(:)
+      integer :: t, n
+
+      n = terms%count()
+      allocate (problem%hessian(n, n), problem%linear(n), source=0.0_dp)
+      do t = 1, n
+         problem%hessian(t, t) = terms%weight(t)*terms%compliance(t)
+      end do
+      problem%linear = 0.0_dp
+      problem%linear(terms%fundamental()) = 1.0_dp
+      call choose_points(terms%dimension, points_per_side, symmetry, k, l)
+      problem%normals = term_values(terms, points_per_side, k, l)
+      allocate (problem%bounds(size(k)), source=0.0_dp)
+   end function energy_problem
+
+end module wavycon_complementary_energy

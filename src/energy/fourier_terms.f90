@@ -1,0 +1,117 @@
+!> The terms of the pressure's Fourier series that the symmetry of the scene leaves.
+!>
+!> 1-D (Johnson, Greenwood & Higginson 1985, eq. 12):  (p - pbar)/p* = sum_i A_i cos(i phi),  i = 1..n.
+!> 2-D (eq. 25):  (p - pbar)/p* = sum_ij A_ij cos(i phi) cos(j theta),  i, j = 0..n,  A_00 = 0, of which
+!>    'none'      keeps all,
+!>    'diagonal'  those with i + j even: phi, theta -> pi - phi, pi - theta changes nothing,
+!>    'full'      also sets A_ij = A_ji: one unknown stands for both.
+module wavycon_fourier_terms
+   use wavycon_constants, only: sqrt2
+   use wavycon_kinds, only: dp
+   implicit none (type, external)
+   private
+
+   public :: fourier_terms, choose_terms
+
+   !> What symmetry is used.
+   integer, parameter, public :: symmetry_none = 0, symmetry_diagonal = 1, symmetry_full = 2
+
+   !> Terms k = 1..size(i). Term k is cos(i phi) cos(j theta), and the same with i and j exchanged where `paired`.
+   type :: fourier_terms
+      integer :: dimension = 2
+      integer :: harmonics = 0              !! n
+      integer, allocatable :: i(:), j(:)    !! wave numbers in phi and theta; j = 0 in 1-D
+      logical, allocatable :: paired(:)     !! the term stands for A_ij and A_ji
+   contains
+      procedure :: count => count_terms
+      procedure :: compliance
+      procedure :: weight
+      procedure :: fundamental
+      procedure :: coefficients
+   end type fourier_terms
+
+contains
+
+   !> The terms for a dimension, a highest harmonic and a symmetry.
+   pure type(fourier_terms) function choose_terms(dimension, harmonics, symmetry) result(terms)
+      integer, intent(in) :: dimension  !! 1 or 2
+      integer, intent(in) :: harmonics  !! n >= 1
+      integer, intent(in) :: symmetry   !! one of the names above; no matter in 1-D
+
+      integer :: i, j, k
+      integer :: all_i((harmonics + 1)**2), all_j((harmonics + 1)**2)
+
+      k = 0
+      do i = 0, harmonics
+         do j = 0, harmonics
+            if (dimension == 1 .and. j > 0) cycle
+            if (i + j == 0) cycle
+            if (dimension == 2 .and. symmetry /= symmetry_none .and. mod(i + j, 2) == 1) cycle
+            if (dimension == 2 .and. symmetry == symmetry_full .and. i > j) cycle
+            k = k + 1
+            all_i(k) = i
+            all_j(k) = j
+         end do
+      end do
+      terms%dimension = dimension
+      terms%harmonics = harmonics
+      allocate (terms%i, source=all_i(:k))
+      allocate (terms%j, source=all_j(:k))
+      allocate (terms%paired(k))
+      terms%paired = dimension == 2 .and. symmetry == symmetry_full .and. terms%i /= terms%j
+   end function choose_terms
+
+   !> Number of unknowns.
+   pure integer function count_terms(self)
+      class(fourier_terms), intent(in) :: self
+
+      count_terms = size(self%i)
+   end function count_terms
+
+   !> Displacement over pressure of a term, in Delta and p*: 1/i in 1-D (eq. 13), sqrt2/(i^2 + j^2)^1/2 in 2-D (A10).
+   elemental real(dp) function compliance(self, k)
+      class(fourier_terms), intent(in) :: self
+      integer, intent(in) :: k   !! 1 .. count
+
+      if (self%dimension == 1) then
+         compliance = 1.0_dp/self%i(k)
+      else
+         compliance = sqrt2/hypot(real(self%i(k), dp), real(self%j(k), dp))
+      end if
+   end function compliance
+
+   !> Mean square of a term over the cell, over that of the surface's own wave: doubled where i or j is zero (the
+   !> star of eq. 26), doubled where the term stands for two.
+   elemental real(dp) function weight(self, k)
+      class(fourier_terms), intent(in) :: self
+      integer, intent(in) :: k   !! 1 .. count
+
+      weight = 1.0_dp
+      if (self%dimension == 1) return
+      if (self%i(k) == 0 .or. self%j(k) == 0) weight = 2*weight
+      if (self%paired(k)) weight = 2*weight
+   end function weight
+
+   !> Number of the term that has the shape of the surface: cos phi, or cos phi cos theta.
+   pure integer function fundamental(self)
+      class(fourier_terms), intent(in) :: self
+
+      fundamental = findloc(self%i == 1 .and. self%j == self%dimension - 1, .true., dim=1)
+   end function fundamental
+
+   !> A_ij of all i, j = 0..n (j = 0 alone in 1-D), from the values of the terms.
+   pure function coefficients(self, values) result(a)
+      class(fourier_terms), intent(in) :: self
+      real(dp), intent(in) :: values(:)        !! shape (count)
+      real(dp), allocatable :: a(:, :)         !! a(i, j), shape (0:n, 0:n) in 2-D, (0:n, 0:0) in 1-D
+
+      integer :: k
+
+      allocate (a(0:self%harmonics, 0:merge(self%harmonics, 0, self%dimension == 2)), source=0.0_dp)
+      do k = 1, size(values)
+         a(self%i(k), self%j(k)) = values(k)
+         if (self%paired(k)) a(self%j(k), self%i(k)) = values(k)
+      end do
+   end function coefficients
+
+end module wavycon_fourier_terms

@@ -1,0 +1,68 @@
+!> Check of a claimed answer of a quadratic programme, from the problem's data alone.
+module wavycon_kkt
+   use wavycon_kinds, only: dp
+   use wavycon_lapack, only: dgemv, dsymv
+   use wavycon_qp_problem, only: qp_problem
+   implicit none (type, external)
+   private
+
+   public :: kkt_residual
+
+contains
+
+   !> Largest relative violation of the Karush-Kuhn-Tucker conditions
+   !>
+   !>     Dx - c = C'y,   Cx >= b,   y >= 0,   y (Cx - b) = 0.
+   !>
+   !> Each is measured against the largest of the terms that must cancel in it, so that the number does not
+   !> change with the units of x, of the objective or of the constraints. An exact answer in floating-point
+   !> numbers has a residual of the order of the machine precision.
+   real(dp) function kkt_residual(problem, bounds, x, active, multipliers) result(residual)
+      type(qp_problem), intent(in) :: problem
+      real(dp), intent(in) :: bounds(:)       !! b; may differ from the problem's own, shape (m)
+      real(dp), intent(in) :: x(:)            !! the claimed answer, shape (n)
+      integer, intent(in) :: active(:)        !! constraints with a multiplier, each named once
+      real(dp), intent(in) :: multipliers(:)  !! y of the active constraints, shape (size(active))
+
+      real(dp) :: gradient(size(x)), term(size(x)), slack(size(bounds))
+      real(dp) :: gradient_scale, slack_scale, multiplier_scale
+      integer :: i, n, m
+
+      n = size(x)
+      m = size(bounds)
+
+      call dsymv('U', n, 1.0_dp, problem%hessian, n, x, 1, 0.0_dp, gradient, 1)
+      gradient_scale = max(maxval(abs(gradient)), maxval(abs(problem%linear)))
+      gradient = gradient - problem%linear
+      do i = 1, size(active)
+         term = multipliers(i)*problem%normals(:, active(i))
+         gradient_scale = max(gradient_scale, maxval(abs(term)))
+         gradient = gradient - term
+      end do
+      residual = ratio(maxval(abs(gradient)), gradient_scale)
+      if (m == 0) return
+
+      ! Cx is a sum of n terms of both signs: its scale is what they add up to without the signs.
+      slack = -bounds
+      call dgemv('T', n, m, 1.0_dp, problem%normals, n, x, 1, 1.0_dp, slack, 1)
+      slack_scale = maxval(abs(bounds)) + maxval(abs(x))*maxval(abs(problem%normals))
+      residual = max(residual, ratio(max(0.0_dp, -minval(slack)), slack_scale))
+      if (size(active) == 0) return
+
+      multiplier_scale = maxval(abs(multipliers))
+      residual = max(residual, ratio(max(0.0_dp, -minval(multipliers)), multiplier_scale))
+      residual = max(residual, ratio(maxval(abs(multipliers*slack(active))), multiplier_scale*slack_scale))
+   end function kkt_residual
+
+   !> a/b where 0/0 is no violation.
+   pure real(dp) function ratio(a, b)
+      real(dp), intent(in) :: a, b  !! b >= 0
+
+      if (a <= tiny(a)) then
+         ratio = a
+      else
+         ratio = a/max(b, tiny(b))
+      end if
+   end function ratio
+
+end module wavycon_kkt

@@ -1,0 +1,135 @@
+!> Interfaces of the BLAS and LAPACK procedures in use.
+module wavycon_lapack
+   use wavycon_kinds, only: dp
+   implicit none (type, external)
+   private
+
+   public :: ddot, dnrm2, drot
+   public :: dgemv, dger, dsymv, dsyr, dtrsv
+   public :: dgemm, dtrsm
+   public :: dpotrf, dtrtri, dgeqrf, dormqr, dlarfg, dlartg
+
+   interface
+      pure real(dp) function ddot(n, x, incx, y, incy)
+         import :: dp
+         integer, intent(in) :: n, incx, incy
+         real(dp), intent(in) :: x(*), y(*)
+      end function ddot
+
+      pure real(dp) function dnrm2(n, x, incx)
+         import :: dp
+         integer, intent(in) :: n, incx
+         real(dp), intent(in) :: x(*)
+      end function dnrm2
+
+      pure subroutine drot(n, x, incx, y, incy, c, s)
+         import :: dp
+         integer, intent(in) :: n, incx, incy
+         real(dp), intent(inout) :: x(*), y(*)
+         real(dp), intent(in) :: c, s
+      end subroutine drot
+
+      pure subroutine dgemv(trans, m, n, alpha, a, lda, x, incx, beta, y, incy)
+         import :: dp
+         character, intent(in) :: trans
+         integer, intent(in) :: m, n, lda, incx, incy
+         real(dp), intent(in) :: alpha, beta, a(lda, *), x(*)
+         real(dp), intent(inout) :: y(*)
+      end subroutine dgemv
+
+      pure subroutine dger(m, n, alpha, x, incx, y, incy, a, lda)
+         import :: dp
+         integer, intent(in) :: m, n, incx, incy, lda
+         real(dp), intent(in) :: alpha, x(*), y(*)
+         real(dp), intent(inout) :: a(lda, *)
+      end subroutine dger
+
+      pure subroutine dsymv(uplo, n, alpha, a, lda, x, incx, beta, y, incy)
+         import :: dp
+         character, intent(in) :: uplo
+         integer, intent(in) :: n, lda, incx, incy
+         real(dp), intent(in) :: alpha, beta, a(lda, *), x(*)
+         real(dp), intent(inout) :: y(*)
+      end subroutine dsymv
+
+      pure subroutine dsyr(uplo, n, alpha, x, incx, a, lda)
+         import :: dp
+         character, intent(in) :: uplo
+         integer, intent(in) :: n, incx, lda
+         real(dp), intent(in) :: alpha, x(*)
+         real(dp), intent(inout) :: a(lda, *)
+      end subroutine dsyr
+
+      pure subroutine dtrsv(uplo, trans, diag, n, a, lda, x, incx)
+         import :: dp
+         character, intent(in) :: uplo, trans, diag
+         integer, intent(in) :: n, lda, incx
+         real(dp), intent(in) :: a(lda, *)
+         real(dp), intent(inout) :: x(*)
+      end subroutine dtrsv
+
+      pure subroutine dgemm(transa, transb, m, n, k, alpha, a, lda, b, ldb, beta, c, ldc)
+         import :: dp
+         character, intent(in) :: transa, transb
+         integer, intent(in) :: m, n, k, lda, ldb, ldc
+         real(dp), intent(in) :: alpha, beta, a(lda, *), b(ldb, *)
+         real(dp), intent(inout) :: c(ldc, *)
+      end subroutine dgemm
+
+      pure subroutine dtrsm(side, uplo, transa, diag, m, n, alpha, a, lda, b, ldb)
+         import :: dp
+         character, intent(in) :: side, uplo, transa, diag
+         integer, intent(in) :: m, n, lda, ldb
+         real(dp), intent(in) :: alpha, a(lda, *)
+         real(dp), intent(inout) :: b(ldb, *)
+      end subroutine dtrsm
+
+      pure subroutine dpotrf(uplo, n, a, lda, info)
+         import :: dp
+         character, intent(in) :: uplo
+         integer, intent(in) :: n, lda
+         real(dp), intent(inout) :: a(lda, *)
+         integer, intent(out) :: info
+      end subroutine dpotrf
+
+      pure subroutine dtrtri(uplo, diag, n, a, lda, info)
+         import :: dp
+         character, intent(in) :: uplo, diag
+         integer, intent(in) :: n, lda
+         real(dp), intent(inout) :: a(lda, *)
+         integer, intent(out) :: info
+      end subroutine dtrtri
+
+      pure subroutine dgeqrf(m, n, a, lda, tau, work, lwork, info)
+         import :: dp
+         integer, intent(in) :: m, n, lda, lwork
+         real(dp), intent(inout) :: a(lda, *)
+         real(dp), intent(out) :: tau(*), work(*)
+         integer, intent(out) :: info
+      end subroutine dgeqrf
+
+      pure subroutine dormqr(side, trans, m, n, k, a, lda, tau, c, ldc, work, lwork, info)
+         import :: dp
+         character, intent(in) :: side, trans
+         integer, intent(in) :: m, n, k, lda, ldc, lwork
+         real(dp), intent(in) :: a(lda, *), tau(*)
+         real(dp), intent(inout) :: c(ldc, *)
+         real(dp), intent(out) :: work(*)
+         integer, intent(out) :: info
+      end subroutine dormqr
+
+      pure subroutine dlarfg(n, alpha, x, incx, tau)
+         import :: dp
+         integer, intent(in) :: n, incx
+         real(dp), intent(inout) :: alpha, x(*)
+         real(dp), intent(out) :: tau
+      end subroutine dlarfg
+
+      pure subroutine dlartg(f, g, c, s, r)
+         import :: dp
+         real(dp), intent(in) :: f, g
+         real(dp), intent(out) :: c, s, r
+      end subroutine dlartg
+   end interface
+
+end module wavycon_lapack

@@ -1,0 +1,63 @@
+!> The convex quadratic programme  min 1/2 x'Dx - c'x  subject to  Cx >= b,  and its answer.
+module wavycon_qp_problem
+   use wavycon_kinds, only: dp
+   implicit none (type, external)
+   private
+
+   public :: qp_problem, qp_solution, qp_status_name
+
+   !> How a solver ended.
+   integer, parameter, public :: qp_converged = 0
+   integer, parameter, public :: qp_iteration_limit = 1
+   integer, parameter, public :: qp_infeasible = 2        !! no point satisfies the constraints
+   integer, parameter, public :: qp_infeasible_start = 3  !! x = 0 does not satisfy Cx >= b
+   integer, parameter, public :: qp_not_convex = 4        !! D is not positive definite
+   integer, parameter, public :: qp_not_finite = 5        !! NaN or infinity in the problem
+   integer, parameter, public :: qp_inaccurate = 6        !! the answer fails the check of its KKT conditions
+
+   !> A problem of n unknowns and m constraints.
+   type :: qp_problem
+      real(dp), allocatable :: hessian(:, :)  !! D, symmetric positive definite, shape (n, n)
+      real(dp), allocatable :: linear(:)      !! c, shape (n)
+      real(dp), allocatable :: normals(:, :)  !! C transposed: column i is the gradient of constraint i, shape (n, m)
+      real(dp), allocatable :: bounds(:)      !! b, shape (m)
+   end type qp_problem
+
+   !> Its answer.
+   type :: qp_solution
+      integer :: status = qp_iteration_limit   !! one of the names above
+      integer :: pivots = 0                    !! exchanges of variables that it took
+      real(dp) :: kkt_residual = huge(1.0_dp)  !! largest relative violation of the KKT conditions
+      real(dp), allocatable :: x(:)            !! shape (n)
+      integer, allocatable :: active(:)        !! the constraints that hold with equality and carry the multipliers
+      real(dp), allocatable :: multipliers(:)  !! theirs, in the same order
+   end type qp_solution
+
+contains
+
+   !> The name of a status, as it stands in tables.
+   pure function qp_status_name(status) result(name)
+      integer, intent(in) :: status
+      character(:), allocatable :: name
+
+      select case (status)
+      case (qp_converged)
+         name = 'converged'
+      case (qp_iteration_limit)
+         name = 'iteration_limit'
+      case (qp_infeasible)
+         name = 'infeasible'
+      case (qp_infeasible_start)
+         name = 'infeasible_start'
+      case (qp_not_convex)
+         name = 'not_convex'
+      case (qp_not_finite)
+         name = 'not_finite'
+      case (qp_inaccurate)
+         name = 'inaccurate'
+      case default
+         name = 'unknown'
+      end select
+   end function qp_status_name
+
+end module wavycon_qp_problem
