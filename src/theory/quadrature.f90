@@ -42,7 +42,8 @@ contains
       real(dp), intent(in) :: parameters(:)     !! handed to f
       real(dp), intent(in) :: a, b              !! a < b
       real(dp), intent(out) :: integral         !! 0 if it failed
-      type(error_type), allocatable, intent(out) :: error  !! exit_not_converged: the accuracy was not reached
+      type(error_type), allocatable, intent(out) :: error  !! exit_not_converged: the accuracy was not reached,
+                                                           !! or a power is not above -1
       real(dp), intent(in), optional :: left_power, right_power  !! > -1; 0 if absent
 
       type(callback_data), target :: data
@@ -58,6 +59,11 @@ contains
       beta = 0
       if (present(left_power)) alpha = left_power
       if (present(right_power)) beta = right_power
+      ! GSL lets a power of -1 pass and divides by zero.
+      if (min(alpha, beta) <= -1) then
+         call fatal_error(error, exit_not_converged, 'quadrature of a weight that has no integral')
+         return
+      end if
       data%f => f
       data%parameters = parameters
       function%function = c_funloc(evaluate)
@@ -77,8 +83,7 @@ contains
             call fatal_error(error, exit_not_converged, trim(message))
          end if
       else
-         call fatal_error(error, exit_not_converged, &
-            'quadrature could not start: a power of the weight is not above -1, or there is no memory')
+         call fatal_error(error, exit_not_converged, 'quadrature could not start: no memory')
       end if
       ! GSL's free takes null pointers.
       call gsl_integration_workspace_free(workspace)
