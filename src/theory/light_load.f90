@@ -59,7 +59,7 @@ contains
 
    !> Share of the nominal area that is in contact: (23) times
    !>
-   !>     1 + (3 pi^2 P)^(2/3)/15 - S_3 P/(6 pi^2).
+   !>     1 + (3 pi^2 P)^(2/3)/15 - S_3 P/(6 pi^2);   the error is O(P^2).
    elemental real(dp) function light_load_contact_area_longer(pbar_over_pstar) result(fraction)
       real(dp), intent(in) :: pbar_over_pstar  !! mean pressure [p*]
 
