@@ -2,8 +2,9 @@
 !>
 !> `light_load_mean_gap_one_square` is equation (29) of Johnson, Greenwood & Higginson (1985); the others
 !> correct and extend it. Every function returns its formula's value for any P = pbar/p* >= 0, though none
-!> is of use beyond P = 0.2 or so and the values at P = 1 mean nothing; a negative P counts as 0. p* =
-!> sqrt(2) pi E* Delta/lambda, gaps are in Delta.
+!> is of use beyond P = 0.2 or so and the values at P = 1 mean nothing; a negative P counts as 0. The
+!> gap goes below zero from P = 0.24 on by (29), from P = 0.34 on with the lattice's coefficient.
+!> p* = sqrt(2) pi E* Delta/lambda, gaps are in Delta.
 !>
 !> Where the longer ones come from, with lengths in s = lambda/sqrt(2), a crest at r = 0 and its load P:
 !> about it h/Delta = pi^2 r^2 - (pi^4/4) r^4 + terms in cos(4 theta), and the other crests displace it by P

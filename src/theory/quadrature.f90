@@ -42,8 +42,8 @@ contains
       real(dp), intent(in) :: parameters(:)     !! handed to f
       real(dp), intent(in) :: a, b              !! a < b
       real(dp), intent(out) :: integral         !! 0 if it failed
-      type(error_type), allocatable, intent(out) :: error  !! exit_not_converged: the accuracy was not reached,
-                                                           !! or a power is not above -1
+      type(error_type), allocatable, intent(out) :: error
+         !! exit_not_converged: the accuracy was not reached, or a power is not above -1
       real(dp), intent(in), optional :: left_power, right_power  !! > -1; 0 if absent
 
       type(callback_data), target :: data
