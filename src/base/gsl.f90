@@ -1,19 +1,92 @@
 !> Thin interface to the GNU Scientific Library.
+!>
+!> The names, arguments and return values are the library's own.
 module wavycon_gsl
-   use, intrinsic :: iso_c_binding, only: c_double, c_int
+   use, intrinsic :: iso_c_binding, only: c_double, c_funptr, c_int, c_null_funptr, c_null_ptr, c_ptr, &
+      c_size_t
    implicit none (type, external)
    private
 
-   public :: gsl_sf_legendre_pl_array
+   public :: gsl_function
+   public :: gsl_sf_legendre_pl_array, gsl_sf_zeta, gsl_sf_hzeta
+   public :: gsl_integration_workspace_alloc, gsl_integration_workspace_free
+   public :: gsl_integration_qaws_table_alloc, gsl_integration_qaws_table_free, gsl_integration_qaws
+   public :: gsl_set_error_handler, gsl_set_error_handler_off
+
+   !> A real function of one real variable, with its parameters.
+   type, bind(c) :: gsl_function
+      type(c_funptr) :: function = c_null_funptr  !! double (*)(double x, void *params)
+      type(c_ptr) :: params = c_null_ptr
+   end type gsl_function
 
    interface
       !> Legendre polynomials P_0(x) .. P_lmax(x), -1 <= x <= 1; returns 0 if all is well.
-      integer(c_int) function gsl_sf_legendre_pl_array(lmax, x, values) bind(c, name='gsl_sf_legendre_Pl_array')
+      integer(c_int) function gsl_sf_legendre_pl_array(lmax, x, values) &
+         bind(c, name='gsl_sf_legendre_Pl_array')
          import :: c_double, c_int
          integer(c_int), value :: lmax
          real(c_double), value :: x
          real(c_double), intent(out) :: values(*)
       end function gsl_sf_legendre_pl_array
+
+      !> Riemann's zeta function, s /= 1.
+      pure real(c_double) function gsl_sf_zeta(s) bind(c, name='gsl_sf_zeta')
+         import :: c_double
+         real(c_double), value :: s
+      end function gsl_sf_zeta
+
+      !> Hurwitz's zeta function, the sum of (k + q)^(-s) over k = 0, 1, ..; s > 1, q > 0.
+      pure real(c_double) function gsl_sf_hzeta(s, q) bind(c, name='gsl_sf_hzeta')
+         import :: c_double
+         real(c_double), value :: s, q
+      end function gsl_sf_hzeta
+
+      !> Room for n intervals of an adaptive quadrature; a null pointer if there is no memory.
+      type(c_ptr) function gsl_integration_workspace_alloc(n) bind(c, name='gsl_integration_workspace_alloc')
+         import :: c_ptr, c_size_t
+         integer(c_size_t), value :: n
+      end function gsl_integration_workspace_alloc
+
+      subroutine gsl_integration_workspace_free(w) bind(c, name='gsl_integration_workspace_free')
+         import :: c_ptr
+         type(c_ptr), value :: w
+      end subroutine gsl_integration_workspace_free
+
+      !> The weight (x-a)^alpha (b-x)^beta log^mu(x-a) log^nu(b-x), alpha, beta > -1, mu, nu = 0 or 1;
+      !> a null pointer if it cannot be had.
+      type(c_ptr) function gsl_integration_qaws_table_alloc(alpha, beta, mu, nu) &
+         bind(c, name='gsl_integration_qaws_table_alloc')
+         import :: c_double, c_int, c_ptr
+         real(c_double), value :: alpha, beta
+         integer(c_int), value :: mu, nu
+      end function gsl_integration_qaws_table_alloc
+
+      subroutine gsl_integration_qaws_table_free(t) bind(c, name='gsl_integration_qaws_table_free')
+         import :: c_ptr
+         type(c_ptr), value :: t
+      end subroutine gsl_integration_qaws_table_free
+
+      !> Integral of f times the weight t over a..b, a < b; returns 0 if all is well.
+      integer(c_int) function gsl_integration_qaws(f, a, b, t, epsabs, epsrel, limit, workspace, &
+         result, abserr) bind(c, name='gsl_integration_qaws')
+         import :: c_double, c_int, c_ptr, c_size_t, gsl_function
+         type(gsl_function), intent(in) :: f
+         real(c_double), value :: a, b, epsabs, epsrel
+         type(c_ptr), value :: t, workspace
+         integer(c_size_t), value :: limit
+         real(c_double), intent(out) :: result, abserr
+      end function gsl_integration_qaws
+
+      !> Sets the handler of the library's errors; returns the one before.
+      type(c_funptr) function gsl_set_error_handler(new_handler) bind(c, name='gsl_set_error_handler')
+         import :: c_funptr
+         type(c_funptr), value :: new_handler
+      end function gsl_set_error_handler
+
+      !> Makes errors come back as statuses instead of ending the program; returns the handler before.
+      type(c_funptr) function gsl_set_error_handler_off() bind(c, name='gsl_set_error_handler_off')
+         import :: c_funptr
+      end function gsl_set_error_handler_off
    end interface
 
 end module wavycon_gsl

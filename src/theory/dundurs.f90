@@ -1,0 +1,60 @@
+!> The series solution for the one-dimensional wave of Dundurs, Tsai & Keer, cut off after n terms.
+!>
+!> Its coefficients are the exact Fourier coefficients of Westergaard's pressure (4). The cut-off leaves
+!> small negative pressures: those that Johnson, Greenwood & Higginson (1985) point at in Fig. 2. Pressures
+!> are in p*, p* = pi E* Delta/lambda.
+module wavycon_dundurs
+   use, intrinsic :: iso_c_binding, only: c_int
+   use wavycon_gsl, only: gsl_sf_legendre_pl_array
+   use wavycon_kinds, only: dp
+   implicit none (type, external)
+   private
+
+   public :: dundurs_coefficients, dundurs_pressure_over_pstar
+
+contains
+
+   !> Coefficients A_1 .. A_n of (p - pbar)/p* = sum of A_i cos(i phi), equation (12).
+   !>
+   !>     A_i = (1/2) integral of P_i + P_{i-1} from c to 1,   c = 1 - 2 pbar/p*,
+   !>
+   !> with the Legendre polynomials P_l. Mean pressures outside of 0..p* count as the nearer end: all zero
+   !> before contact; A_1 = 1, the others 0, when it is full.
+   function dundurs_coefficients(pbar_over_pstar, n) result(a)
+      real(dp), intent(in) :: pbar_over_pstar  !! mean pressure [p*]
+      integer, intent(in) :: n                 !! number of terms, >= 0
+      real(dp) :: a(n)                         !! [p*]
+
+      real(dp) :: c
+      real(dp) :: legendre(0:n + 1)
+      real(dp) :: integral(0:n)  !! of P_l from c to 1
+      integer(c_int) :: ignored
+      integer :: l
+
+      c = 1 - 2*min(1.0_dp, max(0.0_dp, pbar_over_pstar))
+      ! The status can be ignored: it is never other than 0 for -1 <= c <= 1.
+      ignored = gsl_sf_legendre_pl_array(int(n + 1, c_int), c, legendre)
+      integral(0) = 1 - c
+      do l = 1, n
+         integral(l) = (legendre(l - 1) - legendre(l + 1))/(2*l + 1)
+      end do
+      a = (integral(1:n) + integral(0:n - 1))/2
+   end function dundurs_coefficients
+
+   !> Pressure of the series (12): pbar/p* + sum of A_i cos(i phi); it may be negative.
+   !>
+   !> N.B. phi = 2 pi x/lambda is twice the angle psi of Westergaard's solution.
+   pure real(dp) function dundurs_pressure_over_pstar(phi, pbar_over_pstar, coefficients) result(p)
+      real(dp), intent(in) :: phi              !! 2 pi x/lambda, from a crest [rad]
+      real(dp), intent(in) :: pbar_over_pstar  !! mean pressure [p*]
+      real(dp), intent(in) :: coefficients(:)  !! A_1 .. A_n, of `dundurs_coefficients` [p*]
+
+      integer :: i
+
+      p = pbar_over_pstar
+      do i = 1, size(coefficients)
+         p = p + coefficients(i)*cos(i*phi)
+      end do
+   end function dundurs_pressure_over_pstar
+
+end module wavycon_dundurs

@@ -1,0 +1,90 @@
+!> Westergaard's exact solution for the one-dimensional wave h/Delta = 1 - cos(2 psi), psi = pi x/lambda.
+!>
+!> Equations (4), (5) and (7) of Johnson, Greenwood & Higginson (1985), with p* = pi E* Delta/lambda.
+!> All hold for every mean pressure: a negative one is taken as 0 (no contact), and from pbar = p* on contact
+!> is full. All are even in psi and of period pi. Pressures are in p*, displacements and gaps in Delta,
+!> lengths in lambda.
+!>
+!> N.B. psi is half of the angle phi = 2 pi x/lambda of the Fourier series (12).
+module wavycon_westergaard
+   use wavycon_constants, only: pi
+   use wavycon_kinds, only: dp
+   use wavycon_kuznetsov, only: kuznetsov_mean_gap_over_amplitude
+   implicit none (type, external)
+   private
+
+   public :: westergaard_pressure_over_pstar, westergaard_peak_pressure_over_pstar
+   public :: westergaard_displacement_over_amplitude, westergaard_gap_over_amplitude
+   public :: westergaard_half_width_over_wavelength, westergaard_contact_area_fraction
+
+contains
+
+   !> Contact pressure, equation (4) with (7) put in; in full contact pbar/p* + cos(2 psi).
+   elemental real(dp) function westergaard_pressure_over_pstar(psi, pbar_over_pstar) result(p)
+      real(dp), intent(in) :: psi              !! pi x/lambda, from a crest [rad]
+      real(dp), intent(in) :: pbar_over_pstar  !! mean pressure [p*]
+
+      if (pbar_over_pstar >= 1) then
+         p = pbar_over_pstar + cos(2*psi)
+      else
+         p = 2*abs(cos(psi))*sqrt(max(0.0_dp, pbar_over_pstar - sin(psi)**2))
+      end if
+   end function westergaard_pressure_over_pstar
+
+   !> Pressure at the crest, the highest: 2 (pbar/p*)^(1/2), in full contact pbar/p* + 1.
+   elemental real(dp) function westergaard_peak_pressure_over_pstar(pbar_over_pstar) result(p0)
+      real(dp), intent(in) :: pbar_over_pstar  !! mean pressure [p*]
+
+      p0 = westergaard_pressure_over_pstar(0.0_dp, pbar_over_pstar)
+   end function westergaard_peak_pressure_over_pstar
+
+   !> Displacement into the bodies, equations (5a) and (5b), less its mean over the wave; cos(2 psi) in full
+   !> contact.
+   !>
+   !> That mean is zero fixes the constant of (5): where there is contact u + h = 1 + C, so that the mean
+   !> gap is -C, and C = -G with Kuznetsov's G, equation (20).
+   elemental real(dp) function westergaard_displacement_over_amplitude(psi, pbar_over_pstar) result(u)
+      real(dp), intent(in) :: psi              !! pi x/lambda, from a crest [rad]
+      real(dp), intent(in) :: pbar_over_pstar  !! mean pressure [p*]
+
+      u = cos(2*psi) + westergaard_gap_over_amplitude(psi, pbar_over_pstar) &
+         - kuznetsov_mean_gap_over_amplitude(pbar_over_pstar)
+   end function westergaard_displacement_over_amplitude
+
+   !> Gap under load, u + h less its value in contact: the difference of (5b) and (5a); 0 in contact.
+   elemental real(dp) function westergaard_gap_over_amplitude(psi, pbar_over_pstar) result(gap)
+      real(dp), intent(in) :: psi              !! pi x/lambda, from a crest [rad]
+      real(dp), intent(in) :: pbar_over_pstar  !! mean pressure [p*]
+
+      real(dp) :: s    !! |sin psi|
+      real(dp) :: s_a  !! sin psi_a, at the edge of contact
+      real(dp) :: root
+
+      s = abs(sin(psi))
+      s_a = sqrt(max(0.0_dp, pbar_over_pstar))
+      if (s <= s_a) then
+         gap = 0
+      else if (s_a > 0) then
+         root = sqrt((s - s_a)*(s + s_a))
+         ! asinh(root/s_a) is the logarithm of (5b). Rounding could leave a gap below zero next to the edge.
+         gap = max(0.0_dp, 2*(s*root - s_a**2*asinh(root/s_a)))
+      else
+         gap = 2*s**2
+      end if
+   end function westergaard_gap_over_amplitude
+
+   !> Half width of a contact strip, equation (7): a/lambda = asin((pbar/p*)^(1/2))/pi, at most 1/2.
+   elemental real(dp) function westergaard_half_width_over_wavelength(pbar_over_pstar) result(a)
+      real(dp), intent(in) :: pbar_over_pstar  !! mean pressure [p*]
+
+      a = asin(sqrt(min(1.0_dp, max(0.0_dp, pbar_over_pstar))))/pi
+   end function westergaard_half_width_over_wavelength
+
+   !> Share of the nominal area that is in contact, 2 a/lambda: from 0 to 1.
+   elemental real(dp) function westergaard_contact_area_fraction(pbar_over_pstar) result(fraction)
+      real(dp), intent(in) :: pbar_over_pstar  !! mean pressure [p*]
+
+      fraction = 2*westergaard_half_width_over_wavelength(pbar_over_pstar)
+   end function westergaard_contact_area_fraction
+
+end module wavycon_westergaard
