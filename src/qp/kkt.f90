@@ -1,14 +1,35 @@
-!> Check of a claimed answer of a quadratic programme, from the problem's data alone.
+!> The answer of a quadratic programme on a set of active constraints, and its check from the problem's data alone.
 module wavycon_kkt
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgemv, dsymv
-   use wavycon_qp_problem, only: qp_problem
+   use wavycon_qp_problem, only: qp_problem, qp_solution, qp_converged, qp_inaccurate
+   use wavycon_working_set, only: working_set
    implicit none (type, external)
    private
 
-   public :: kkt_residual
+   public :: finish_on_active_set, kkt_residual
+
+   !> An answer is accepted when its relative KKT residual is not above this.
+   real(dp), parameter, public :: kkt_tolerance = 1e-12_dp
 
 contains
+
+   !> Solves for the minimiser on a set of active constraints and judges it by its KKT residual:
+   !> `qp_converged` or `qp_inaccurate`.
+   subroutine finish_on_active_set(problem, set, list, solution)
+      type(qp_problem), intent(in) :: problem
+      type(working_set), intent(inout) :: set        !! started; holds the active constraints on return
+      integer, intent(in) :: list(:)                 !! the active constraints
+      type(qp_solution), intent(inout) :: solution   !! all but `pivots` is set
+
+      call set%assign_active(problem, list)
+      if (allocated(solution%x)) deallocate (solution%x, solution%active, solution%multipliers)
+      allocate (solution%x(size(problem%linear)), solution%multipliers(size(set%active)))
+      allocate (solution%active, source=set%active)
+      call set%solve(problem, solution%x, solution%multipliers)
+      solution%kkt_residual = kkt_residual(problem, solution%x, solution%active, solution%multipliers)
+      solution%status = merge(qp_converged, qp_inaccurate, solution%kkt_residual <= kkt_tolerance)
+   end subroutine finish_on_active_set
 
    !> Largest relative violation of the Karush-Kuhn-Tucker conditions
    !>
@@ -17,19 +38,18 @@ contains
    !> Each is measured against the largest of the terms that must cancel in it, so that the number does not
    !> change with the units of x, of the objective or of the constraints. An exact answer in floating-point
    !> numbers has a residual of the order of the machine precision.
-   real(dp) function kkt_residual(problem, bounds, x, active, multipliers) result(residual)
+   real(dp) function kkt_residual(problem, x, active, multipliers) result(residual)
       type(qp_problem), intent(in) :: problem
-      real(dp), intent(in) :: bounds(:)       !! b; may differ from the problem's own, shape (m)
       real(dp), intent(in) :: x(:)            !! the claimed answer, shape (n)
       integer, intent(in) :: active(:)        !! constraints with a multiplier, each named once
       real(dp), intent(in) :: multipliers(:)  !! y of the active constraints, shape (size(active))
 
-      real(dp) :: gradient(size(x)), term(size(x)), slack(size(bounds))
+      real(dp) :: gradient(size(x)), term(size(x)), slack(size(problem%bounds))
       real(dp) :: gradient_scale, slack_scale, multiplier_scale
       integer :: i, n, m
 
       n = size(x)
-      m = size(bounds)
+      m = size(problem%bounds)
 
       call dsymv('U', n, 1.0_dp, problem%hessian, n, x, 1, 0.0_dp, gradient, 1)
       gradient_scale = max(maxval(abs(gradient)), maxval(abs(problem%linear)))
@@ -43,9 +63,9 @@ contains
       if (m == 0) return
 
       ! Cx is a sum of n terms of both signs: its scale is what they add up to without the signs.
-      slack = -bounds
+      slack = -problem%bounds
       call dgemv('T', n, m, 1.0_dp, problem%normals, n, x, 1, 1.0_dp, slack, 1)
-      slack_scale = maxval(abs(bounds)) + maxval(abs(x))*maxval(abs(problem%normals))
+      slack_scale = maxval(abs(problem%bounds)) + maxval(abs(x))*maxval(abs(problem%normals))
       residual = max(residual, ratio(max(0.0_dp, -minval(slack)), slack_scale))
       if (size(active) == 0) return
 

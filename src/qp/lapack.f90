@@ -4,31 +4,11 @@ module wavycon_lapack
    implicit none (type, external)
    private
 
-   public :: ddot, dnrm2, drot
    public :: dgemv, dger, dsymv, dsyr, dtrsv
-   public :: dgemm, dtrsm
-   public :: dpotrf, dtrtri, dgeqrf, dormqr, dlarfg, dlartg
+   public :: dgemm
+   public :: dpotrf, dtrtri, dgeqp3, dormqr, dlarfg
 
    interface
-      pure real(dp) function ddot(n, x, incx, y, incy)
-         import :: dp
-         integer, intent(in) :: n, incx, incy
-         real(dp), intent(in) :: x(*), y(*)
-      end function ddot
-
-      pure real(dp) function dnrm2(n, x, incx)
-         import :: dp
-         integer, intent(in) :: n, incx
-         real(dp), intent(in) :: x(*)
-      end function dnrm2
-
-      pure subroutine drot(n, x, incx, y, incy, c, s)
-         import :: dp
-         integer, intent(in) :: n, incx, incy
-         real(dp), intent(inout) :: x(*), y(*)
-         real(dp), intent(in) :: c, s
-      end subroutine drot
-
       pure subroutine dgemv(trans, m, n, alpha, a, lda, x, incx, beta, y, incy)
          import :: dp
          character, intent(in) :: trans
@@ -76,14 +56,6 @@ module wavycon_lapack
          real(dp), intent(inout) :: c(ldc, *)
       end subroutine dgemm
 
-      pure subroutine dtrsm(side, uplo, transa, diag, m, n, alpha, a, lda, b, ldb)
-         import :: dp
-         character, intent(in) :: side, uplo, transa, diag
-         integer, intent(in) :: m, n, lda, ldb
-         real(dp), intent(in) :: alpha, a(lda, *)
-         real(dp), intent(inout) :: b(ldb, *)
-      end subroutine dtrsm
-
       pure subroutine dpotrf(uplo, n, a, lda, info)
          import :: dp
          character, intent(in) :: uplo
@@ -100,13 +72,14 @@ module wavycon_lapack
          integer, intent(out) :: info
       end subroutine dtrtri
 
-      pure subroutine dgeqrf(m, n, a, lda, tau, work, lwork, info)
+      pure subroutine dgeqp3(m, n, a, lda, jpvt, tau, work, lwork, info)
          import :: dp
          integer, intent(in) :: m, n, lda, lwork
+         integer, intent(inout) :: jpvt(*)
          real(dp), intent(inout) :: a(lda, *)
          real(dp), intent(out) :: tau(*), work(*)
          integer, intent(out) :: info
-      end subroutine dgeqrf
+      end subroutine dgeqp3
 
       pure subroutine dormqr(side, trans, m, n, k, a, lda, tau, c, ldc, work, lwork, info)
          import :: dp
@@ -124,12 +97,6 @@ module wavycon_lapack
          real(dp), intent(inout) :: alpha, x(*)
          real(dp), intent(out) :: tau
       end subroutine dlarfg
-
-      pure subroutine dlartg(f, g, c, s, r)
-         import :: dp
-         real(dp), intent(in) :: f, g
-         real(dp), intent(out) :: c, s, r
-      end subroutine dlartg
    end interface
 
 end module wavycon_lapack

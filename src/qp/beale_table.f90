@@ -1,0 +1,287 @@
+!> Beale's table: the objective and the basic slacks of a quadratic programme written in its non-basic variables,
+!> and the two exchanges of variables.
+!>
+!> The non-basic variables are active slacks z >= 0 and variables y that are free of sign. At the table's point all of
+!> them are zero, and
+!>
+!>     F = f + g'z + 1/2 z'Hz + e'y + 1/2 y'y,    s = a + A z + B y.
+!>
+!> N.B. Beale's free variables come one from each exchange (b) and every exchange (a) couples them again. As any
+!> combinations of them serve as well, here they are kept conjugate to each other and to the active slacks (hence the
+!> plain y'y) by a Householder reflection in exchange (a): all of them can then be changed together. A free variable
+!> that becomes basic can never matter again and is dropped, as he does.
+module wavycon_beale_table
+   use wavycon_kinds, only: dp
+   use wavycon_lapack, only: dgemm, dgemv, dger, dlarfg, dsymv, dsyr, dtrtri
+   use wavycon_qp_problem, only: qp_problem, qp_solution
+   use wavycon_working_set, only: working_set
+   implicit none (type, external)
+   private
+
+   public :: table_type
+
+   !> A derivative counts as zero when removing it would lower the objective by less than the square of this
+   !> fraction of what the unconstrained minimum does: the rounding of a table just made.
+   real(dp), parameter :: derivative_tolerance = 64*epsilon(1.0_dp)
+
+   !> The objective and the basic slacks, written in the non-basic variables.
+   type :: table_type
+      integer :: active_count = 0             !! k, number of active slacks; there are n - k free variables
+      integer :: basic_count = 0              !! number of basic slacks
+      integer, allocatable :: active(:)       !! constraints of the active slacks, active(1:k)
+      integer, allocatable :: basic(:)        !! constraints of the basic slacks, basic(1:basic_count)
+      real(dp), allocatable :: gradient(:)    !! (g, e): g(1:k) of the active slacks, then of the free variables
+      real(dp), allocatable :: hessian(:, :)  !! H in the upper triangle of hessian(1:k, 1:k)
+      real(dp), allocatable :: values(:)      !! a, values(1:basic_count)
+      real(dp), allocatable :: rows(:, :)     !! (A, B), shape (m, n): row i of basic slack i, columns as `gradient`
+      real(dp) :: zero_descent = 0.0_dp       !! |dF/dz|/sqrt(d2F/dz2) below this is rounding
+   contains
+      procedure :: start
+      procedure :: rebuild
+      procedure :: move_bounds
+      procedure :: steepest_slack
+      procedure :: free_rates
+      procedure :: move_to_minimum
+      procedure :: exchange_with_slack
+      procedure :: exchange_with_derivative
+   end type table_type
+
+contains
+
+   !> The table at x = 0: x = Jy, J'DJ = I.
+   subroutine start(table, problem, set)
+      class(table_type), intent(out) :: table
+      type(qp_problem), intent(in) :: problem
+      type(working_set), intent(in) :: set     !! the empty set
+
+      integer :: i, n, m
+
+      n = size(problem%linear)
+      m = size(problem%bounds)
+      allocate (table%active(n), table%gradient(n), table%hessian(n, n), table%rows(m, n))
+      table%basic = [(i, i=1, m)]
+      table%basic_count = m
+      table%values = -problem%bounds
+      call dgemm('T', 'N', m, n, n, 1.0_dp, problem%normals, n, set%directions, n, 0.0_dp, table%rows, m)
+      call dgemv('T', n, n, -1.0_dp, set%directions, n, problem%linear, 1, 0.0_dp, table%gradient, 1)
+      table%zero_descent = derivative_tolerance*norm2(table%gradient)
+   end subroutine start
+
+   !> Moves the bounds; the active slacks stay zero. With z = z' + change the point moves with the active ones.
+   subroutine move_bounds(table, change)
+      class(table_type), intent(inout) :: table
+      real(dp), intent(in) :: change(:)   !! of all bounds, shape (m)
+
+      real(dp) :: shift(table%active_count)
+      integer :: k, m, m_basic
+
+      k = table%active_count
+      m = size(table%rows, 1)
+      m_basic = table%basic_count
+      shift = change(table%active(:k))
+      call dsymv('U', k, 1.0_dp, table%hessian, size(table%hessian, 1), shift, 1, 1.0_dp, table%gradient, 1)
+      table%values(:m_basic) = table%values(:m_basic) - change(table%basic(:m_basic))
+      call dgemv('N', m_basic, k, 1.0_dp, table%rows, m, shift, 1, 1.0_dp, table%values, 1)
+   end subroutine move_bounds
+
+   !> The active slack whose growth lowers the objective fastest, measured by |dF/dz|/sqrt(d2F/dz2) so that no unit
+   !> matters; 0 if none does.
+   pure integer function steepest_slack(table, least_index) result(steepest)
+      class(table_type), intent(in) :: table
+      logical, intent(in) :: least_index    !! the one of the first constraint that lowers it at all, instead
+
+      real(dp) :: descent, largest
+      integer :: i
+
+      steepest = 0
+      largest = table%zero_descent
+      do i = 1, table%active_count
+         if (table%gradient(i) >= 0.0_dp) cycle
+         if (table%hessian(i, i) <= 0.0_dp) cycle  ! lost to rounding; a table made afresh will have it
+         descent = -table%gradient(i)/sqrt(table%hessian(i, i))
+         if (descent <= largest) cycle
+         if (least_index) then
+            if (steepest /= 0) then
+               if (table%active(i) > table%active(steepest)) cycle
+            end if
+         else
+            largest = descent
+         end if
+         steepest = i
+      end do
+   end function steepest_slack
+
+   !> The rates of the basic slacks when the free variables change along a direction.
+   subroutine free_rates(table, direction, rates)
+      class(table_type), intent(in) :: table
+      real(dp), intent(in) :: direction(:)  !! shape (n - k)
+      real(dp), intent(out) :: rates(:)     !! shape (basic_count)
+
+      integer :: m, n, k
+
+      m = size(table%rows, 1)
+      n = size(table%rows, 2)
+      k = table%active_count
+      if (k == n) then
+         rates = 0.0_dp
+      else
+         call dgemv('N', table%basic_count, n - k, 1.0_dp, table%rows(:, k + 1:), m, direction, 1, 0.0_dp, rates, 1)
+      end if
+   end subroutine free_rates
+
+   !> Changes the free variables to the minimum on the active constraints, whatever becomes of the basic slacks.
+   subroutine move_to_minimum(table)
+      class(table_type), intent(inout) :: table
+
+      real(dp) :: rates(table%basic_count)
+
+      associate (free_gradient => table%gradient(table%active_count + 1:))
+         call table%free_rates(-free_gradient, rates)
+         table%values(:table%basic_count) = table%values(:table%basic_count) + rates
+         free_gradient = 0.0_dp
+      end associate
+   end subroutine move_to_minimum
+
+   !> Exchange (a): a basic slack that has reached zero becomes active in the place of a free variable.
+   subroutine exchange_with_slack(table, leaving)
+      class(table_type), intent(inout) :: table
+      integer, intent(in) :: leaving   !! place in `basic`
+
+      real(dp) :: row(size(table%gradient)), v(size(table%gradient)), image(table%basic_count), tau, beta
+      integer :: k, m, n, last, free_count
+
+      m = size(table%rows, 1)
+      n = size(table%rows, 2)
+      k = table%active_count
+      free_count = n - k
+      row = table%rows(leaving, :)
+
+      last = table%basic_count
+      table%active(k + 1) = table%basic(leaving)
+      table%basic(leaving) = table%basic(last)
+      table%values(leaving) = table%values(last)
+      table%rows(leaving, :) = table%rows(last, :)
+      table%basic_count = last - 1
+
+      ! Turn the free variables so that the slack depends on one of them alone, with the coefficient beta.
+      call dlarfg(free_count, row(k + 1), row(k + 2:), 1, tau)
+      beta = row(k + 1)
+      v(1) = 1.0_dp
+      v(2:free_count) = row(k + 2:)
+      associate (m_basic => table%basic_count, e => table%gradient(k + 1:))
+         call dgemv('N', m_basic, free_count, 1.0_dp, table%rows(:, k + 1:), m, v, 1, 0.0_dp, image, 1)
+         call dger(m_basic, free_count, -tau, image, 1, v, 1, table%rows(:, k + 1:), m)
+         e = e - tau*dot_product(v(:free_count), e)*v(:free_count)
+
+         ! s = row'z + beta y  gives  y = v'(z, s).
+         v(:k) = -row(:k)/beta
+         v(k + 1) = 1.0_dp/beta
+         call dger(m_basic, k, 1.0_dp, table%rows(:, k + 1), 1, v, 1, table%rows, m)
+         table%rows(:m_basic, k + 1) = table%rows(:m_basic, k + 1)/beta
+         table%hessian(:k + 1, k + 1) = 0.0_dp
+         call dsyr('U', k + 1, 1.0_dp, v, 1, table%hessian, n)
+         table%gradient(:k + 1) = [table%gradient(:k), 0.0_dp] + table%gradient(k + 1)*v(:k + 1)
+      end associate
+      table%active_count = k + 1
+   end subroutine exchange_with_slack
+
+   !> Exchange (b): an active slack becomes basic, and the free variable u = dF/dz/sqrt(d2F/dz2) non-basic in its place.
+   subroutine exchange_with_derivative(table, released)
+      class(table_type), intent(inout) :: table
+      integer, intent(in) :: released   !! place in `active`
+
+      real(dp) :: column(table%active_count), curvature
+      integer :: k, m, n, name
+
+      m = size(table%rows, 1)
+      n = size(table%rows, 2)
+      k = table%active_count
+      call move_to_last(table, released)
+      name = table%active(k)
+      curvature = table%hessian(k, k)
+      column = table%hessian(:k, k)
+
+      ! sqrt(curvature) z_k = u - column'z/sqrt(curvature), z_k left out of z.
+      call dsyr('U', k - 1, -1.0_dp/curvature, column, 1, table%hessian, n)
+      table%gradient(:k - 1) = table%gradient(:k - 1) - table%gradient(k)/curvature*column(:k - 1)
+      table%gradient(k) = table%gradient(k)/sqrt(curvature)
+      call dger(table%basic_count, k - 1, -1.0_dp/curvature, table%rows(:, k), 1, column, 1, table%rows, m)
+      table%rows(:table%basic_count, k) = table%rows(:table%basic_count, k)/sqrt(curvature)
+
+      table%active_count = k - 1
+      table%basic_count = table%basic_count + 1
+      table%basic(table%basic_count) = name
+      table%values(table%basic_count) = 0.0_dp
+      table%rows(table%basic_count, :k - 1) = -column(:k - 1)/curvature
+      table%rows(table%basic_count, k) = 1.0_dp/sqrt(curvature)
+      table%rows(table%basic_count, k + 1:) = 0.0_dp
+   end subroutine exchange_with_derivative
+
+   !> Changes places of an active slack and the last one.
+   subroutine move_to_last(table, place)
+      class(table_type), intent(inout) :: table
+      integer, intent(in) :: place
+
+      real(dp) :: column(table%basic_count), h_place(table%active_count), h_last(table%active_count)
+      integer :: k, names(2)
+
+      k = table%active_count
+      if (place == k) return
+      names = table%active([place, k])
+      table%active([k, place]) = names
+      table%gradient([place, k]) = table%gradient([k, place])
+      column = table%rows(:table%basic_count, place)
+      table%rows(:table%basic_count, place) = table%rows(:table%basic_count, k)
+      table%rows(:table%basic_count, k) = column
+
+      associate (h => table%hessian)
+         h_place = [h(:place, place), h(place, place + 1:k)]
+         h_last = h(:k, k)
+         h_place([place, k]) = h_place([k, place])
+         h_last([place, k]) = h_last([k, place])
+         h(:k, k) = h_place
+         h(:place, place) = h_last(:place)
+         h(place, place + 1:k) = h_last(place + 1:k)
+         h(place, k) = h_last(k)
+      end associate
+   end subroutine move_to_last
+
+   !> Makes the table afresh at the minimiser on a set of active constraints.
+   subroutine rebuild(table, problem, set, solution)
+      class(table_type), intent(inout) :: table
+      type(qp_problem), intent(in) :: problem
+      type(working_set), intent(in) :: set
+      type(qp_solution), intent(in) :: solution  !! the minimiser on the set
+
+      real(dp) :: inverse(size(set%active), size(set%active))
+      real(dp) :: to_x(size(problem%linear), size(problem%linear))
+      logical :: is_active(size(problem%bounds))
+      integer :: i, n, m, k, info
+
+      n = size(problem%linear)
+      m = size(problem%bounds)
+      k = size(set%active)
+      is_active = .false.
+      is_active(solution%active) = .true.
+
+      ! x = x_0 + J_1 R^-T z + J_2 y, so that H = R^-1 R^-T.
+      inverse = set%triangle
+      call dtrtri('U', 'N', k, inverse, max(k, 1), info)
+      to_x = set%directions
+      call dgemm('N', 'T', n, k, k, 1.0_dp, set%directions, n, inverse, max(k, 1), 0.0_dp, to_x, n)
+      call dgemm('N', 'T', k, k, k, 1.0_dp, inverse, max(k, 1), inverse, max(k, 1), 0.0_dp, table%hessian, n)
+      table%gradient = 0.0_dp
+      table%gradient(:k) = solution%multipliers
+      table%active_count = k
+      table%active(:k) = solution%active
+
+      table%basic_count = m - k
+      table%basic(:m - k) = pack([(i, i=1, m)], .not. is_active)
+      associate (normals => problem%normals(:, table%basic(:m - k)))
+         table%values(:m - k) = -problem%bounds(table%basic(:m - k))
+         call dgemv('T', n, m - k, 1.0_dp, normals, n, solution%x, 1, 1.0_dp, table%values, 1)
+         call dgemm('T', 'N', m - k, n, n, 1.0_dp, normals, n, to_x, n, 0.0_dp, table%rows, m)
+      end associate
+   end subroutine rebuild
+
+end module wavycon_beale_table

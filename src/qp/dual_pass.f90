@@ -1,0 +1,110 @@
+!> From the answer of one quadratic programme to that of another that differs in its bounds alone.
+!>
+!> The answer is a piecewise linear function of the bounds. With the active constraints kept, some multipliers
+!> may turn negative and some slacks too: the first are released, then the violated constraints are made active one
+!> by one, the multipliers kept from changing sign on the way (the dual method of Goldfarb & Idnani, Math. Program.
+!> 27 (1983) 1-33, on Beale's table and with his two exchanges). Where Beale's own steps keep the slacks from
+!> changing sign and lower the objective, these keep the multipliers and raise it: every full step raises it
+!> strictly and between two of them the active set shrinks, so that no degeneracy makes them recur.
+module wavycon_dual_pass
+   use wavycon_beale_table, only: table_type
+   use wavycon_kinds, only: dp
+   use wavycon_qp_problem, only: qp_converged, qp_infeasible, qp_iteration_limit
+   implicit none (type, external)
+   private
+
+   public :: restore_optimum
+
+   !> A slack that is less negative than this fraction of the largest value of any slack is rounding.
+   real(dp), parameter :: zero_slack = 32*epsilon(1.0_dp)
+   !> A constraint whose row in the free variables is smaller than this fraction of that of the largest depends on the
+   !> active ones.
+   real(dp), parameter :: dependence = 1e-13_dp
+
+contains
+
+   !> Makes a table optimal whose free variables are at their minimum.
+   subroutine restore_optimum(table, pivot_limit, pivots, status)
+      type(table_type), intent(inout) :: table
+      integer, intent(in) :: pivot_limit
+      integer, intent(inout) :: pivots   !! exchanges, counted up
+      integer, intent(out) :: status     !! qp_converged, qp_infeasible, qp_iteration_limit
+
+      real(dp) :: zero
+      integer :: violated, released
+
+      do
+         released = table%steepest_slack(.false.)
+         if (released == 0) exit
+         call table%exchange_with_derivative(released)
+         call table%move_to_minimum()
+         pivots = pivots + 1
+      end do
+      where (table%gradient(:table%active_count) < 0.0_dp) table%gradient(:table%active_count) = 0.0_dp
+
+      do
+         zero = zero_slack*maxval(abs(table%values(:table%basic_count)))
+         violated = minloc(table%values(:table%basic_count), dim=1)
+         status = qp_converged
+         if (violated == 0) return
+         if (table%values(violated) >= -zero) return
+         call make_active(table, table%basic(violated), pivot_limit, pivots, status)
+         if (status /= qp_converged) return
+      end do
+   end subroutine restore_optimum
+
+   !> Raises the multiplier of a violated constraint until its slack is zero. Active constraints whose multiplier
+   !> vanishes before are released.
+   subroutine make_active(table, constraint, pivot_limit, pivots, status)
+      type(table_type), intent(inout) :: table
+      integer, intent(in) :: constraint
+      integer, intent(in) :: pivot_limit
+      integer, intent(inout) :: pivots
+      integer, intent(out) :: status
+
+      real(dp) :: row(size(table%gradient)), rates(table%basic_count + size(table%gradient))
+      real(dp) :: multiplier, full_step, step, stiffness
+      integer :: place, released, i, k
+
+      ! With the multiplier mu of s = a + A z + B y the free variables are at y = mu B', where their derivative is
+      ! mu B', and the multipliers of the active slacks are g - mu A'.
+      multiplier = 0.0_dp
+      do
+         status = qp_iteration_limit
+         if (pivots >= pivot_limit) return
+
+         k = table%active_count
+         place = findloc(table%basic(:table%basic_count), constraint, dim=1)
+         row = table%rows(place, :)
+         stiffness = dot_product(row(k + 1:), row(k + 1:))
+         full_step = huge(full_step)
+         if (sqrt(stiffness) > dependence*norm2(row)) full_step = -table%values(place)/stiffness
+
+         step = full_step
+         released = 0
+         do i = 1, k
+            if (row(i) <= 0.0_dp) cycle
+            if (table%gradient(i) < (multiplier + step)*row(i)) then
+               step = max(table%gradient(i)/row(i) - multiplier, 0.0_dp)
+               released = i
+            end if
+         end do
+         status = qp_infeasible
+         if (step >= huge(step)) return
+
+         multiplier = multiplier + step
+         table%gradient(k + 1:) = table%gradient(k + 1:) + step*row(k + 1:)
+         associate (r => rates(:table%basic_count), values => table%values(:table%basic_count))
+            call table%free_rates(row(k + 1:), r)
+            values = values + step*r
+         end associate
+         pivots = pivots + 1
+         if (released == 0) exit
+         call table%exchange_with_derivative(released)
+      end do
+      table%values(place) = 0.0_dp
+      call table%exchange_with_slack(place)
+      status = qp_converged
+   end subroutine make_active
+
+end module wavycon_dual_pass
