@@ -1,0 +1,296 @@
+#!/usr/bin/env python3
+"""Turns a pFUnit test file (.pf) into Fortran for the stand-in, or, with --check, only checks it.
+
+usage: pf2f90.py IN.pf OUT.F90
+       pf2f90.py --check IN.pf ...
+
+It accepts a subset of what pFUnit accepts and refuses the rest, every problem with its file and line.
+"""
+
+import difflib
+import pathlib
+import re
+import sys
+
+LINE_LIMIT = 120   # a generated call must stay within Fortran's 132 columns
+OPERANDS = {       # operands before the keywords, whether tolerance= is allowed, whether it is required
+    'assertEqual': (2, True, False),
+    'assertRelativelyEqual': (2, True, True),
+    'assertLessThan': (2, False, False),
+    'assertLessThanOrEqual': (2, False, False),
+    'assertGreaterThan': (2, False, False),
+    'assertGreaterThanOrEqual': (2, False, False),
+    'assertTrue': (1, False, False),
+    'assertFalse': (1, False, False),
+    'assertIsFinite': (1, False, False),
+    'assertIsNaN': (1, False, False),
+    'assertFail': (0, False, False),
+}
+PROCEDURES = ('test', 'before', 'after')
+# Names of pFUnit and of the suite function that it writes: a module that declares one does not compile.
+FORBIDDEN = set('run initialize finalize stub test throw is not every predicate subject t suite'.split())
+
+PLAIN_SUBROUTINE = re.compile(r'\s*subroutine\s+(\w+)\s*(\(\s*\))?\s*$')
+PROCEDURE = re.compile(r'(?!\s*end\b)(?:[\w()=*,: ]+\s|\s*)(?:subroutine|function)\s+(\w+)', re.I)
+TYPE = re.compile(r'\s*type\s*(?:,[^:!]*)?(?:::\s*|\s)\s*(\w+)\s*(?:!.*)?$', re.I)
+DIRECTIVE = re.compile(r'\s*@\s*(\w*)\s*(.*?)\s*$')
+
+
+class BadTestFile(Exception):
+    """Every problem of a file: a list of (line number, text)."""
+
+
+def code_of(line):
+    """The line with strings blanked and the comment removed, column for column."""
+    code, quote = [], None
+    for char in line:
+        if quote:
+            quote = None if char == quote else quote
+            code.append(' ')
+        elif char in '\'"':
+            quote = char
+            code.append(' ')
+        elif char == '!':
+            break
+        else:
+            code.append(char)
+    return ''.join(code).rstrip()
+
+
+def split_arguments(text):
+    """'(a, b(1, 2))' -> ['a', 'b(1, 2)']; None unless the first parenthesis closes at the very end."""
+    blanked = code_of(text)
+    if not blanked.startswith('(') or len(blanked) != len(text.rstrip()):
+        return None
+    arguments, start, depth = [], 1, 0
+    for place, char in enumerate(blanked):
+        if char in '([':
+            depth += 1
+        elif char in ')]':
+            depth -= 1
+            if depth == 0 and place != len(blanked) - 1:
+                return None
+        if (char == ',' and depth == 1) or (char == ')' and depth == 0):
+            arguments.append(text[start:place].strip())
+            start = place + 1
+    if depth != 0:
+        return None
+    return [] if arguments == [''] else arguments
+
+
+def declared_names(code):
+    """Names after the '::' of a declaration."""
+    names, depth = '', 0
+    for char in code.partition('::')[2]:
+        depth += (char in '([') - (char in ')]')
+        if depth == 0 and char not in ')]':
+            names += char
+    return [name.partition('=')[0].strip().lower() for name in names.split(',')]
+
+
+class TestFile:
+    """One .pf file, checked line by line and translated."""
+
+    def __init__(self, path, shown_path):
+        self.path = pathlib.Path(path)
+        self.shown_path = shown_path
+        self.stem = self.path.stem
+        self.problems = []
+        self.tests = []
+        self.fixtures = {}
+        self.output = []
+
+    def refuse(self, number, text):
+        self.problems.append((number, text))
+
+    def translate(self):
+        """The generated source; raises BadTestFile."""
+        lines = self.path.read_text(encoding='utf-8').splitlines()
+        self.check_module(lines)
+        state = {'pending': None, 'continued': False, 'contains': False}
+        self.output = [f'#line 1 "{self.path.resolve()}"']
+        for number, line in enumerate(lines, 1):
+            self.check_line(number, line)
+            pending, state['pending'] = state['pending'], None
+            if line.lstrip().startswith('@'):
+                if pending:
+                    self.refuse(number, f'@{pending} must stand directly above a plain subroutine')
+                if state['continued']:
+                    self.refuse(number, 'a directive cannot stand inside a continued statement')
+                state['pending'] = self.directive(number, line, state['contains'])
+                continue
+            if pending:
+                self.procedure_below(number, line, pending)
+            code = code_of(line)
+            state['continued'] = code.endswith('&') or (state['continued'] and not code)
+            state['contains'] = state['contains'] or code.strip().lower() == 'contains'
+            self.output.append(line)
+        if state['pending']:
+            self.refuse(len(lines), f'@{state["pending"]} must stand directly above a plain subroutine')
+        if not self.tests:
+            self.refuse(len(lines), 'the file has no @test: zero tests is a failure')
+        if self.problems:
+            raise BadTestFile(sorted(self.problems))
+        return '\n'.join(self.output + self.suite_function()) + '\n'
+
+    def check_module(self, lines):
+        """The module statement and what the module declares for all to see."""
+        codes = [code_of(line) for line in lines]
+        modules = [number for number, code in enumerate(codes, 1)
+                   if re.match(r'\s*module\s+(?!procedure\b)\w+\s*$', code, re.I)]
+        if len(modules) != 1:
+            self.refuse(modules[1] if modules else 1, f'a test file is one module, named {self.stem}')
+        elif lines[modules[0] - 1].rstrip() != f'module {self.stem}':
+            self.refuse(modules[0], f"this must read 'module {self.stem}' (the file's name), with no comment")
+        uses = [code for code in codes if re.match(r'\s*use\s+funit\b', code, re.I)]
+        if [use.strip() for use in uses] != ['use funit']:
+            self.refuse(modules[0] if modules else 1, "the module must have 'use funit', once and whole")
+
+        in_block = in_procedures = False  # a block: a type definition or an interface
+        for number, code in enumerate(codes, 1):
+            if re.match(r'\s*end\s*(?:type|interface)\b', code, re.I):
+                in_block = False
+            elif in_block:
+                continue
+            elif match := TYPE.match(code):
+                in_block = True
+                self.check_names(number, [match[1].lower()])
+            elif match := PROCEDURE.match(code):
+                self.check_names(number, [match[1].lower()])
+            elif code.strip().lower() == 'contains':
+                in_procedures = True
+            elif match := re.match(r'\s*(?:abstract\s+)?interface\b\s*(\w*)', code, re.I):
+                in_block = True
+                self.check_names(number, [match[1].lower()])
+            elif not in_procedures:
+                if re.match(r'\s*private\b', code, re.I):
+                    self.refuse(number, 'a test module is not private: its suite function lies outside')
+                elif '::' in code and not re.match(r'\s*use\b', code, re.I):
+                    self.check_names(number, declared_names(code))
+
+    def check_names(self, number, names):
+        for name in names:
+            if name in FORBIDDEN:
+                self.refuse(number, f"a test module cannot declare '{name}': pFUnit has that name")
+
+    def check_line(self, number, line):
+        if len(line) >= LINE_LIMIT:
+            self.refuse(number, f'the line has {len(line)} columns; it must have fewer than {LINE_LIMIT}')
+        if line.startswith('#'):
+            self.refuse(number, 'preprocessor lines are not supported')
+        if '/*' in line:
+            self.refuse(number, "'/*' begins a comment of the C preprocessor, even in a string")
+        if re.match(r'\s*!+\s*@\s*\w', line):
+            self.refuse(number, 'a directive that is commented out: delete it or let it run')
+        if '@' in code_of(line) and not line.lstrip().startswith('@'):
+            self.refuse(number, 'nothing may stand before a directive on its line')
+
+    def directive(self, number, line, after_contains):
+        """Translates an assertion; returns the name if it is one that announces a procedure."""
+        name, rest = DIRECTIVE.match(line).groups()
+        if not after_contains:
+            self.refuse(number, f"@{name} stands before the module's 'contains'")
+        if name in PROCEDURES:
+            if rest:
+                self.refuse(number, f"@{name} takes no arguments or comment here, found '{rest}'")
+            self.output.append('')
+            return name
+        if name in OPERANDS:
+            self.assertion(number, line, name, rest)
+            return None
+        known = {known.lower(): known for known in [*OPERANDS, *PROCEDURES]}
+        nearest = difflib.get_close_matches(name.lower(), known, n=1, cutoff=0.85)
+        hint = f' (did you mean @{known[nearest[0]]}?)' if nearest else ''
+        self.refuse(number, f'@{name} is not a directive of the subset of pFUnit used here{hint}')
+        return None
+
+    def assertion(self, number, line, name, rest):
+        if code_of(rest).endswith('&'):
+            self.refuse(number, f'@{name} must stand on one line, without continuation')
+            return
+        arguments = split_arguments(rest)
+        if arguments is None:
+            self.refuse(number, f"@{name} must be followed by '(...)' and by nothing after it")
+            return
+        named = [re.match(r'(\w+)\s*=(?!=)', text) for text in arguments]
+        keywords = [match[1].lower() for match in named if match]
+        positional = arguments[:len(arguments) - len(keywords)]
+        operands, tolerance_allowed, tolerance_required = OPERANDS[name]
+        allowed = ['message'] + ['tolerance'] * tolerance_allowed
+        if any(named[:len(positional)]) or '' in arguments:
+            self.refuse(number, f'@{name}: keyword arguments come last and none may be empty')
+        elif name == 'assertFail' and (len(positional), keywords) in ((1, []), (0, ['message'])):
+            pass
+        elif len(positional) != operands:
+            self.refuse(number, f'@{name} takes {operands} arguments before keywords, found {len(positional)}'
+                                '; message= and tolerance= are given by keyword')
+        elif name == 'assertFail':
+            self.refuse(number, '@assertFail takes one message')
+        elif len(set(keywords)) != len(keywords) or not set(keywords) <= set(allowed):
+            self.refuse(number, f'@{name} takes the keywords {" and ".join(allowed)}, each once; '
+                                f'found {", ".join(keywords)}')
+        elif tolerance_required and 'tolerance' not in keywords:
+            self.refuse(number, f'@{name} needs tolerance=')
+        blank = line[:len(line) - len(line.lstrip())]
+        self.output += [f'{blank}call {name}({", ".join(arguments)}, &',
+                        '   location=SourceLocation( &',
+                        f"   '{self.shown_path}', &",
+                        f'   {number}))',
+                        f'{blank}if (anyExceptions()) return',
+                        f'#line {number + 1} "{self.path.resolve()}"']
+
+    def procedure_below(self, number, line, directive):
+        match = PLAIN_SUBROUTINE.match(line)
+        if not match:
+            self.refuse(number, f'@{directive} must stand directly above a plain subroutine: '
+                                'no prefix, no dummy arguments, no comment, lower case')
+            return
+        name = match[1]
+        if name in [*self.tests, *self.fixtures.values()]:
+            self.refuse(number, f'{name} stands below more than one directive')
+        if directive == 'test':
+            self.tests.append(name)
+        elif directive in self.fixtures:
+            self.refuse(number, f'there is more than one @{directive}')
+        else:
+            self.fixtures[directive] = name
+
+    def suite_function(self):
+        fixtures = ''.join(f', &\n      {argument}={self.fixtures[directive]}'
+                           for directive, argument in (('before', 'set_up'), ('after', 'tear_down'))
+                           if directive in self.fixtures)
+        procedures = [*self.tests, *self.fixtures.values()]
+        return ['',
+                f'function {self.stem}_suite() result(suite)',
+                '   use funit, only: TestSuite',
+                *(f'   use {self.stem}, only: {name}' for name in procedures),
+                '   implicit none (type, external)',
+                '   type(TestSuite) :: suite',
+                '',
+                f"   suite%name = '{self.stem}_suite'",
+                *(f"   call suite%add('{name}', {name}{fixtures})" for name in self.tests),
+                f'end function {self.stem}_suite']
+
+
+def main(arguments):
+    check_only = arguments[:1] == ['--check']
+    if not (len(arguments) >= 2 if check_only else len(arguments) == 2):
+        sys.exit(__doc__)
+    sound = True
+    for path in arguments[1:] if check_only else arguments[:1]:
+        try:
+            source = TestFile(path, path).translate()
+            if not check_only:
+                pathlib.Path(arguments[1]).write_text(source, encoding='utf-8')
+        except BadTestFile as problems:
+            sound = False
+            for number, text in problems.args[0]:
+                print(f'{path}:{number}: error: {text}', file=sys.stderr)
+        except (OSError, UnicodeDecodeError) as trouble:
+            sound = False
+            print(f'{path}: error: {trouble}', file=sys.stderr)
+    sys.exit(0 if sound else 1)
+
+
+if __name__ == '__main__':
+    main(sys.argv[1:])

@@ -1,0 +1,36 @@
+# pFUnit, or the stand-in for it that compiles the same .pf files.
+find_package(Python3 3.8 REQUIRED COMPONENTS Interpreter)
+find_package(PFUNIT QUIET)
+if(PFUNIT_FOUND)
+  message(STATUS "wavycon: tests use pFUnit ${PFUNIT_VERSION} (${PFUNIT_DIR})")
+elseif(WAVYCON_REQUIRE_PFUNIT)
+  message(FATAL_ERROR "wavycon: WAVYCON_REQUIRE_PFUNIT is ON but pFUnit was not found; set PFUNIT_DIR")
+else()
+  message(STATUS "wavycon: pFUnit not found, tests use the stand-in in tests/support")
+  include(${CMAKE_CURRENT_LIST_DIR}/standin.cmake)
+endif()
+
+# wavycon_add_pf_tests(label): each test_<subject>.pf of this directory is a ctest <label>.<subject>.
+# The directory is searched, so that no file can be forgotten.
+function(wavycon_add_pf_tests label)
+  file(GLOB sources CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} test_*.pf)
+  if(NOT sources)
+    message(FATAL_ERROR "${CMAKE_CURRENT_SOURCE_DIR} has no test_*.pf")
+  endif()
+  foreach(source IN LISTS sources)
+    string(REGEX REPLACE "^test_(.*)\\.pf$" "${label}.\\1" name ${source})
+    add_pfunit_ctest(${name} TEST_SOURCES ${source} LINK_LIBRARIES wavycon::wavycon LABELS ${label})
+    target_compile_options(${name} PRIVATE ${wavycon_test_flags})
+    if(PFUNIT_FOUND)
+      # pFUnit alone would pass a program without tests, and one that a test stopped with status 0.
+      set_tests_properties(${name} PROPERTIES PASS_REGULAR_EXPRESSION "OK\n \\([1-9][0-9]* tests?\\)")
+    endif()
+  endforeach()
+  if(PFUNIT_FOUND)
+    # What the stand-in's preprocessor would refuse is an error here too.
+    add_test(NAME ${label}.pf_subset
+      COMMAND Python3::Interpreter ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/pf2f90.py --check ${sources}
+      WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
+    set_tests_properties(${label}.pf_subset PROPERTIES LABELS ${label})
+  endif()
+endfunction()
