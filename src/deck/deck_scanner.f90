@@ -1,4 +1,4 @@
-!> Takes the text of a deck apart into groups, their entries `key = values`, and the words that these consist of.
+!> Takes the text of a deck apart into groups, their entries `key = values`, and the words of these.
 !>
 !> What the words mean is not looked at here. Every step costs time in proportion to the length of the text,
 !> whatever bytes it holds.
@@ -110,33 +110,29 @@ contains
       end if
    end function end_before
 
-   !> The end of a word: the next separator that no quotes enclose. A quote must be closed on its own line.
+   !> The end of a word: a closing quote, or what comes before the next separator. A quote must be closed on
+   !> its line.
    pure subroutine find_word_end(content, place, last, kind)
       character(*), intent(in) :: content
       integer, intent(in) :: place
       integer, intent(out) :: last, kind
 
-      integer :: closing
+      character(1) :: quote
 
       kind = is_word
-      last = place - 1
+      last = end_before(content, place, word_ends//quotes)
+      if (last == len(content)) return
+      quote = content(last + 1:last + 1)
+      if (index(quotes, quote) == 0) return
       do
-         last = end_before(content, last + 1, word_ends//quotes)
+         last = end_before(content, last + 2, quote//line_ends)
+         if (last == len(content)) exit
+         if (content(last + 1:last + 1) /= quote) exit
+         last = last + 1
          if (last == len(content)) return
-         if (index(quotes, content(last + 1:last + 1)) == 0) return
-         closing = end_before(content, last + 2, content(last + 1:last + 1)//line_ends) + 1
-         kind = is_broken_word
-         if (closing > len(content)) then
-            last = len(content)
-            return
-         end if
-         if (content(closing:closing) /= content(last + 1:last + 1)) then
-            last = closing - 1
-            return
-         end if
-         kind = is_word
-         last = closing
+         if (content(last + 1:last + 1) /= quote) return
       end do
+      kind = is_broken_word
    end subroutine find_word_end
 
    !> Sorts the tokens into groups and entries.
@@ -230,11 +226,15 @@ contains
                case (is_equals)
                   call problems%add(token%first, "'=' in place of a value")
                case (is_word, is_broken_word)
-                  if (begins_entry(scan%tokens, t)) exit
                   if (token%kind == is_broken_word) then
-                     call problems%add(token%first, 'this quote is not closed on its line')
+                     call problems%add(open_quote(token), &
+                        'this quote is not closed on its line; within a text a quote is doubled')
                      quote_is_open = .true.
+                  else if (scan%tokens(t - 1)%kind == is_word .and. &
+                           scan%tokens(t - 1)%last == token%first - 1) then
+                     call problems%add(token%first, 'expected a blank or a comma behind the quote')
                   end if
+                  if (begins_entry(scan%tokens, t)) exit
                   wants_value = .false.
                case default
                   exit
@@ -245,7 +245,17 @@ contains
          entry%last_value = t - 1
       end subroutine take_values
 
-      !> A group without its '/'. Where a quote is open the '/' is likely to be behind it: nothing to add to that.
+      !> The place of the quote that is not closed in a broken word.
+      pure integer function open_quote(token)
+         type(token_type), intent(in) :: token
+
+         open_quote = token%first
+         do while (index(quotes, text%content(open_quote:open_quote)) == 0)
+            open_quote = open_quote + 1
+         end do
+      end function open_quote
+
+      !> A group without its '/'. Where a quote is open the '/' is likely to be behind it: no second problem.
       subroutine report_open_group(place)
          integer, intent(in) :: place  !! of the '&' that follows; 0 if the deck ends
 

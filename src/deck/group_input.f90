@@ -2,7 +2,7 @@
 module wavycon_group_input
    use wavycon_deck_scanner, only: entry_type, is_broken_word, is_word, scan_type
    use wavycon_deck_text, only: deck_text_type
-   use wavycon_key_table, only: allowed_values, key_group_type, key_index
+   use wavycon_key_table, only: allowed_values, key_group_type, key_index, key_type
    use wavycon_key_values, only: check_value
    use wavycon_nearest_name, only: did_you_mean, nearest_name
    use wavycon_plain_text, only: excerpt, integer_text, lower_case
@@ -16,7 +16,7 @@ module wavycon_group_input
    !> What a deck says in one group.
    type :: group_input_type
       type(key_group_type) :: table
-      integer :: place = 0                            !! of '&name' in the deck's text; 0 if the group is absent
+      integer :: place = 0                            !! of '&name' in the deck's text; 0 if it is absent
       integer, allocatable, private :: key_place(:)   !! of each key of the table; 0 where it is absent
       integer, allocatable, private :: key_values(:)  !! number of good values of each key
       logical, allocatable, private :: key_is_bad(:)  !! given, but with values that cannot be read
@@ -339,8 +339,7 @@ contains
                if (token%kind == is_broken_word) input%key_is_bad(k) = .true.
                if (token%kind /= is_word) cycle
                if (values >= key%most_values) then
-                  call problems%add(token%first, trim(key%name)//' takes '//at_most(key%most_values)// &
-                     ", here is '"//excerpt(text%content(token%first:token%last))//"' more")
+                  call problems%add(token%first, one_too_many(key, input%table, word_of(text, scan, t)))
                   input%key_is_bad(k) = .true.
                   exit
                end if
@@ -367,6 +366,18 @@ contains
       end associate
       input%key_values(k) = values
    end subroutine check_entry
+
+   !> What to say of a value that a key has no use for.
+   pure function one_too_many(key, table, word) result(words)
+      type(key_type), intent(in) :: key
+      type(key_group_type), intent(in) :: table
+      character(*), intent(in) :: word
+      character(:), allocatable :: words
+
+      words = trim(key%name)//' takes '//at_most(key%most_values)//", and here is one more: '"// &
+         excerpt(word)//"'"
+      if (key_index(table%keys, word) > 0) words = words//"; is a '=' missing behind it?"
+   end function one_too_many
 
    pure function at_most(number) result(words)
       integer, intent(in) :: number

@@ -21,14 +21,16 @@ contains
       integer :: i, k
 
       tables = deck_tables()
-      call add_wrapped(buffer, 0, "A deck consists of Fortran namelist groups, '&group key = value ... /', in any "// &
-         "order; '!' begins a comment. Every key may be left out unless it says required. Lengths may be in any "// &
-         'one unit and pressures in any one unit.')
+      call add_wrapped(buffer, 0, &
+         "A deck consists of Fortran namelist groups, '&group key = value ... /', "// &
+         "in any order; '!' begins a comment. A group or key may be left out unless it says required. "// &
+         'Lengths may be in any one unit and pressures in any one unit.')
       call buffer%add_line('')
-      call add_wrapped(buffer, 0, 'Loads are mean pressures over the nominal area, pbar. p* is the mean pressure '// &
-         'that just flattens the waves into contact everywhere: pi E* amplitude/wavelength for wave_1d, sqrt(2) '// &
-         'times that for wave_2d. pbar_over_pstar = pbar/p* runs from 0, first touch, to 1, complete contact; '// &
-         'above 1 the contact stays complete.')
+      call add_wrapped(buffer, 0, 'Loads are mean pressures pbar over the nominal area. p* is the mean '// &
+         'pressure that just closes the gap everywhere: pi e_star amplitude/wavelength for wave_1d, '// &
+         'sqrt(2) times that for wave_2d, 2 pi e_star amplitude1/wavelength1 for crossed_1d. '// &
+         'pbar_over_pstar = pbar/p* runs from 0, first touch, to 1, complete contact; above 1 the '// &
+         'contact stays complete.')
       do i = 1, size(tables)
          call buffer%add_line('')
          call add_wrapped(buffer, 0, '&'//trim(tables(i)%name)//'   '//trim(tables(i)%meaning)// &

@@ -14,8 +14,8 @@ module wavycon_key_table
    integer, parameter, public :: real_value = 1, integer_value = 2, logical_value = 3, text_value = 4, &
       choice_value = 5
 
-   !> A number of a deck is 0 or of a size between these, so that products of a few of them neither overflow nor
-   !> underflow.
+   !> A number of a deck is 0 or of a size between these, so that products of a few of them neither overflow
+   !> nor underflow.
    real(dp), parameter, public :: smallest_number = 1.0e-90_dp, largest_number = 1.0e90_dp
 
    integer, parameter :: name_length = 24, choice_length = 12, most_choices = 4
@@ -24,7 +24,7 @@ module wavycon_key_table
       character(name_length) :: name = ''
       integer :: kind = real_value
       character(240) :: meaning = ''
-      character(32) :: default = ''                      !! as in a deck, or in words; empty if there is none
+      character(40) :: default = ''                      !! as in a deck, or in words; empty if there is none
       character(24) :: unit = ''                         !! empty for what is no quantity
       logical :: required = .false.                      !! in any deck
       real(dp) :: least = -largest_number, most = largest_number

@@ -11,6 +11,8 @@ module wavycon_key_values
    public :: check_value
 
    character(*), parameter :: digits = '0123456789'
+   character(*), parameter :: logical_constants(*) = [ &
+      '.true. ', '.false.', 'true   ', 'false  ', '.t.    ', '.f.    ', 't      ', 'f      ']
 
    !> A number written with more bytes than this is a slip.
    integer, parameter :: longest_number = 100
@@ -39,8 +41,7 @@ contains
          case (integer_value)
             call check_integer(key, value, trouble)
          case (logical_value)
-            if (.not. any(lower_case(value) == ['.true. ', '.false.', 'true   ', 'false  ', 't      ', 'f      ', &
-                                               '.t.    ', '.f.    '])) trouble = must_be(key, value)
+            if (.not. any(lower_case(value) == logical_constants)) trouble = must_be(key, value)
          case (text_value)
             call check_text(key, value, trouble)
          case (choice_value)
@@ -75,6 +76,7 @@ contains
       character(*), intent(in) :: value
       character(:), allocatable, intent(out) :: trouble
 
+      integer, parameter :: exponent_limit = range(1.0_dp) - 1
       real(dp) :: number
       integer :: power, status
       logical :: is_number, is_zero
@@ -87,13 +89,9 @@ contains
       number = 0
       if (.not. is_zero) then
          ! Before the conversion, which may trap: 1e999 overflows.
-         if (power < nint(log10(smallest_number)) .or. power >= nint(log10(largest_number))) then
-            trouble = must_be(key, value)//'; no number but 0 may be smaller than 1e-90 or larger than 1e90'
-            return
-         end if
-         read (value, *, iostat=status) number
-         if (status /= 0) then
-            trouble = must_be(key, value)
+         if (abs(power) <= exponent_limit) read (value, *, iostat=status) number
+         if (abs(number) < smallest_number .or. abs(number) > largest_number) then
+            trouble = must_be(key, value)//'; numbers may be 0 or from 1e-90 to 1e90 in size'
             return
          end if
       end if
@@ -139,7 +137,8 @@ contains
 
    !> Takes a number apart: sign, digits with at most one point, and an exponent with the letter e or d.
    !>
-   !> N.B. Fortran reads 1+3 as 1e3 too. Here that is no number: it is more likely a sum, which decks do not have.
+   !> N.B. Fortran reads 1+3 as 1e3 too. Here that is no number: it is more likely a sum, which decks do not
+   !> have.
    pure subroutine parse_number(text, is_number, is_zero, power)
       character(*), intent(in) :: text
       logical, intent(out) :: is_number

@@ -24,7 +24,8 @@ module wavycon_load_group
    integer, parameter :: most_loads = 100000
 
    character(11), parameter :: sweep_keys(*) = ['sweep_from ', 'sweep_to   ', 'sweep_steps']
-   character(*), parameter :: forms = 'pbar_over_pstar, or mean_pressure, or sweep_from, sweep_to and sweep_steps'
+   character(*), parameter :: forms = &
+      'pbar_over_pstar, or mean_pressure, or sweep_from, sweep_to and sweep_steps'
 
 contains
 
@@ -32,16 +33,18 @@ contains
       type(key_group_type) :: table
 
       table = key_group('load', 'the mean pressures to solve for: a list of either kind, or a sweep', [ &
-         real_key('pbar_over_pstar', '', '-', 'Mean pressures over p*, the mean pressure that just closes the '// &
-            'gap everywhere.', least=0.0_dp, most=largest_pbar_over_pstar, most_values=most_loads), &
-         real_key('mean_pressure', '', 'unit of e_star', 'Mean pressures, over the nominal area.', least=0.0_dp, &
-            most_values=most_loads), &
-         real_key('sweep_from', '', '-', 'First mean pressure over p* of a sweep in equal steps.', least=0.0_dp, &
-            most=largest_pbar_over_pstar), &
+         real_key('pbar_over_pstar', '', '-', &
+            'Mean pressures over p*, the mean pressure that just closes the gap everywhere.', &
+            least=0.0_dp, most=largest_pbar_over_pstar, most_values=most_loads), &
+         real_key('mean_pressure', '', 'unit of e_star', 'Mean pressures, over the nominal area.', &
+            least=0.0_dp, most_values=most_loads), &
+         real_key('sweep_from', '', '-', 'First mean pressure over p* of a sweep in equal steps.', &
+            least=0.0_dp, most=largest_pbar_over_pstar), &
          real_key('sweep_to', '', '-', 'Last mean pressure over p* of the sweep, above or below the first.', &
             least=0.0_dp, most=largest_pbar_over_pstar), &
-         integer_key('sweep_steps', '', 'Number of loads of the sweep, both ends included; 1 only if the ends '// &
-            'are equal.', 1, most_loads)], required=.true.)
+         integer_key('sweep_steps', '', &
+            'Number of loads of the sweep, both ends included; 1 only if the ends are equal.', &
+            1, most_loads)], required=.true.)
    end function load_table
 
    subroutine read_load_group(input, group, problems)
@@ -89,13 +92,10 @@ contains
          if (input%place > 0 .and. .not. (has_sweep .or. input%has('pbar_over_pstar') .or. &
                                           input%has('mean_pressure'))) &
             call problems%add(input%place, '&load needs '//forms)
-         call input%forbid(problems, 'pbar_over_pstar', 'mean_pressure', 'give '//forms)
-         do k = 1, size(sweep_keys)
-            if (.not. input%has(sweep_keys(k))) cycle
-            call input%forbid(problems, 'pbar_over_pstar', trim(sweep_keys(k)), 'give '//forms)
-            call input%forbid(problems, 'mean_pressure', trim(sweep_keys(k)), 'give '//forms)
-            exit
-         end do
+         if (count([input%has('pbar_over_pstar'), input%has('mean_pressure'), has_sweep]) > 1) then
+            call problems%add(input%place, 'loads are given in more than one way: give '//forms)
+            return
+         end if
          if (.not. has_sweep) return
          do k = 1, size(sweep_keys)
             if (.not. input%has(sweep_keys(k))) call problems%add(place_of_sweep(), &

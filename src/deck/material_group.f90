@@ -26,12 +26,13 @@ contains
       type(key_group_type) :: table
 
       table = key_group('material', 'how stiff the two bodies are: e_star, or e1 and nu1 (and e2, nu2)', [ &
-         real_key('e_star', '1.0', 'pressure', "Plane-strain modulus E* of the pair, "// &
-            "1/E* = (1 - nu1^2)/e1 + (1 - nu2^2)/e2.", above=0.0_dp), &
+         real_key('e_star', '1.0', 'pressure', &
+            'Plane-strain modulus E* of the pair, 1/E* = (1 - nu1^2)/e1 + (1 - nu2^2)/e2.', above=0.0_dp), &
          real_key('e1', '', 'pressure', "Young's modulus of the first body; needs nu1.", above=0.0_dp), &
          real_key('nu1', '', '-', "Poisson's ratio of the first body.", above=-1.0_dp, most=0.5_dp), &
-         real_key('e2', '', 'pressure', "Young's modulus of the second body; needs nu2. Without it the second "// &
-            "body is rigid.", above=0.0_dp), &
+         real_key('e2', '', 'pressure', &
+            "Young's modulus of the second body; needs nu2. Without it the second body is rigid.", &
+            above=0.0_dp), &
          real_key('nu2', '', '-', "Poisson's ratio of the second body.", above=-1.0_dp, most=0.5_dp)])
    end function material_table
 

@@ -33,16 +33,18 @@ contains
 
       table = key_group('method', 'how the contact is computed', [ &
          choice_key('solver', "'beale'", "'beale': Beale's method of quadratic programming.", ['beale']), &
-         integer_key('harmonics', '9 (2-D), 10 (1-D)', 'Highest harmonic of the pressure, in each direction.', &
-            1, most_harmonics), &
-         integer_key('constraint_points', '27 (2-D), 26 (1-D)', 'Equally spaced points on half a wavelength, '// &
-            'ends included, in each direction, at which the pressure is kept from being negative. More than '// &
-            'harmonics; at most 601 in 2-D.', 2, maxval(most_constraint_points)), &
-         choice_key('symmetry', "'full'", "Of the pressure, 2-D only. 'full': alike in x and y and at both "// &
-            "crests (29 unknowns, 196 points by default); 'diagonal': at both crests (49, 378); 'none' (99, 729).", &
+         integer_key('harmonics', '9 (2-D), 10 (1-D)', &
+            'Highest harmonic of the pressure, in each direction.', 1, most_harmonics), &
+         integer_key('constraint_points', '27 (2-D), 26 (1-D)', &
+            'Equally spaced points on half a wavelength, ends included, in each direction, at which the '// &
+            'pressure is kept from being negative. More than harmonics; at most 601 in 2-D.', &
+            2, maxval(most_constraint_points)), &
+         choice_key('symmetry', "'full'", &
+            "Of the pressure, 2-D only. 'full': alike in x and y and at both crests (29 unknowns, 196 "// &
+            "points by default); 'diagonal': at both crests (49, 378); 'none' (99, 729).", &
             ['full    ', 'diagonal', 'none    ']), &
-         real_key('edge_level', '0.1', 'p*', 'The isobar that is taken as the edge of contact.', above=0.0_dp, &
-            below=1.0_dp)])
+         real_key('edge_level', '0.1', 'p*', 'The isobar that is taken as the edge of contact.', &
+            above=0.0_dp, below=1.0_dp)])
    end function method_table
 
    subroutine read_method_group(input, dimension, group, problems)

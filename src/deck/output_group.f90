@@ -29,8 +29,9 @@ contains
       type(key_group_type) :: table
 
       table = key_group('output', 'which files are written, and where', [ &
-         text_key('directory', "'outputs/<case>'", 'Where the results go, relative to where the program is '// &
-            'started; made if it is not there.', longest_directory), &
+         text_key('directory', "'outputs/<case>'", &
+            'Where the results go, relative to where the program is started; made if it is not there.', &
+            longest_directory), &
          logical_key('lines', '.false.', 'Pressures and gaps along lines.'), &
          logical_key('map', '.false.', 'Pressures and gaps over the whole cell.'), &
          logical_key('contours', '.false.', 'The edge of contact as closed curves.'), &

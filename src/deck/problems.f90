@@ -109,23 +109,27 @@ contains
          integer_text(character_count(text%content(text%line_start(line):place - 1)) + 1)//':'
    end function position
 
-   !> The line with a caret below the place. Of a long line only the neighbourhood is shown.
+   !> The line with a caret below the place. Of a long line only the neighbourhood of the place is shown.
    pure subroutine add_line_and_caret(buffer, text, place)
       type(text_buffer_type), intent(inout) :: buffer
       type(deck_text_type), intent(in) :: text
       integer, intent(in) :: place
 
-      integer, parameter :: most_before = 60, most_after = 40, narrowest_number = 4
+      integer, parameter :: longest_line = 100, most_before = 60, most_after = 40, narrowest_number = 4
       character(:), allocatable :: after, before, number
       integer :: first, from, last, line, to
 
       line = text%line_of(place)
       call text%line_bounds(line, first, last)
-      from = max(first, place - most_before)
+      from = first
+      to = last
+      if (last - first >= longest_line) then
+         from = max(first, place - most_before)
+         to = min(last, place + most_after)
+      end if
       do while (from < place .and. is_continuation(text%content(from:from)))
          from = from + 1
       end do
-      to = min(last, place + most_after)
       do while (to > place .and. to < last .and. is_continuation(text%content(to + 1:to + 1)))
          to = to - 1
       end do

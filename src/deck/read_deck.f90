@@ -1,8 +1,8 @@
 !> From a deck file to a deck, or to the complete list of what is wrong with it.
 !>
-!> The text is scanned first, because a compiler's own namelist errors mislead: a misspelt group reads as the end
-!> of the file, a repeated key or an empty value as nothing at all. What passes is read with NAMELIST, so that it
-!> means what it means to any Fortran program; then the values are checked against each other.
+!> The text is scanned first, because a compiler's own namelist errors mislead: a misspelt group reads as the
+!> end of the file, a repeated key or an empty value as nothing at all. What passes is read with NAMELIST, so
+!> that it means what it means to any Fortran program; then the values are checked against each other.
 module wavycon_read_deck
    use wavycon_deck, only: deck_tables, deck_type, load_number, material_number, method_number, &
       number_of_groups, output_number, scene_number, surface_number
@@ -27,8 +27,8 @@ contains
 
    !> Reads a deck file.
    !>
-   !> Errors: `exit_file_trouble` if the file is not there or cannot be read, `exit_bad_input` with a report of all
-   !> problems if what it holds is no deck.
+   !> Errors: `exit_file_trouble` if the file is not there or cannot be read, `exit_bad_input` with a report
+   !> of all problems if what it holds is no deck.
    subroutine read_deck(path, deck, error)
       character(*), intent(in) :: path
       type(deck_type), intent(out) :: deck  !! to be used only if there is no error

@@ -14,11 +14,12 @@ module wavycon_scene_group
    !> What &scene says.
    type :: scene_group_type
       character(longest_name) :: title = ''  !! one line for the heads of tables and for plots
-      character(longest_name) :: case = ''   !! stem of the names of the result files; never empty in a deck read
+      character(longest_name) :: case = ''   !! stem of the result files' names; never empty in a deck read
    end type scene_group_type
 
    character(*), parameter :: plain = 'abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.'
-   character(*), parameter :: plain_in_words = "letters, digits, '_', '-' and '.', the first neither '-' nor '.'"
+   character(*), parameter :: plain_in_words = &
+      "letters, digits, '_', '-' and '.', the first neither '-' nor '.'"
 
 contains
 
@@ -28,9 +29,8 @@ contains
       table = key_group('scene', 'what the case is called', [ &
          text_key('title', "''", 'One line for the heads of tables and for plots.', longest_name, &
             may_be_blank=.true.), &
-         text_key('case', "the deck's name", &
-            "Stem of the names of the result files: "//plain_in_words//". By default the deck's file name "// &
-            "without '.nml'.", longest_name)])
+         text_key('case', "the deck's file name without '.nml'", &
+            "Stem of the names of the result files: "//plain_in_words//'.', longest_name)])
    end function scene_table
 
    !> Reads the group; a case that is not given takes its name from the deck's file.

@@ -28,16 +28,19 @@ contains
       type(key_group_type) :: table
 
       table = key_group('surface', 'which waves the bodies carry', [ &
-         choice_key('kind', '', "'wave_1d': gap amplitude*(1 - cos(2 pi x/wavelength)). 'wave_2d': gap "// &
-            "amplitude*(1 - cos(..x..) cos(..y..)). 'crossed_1d': a 1-D wave on each block, at right angles.", &
-            ['wave_1d   ', 'wave_2d   ', 'crossed_1d'], required=.true.), &
-         real_key('amplitude', '1.0', 'length', 'Of wave_1d and wave_2d: half the height from trough to crest; '// &
-            '0 is a flat surface.', least=0.0_dp), &
+         choice_key('kind', '', &
+            "'wave_1d': gap amplitude (1 - cos phi), phi = 2 pi x/wavelength. 'wave_2d': gap amplitude "// &
+            "(1 - cos phi cos theta), theta = 2 pi y/wavelength. 'crossed_1d': a 1-D wave on each of two "// &
+            'blocks, at right angles.', ['wave_1d   ', 'wave_2d   ', 'crossed_1d'], required=.true.), &
+         real_key('amplitude', '1.0', 'length', &
+            'Of wave_1d and wave_2d: half the height from trough to crest; 0 is a flat surface.', &
+            least=0.0_dp), &
          real_key('wavelength', '1.0', 'length', 'Of wave_1d and wave_2d, along x (and y).', above=0.0_dp), &
          real_key('amplitude1', '', 'length', 'Of crossed_1d: the wave of the first block.', least=0.0_dp), &
          real_key('wavelength1', '', 'length', 'Of crossed_1d: the wave of the first block.', above=0.0_dp), &
          real_key('amplitude2', '', 'length', 'Of crossed_1d: must be equal to amplitude1.', least=0.0_dp), &
-         real_key('wavelength2', '', 'length', 'Of crossed_1d: must be equal to wavelength1.', above=0.0_dp)], required=.true.)
+         real_key('wavelength2', '', 'length', 'Of crossed_1d: must be equal to wavelength1.', &
+            above=0.0_dp)], required=.true.)
    end function surface_table
 
    subroutine read_surface_group(input, group, problems)
@@ -60,7 +63,8 @@ contains
       wavelength2 = group%wavelength2
       read (input%record, nml=surface, iostat=status, iomsg=message)
       if (status /= 0) call problems%add(input%place, trim(message))
-      group = surface_group_type(kind, amplitude, wavelength, amplitude1, amplitude2, wavelength1, wavelength2)
+      group = surface_group_type(kind, amplitude, wavelength, amplitude1, amplitude2, wavelength1, &
+         wavelength2)
 
       select case (kind)
       case ('wave_1d', 'wave_2d')
@@ -75,8 +79,8 @@ contains
          integer :: i
 
          do i = 1, size(of_crossed)
-            if (input%has(of_crossed(i))) call problems%add(input%place_of(of_crossed(i)), trim(of_crossed(i))// &
-               " is a key of kind = 'crossed_1d', not of '"//trim(kind)//"'")
+            if (input%has(of_crossed(i))) call problems%add(input%place_of(of_crossed(i)), &
+               trim(of_crossed(i))//" is a key of 'crossed_1d', not of '"//trim(kind)//"'")
          end do
       end subroutine check_one_wave
 
@@ -104,7 +108,8 @@ contains
          if (.not. (input%has(key//'1') .and. input%has(key//'2'))) return
          if (input%is_bad(key//'1') .or. input%is_bad(key//'2')) return
          if (abs(first - second) > 0) call problems%add(input%place_of(key//'2'), &
-            key//'2 differs from '//key//'1: crossed waves of unequal '//key//' are not supported, equal ones are')
+            key//'2 differs from '//key//'1: crossed waves of unequal '//key// &
+            ' are not supported yet, equal ones are')
       end subroutine check_equal
 
    end subroutine read_surface_group
