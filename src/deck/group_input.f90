@@ -2,7 +2,7 @@
 module wavycon_group_input
    use wavycon_deck_scanner, only: entry_type, is_broken_word, is_word, scan_type
    use wavycon_deck_text, only: deck_text_type
-   use wavycon_key_table, only: allowed_values, key_group_type, key_index, key_type
+   use wavycon_key_table, only: allowed_values, group_names, key_group_type, key_index, key_names, key_type
    use wavycon_key_values, only: check_value
    use wavycon_nearest_name, only: did_you_mean, nearest_name
    use wavycon_plain_text, only: excerpt, integer_text, lower_case
@@ -152,7 +152,7 @@ contains
          name = word_of(text, scan, scan%groups(g)%name)
          if (any(tables%name == name(2:))) cycle
          call problems%add(place(g), unknown_group(name, tables))
-         i = nearest_name(name(2:), tables%name)
+         i = nearest_name(name(2:), group_names(tables))
          if (i == 0) cycle
          if (first_of_table(i) > 0) cycle
          ! A misspelt group: what it holds is checked all the same, and it is not missing.
@@ -179,8 +179,10 @@ contains
       if (name == '&') then
          words = "expected the name of a group right behind the '&'"
       else
-         words = "there is no group '"//excerpt(name)//"'"//did_you_mean(name(2:), tables%name, "'&", "'")
-         if (nearest_name(name(2:), tables%name) == 0) words = words//'; the groups are '//listed(tables%name)
+         words = "there is no group '"//excerpt(name)//"'"// &
+            did_you_mean(name(2:), group_names(tables), "'&", "'")
+         if (nearest_name(name(2:), group_names(tables)) == 0) &
+            words = words//'; the groups are '//listed(group_names(tables))
       end if
    end function unknown_group
 
@@ -229,7 +231,7 @@ contains
          if (key_index(input%table%keys, key) > 0) cycle
          call problems%add(place(e), unknown_key(key, input%table, tables))
          ! Whoever misspells a key means to give it: no complaint that it is missing.
-         k = nearest_name(key, input%table%keys%name)
+         k = nearest_name(key, key_names(input%table%keys))
          if (k == 0) cycle
          if (entry_of_key(k) > 0) cycle
          input%key_place(k) = place(e)
@@ -267,8 +269,9 @@ contains
          return
       end do
       words = "there is no key '"//excerpt(key)//"' in &"//trim(table%name)
-      words = words//did_you_mean(key, table%keys%name, "'", "'")
-      if (nearest_name(key, table%keys%name) == 0) words = words//'; its keys are '//listed(table%keys%name)
+      words = words//did_you_mean(key, key_names(table%keys), "'", "'")
+      if (nearest_name(key, key_names(table%keys)) == 0) &
+         words = words//'; its keys are '//listed(key_names(table%keys))
    end function unknown_key
 
    !> Reports what every deck needs and this one does not have.

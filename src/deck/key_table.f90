@@ -8,7 +8,7 @@ module wavycon_key_table
    private
 
    public :: key_type, key_group_type, real_key, integer_key, logical_key, text_key, choice_key
-   public :: key_group, key_index, allowed_values
+   public :: key_group, key_index, key_names, group_names, allowed_values
 
    !> What a value may be.
    integer, parameter, public :: real_value = 1, integer_value = 2, logical_value = 3, text_value = 4, &
@@ -142,6 +142,20 @@ contains
 
       key_index = findloc(keys%name == name, .true., dim=1)
    end function key_index
+
+   pure function key_names(keys) result(names)
+      type(key_type), intent(in) :: keys(:)
+      character(name_length) :: names(size(keys))
+
+      names = keys%name
+   end function key_names
+
+   pure function group_names(groups) result(names)
+      type(key_group_type), intent(in) :: groups(:)
+      character(name_length) :: names(size(groups))
+
+      names = groups%name
+   end function group_names
 
    !> What the values of a key may be, in words that follow "must be".
    pure function allowed_values(key) result(words)

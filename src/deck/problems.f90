@@ -57,7 +57,7 @@ contains
       character(:), allocatable :: total
       integer :: i, left, order(problems%number)
 
-      order = in_order(problems%items(:problems%number)%place)
+      order = in_order(problems)
       total = integer_text(problems%number)
       if (problems%is_full()) total = 'at least '//total
       do i = 1, min(problems%number, most_printed)
@@ -78,17 +78,17 @@ contains
       report = buffer%text()
    end function problem_report
 
-   !> Numbers that sort the places; those of equal places stay in their order.
-   pure function in_order(places) result(order)
-      integer, intent(in) :: places(:)
-      integer :: order(size(places))
+   !> Numbers that sort the problems by place; those of equal places stay in their order.
+   pure function in_order(problems) result(order)
+      type(problem_list_type), intent(in) :: problems
+      integer :: order(problems%number)
 
       integer :: i, j
 
-      do i = 1, size(places)
+      do i = 1, problems%number
          j = i
          do while (j > 1)
-            if (places(order(j - 1)) <= places(i)) exit
+            if (problems%items(order(j - 1))%place <= problems%items(i)%place) exit
             order(j) = order(j - 1)
             j = j - 1
          end do
