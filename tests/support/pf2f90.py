@@ -27,8 +27,20 @@ OPERANDS = {       # operands before the keywords, whether tolerance= is allowed
     'assertFail': (0, False, False),
 }
 PROCEDURES = ('test', 'before', 'after')
-# Names of pFUnit and of the suite function that it writes: a module that declares one does not compile.
-FORBIDDEN = set('run initialize finalize stub test throw is not every predicate subject t suite'.split())
+# What pFUnit 4.14 makes visible by `use funit` (besides assert*) or declares in its suite functions:
+# a test module that declares such a name does not compile there.
+FORBIDDEN = set("""
+    abstractmatcher abstracttestparameter all_of allof any_of anyexceptions anyof array_with_size
+    basetestrunner catch catchnext contains_string debuglistener disable empty_array ends_with equal_to
+    every every_item expectation false fhamcrest finalize funit generic_run get_context ignore_all
+    ignore_differences initialize is isarraywithsize isequal isnear isnot iso_fortran_env isrelativelynear
+    istrueorfalse keep_all listenerpointer loadtests_interface matchable matcherdescription namefilter
+    near not output_unit parallelcontext parameterizedtestcase predicate relatively_near remoterunner
+    resultprinter robustrunner run serialcontext sourcelocation starts_with stringcontains
+    stringdescription stringendswith stringstartswith stub subject suite t taplistener test testannotation
+    testcase testlistener testlistenervector testmethod testresult testrunner testsuite throw
+    timeoutannotation trim_all true wascalled wascalledonce wasnotcalled whitespaceoptions xmlprinter
+""".split())
 
 PLAIN_SUBROUTINE = re.compile(r'\s*subroutine\s+(\w+)\s*(\(\s*\))?\s*$')
 PROCEDURE = re.compile(r'(?!\s*end\b)(?:[\w()=*,: ]+\s|\s*)(?:subroutine|function)\s+(\w+)', re.I)
@@ -170,7 +182,7 @@ class TestFile:
 
     def check_names(self, number, names):
         for name in names:
-            if name in FORBIDDEN:
+            if name in FORBIDDEN or name.startswith('assert'):
                 self.refuse(number, f"a test module cannot declare '{name}': pFUnit has that name")
 
     def check_line(self, number, line):

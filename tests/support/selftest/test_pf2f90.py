@@ -55,6 +55,7 @@ REFUSED = [
     ('forbidden subroutine', {16: '   subroutine run()'}, 16, "cannot declare 'run'"),
     ('forbidden function', {13: '   end subroutine prepare\n   pure integer function stub()'},
      14, "cannot declare 'stub'"),
+    ('forbidden assertion', {16: '   subroutine assertNear()'}, 16, "cannot declare 'assertnear'"),
     ('no test', {15: ''}, 22, 'has no @test'),
     ('test above blank', {15: '   @test\n'}, 16, 'directly above a plain subroutine'),
     ('test above comment', {15: '   @test\n   !> Why.'}, 16, 'directly above a plain subroutine'),
