@@ -1,0 +1,43 @@
+!> A deck: everything that a deck file says, checked, with every default filled in.
+module wavycon_deck
+   use wavycon_key_table, only: key_group_type
+   use wavycon_load_group, only: load_group_type, load_table
+   use wavycon_material_group, only: material_group_type, material_table
+   use wavycon_method_group, only: method_group_type, method_table
+   use wavycon_output_group, only: output_group_type, output_table
+   use wavycon_scene_group, only: scene_group_type, scene_table
+   use wavycon_surface_group, only: surface_group_type, surface_table
+   implicit none (type, external)
+   private
+
+   public :: deck_type, deck_tables
+
+   !> The groups of a deck, in the order in which they are documented and written.
+   integer, parameter, public :: scene_number = 1, material_number = 2, surface_number = 3, load_number = 4, &
+      method_number = 5, output_number = 6, number_of_groups = 6
+
+   type :: deck_type
+      character(:), allocatable :: path  !! the deck's file, as the caller named it
+      type(scene_group_type) :: scene
+      type(material_group_type) :: material
+      type(surface_group_type) :: surface
+      type(load_group_type) :: load
+      type(method_group_type) :: method
+      type(output_group_type) :: output
+   end type deck_type
+
+contains
+
+   !> The tables of all groups, by the numbers above.
+   function deck_tables() result(tables)
+      type(key_group_type) :: tables(number_of_groups)
+
+      tables(scene_number) = scene_table()
+      tables(material_number) = material_table()
+      tables(surface_number) = surface_table()
+      tables(load_number) = load_table()
+      tables(method_number) = method_table()
+      tables(output_number) = output_table()
+   end function deck_tables
+
+end module wavycon_deck

@@ -1,0 +1,80 @@
+!> The reference of all groups and keys of a deck, made from the tables that check decks.
+module wavycon_key_reference
+   use wavycon_deck, only: deck_tables
+   use wavycon_key_table, only: allowed_values, key_group_type, key_type
+   use wavycon_text_buffer, only: text_buffer_type
+   implicit none (type, external)
+   private
+
+   public :: key_reference
+
+   integer, parameter, public :: widest_line = 100
+
+contains
+
+   !> The reference: lines, each with a newline and none longer than `widest_line`.
+   function key_reference() result(reference)
+      character(:), allocatable :: reference
+
+      type(text_buffer_type) :: buffer
+      type(key_group_type), allocatable :: tables(:)
+      integer :: i, k
+
+      tables = deck_tables()
+      call add_wrapped(buffer, 0, &
+         "A deck consists of Fortran namelist groups, '&group key = value ... /', "// &
+         "in any order; '!' begins a comment. A group or key may be left out unless it says required. "// &
+         'Lengths may be in any one unit and pressures in any one unit.')
+      call buffer%add_line('')
+      call add_wrapped(buffer, 0, 'Loads are mean pressures pbar over the nominal area. p* is the mean '// &
+         'pressure that just closes the gap everywhere: pi e_star amplitude/wavelength for wave_1d, '// &
+         'sqrt(2) times that for wave_2d, 2 pi e_star amplitude1/wavelength1 for crossed_1d. '// &
+         'pbar_over_pstar = pbar/p* runs from 0, first touch, to 1, complete contact; above 1 the '// &
+         'contact stays complete.')
+      do i = 1, size(tables)
+         call buffer%add_line('')
+         call add_wrapped(buffer, 0, '&'//trim(tables(i)%name)//'   '//trim(tables(i)%meaning)// &
+            trim(merge(' (required)', '           ', tables(i)%required)))
+         do k = 1, size(tables(i)%keys)
+            call add_key(buffer, tables(i)%keys(k))
+         end do
+      end do
+      reference = buffer%text()
+   end function key_reference
+
+   subroutine add_key(buffer, key)
+      type(text_buffer_type), intent(inout) :: buffer
+      type(key_type), intent(in) :: key
+
+      integer, parameter :: name_width = 24
+      character(:), allocatable :: line
+      character(name_width) :: name
+
+      name = key%name
+      line = name//allowed_values(key)
+      if (key%unit /= '') line = line//' ['//trim(key%unit)//']'
+      if (key%default /= '') line = line//'; default '//trim(key%default)
+      if (key%required) line = line//'; required'
+      call buffer%add_line('   '//line)
+      call add_wrapped(buffer, name_width + 3, trim(key%meaning))
+   end subroutine add_key
+
+   !> Adds a text as lines that begin with blanks and break between words.
+   subroutine add_wrapped(buffer, indent, text)
+      type(text_buffer_type), intent(inout) :: buffer
+      integer, intent(in) :: indent
+      character(*), intent(in) :: text
+
+      integer :: first, last
+
+      first = 1
+      do while (first <= len(text))
+         last = len(text)
+         if (last - first >= widest_line - indent) &
+            last = first - 1 + index(text(first:first + widest_line - indent), ' ', back=.true.)
+         call buffer%add_line(repeat(' ', indent)//trim(text(first:last)))
+         first = last + 1
+      end do
+   end subroutine add_wrapped
+
+end module wavycon_key_reference

@@ -1,0 +1,225 @@
+!> Tables of the keys of each namelist group: what a value may be, its default and its meaning.
+!>
+!> The checks of a deck, the key reference and the comments of resolved decks are all made from these tables.
+module wavycon_key_table
+   use wavycon_kinds, only: dp
+   use wavycon_plain_text, only: integer_text
+   implicit none (type, external)
+   private
+
+   public :: key_type, key_group_type, real_key, integer_key, logical_key, text_key, choice_key
+   public :: key_group, key_index, key_names, group_names, allowed_values
+
+   !> What a value may be.
+   integer, parameter, public :: real_value = 1, integer_value = 2, logical_value = 3, text_value = 4, &
+      choice_value = 5
+
+   !> A number of a deck is 0 or of a size between these, so that products of a few of them neither overflow
+   !> nor underflow.
+   real(dp), parameter, public :: smallest_number = 1.0e-90_dp, largest_number = 1.0e90_dp
+
+   integer, parameter :: name_length = 24, choice_length = 12, most_choices = 4
+
+   type :: key_type
+      character(name_length) :: name = ''
+      integer :: kind = real_value
+      character(240) :: meaning = ''
+      character(40) :: default = ''                      !! as in a deck, or in words; empty if there is none
+      character(24) :: unit = ''                         !! empty for what is no quantity
+      logical :: required = .false.                      !! in any deck
+      real(dp) :: least = -largest_number, most = largest_number
+      logical :: above = .false., below = .false.        !! whether `least` and `most` themselves are out
+      integer :: most_values = 1                         !! more than 1: a list
+      integer :: longest = 0                             !! of a text [byte]
+      logical :: may_be_blank = .false.                  !! of a text
+      integer :: number_of_choices = 0
+      character(choice_length) :: choices(most_choices) = ''   !! the first number_of_choices count
+   end type key_type
+
+   type :: key_group_type
+      character(name_length) :: name = ''
+      character(80) :: meaning = ''
+      logical :: required = .false.
+      type(key_type), allocatable :: keys(:)
+   end type key_group_type
+
+contains
+
+   !> A group with its keys.
+   pure function key_group(name, meaning, keys, required) result(group)
+      character(*), intent(in) :: name, meaning
+      type(key_type), intent(in) :: keys(:)
+      logical, intent(in), optional :: required
+      type(key_group_type) :: group
+
+      group%name = name
+      group%meaning = meaning
+      allocate (group%keys(size(keys)))
+      group%keys(:) = keys
+      if (present(required)) group%required = required
+   end function key_group
+
+   !> A key whose value is a number or, with most_values, a list of numbers.
+   pure function real_key(name, default, unit, meaning, least, most, above, below, most_values) result(key)
+      character(*), intent(in) :: name, default, unit, meaning
+      real(dp), intent(in), optional :: least, most    !! bounds that a value may have
+      real(dp), intent(in), optional :: above, below   !! bounds that it must stay clear of
+      integer, intent(in), optional :: most_values
+      type(key_type) :: key
+
+      key%name = name
+      key%kind = real_value
+      key%default = default
+      key%unit = unit
+      key%meaning = meaning
+      if (present(least)) key%least = least
+      if (present(most)) key%most = most
+      if (present(above)) key%least = above
+      if (present(below)) key%most = below
+      key%above = present(above)
+      key%below = present(below)
+      if (present(most_values)) key%most_values = most_values
+   end function real_key
+
+   !> A key whose value is an integer from least to most.
+   pure function integer_key(name, default, meaning, least, most) result(key)
+      character(*), intent(in) :: name, default, meaning
+      integer, intent(in) :: least, most
+      type(key_type) :: key
+
+      key%name = name
+      key%kind = integer_value
+      key%default = default
+      key%meaning = meaning
+      key%least = real(least, dp)
+      key%most = real(most, dp)
+   end function integer_key
+
+   pure function logical_key(name, default, meaning) result(key)
+      character(*), intent(in) :: name, default, meaning
+      type(key_type) :: key
+
+      key%name = name
+      key%kind = logical_value
+      key%default = default
+      key%meaning = meaning
+   end function logical_key
+
+   pure function text_key(name, default, meaning, longest, may_be_blank) result(key)
+      character(*), intent(in) :: name, default, meaning
+      integer, intent(in) :: longest
+      logical, intent(in), optional :: may_be_blank
+      type(key_type) :: key
+
+      key%name = name
+      key%kind = text_value
+      key%default = default
+      key%meaning = meaning
+      key%longest = longest
+      if (present(may_be_blank)) key%may_be_blank = may_be_blank
+   end function text_key
+
+   !> A key whose value is one of a few words.
+   pure function choice_key(name, default, meaning, choices, required) result(key)
+      character(*), intent(in) :: name, default, meaning
+      character(*), intent(in) :: choices(:)  !! at most `most_choices`
+      logical, intent(in), optional :: required
+      type(key_type) :: key
+
+      key%name = name
+      key%kind = choice_value
+      key%default = default
+      key%meaning = meaning
+      key%number_of_choices = size(choices)
+      key%choices(:size(choices)) = choices
+      if (present(required)) key%required = required
+   end function choice_key
+
+   !> The number of a key in a table; 0 if it is not there.
+   pure integer function key_index(keys, name)
+      type(key_type), intent(in) :: keys(:)
+      character(*), intent(in) :: name
+
+      key_index = findloc(keys%name == name, .true., dim=1)
+   end function key_index
+
+   pure function key_names(keys) result(names)
+      type(key_type), intent(in) :: keys(:)
+      character(name_length) :: names(size(keys))
+
+      names = keys%name
+   end function key_names
+
+   pure function group_names(groups) result(names)
+      type(key_group_type), intent(in) :: groups(:)
+      character(name_length) :: names(size(groups))
+
+      names = groups%name
+   end function group_names
+
+   !> What the values of a key may be, in words that follow "must be".
+   pure function allowed_values(key) result(words)
+      type(key_type), intent(in) :: key
+      character(:), allocatable :: words
+
+      integer :: i
+
+      select case (key%kind)
+      case (real_value)
+         words = 'a number'
+         if (key%most_values > 1) words = 'up to '//integer_text(key%most_values)//' numbers'
+         words = words//bounds(key)
+      case (integer_value)
+         words = 'an integer from '//integer_text(nint(key%least))//' to '//integer_text(nint(key%most))
+      case (logical_value)
+         words = '.true. or .false.'
+      case (text_value)
+         words = 'text in quotes, at most '//integer_text(key%longest)//' bytes'
+      case (choice_value)
+         words = "'"//trim(key%choices(1))//"'"
+         do i = 2, key%number_of_choices
+            if (i < key%number_of_choices) words = words//','
+            if (i == key%number_of_choices) words = words//' or'
+            words = words//" '"//trim(key%choices(i))//"'"
+         end do
+      end select
+   end function allowed_values
+
+   !> The bounds of a number, with a blank before them; nothing where there are none.
+   pure function bounds(key) result(words)
+      type(key_type), intent(in) :: key
+      character(:), allocatable :: words
+
+      words = ''
+      if (key%least > -largest_number) words = merge(' > ', ' >=', key%above)
+      if (key%least > -largest_number) words = trim(words)//' '//number_text(key%least)
+      if (key%most < largest_number) then
+         if (len(words) > 0) words = words//' and'
+         words = words//trim(merge(' < ', ' <=', key%below))//' '//number_text(key%most)
+      end if
+   end function bounds
+
+   !> A bound in short; up to three digits after the point.
+   pure function number_text(number) result(text)
+      real(dp), intent(in) :: number
+      character(:), allocatable :: text
+
+      real(dp), parameter :: shortest_with_exponent = 1.0e5_dp
+      character(16) :: buffer
+      integer :: last
+
+      if (abs(number) >= shortest_with_exponent) then
+         write (buffer, '(es8.0e1)') number
+         text = trim(adjustl(buffer))
+         text = text(:index(text, '.') - 1)//'e'//text(index(text, 'E') + 2:)
+         return
+      end if
+      write (buffer, '(f0.3)') number
+      if (abs(number) < 1) write (buffer, '(f6.3)') number
+      text = trim(adjustl(buffer))
+      last = verify(text, '0', back=.true.)
+      if (text(last:last) == '.') last = last - 1
+      text = text(:last)
+   end function number_text
+
+end module wavycon_key_table

@@ -1,0 +1,115 @@
+!> The &method group: how the contact is computed.
+module wavycon_method_group
+   use wavycon_deck_writer, only: deck_writer_type
+   use wavycon_group_input, only: group_input_type
+   use wavycon_key_table, only: choice_key, integer_key, key_group, key_group_type, real_key
+   use wavycon_kinds, only: dp
+   use wavycon_plain_text, only: integer_text
+   use wavycon_problems, only: problem_list_type
+   implicit none (type, external)
+   private
+
+   public :: method_group_type, method_table, read_method_group, write_method_group
+
+   !> What &method says. The two counts are 0 until the surface's dimension settles their defaults.
+   type :: method_group_type
+      character(12) :: solver = 'beale'    !! 'beale'
+      integer :: harmonics = 0             !! n, highest harmonic of the pressure, in each direction
+      integer :: constraint_points = 0     !! points on 0..pi, ends included, in each direction
+      character(12) :: symmetry = 'full'   !! 'full', 'diagonal' or 'none'; of no meaning in 1-D
+      real(dp) :: edge_level = 0.1_dp      !! the isobar taken as the edge of contact [p*]
+   end type method_group_type
+
+   !> The paper's numbers, for 1-D and 2-D waves.
+   integer, parameter :: default_harmonics(2) = [10, 9], default_constraint_points(2) = [26, 27]
+
+   !> Bounds of the time and memory that a slip of the hand can cost, for 1-D and 2-D waves.
+   integer, parameter :: most_harmonics = 60, most_constraint_points(2) = [6001, 601]
+
+contains
+
+   function method_table() result(table)
+      type(key_group_type) :: table
+
+      table = key_group('method', 'how the contact is computed', [ &
+         choice_key('solver', "'beale'", "'beale': Beale's method of quadratic programming.", ['beale']), &
+         integer_key('harmonics', '9 (2-D), 10 (1-D)', &
+            'Highest harmonic of the pressure, in each direction.', 1, most_harmonics), &
+         integer_key('constraint_points', '27 (2-D), 26 (1-D)', &
+            'Equally spaced points on half a wavelength, ends included, in each direction, at which the '// &
+            'pressure is kept from being negative. More than harmonics; at most 601 in 2-D.', &
+            2, maxval(most_constraint_points)), &
+         choice_key('symmetry', "'full'", &
+            "Of the pressure, 2-D only. 'full': alike in x and y and at both crests (29 unknowns, 196 "// &
+            "points by default); 'diagonal': at both crests (49, 378); 'none' (99, 729).", &
+            ['full    ', 'diagonal', 'none    ']), &
+         real_key('edge_level', '0.1', 'p*', 'The isobar that is taken as the edge of contact.', &
+            above=0.0_dp, below=1.0_dp)])
+   end function method_table
+
+   subroutine read_method_group(input, dimension, group, problems)
+      type(group_input_type), intent(in) :: input
+      integer, intent(in) :: dimension  !! of the surface, 1 or 2; 0 if that is not known
+      type(method_group_type), intent(out) :: group
+      type(problem_list_type), intent(inout) :: problems
+
+      character(len(group%solver)) :: solver
+      character(len(group%symmetry)) :: symmetry
+      integer :: constraint_points, harmonics, status
+      real(dp) :: edge_level
+      character(200) :: message
+      namelist /method/ solver, harmonics, constraint_points, symmetry, edge_level
+
+      solver = group%solver
+      symmetry = group%symmetry
+      edge_level = group%edge_level
+      harmonics = group%harmonics
+      constraint_points = group%constraint_points
+      if (dimension > 0) then
+         harmonics = default_harmonics(dimension)
+         constraint_points = default_constraint_points(dimension)
+      end if
+      read (input%record, nml=method, iostat=status, iomsg=message)
+      if (status /= 0) call problems%add(input%place, trim(message))
+      group = method_group_type(solver, harmonics, constraint_points, symmetry, edge_level)
+
+      if (dimension == 0) return
+      if (dimension == 1 .and. input%has('symmetry')) call problems%add(input%place_of('symmetry'), &
+         "symmetry means nothing for kind = 'wave_1d': leave it out")
+      if (input%is_bad('harmonics') .or. input%is_bad('constraint_points')) return
+      if (constraint_points > most_constraint_points(dimension)) &
+         call problems%add(input%place_of('constraint_points'), 'constraint_points must be at most '// &
+            integer_text(most_constraint_points(dimension))//' in '//integer_text(dimension)//'-D, got '// &
+            integer_text(constraint_points))
+      if (constraint_points <= harmonics) &
+         call problems%add(max(input%place_of('harmonics'), input%place_of('constraint_points')), &
+            'constraint_points must be more than harmonics, got '//integer_text(constraint_points)// &
+            by_default('constraint_points')//' and '//integer_text(harmonics)//by_default('harmonics'))
+
+   contains
+
+      function by_default(key) result(words)
+         character(*), intent(in) :: key
+         character(:), allocatable :: words
+
+         words = ''
+         if (.not. input%has(key)) words = ' (the default)'
+      end function by_default
+
+   end subroutine read_method_group
+
+   subroutine write_method_group(group, dimension, writer)
+      type(method_group_type), intent(in) :: group
+      integer, intent(in) :: dimension  !! of the surface, 1 or 2
+      type(deck_writer_type), intent(inout) :: writer
+
+      call writer%open_group(method_table())
+      call writer%put('solver', group%solver)
+      call writer%put('harmonics', group%harmonics)
+      call writer%put('constraint_points', group%constraint_points)
+      if (dimension == 2) call writer%put('symmetry', group%symmetry)
+      call writer%put('edge_level', group%edge_level)
+      call writer%close_group()
+   end subroutine write_method_group
+
+end module wavycon_method_group

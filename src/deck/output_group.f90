@@ -1,0 +1,83 @@
+!> The &output group: which files are written, and where.
+module wavycon_output_group
+   use wavycon_deck_writer, only: deck_writer_type
+   use wavycon_group_input, only: group_input_type
+   use wavycon_key_table, only: integer_key, key_group, key_group_type, logical_key, text_key
+   use wavycon_problems, only: problem_list_type
+   implicit none (type, external)
+   private
+
+   public :: output_group_type, output_table, read_output_group, write_output_group
+
+   !> More than the longest name of a case: the default must fit.
+   integer, parameter :: longest_directory = 250
+
+   !> What &output says.
+   type :: output_group_type
+      character(longest_directory) :: directory = ''   !! where results go; never empty in a deck read
+      logical :: lines = .false.                       !! pressures and gaps along lines
+      logical :: map = .false.                         !! pressures and gaps over the cell
+      logical :: contours = .false.                    !! the edge of contact as closed curves
+      logical :: coefficients = .false.                !! the Fourier coefficients of the pressure
+      logical :: theory = .false.                      !! the closed forms beside the numbers
+      integer :: points_per_wavelength = 128           !! of lines and maps
+   end type output_group_type
+
+contains
+
+   function output_table() result(table)
+      type(key_group_type) :: table
+
+      table = key_group('output', 'which files are written, and where', [ &
+         text_key('directory', "'outputs/<case>'", &
+            'Where the results go, relative to where the program is started; made if it is not there.', &
+            longest_directory), &
+         logical_key('lines', '.false.', 'Pressures and gaps along lines.'), &
+         logical_key('map', '.false.', 'Pressures and gaps over the whole cell.'), &
+         logical_key('contours', '.false.', 'The edge of contact as closed curves.'), &
+         logical_key('coefficients', '.false.', 'The Fourier coefficients of the pressure.'), &
+         logical_key('theory', '.false.', 'The closed forms beside the numbers.'), &
+         integer_key('points_per_wavelength', '128', 'Points of lines and maps.', 8, 4096)])
+   end function output_table
+
+   !> Reads the group; a directory that is not given takes its name from the case.
+   subroutine read_output_group(input, case, group, problems)
+      type(group_input_type), intent(in) :: input
+      character(*), intent(in) :: case
+      type(output_group_type), intent(out) :: group
+      type(problem_list_type), intent(inout) :: problems
+
+      character(len(group%directory)) :: directory
+      logical :: coefficients, contours, lines, map, theory
+      integer :: points_per_wavelength, status
+      character(200) :: message
+      namelist /output/ directory, lines, map, contours, coefficients, theory, points_per_wavelength
+
+      directory = 'outputs/'//case
+      lines = group%lines
+      map = group%map
+      contours = group%contours
+      coefficients = group%coefficients
+      theory = group%theory
+      points_per_wavelength = group%points_per_wavelength
+      read (input%record, nml=output, iostat=status, iomsg=message)
+      if (status /= 0) call problems%add(input%place, trim(message))
+      group = output_group_type(directory, lines, map, contours, coefficients, theory, points_per_wavelength)
+   end subroutine read_output_group
+
+   subroutine write_output_group(group, writer)
+      type(output_group_type), intent(in) :: group
+      type(deck_writer_type), intent(inout) :: writer
+
+      call writer%open_group(output_table())
+      call writer%put('directory', group%directory)
+      call writer%put('lines', group%lines)
+      call writer%put('map', group%map)
+      call writer%put('contours', group%contours)
+      call writer%put('coefficients', group%coefficients)
+      call writer%put('theory', group%theory)
+      call writer%put('points_per_wavelength', group%points_per_wavelength)
+      call writer%close_group()
+   end subroutine write_output_group
+
+end module wavycon_output_group

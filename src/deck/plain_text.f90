@@ -1,0 +1,197 @@
+!> Text for people: lower case, numbers, quotes, and what to do with bytes that no terminal should see.
+module wavycon_plain_text
+   implicit none (type, external)
+   private
+
+   public :: lower_case, integer_text, quoted, unquoted, is_printable, escaped, excerpt, character_count
+   public :: is_continuation
+
+   character(*), parameter, public :: newline = achar(10)
+
+   character(*), parameter :: hexadecimal = '0123456789ABCDEF'
+
+contains
+
+   !> The text with A-Z made small.
+   pure function lower_case(text) result(lower)
+      character(*), intent(in) :: text
+      character(:), allocatable :: lower
+
+      integer :: i
+
+      lower = text
+      do i = 1, len(text)
+         if (text(i:i) >= 'A' .and. text(i:i) <= 'Z') lower(i:i) = achar(iachar(text(i:i)) + 32)
+      end do
+   end function lower_case
+
+   !> An integer without blanks around it.
+   pure function integer_text(number) result(text)
+      integer, intent(in) :: number
+      character(:), allocatable :: text
+
+      character(12) :: buffer
+
+      write (buffer, '(i0)') number
+      text = trim(buffer)
+   end function integer_text
+
+   !> The text as a Fortran character constant.
+   pure function quoted(text) result(constant)
+      character(*), intent(in) :: text
+      character(:), allocatable :: constant
+
+      integer :: i
+
+      constant = "'"
+      do i = 1, len(text)
+         constant = constant//text(i:i)
+         if (text(i:i) == "'") constant = constant//"'"
+      end do
+      constant = constant//"'"
+   end function quoted
+
+   !> The text that a Fortran character constant, in quotes of either kind, stands for.
+   pure function unquoted(constant) result(text)
+      character(*), intent(in) :: constant  !! well formed: the same quote at both ends, doubled inside
+      character(:), allocatable :: text
+
+      character(:), allocatable :: buffer
+      integer :: i, length
+
+      allocate (character(len(constant)) :: buffer)
+      length = 0
+      i = 2
+      do while (i < len(constant))
+         length = length + 1
+         buffer(length:length) = constant(i:i)
+         i = i + merge(2, 1, constant(i:i) == constant(1:1))
+      end do
+      text = buffer(:length)
+   end function unquoted
+
+   !> Bytes of the printable character, ASCII or UTF-8, that starts at a place; 0 if none does.
+   pure integer function printable_length(text, place) result(length)
+      character(*), intent(in) :: text
+      integer, intent(in) :: place
+
+      integer :: code, i
+
+      length = 0
+      code = iachar(text(place:place))
+      select case (code)
+      case (32:126)
+         length = 1
+         return
+      case (194:223)
+         length = 2
+      case (224:239)
+         length = 3
+      case (240:244)
+         length = 4
+      case default
+         return
+      end select
+      if (place + length - 1 > len(text)) then
+         length = 0
+         return
+      end if
+      do i = place + 1, place + length - 1
+         if (.not. is_continuation(text(i:i))) then
+            length = 0
+            return
+         end if
+      end do
+      ! U+0080 to U+009F are control characters, U+00A0 is a blank that is not one.
+      if (code == 194) then
+         if (iachar(text(place + 1:place + 1)) <= 160) length = 0
+      end if
+   end function printable_length
+
+   !> Whether a byte goes on with a UTF-8 character that an earlier one began.
+   elemental logical function is_continuation(byte)
+      character(1), intent(in) :: byte
+
+      is_continuation = iachar(byte) >= 128 .and. iachar(byte) < 192
+   end function is_continuation
+
+   !> Whether a text is ASCII or UTF-8 with no control characters.
+   pure logical function is_printable(text)
+      character(*), intent(in) :: text
+
+      integer :: length, place
+
+      is_printable = .false.
+      place = 1
+      do while (place <= len(text))
+         length = printable_length(text, place)
+         if (length == 0) return
+         place = place + length
+      end do
+      is_printable = .true.
+   end function is_printable
+
+   !> The text with tabs as blanks and other bytes that do not print as \xNN.
+   pure function escaped(text) result(clean)
+      character(*), intent(in) :: text
+      character(:), allocatable :: clean
+
+      character(:), allocatable :: buffer
+      integer :: code, length, place, used
+
+      allocate (character(4*len(text)) :: buffer)
+      used = 0
+      place = 1
+      do while (place <= len(text))
+         length = printable_length(text, place)
+         code = iachar(text(place:place))
+         if (length > 0) then
+            buffer(used + 1:used + length) = text(place:place + length - 1)
+            used = used + length
+            place = place + length
+         else if (code == 9) then
+            used = used + 1
+            buffer(used:used) = ' '
+            place = place + 1
+         else
+            buffer(used + 1:used + 4) = '\x'//hexadecimal(code/16 + 1:code/16 + 1)// &
+               hexadecimal(mod(code, 16) + 1:mod(code, 16) + 1)
+            used = used + 4
+            place = place + 1
+         end if
+      end do
+      clean = buffer(:used)
+   end function escaped
+
+   !> A word to name in a message: escaped, and cut if it is long.
+   pure function excerpt(text) result(short)
+      character(*), intent(in) :: text
+      character(:), allocatable :: short
+
+      integer, parameter :: longest = 40
+      integer :: last
+
+      if (len(text) <= longest) then
+         short = escaped(text)
+         return
+      end if
+      last = longest
+      do while (is_continuation(text(last + 1:last + 1)) .and. last > longest - 4)
+         last = last - 1
+      end do
+      short = escaped(text(:last))//'...'
+   end function excerpt
+
+   !> Number of characters of a UTF-8 text.
+   pure integer function character_count(text)
+      character(*), intent(in) :: text
+
+      integer :: i
+
+      character_count = 0
+      do i = 1, len(text)
+         if (.not. is_continuation(text(i:i))) character_count = character_count + 1
+      end do
+   end function character_count
+
+end module wavycon_plain_text
