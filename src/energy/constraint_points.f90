@@ -4,8 +4,8 @@
 !> N = 27 gives the counts of Johnson, Greenwood & Higginson (1985): 729 points, 378 in the triangle
 !> phi + theta <= pi, 196 in the triangle phi <= theta <= pi - phi between the crest, the trough and the saddle.
 module wavycon_constraint_points
-   use wavycon_constants, only: pi
-   use wavycon_fourier_terms, only: fourier_terms, symmetry_diagonal, symmetry_full
+   use wavycon_cosine_series, only: cosine_table
+   use wavycon_fourier_terms, only: fourier_terms, symmetry_full, symmetry_none
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
@@ -21,31 +21,22 @@ contains
       integer, intent(in) :: symmetry                 !! as the terms'; no matter in 1-D
       integer, allocatable, intent(out) :: k(:), l(:) !! in 0 .. N-1; l = 0 in 1-D
 
-      integer :: p, q, last, passes, count
+      integer :: all_k(points_per_side**dimension), all_l(points_per_side**dimension)
+      integer :: p, q, last, count
 
       last = points_per_side - 1
-      do passes = 1, 2
-         count = 0
-         do q = 0, merge(last, 0, dimension == 2)
-            do p = 0, last
-               if (dimension == 2) then
-                  if (symmetry /= symmetry_diagonal .and. symmetry /= symmetry_full) then
-                     continue
-                  else if (p + q > last) then
-                     cycle
-                  else if (symmetry == symmetry_full .and. p > q) then
-                     cycle
-                  end if
-               end if
-               count = count + 1
-               if (passes == 2) then
-                  k(count) = p
-                  l(count) = q
-               end if
-            end do
+      count = 0
+      do q = 0, merge(last, 0, dimension == 2)
+         do p = 0, last
+            if (dimension == 2 .and. symmetry /= symmetry_none .and. p + q > last) cycle
+            if (dimension == 2 .and. symmetry == symmetry_full .and. p > q) cycle
+            count = count + 1
+            all_k(count) = p
+            all_l(count) = q
          end do
-         if (passes == 1) allocate (k(count), l(count))
       end do
+      allocate (k, source=all_k(:count))
+      allocate (l, source=all_l(:count))
    end subroutine choose_points
 
    !> The terms' values at the points: the constraint matrix of eqs. (18), (27), transposed.
@@ -55,40 +46,19 @@ contains
       integer, intent(in) :: k(:), l(:)               !! points, shape (m)
       real(dp), allocatable :: values(:, :)           !! shape (terms%count(), m)
 
-      real(dp) :: cosine(0:terms%harmonics, 0:points_per_side - 1)
+      real(dp) :: cosine(0:points_per_side - 1, 0:terms%harmonics)
       integer :: i, j, p, t
 
-      do p = 0, points_per_side - 1
-         do i = 0, terms%harmonics
-            ! The angle is reduced in whole numbers: cos is then as exact at i = 60 as at 1, and symmetric.
-            cosine(i, p) = cosine_of_part(mod(i*p, 2*(points_per_side - 1)), points_per_side - 1)
-         end do
-      end do
+      cosine = cosine_table(points_per_side - 1, terms%harmonics)
       allocate (values(terms%count(), size(k)))
       do p = 1, size(k)
          do t = 1, terms%count()
             i = terms%i(t)
             j = terms%j(t)
-            values(t, p) = cosine(i, k(p))*cosine(j, l(p))
-            if (terms%paired(t)) values(t, p) = values(t, p) + cosine(j, k(p))*cosine(i, l(p))
+            values(t, p) = cosine(k(p), i)*cosine(l(p), j)
+            if (terms%paired(t)) values(t, p) = values(t, p) + cosine(k(p), j)*cosine(l(p), i)
          end do
       end do
    end function term_values
-
-   !> cos(pi a/b), 0 <= a < 2b, with the symmetries of the cosine kept to the last bit.
-   pure real(dp) function cosine_of_part(a, b) result(c)
-      integer, intent(in) :: a, b
-
-      integer :: q
-
-      q = min(a, 2*b - a)
-      if (2*q == b) then
-         c = 0.0_dp
-      else if (2*q < b) then
-         c = cos(pi*q/b)
-      else
-         c = -cos(pi*(b - q)/b)
-      end if
-   end function cosine_of_part
 
 end module wavycon_constraint_points

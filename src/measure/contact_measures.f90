@@ -1,0 +1,104 @@
+!> The numbers of the summary: from an answer's series to gap, area and pressures.
+module wavycon_contact_measures
+   use wavycon_constants, only: pi
+   use wavycon_contact_state, only: contact_state, full_contact, no_load
+   use wavycon_cosine_series, only: cosine_series
+   use wavycon_isobar_cell, only: isobar_grid, start_isobar_grid
+   use wavycon_kinds, only: dp
+   use wavycon_line_zeros, only: line_zeros
+   implicit none (type, external)
+   private
+
+   public :: contact_measures, measure_contact, measuring_intervals
+
+   type :: contact_measures
+      real(dp) :: mean_gap_over_amplitude = 1.0_dp       !! G: eqs. (19), (28)
+      real(dp) :: approach_over_amplitude = 0.0_dp       !! of the mean planes, delta'/Delta = 1 - G
+      real(dp) :: contact_area_fraction = 0.0_dp         !! of the area where p >= edge_level p*, to the nominal area
+      real(dp) :: peak_pressure_over_pstar = 0.0_dp      !! largest
+      real(dp) :: min_pressure_over_pstar = 0.0_dp       !! smallest; negative between constraint points
+   end type contact_measures
+
+   !> Grid intervals on half a wavelength for areas and extremes, per harmonic and at least.
+   integer, parameter :: intervals_per_harmonic = 8, least_intervals = 64
+
+contains
+
+   !> Intervals on half a wavelength on which a series of n harmonics is measured.
+   elemental integer function measuring_intervals(harmonics)
+      integer, intent(in) :: harmonics   !! n >= 1
+
+      measuring_intervals = max(least_intervals, intervals_per_harmonic*harmonics)
+   end function measuring_intervals
+
+   !> Measures a state. Without load and in full contact the closed forms hold and nothing is evaluated.
+   subroutine measure_contact(state, pressure, displacement, edge_level, measures)
+      type(contact_state), intent(in) :: state
+      type(cosine_series), intent(in) :: pressure       !! p/p*
+      type(cosine_series), intent(in) :: displacement   !! (u - ubar)/Delta
+      real(dp), intent(in) :: edge_level                !! isobar taken as the edge of contact, over p*
+      type(contact_measures), intent(out) :: measures
+
+      if (state%status == no_load) return
+      if (state%status == full_contact) then
+         measures = contact_measures(mean_gap_over_amplitude=0.0_dp, approach_over_amplitude=1.0_dp, &
+                                     contact_area_fraction=1.0_dp, &
+                                     peak_pressure_over_pstar=state%pbar_over_pstar + 1.0_dp, &
+                                     min_pressure_over_pstar=state%pbar_over_pstar - 1.0_dp)
+         return
+      end if
+
+      ! The crest, phi = theta = 0, is in contact: it approaches by its own displacement.
+      measures%approach_over_amplitude = sum(displacement%c)
+      measures%mean_gap_over_amplitude = 1.0_dp - measures%approach_over_amplitude
+      if (size(pressure%c, 2) == 1) then
+         call measure_line(pressure, edge_level, measures)
+      else
+         call measure_plane(pressure, edge_level, measures)
+      end if
+   end subroutine measure_contact
+
+   subroutine measure_plane(pressure, edge_level, measures)
+      type(cosine_series), intent(in) :: pressure
+      real(dp), intent(in) :: edge_level
+      type(contact_measures), intent(inout) :: measures
+
+      type(isobar_grid) :: grid
+
+      call start_isobar_grid(grid, pressure, edge_level, measuring_intervals(ubound(pressure%c, 1)))
+      measures%contact_area_fraction = grid%area_fraction()
+      measures%peak_pressure_over_pstar = maxval(grid%pressure) + edge_level
+      measures%min_pressure_over_pstar = minval(grid%pressure) + edge_level
+   end subroutine measure_plane
+
+   subroutine measure_line(pressure, edge_level, measures)
+      type(cosine_series), intent(in) :: pressure
+      real(dp), intent(in) :: edge_level
+      type(contact_measures), intent(inout) :: measures
+
+      real(dp), allocatable :: edges(:), values(:, :)
+      real(dp) :: line(0:ubound(pressure%c, 1)), area, from
+      logical :: inside
+      integer :: i, intervals
+
+      intervals = measuring_intervals(ubound(pressure%c, 1))
+      allocate (values, source=pressure%on_grid(intervals))
+      measures%peak_pressure_over_pstar = maxval(values)
+      measures%min_pressure_over_pstar = minval(values)
+
+      line = pressure%c(:, 0)
+      line(0) = line(0) - edge_level
+      call line_zeros(line, intervals, edges)
+      inside = values(0, 0) >= edge_level
+      area = 0.0_dp
+      from = 0.0_dp
+      do i = 1, size(edges)
+         if (inside) area = area + edges(i) - from
+         from = edges(i)
+         inside = .not. inside
+      end do
+      if (inside) area = area + pi - from
+      measures%contact_area_fraction = area/pi
+   end subroutine measure_line
+
+end module wavycon_contact_measures
