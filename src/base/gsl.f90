@@ -8,6 +8,7 @@ module wavycon_gsl
    private
 
    public :: gsl_function
+   public :: gsl_sort_index
    public :: gsl_sf_legendre_pl_array, gsl_sf_zeta, gsl_sf_hzeta
    public :: gsl_integration_workspace_alloc, gsl_integration_workspace_free
    public :: gsl_integration_qaws_table_alloc, gsl_integration_qaws_table_free, gsl_integration_qaws
@@ -87,6 +88,14 @@ module wavycon_gsl
       type(c_funptr) function gsl_set_error_handler_off() bind(c, name='gsl_set_error_handler_off')
          import :: c_funptr
       end function gsl_set_error_handler_off
+
+      !> The order that would sort `n` numbers: `places` counts from 0.
+      pure subroutine gsl_sort_index(places, values, stride, n) bind(c, name='gsl_sort_index')
+         import :: c_double, c_size_t
+         integer(c_size_t), intent(out) :: places(*)
+         real(c_double), intent(in) :: values(*)
+         integer(c_size_t), value :: stride, n
+      end subroutine gsl_sort_index
    end interface
 
 end module wavycon_gsl

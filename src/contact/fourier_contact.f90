@@ -90,7 +90,7 @@ contains
       class(fourier_contact), intent(in) :: self
       type(contact_state), intent(in) :: state
 
-      allocate (pressure%c, source=self%terms%coefficients(state%x))
+      call self%terms%coefficients(state%x, pressure%c)
       pressure%c(0, 0) = state%pbar_over_pstar
    end function pressure
 
@@ -101,8 +101,7 @@ contains
 
       integer :: k
 
-      allocate (displacement%c, source=self%terms%coefficients( &
-                [(self%terms%compliance(k)*state%x(k), k=1, self%terms%count())]))
+      call self%terms%coefficients([(self%terms%compliance(k)*state%x(k), k=1, self%terms%count())], displacement%c)
    end function displacement
 
 end module wavycon_fourier_contact

@@ -19,7 +19,7 @@ module wavycon_load_group
    end type load_group_type
 
    !> Contact is complete at 1; a load beyond this is a slip, most likely of units.
-   real(dp), parameter :: largest_pbar_over_pstar = 1.0e6_dp
+   real(dp), parameter, public :: largest_pbar_over_pstar = 1.0e6_dp
 
    integer, parameter :: most_loads = 100000
 

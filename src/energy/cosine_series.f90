@@ -13,7 +13,7 @@ module wavycon_cosine_series
       real(dp), allocatable :: c(:, :)   !! c(i, j), shape (0:n, 0:n) or (0:n, 0:0)
    contains
       procedure :: at
-      procedure :: on_grid
+      procedure :: evaluate_on_grid
    end type cosine_series
 
 contains
@@ -32,10 +32,10 @@ contains
    end function at
 
    !> The field at phi = pi k/N, theta = pi l/N, k, l = 0..N (l = 0 alone in 1-D).
-   pure function on_grid(self, intervals) result(values)
+   pure subroutine evaluate_on_grid(self, intervals, values)
       class(cosine_series), intent(in) :: self
-      integer, intent(in) :: intervals        !! N >= 1
-      real(dp), allocatable :: values(:, :)   !! shape (0:N, 0:N) or (0:N, 0:0)
+      integer, intent(in) :: intervals                     !! N >= 1
+      real(dp), allocatable, intent(out) :: values(:, :)   !! shape (0:N, 0:N) or (0:N, 0:0)
 
       real(dp) :: along_phi(0:intervals, 0:ubound(self%c, 1)), half_way(0:intervals, 0:ubound(self%c, 2))
       real(dp) :: along_theta(0:intervals, 0:ubound(self%c, 2))
@@ -51,7 +51,7 @@ contains
                  0.0_dp, half_way, intervals + 1)
       call dgemm('N', 'T', intervals + 1, last + 1, m + 1, 1.0_dp, half_way, intervals + 1, &
                  along_theta, intervals + 1, 0.0_dp, values, intervals + 1)
-   end function on_grid
+   end subroutine evaluate_on_grid
 
    !> cos(i pi k/N), k = 0..N, i = 0..n. The angle is reduced in whole numbers, so that the symmetries of the cosine hold
    !> to the last bit and high harmonics are as exact as low ones.

@@ -100,10 +100,10 @@ contains
    end function fundamental
 
    !> A_ij of all i, j = 0..n (j = 0 alone in 1-D), from the values of the terms.
-   pure function coefficients(self, values) result(a)
+   pure subroutine coefficients(self, values, a)
       class(fourier_terms), intent(in) :: self
-      real(dp), intent(in) :: values(:)        !! shape (count)
-      real(dp), allocatable :: a(:, :)         !! a(i, j), shape (0:n, 0:n) in 2-D, (0:n, 0:0) in 1-D
+      real(dp), intent(in) :: values(:)                  !! shape (count)
+      real(dp), allocatable, intent(out) :: a(:, :)      !! a(i, j), shape (0:n, 0:n) in 2-D, (0:n, 0:0) in 1-D
 
       integer :: k
 
@@ -112,6 +112,6 @@ contains
          a(self%i(k), self%j(k)) = values(k)
          if (self%paired(k)) a(self%j(k), self%i(k)) = values(k)
       end do
-   end function coefficients
+   end subroutine coefficients
 
 end module wavycon_fourier_terms

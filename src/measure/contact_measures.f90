@@ -82,7 +82,7 @@ contains
       integer :: i, intervals
 
       intervals = measuring_intervals(ubound(pressure%c, 1))
-      allocate (values, source=pressure%on_grid(intervals))
+      call pressure%evaluate_on_grid(intervals, values)
       measures%peak_pressure_over_pstar = maxval(values)
       measures%min_pressure_over_pstar = minval(values)
 

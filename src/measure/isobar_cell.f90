@@ -50,7 +50,7 @@ contains
 
       n = ubound(pressure%c, 1)
       grid%intervals = intervals
-      allocate (grid%pressure, source=pressure%on_grid(intervals))
+      call pressure%evaluate_on_grid(intervals, grid%pressure)
       grid%pressure = grid%pressure - level
       cosines = cosine_table(intervals, n)
       do i = 0, n

@@ -19,7 +19,7 @@ module wavycon_surface
       procedure :: full_contact_pressure
       procedure :: undeformed_gap_over_amplitude
       procedure :: cell_side
-      procedure :: angles_at
+      procedure :: point_at
    end type surface_type
 
 contains
@@ -80,19 +80,19 @@ contains
       if (self%turned) cell_side = self%wavelength/sqrt2
    end function cell_side
 
-   !> phi and theta of a point in the user's axes.
-   elemental subroutine angles_at(self, x, y, phi, theta)
+   !> A point in the user's axes.
+   elemental subroutine point_at(self, phi, theta, x, y)
       class(surface_type), intent(in) :: self
-      real(dp), intent(in) :: x, y            !! [length]
-      real(dp), intent(out) :: phi, theta     !! [rad]
+      real(dp), intent(in) :: phi, theta   !! [rad]
+      real(dp), intent(out) :: x, y        !! [length]
 
       if (self%turned) then
-         phi = sqrt2*pi*(x + y)/self%wavelength
-         theta = sqrt2*pi*(x - y)/self%wavelength
+         x = self%cell_side()*(phi + theta)/(2*pi)
+         y = self%cell_side()*(phi - theta)/(2*pi)
       else
-         phi = 2*pi*x/self%wavelength
-         theta = 2*pi*y/self%wavelength
+         x = self%wavelength*phi/(2*pi)
+         y = self%wavelength*theta/(2*pi)
       end if
-   end subroutine angles_at
+   end subroutine point_at
 
 end module wavycon_surface

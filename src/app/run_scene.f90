@@ -1,0 +1,151 @@
+!> A deck from beginning to end: scene, answers, measures, tables.
+module wavycon_run_scene
+   use, intrinsic :: iso_c_binding, only: c_size_t
+   use wavycon_coefficients_table, only: write_coefficients_table
+   use wavycon_contact_measures, only: measure_contact
+   use wavycon_contact_state, only: contact_state
+   use wavycon_contour_table, only: write_contour_table
+   use wavycon_deck, only: deck_type
+   use wavycon_error, only: error_type, exit_file_trouble, exit_fine, exit_not_converged, fatal_error
+   use wavycon_gsl, only: gsl_sort_index
+   use wavycon_kinds, only: dp
+   use wavycon_lines_table, only: write_lines_table
+   use wavycon_map_table, only: write_map_table
+   use wavycon_output_file, only: output_file
+   use wavycon_plain_text, only: escaped, integer_text
+   use wavycon_resolved_deck, only: write_resolved_deck
+   use wavycon_results, only: results_type
+   use wavycon_run_log, only: run_log
+   use wavycon_scene, only: make_scene
+   use wavycon_summary_table, only: write_summary_table
+   use wavycon_system, only: make_directories
+   use wavycon_theory_table, only: write_theory_table
+   implicit none (type, external)
+   private
+
+   public :: run_scene
+
+   abstract interface
+      subroutine table_writer(results, error)
+         import :: error_type, results_type
+         type(results_type), intent(in) :: results
+         type(error_type), allocatable, intent(out) :: error
+      end subroutine table_writer
+   end interface
+
+contains
+
+   !> Runs a deck. Errors: exit_bad_input, exit_file_trouble.
+   subroutine run_scene(deck, quiet, status, error)
+      type(deck_type), intent(in) :: deck
+      logical, intent(in) :: quiet
+      integer, intent(out) :: status   !! exit_fine or exit_not_converged
+      type(error_type), allocatable, intent(out) :: error
+
+      type(results_type) :: results
+      type(run_log) :: log
+      integer :: bad
+
+      status = exit_fine
+      call log%start(quiet)
+      results%deck = deck
+      results%directory = trim(deck%output%directory)
+      call make_scene(deck, results%scene, error)
+      if (allocated(error)) return
+      call results%contact%start(results%scene%surface%dimension, deck%method%harmonics, &
+                                 deck%method%constraint_points, results%scene%symmetry)
+      call log%show_scene(results)
+      call prepare_directory(results, error)
+      if (allocated(error)) return
+
+      call solve_loads(results, log)
+      call log%say_timed('solved and measured')
+      call log%show_loads(results)
+
+      call write_tables(results, error)
+      if (allocated(error)) return
+      bad = count(.not. results%states%is_good())
+      if (bad > 0) status = exit_not_converged
+      call log%say_timed('tables written')
+      call log%say('results: '//escaped(results%directory)//'/'//trim(deck%scene%case)//'.summary.dat')
+      if (bad == 0) then
+         call log%say(trim(deck%scene%case)//': all '//integer_text(size(results%states))//' loads solved')
+      else
+         call log%say(trim(deck%scene%case)//': '//integer_text(bad)//' of '//integer_text(size(results%states))// &
+                      ' loads NOT solved, see the status column')
+      end if
+   end subroutine run_scene
+
+   !> Makes the output directory and writes the resolved deck into it, so that file trouble shows before the work.
+   subroutine prepare_directory(results, error)
+      type(results_type), intent(in) :: results
+      type(error_type), allocatable, intent(out) :: error
+
+      character(:), allocatable :: failure
+      type(output_file) :: file
+
+      call make_directories(results%directory, failure)
+      if (allocated(failure)) then
+         call fatal_error(error, exit_file_trouble, escaped(results%directory)// &
+                          ': the output directory cannot be made: '//failure)
+         return
+      end if
+      call file%open(results%directory, trim(results%deck%scene%case)//'.resolved.nml')
+      if (file%is_open()) call write_resolved_deck(results%deck, file%unit)
+      call file%finish(error)
+   end subroutine prepare_directory
+
+   !> Solves and measures all loads, from the highest to the lowest so that each starts from the one before.
+   subroutine solve_loads(results, log)
+      type(results_type), intent(inout) :: results
+      type(run_log), intent(inout) :: log
+
+      integer :: order(size(results%scene%pbar_over_pstar)), i, load
+
+      order = descending(results%scene%pbar_over_pstar)
+      allocate (results%states(size(order)), results%measures(size(order)))
+      do i = 1, size(order)
+         load = order(i)
+         call results%contact%solve(results%scene%pbar_over_pstar(load), results%states(load))
+         call measure_contact(results%states(load), results%contact%pressure(results%states(load)), &
+                              results%contact%displacement(results%states(load)), results%deck%method%edge_level, &
+                              results%measures(load))
+         call log%show_progress(i, size(order))
+      end do
+   end subroutine solve_loads
+
+   !> Writes the tables that the deck asks for.
+   subroutine write_tables(results, error)
+      type(results_type), intent(in) :: results
+      type(error_type), allocatable, intent(out) :: error
+
+      call write_if(.true., write_summary_table)
+      call write_if(results%deck%output%lines, write_lines_table)
+      call write_if(results%deck%output%map, write_map_table)
+      call write_if(results%deck%output%contours, write_contour_table)
+      call write_if(results%deck%output%coefficients, write_coefficients_table)
+      call write_if(results%deck%output%theory, write_theory_table)
+
+   contains
+
+      subroutine write_if(asked, write_table)
+         logical, intent(in) :: asked
+         procedure(table_writer) :: write_table
+
+         if (asked .and. .not. allocated(error)) call write_table(results, error)
+      end subroutine write_if
+
+   end subroutine write_tables
+
+   !> The order of some numbers from the largest to the smallest.
+   function descending(values) result(order)
+      real(dp), intent(in) :: values(:)
+      integer :: order(size(values))
+
+      integer(c_size_t) :: places(size(values))
+
+      call gsl_sort_index(places, -values, 1_c_size_t, size(values, kind=c_size_t))
+      order = int(places) + 1
+   end function descending
+
+end module wavycon_run_scene

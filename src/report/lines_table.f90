@@ -1,0 +1,127 @@
+!> <case>.lines.dat: pressure, displacement and gap along the lines of symmetry, a block a load.
+!>
+!> Line 1 goes from a crest along phi to a trough. In 2-D line 2 goes from a crest along the diagonal over the saddle to the
+!> next crest; a blank line parts the two. With `theory` the closed forms stand beside the numbers: in 1-D Westergaard's
+!> solution and the Dundurs-Tsai-Keer series of as many terms, in 2-D the Hertz pressure about the nearest crest (light
+!> load) and the pressure in the penny-shaped crack about the nearest trough and its opening (heavy load).
+module wavycon_lines_table
+   use wavycon_constants, only: pi, sqrt2
+   use wavycon_cosine_series, only: cosine_series
+   use wavycon_dundurs, only: dundurs_coefficients, dundurs_pressure_over_pstar
+   use wavycon_error, only: error_type
+   use wavycon_hertz_point, only: hertz_point_pressure_over_pstar
+   use wavycon_kinds, only: dp
+   use wavycon_output_file, only: output_file
+   use wavycon_penny_crack, only: penny_crack_opening_over_amplitude, penny_crack_pressure_over_pstar, &
+                                  penny_crack_radius_over_wavelength
+   use wavycon_results, only: results_type
+   use wavycon_westergaard, only: westergaard_displacement_over_amplitude, westergaard_gap_over_amplitude, &
+                                  westergaard_pressure_over_pstar
+   implicit none (type, external)
+   private
+
+   public :: write_lines_table
+
+   character(40), parameter :: columns(*) = [character(40) :: &
+      'pbar_over_pstar[-]', 'line[-]', 'distance[length]', 'x[length]', 'y[length]', 'pressure_over_pstar[-]', &
+      'displacement_over_amplitude[-]', 'gap_over_amplitude[-]']
+   character(40), parameter :: columns_1d(*) = [character(40) :: &
+      'westergaard_pressure[p*]', 'westergaard_displace[Delta]', 'westergaard_gap[Delta]', 'dundurs_pressure[p*]']
+   character(40), parameter :: columns_2d(*) = [character(40) :: &
+      'hertz_pressure[p*]', 'crack_pressure[p*]', 'crack_opening[Delta]']
+
+contains
+
+   !> Errors: exit_file_trouble.
+   subroutine write_lines_table(results, error)
+      type(results_type), intent(in) :: results
+      type(error_type), allocatable, intent(out) :: error
+
+      type(output_file) :: file
+      integer :: load, line
+
+      call results%open_table('lines', file)
+      if (.not. results%deck%output%theory) then
+         call file%put_columns(columns)
+      else if (results%scene%surface%dimension == 1) then
+         call file%put_columns([columns, columns_1d])
+      else
+         call file%put_columns([columns, columns_2d])
+      end if
+      do load = 1, size(results%states)
+         call results%put_load_heading(file, load, first=load == 1)
+         do line = 1, results%scene%surface%dimension
+            if (line > 1) call file%put('')
+            call put_line(results, file, load, line)
+         end do
+      end do
+      call file%finish(error)
+   end subroutine write_lines_table
+
+   subroutine put_line(results, file, load, line)
+      type(results_type), intent(in) :: results
+      type(output_file), intent(inout) :: file
+      integer, intent(in) :: load, line
+
+      type(cosine_series) :: pressure, displacement
+      real(dp), allocatable :: beside(:)
+      real(dp) :: approach, phi, theta, distance, x, y, u, load_p
+      integer :: k, intervals
+
+      call results%series(load, pressure, displacement, approach)
+      load_p = results%states(load)%pbar_over_pstar
+      intervals = results%deck%output%points_per_wavelength/2
+      associate (surface => results%scene%surface)
+         do k = 0, intervals
+            phi = pi*k/intervals
+            theta = merge(phi, 0.0_dp, line == 2)
+            distance = surface%wavelength*k/(2*intervals)*merge(sqrt2, 1.0_dp, line == 2)
+            call surface%point_at(phi, theta, x, y)
+            u = displacement%at(phi, theta)
+            if (.not. results%deck%output%theory) then
+               beside = [real(dp) ::]
+            else if (surface%dimension == 1) then
+               beside = [westergaard_pressure_over_pstar(phi/2, load_p), &
+                         westergaard_displacement_over_amplitude(phi/2, load_p), &
+                         westergaard_gap_over_amplitude(phi/2, load_p), &
+                         dundurs_pressure_over_pstar(phi, load_p, &
+                                                     dundurs_coefficients(load_p, results%deck%method%harmonics))]
+            else
+               beside = [hertz_point_pressure_over_pstar(nearest_crest(phi, theta), load_p), &
+                         crack_pressure(hypot(pi - phi, theta)/(2*pi), load_p), &
+                         crack_opening(hypot(pi - phi, theta)/(2*pi), load_p)]
+            end if
+            call file%put_values([load_p, real(line, dp), distance, x, y, pressure%at(phi, theta), u, &
+                                  surface%undeformed_gap_over_amplitude(phi, theta) + u - approach, beside])
+         end do
+      end associate
+   end subroutine put_line
+
+   !> Distance from the nearest crest over the wavelength, 0 <= phi, theta <= pi.
+   pure real(dp) function nearest_crest(phi, theta)
+      real(dp), intent(in) :: phi, theta
+
+      nearest_crest = min(hypot(phi, theta), hypot(pi - phi, pi - theta))/(2*pi)
+   end function nearest_crest
+
+   !> (A4), zero outside the crack.
+   pure real(dp) function crack_pressure(r_over_wavelength, pbar_over_pstar) result(pressure)
+      real(dp), intent(in) :: r_over_wavelength, pbar_over_pstar
+
+      pressure = 0.0_dp
+      if (r_over_wavelength < penny_crack_radius_over_wavelength(pbar_over_pstar)) &
+         pressure = penny_crack_pressure_over_pstar(r_over_wavelength, pbar_over_pstar)
+   end function crack_pressure
+
+   !> (A6), zero outside the crack and where there is none.
+   pure real(dp) function crack_opening(r_over_wavelength, pbar_over_pstar) result(opening)
+      real(dp), intent(in) :: r_over_wavelength, pbar_over_pstar
+
+      real(dp) :: b
+
+      b = penny_crack_radius_over_wavelength(pbar_over_pstar)
+      opening = 0.0_dp
+      if (r_over_wavelength < b) opening = penny_crack_opening_over_amplitude(r_over_wavelength/b, b, pbar_over_pstar)
+   end function crack_opening
+
+end module wavycon_lines_table

@@ -1,0 +1,90 @@
+!> All that the tables of one scene are written from, and the header that they share.
+module wavycon_results
+   use wavycon_contact_measures, only: contact_measures
+   use wavycon_contact_state, only: contact_state
+   use wavycon_cosine_series, only: cosine_series
+   use wavycon_deck, only: deck_type
+   use wavycon_fourier_contact, only: fourier_contact
+   use wavycon_kinds, only: dp
+   use wavycon_output_file, only: output_file
+   use wavycon_plain_text, only: escaped
+   use wavycon_scene, only: scene_type
+   use wavycon_version, only: revision, version
+   implicit none (type, external)
+   private
+
+   public :: results_type
+
+   type :: results_type
+      type(deck_type) :: deck
+      type(scene_type) :: scene
+      type(fourier_contact) :: contact
+      character(:), allocatable :: directory             !! that the tables go to
+      type(contact_state), allocatable :: states(:)      !! in the deck's order of loads
+      type(contact_measures), allocatable :: measures(:) !! the same
+   contains
+      procedure :: open_table
+      procedure :: put_load_heading
+      procedure :: series
+   end type results_type
+
+contains
+
+   !> Opens a table <case>.<kind>.dat and writes what heads all of them.
+   subroutine open_table(self, kind, file)
+      class(results_type), intent(in) :: self
+      character(*), intent(in) :: kind
+      type(output_file), intent(out) :: file
+
+      character(200) :: line
+
+      call file%open(self%directory, trim(self%deck%scene%case)//'.'//kind//'.dat')
+      call file%put('# wavycon '//version//' ('//revision//')')
+      call file%put('# deck: '//escaped(self%deck%path))
+      call file%put('# title: '//escaped(trim(self%deck%scene%title)))
+      associate (surface => self%scene%surface, method => self%deck%method)
+         write (line, '(3a, 2(a, es24.15e3))') '# surface: ', trim(self%deck%surface%kind), ',', &
+            ' Delta[length] =', surface%amplitude, ', lambda[length] =', surface%wavelength
+         call file%put(trim(line))
+         write (line, '(2(a, es24.15e3))') '# material: e_star[pressure] =', self%scene%e_star, &
+            ', p*[pressure] =', self%scene%p_star
+         call file%put(trim(line))
+         write (line, '(3a, i0, a, i0, 3a, i0, a, i0, a, es10.3)') '# method: ', trim(method%solver), ', harmonics = ', &
+            method%harmonics, ', constraint_points = ', method%constraint_points, ', symmetry = ', &
+            trim(method%symmetry), ' (', self%contact%terms%count(), ' unknowns, ', &
+            size(self%contact%problem%bounds), ' constraints), edge_level[p*] =', method%edge_level
+         call file%put(trim(line))
+      end associate
+   end subroutine open_table
+
+   !> Parts the block of a load from the one before it, as gnuplot's `index` wants it, and names the load.
+   subroutine put_load_heading(self, file, load, first)
+      class(results_type), intent(in) :: self
+      type(output_file), intent(inout) :: file
+      integer, intent(in) :: load
+      logical, intent(in) :: first   !! block of the file
+
+      character(80) :: line
+
+      if (.not. first) then
+         call file%put('')
+         call file%put('')
+      end if
+      write (line, '(a, i0, a, g0.9, 2a)') '# load ', load, ': pbar/p* = ', self%states(load)%pbar_over_pstar, ', ', &
+         trim(self%states(load)%status)
+      call file%put(trim(line))
+   end subroutine put_load_heading
+
+   !> p/p* and (u - ubar)/Delta at a load as series, and the approach that goes with them.
+   subroutine series(self, load, pressure, displacement, approach_over_amplitude)
+      class(results_type), intent(in) :: self
+      integer, intent(in) :: load
+      type(cosine_series), intent(out) :: pressure, displacement
+      real(dp), intent(out) :: approach_over_amplitude
+
+      pressure = self%contact%pressure(self%states(load))
+      displacement = self%contact%displacement(self%states(load))
+      approach_over_amplitude = self%measures(load)%approach_over_amplitude
+   end subroutine series
+
+end module wavycon_results

@@ -1,0 +1,70 @@
+!> <case>.theory.dat: the closed forms at the loads of the scene, a line a load.
+!>
+!> 1-D: the exact solution (eqs. 4, 7, 20) and its limits (8), (11). 2-D: the asymptotes of the paper (23), (24), (29), (30),
+!> (29) with the coefficient of the whole lattice, the longer asymptotes, and the radii of the two limits.
+module wavycon_theory_table
+   use wavycon_error, only: error_type
+   use wavycon_hertz_line, only: hertz_line_contact_area_fraction
+   use wavycon_hertz_point, only: hertz_point_contact_area_fraction, hertz_point_peak_pressure_over_pstar, &
+                                  hertz_point_radius_over_wavelength
+   use wavycon_kinds, only: dp
+   use wavycon_kuznetsov, only: kuznetsov_mean_gap_over_amplitude
+   use wavycon_light_load, only: light_load_contact_area_longer, light_load_mean_gap_lattice, &
+                                 light_load_mean_gap_longer, light_load_mean_gap_one_square
+   use wavycon_line_crack, only: line_crack_contact_area_fraction
+   use wavycon_near_closure, only: near_closure_contact_area_fraction, near_closure_mean_gap_over_amplitude
+   use wavycon_output_file, only: output_file
+   use wavycon_penny_crack, only: penny_crack_contact_area_fraction, penny_crack_mean_gap_over_amplitude, &
+                                  penny_crack_radius_over_wavelength
+   use wavycon_results, only: results_type
+   use wavycon_westergaard, only: westergaard_contact_area_fraction, westergaard_peak_pressure_over_pstar
+   implicit none (type, external)
+   private
+
+   public :: write_theory_table
+
+   character(40), parameter :: columns_1d(*) = [character(40) :: &
+      'pbar_over_pstar[-]', 'kuznetsov_mean_gap[Delta]', 'westergaard_area[-]', 'westergaard_peak[p*]', &
+      'hertz_line_area[-]', 'line_crack_area[-]']
+   character(40), parameter :: columns_2d(*) = [character(40) :: &
+      'pbar_over_pstar[-]', 'hertz_area[-]', 'crack_area[-]', 'light_gap_eq29[Delta]', 'light_gap_lattice[Delta]', &
+      'crack_gap_eq30[Delta]', 'light_area_longer[-]', 'light_gap_longer[Delta]', 'closure_area_longer[-]', &
+      'closure_gap_longer[Delta]', 'hertz_peak[p*]', 'hertz_radius[length]', 'crack_radius[length]']
+
+contains
+
+   !> Errors: exit_file_trouble.
+   subroutine write_theory_table(results, error)
+      type(results_type), intent(in) :: results
+      type(error_type), allocatable, intent(out) :: error
+
+      type(output_file) :: file
+      integer :: load
+
+      call results%open_table('theory', file)
+      if (results%scene%surface%dimension == 1) then
+         call file%put_columns(columns_1d)
+      else
+         call file%put_columns(columns_2d)
+      end if
+      do load = 1, size(results%states)
+         associate (p => results%states(load)%pbar_over_pstar, wavelength => results%scene%surface%wavelength)
+            if (results%scene%surface%dimension == 1) then
+               call file%put_values([p, kuznetsov_mean_gap_over_amplitude(p), westergaard_contact_area_fraction(p), &
+                                     westergaard_peak_pressure_over_pstar(p), hertz_line_contact_area_fraction(p), &
+                                     line_crack_contact_area_fraction(p)])
+            else
+               call file%put_values([p, hertz_point_contact_area_fraction(p), penny_crack_contact_area_fraction(p), &
+                                     light_load_mean_gap_one_square(p), light_load_mean_gap_lattice(p), &
+                                     penny_crack_mean_gap_over_amplitude(p), light_load_contact_area_longer(p), &
+                                     light_load_mean_gap_longer(p), near_closure_contact_area_fraction(p), &
+                                     near_closure_mean_gap_over_amplitude(p), hertz_point_peak_pressure_over_pstar(p), &
+                                     wavelength*hertz_point_radius_over_wavelength(p), &
+                                     wavelength*penny_crack_radius_over_wavelength(p)])
+            end if
+         end associate
+      end do
+      call file%finish(error)
+   end subroutine write_theory_table
+
+end module wavycon_theory_table

@@ -1,0 +1,85 @@
+!> What a deck describes, in the program's own normalisation: pressures in p*, displacements and gaps in Delta.
+module wavycon_scene
+   use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_value
+   use wavycon_deck, only: deck_type
+   use wavycon_error, only: error_type, exit_bad_input, fatal_error
+   use wavycon_fourier_terms, only: symmetry_diagonal, symmetry_full, symmetry_none
+   use wavycon_kinds, only: dp
+   use wavycon_load_group, only: largest_pbar_over_pstar
+   use wavycon_surface, only: crossed_1d, surface_type, wave_1d, wave_2d
+   implicit none (type, external)
+   private
+
+   public :: scene_type, make_scene
+
+   type :: scene_type
+      type(surface_type) :: surface
+      real(dp) :: e_star = 1.0_dp                   !! plane-strain modulus [pressure]
+      real(dp) :: p_star = 0.0_dp                   !! p*, mean pressure that just closes the gap [pressure]
+      real(dp), allocatable :: pbar_over_pstar(:)   !! loads in the deck's order
+      real(dp), allocatable :: mean_pressure(:)     !! the same [pressure]
+      integer :: symmetry = symmetry_full           !! of the Fourier terms
+   end type scene_type
+
+contains
+
+   !> Makes the scene of a deck. Errors: exit_bad_input for a mean pressure absurdly above p*.
+   subroutine make_scene(deck, scene, error)
+      type(deck_type), intent(in) :: deck
+      type(scene_type), intent(out) :: scene
+      type(error_type), allocatable, intent(out) :: error
+
+      character(120) :: text
+      integer :: worst
+
+      associate (surface => deck%surface)
+         select case (surface%kind)
+         case ('wave_1d')
+            scene%surface = wave_1d(surface%amplitude, surface%wavelength)
+         case ('wave_2d')
+            scene%surface = wave_2d(surface%amplitude, surface%wavelength)
+         case ('crossed_1d')
+            scene%surface = crossed_1d(surface%amplitude1, surface%wavelength1)
+         end select
+      end associate
+      scene%e_star = deck%material%e_star
+      scene%p_star = scene%surface%full_contact_pressure(scene%e_star)
+      select case (deck%method%symmetry)
+      case ('none')
+         scene%symmetry = symmetry_none
+      case ('diagonal')
+         scene%symmetry = symmetry_diagonal
+      end select
+
+      if (allocated(deck%load%mean_pressure)) then
+         allocate (scene%mean_pressure, source=deck%load%mean_pressure)
+         allocate (scene%pbar_over_pstar, source=in_p_star(scene%mean_pressure, scene%p_star))
+         if (scene%p_star <= 0.0_dp) return
+         worst = maxloc(scene%pbar_over_pstar, dim=1)
+         if (scene%pbar_over_pstar(worst) <= largest_pbar_over_pstar) return
+         write (text, '(a, g0.6, a, es9.2, a, g0.6, a, es8.1, a)') ': mean_pressure = ', scene%mean_pressure(worst), &
+            ' is ', scene%pbar_over_pstar(worst), ' times p* = ', scene%p_star, '; at most ', &
+            largest_pbar_over_pstar, ' times'
+         call fatal_error(error, exit_bad_input, deck%path//trim(text)// &
+                          ' is allowed. Do its unit and that of e_star agree, and those of the lengths?')
+      else
+         allocate (scene%mean_pressure, source=scene%p_star*deck%load%pbar_over_pstar)
+         allocate (scene%pbar_over_pstar, source=deck%load%pbar_over_pstar)
+         if (scene%p_star <= 0.0_dp) scene%pbar_over_pstar = in_p_star(scene%mean_pressure, scene%p_star)
+      end if
+   end subroutine make_scene
+
+   !> A mean pressure over p*. On a flat surface p* = 0 and any pressure is full contact: none at all is p* itself.
+   elemental real(dp) function in_p_star(mean_pressure, p_star)
+      real(dp), intent(in) :: mean_pressure, p_star   !! both >= 0
+
+      if (p_star > 0.0_dp) then
+         in_p_star = mean_pressure/p_star
+      else if (mean_pressure > 0.0_dp) then
+         in_p_star = ieee_value(1.0_dp, ieee_positive_inf)
+      else
+         in_p_star = 1.0_dp
+      end if
+   end function in_p_star
+
+end module wavycon_scene
