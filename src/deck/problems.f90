@@ -72,8 +72,9 @@ contains
       left = problems%number - most_printed
       if (left > 0) then
          call buffer%add_line('')
-         call buffer%add('and '//integer_text(left)//' more')
-         if (problems%is_full()) call buffer%add(' at least')
+         call buffer%add('and ')
+         if (problems%is_full()) call buffer%add('at least ')
+         call buffer%add(integer_text(left)//' more')
       end if
       report = buffer%text()
    end function problem_report
