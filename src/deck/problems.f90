@@ -128,10 +128,12 @@ contains
          from = max(first, place - most_before)
          to = min(last, place + most_after)
       end if
-      do while (from < place .and. is_continuation(text%content(from:from)))
+      do while (from < place)
+         if (.not. is_continuation(text%content(from:from))) exit
          from = from + 1
       end do
-      do while (to > place .and. to < last .and. is_continuation(text%content(to + 1:to + 1)))
+      do while (to > place .and. to < last)
+         if (.not. is_continuation(text%content(to + 1:to + 1))) exit
          to = to - 1
       end do
       before = escaped(text%content(from:place - 1))
