@@ -60,6 +60,7 @@ contains
       call put_line(self, key, real_text(value))
    end subroutine put_real
 
+   !> One value a line. No commas: gfortran takes one with a comment behind it for a value left out.
    subroutine put_reals(self, key, values)
       class(deck_writer_type), intent(in) :: self
       character(*), intent(in) :: key
@@ -67,15 +68,10 @@ contains
 
       integer :: i
 
-      if (size(values) == 1) then
-         call put_line(self, key, real_text(values(1)))
-         return
-      end if
-      call put_line(self, key, real_text(values(1))//',')
-      do i = 2, size(values) - 1
-         write (self%unit, '(a)') '      '//real_text(values(i))//','
+      call put_line(self, key, real_text(values(1)))
+      do i = 2, size(values)
+         write (self%unit, '(a)') '      '//real_text(values(i))
       end do
-      write (self%unit, '(a)') '      '//real_text(values(size(values)))
    end subroutine put_reals
 
    subroutine put_integer(self, key, value)

@@ -232,7 +232,7 @@ contains
          bare = value
          if (is_constant(value)) then
             bare = unquoted(value)
-            if (any(choices == bare)) return
+            if (len(bare) <= len(choices) .and. any(choices == bare)) return
          else if (any(choices == lower_case(bare))) then
             trouble = trim(key%name)//" must be in quotes: '"//lower_case(bare)//"'"
             return

@@ -72,8 +72,9 @@ contains
       left = problems%number - most_printed
       if (left > 0) then
          call buffer%add_line('')
-         call buffer%add('and '//integer_text(left)//' more')
-         if (problems%is_full()) call buffer%add(' at least')
+         call buffer%add('and ')
+         if (problems%is_full()) call buffer%add('at least ')
+         call buffer%add(integer_text(left)//' more')
       end if
       report = buffer%text()
    end function problem_report
@@ -127,10 +128,12 @@ contains
          from = max(first, place - most_before)
          to = min(last, place + most_after)
       end if
-      do while (from < place .and. is_continuation(text%content(from:from)))
+      do while (from < place)
+         if (.not. is_continuation(text%content(from:from))) exit
          from = from + 1
       end do
-      do while (to > place .and. to < last .and. is_continuation(text%content(to + 1:to + 1)))
+      do while (to > place .and. to < last)
+         if (.not. is_continuation(text%content(to + 1:to + 1))) exit
          to = to - 1
       end do
       before = escaped(text%content(from:place - 1))

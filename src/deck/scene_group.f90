@@ -29,8 +29,9 @@ contains
       table = key_group('scene', 'what the case is called', [ &
          text_key('title', "''", 'One line for the heads of tables and for plots.', longest_name, &
             may_be_blank=.true.), &
-         text_key('case', "the deck's file name without '.nml'", &
-            "Stem of the names of the result files: "//plain_in_words//'.', longest_name)])
+         text_key('case', "the deck's name", &
+            'Stem of the names of the result files: '//plain_in_words// &
+            ". The deck's name is that of its file without '.nml'.", longest_name)])
    end function scene_table
 
    !> Reads the group; a case that is not given takes its name from the deck's file.
