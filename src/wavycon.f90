@@ -1,0 +1,29 @@
+!> The public interface of the library.
+module wavycon
+   use wavycon_beale, only: beale_solver
+   use wavycon_contact_measures, only: contact_measures, measure_contact
+   use wavycon_contact_state, only: contact_state
+   use wavycon_cosine_series, only: cosine_series
+   use wavycon_deck, only: deck_type
+   use wavycon_dundurs, only: dundurs_coefficients, dundurs_pressure_over_pstar
+   use wavycon_error, only: error_type
+   use wavycon_fourier_contact, only: fourier_contact
+   use wavycon_fourier_terms, only: symmetry_diagonal, symmetry_full, symmetry_none
+   use wavycon_hertz_line
+   use wavycon_hertz_point
+   use wavycon_kinds, only: dp
+   use wavycon_kkt, only: kkt_residual
+   use wavycon_kuznetsov
+   use wavycon_light_load
+   use wavycon_line_crack
+   use wavycon_near_closure
+   use wavycon_penny_crack
+   use wavycon_qp_problem
+   use wavycon_read_deck, only: read_deck
+   use wavycon_scene, only: make_scene, scene_type
+   use wavycon_surface, only: crossed_1d, surface_type, wave_1d, wave_2d
+   use wavycon_version, only: revision, version
+   use wavycon_westergaard
+   implicit none (type, external)
+   public
+end module wavycon
