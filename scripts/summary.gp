@@ -24,13 +24,12 @@ greatest(a, b) = (a > b) ? a : b
 stats table using (good(strcol(11)) ? 0 : 1) name 'unsolved' nooutput
 stats table using 1 name 'load' nooutput
 stats table using 3 name 'gap' nooutput
-stats table using 6 name 'peak' nooutput
 
 set linetype 1 linecolor rgb '#1f4e8c' linewidth 1.3 pointtype 7 pointsize 0.8
 set linetype 2 linecolor rgb '#c0392b' linewidth 1.3 pointtype 2 pointsize 1.1
 set border 3 linewidth 0.8
 set tics nomirror out scale 0.7
-set grid linecolor rgb '#dddddd' linewidth 0.6
+set grid linecolor rgb '#d0d0d0' linewidth 0.6 dashtype 1
 set xlabel 'mean pressure  {/:Italic p̄} / {/:Italic p}*'
 set xrange [0:greatest(1.0, load_max)]
 unset key
@@ -50,14 +49,14 @@ n = 3
 set ylabel 'mean gap  {/:Italic g̅} / Δ'
 set yrange [least(0.0, gap_min):greatest(1.0, gap_max)]
 if (unsolved_max > 0) {
-   set key top right
+   set key top right Left reverse samplen 1
 }
 plot @curves
 
 n = 6
 unset key
 set ylabel 'peak pressure  {/:Italic p}_{max} / {/:Italic p}*'
-set yrange [0:1.05*greatest(1.0, peak_max)]
+set yrange [0:*]
 plot @curves
 
 unset multiplot
