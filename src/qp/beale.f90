@@ -19,8 +19,8 @@ module wavycon_beale
    use wavycon_dual_pass, only: restore_optimum
    use wavycon_kinds, only: dp
    use wavycon_kkt, only: finish_on_active_set
-   use wavycon_qp_problem, only: qp_problem, qp_solution, qp_converged, qp_infeasible_start, qp_iteration_limit, &
-                                 qp_not_convex, qp_not_finite
+   use wavycon_qp_problem, only: qp_problem, qp_solution, qp_converged, qp_infeasible, qp_infeasible_start, &
+                                 qp_iteration_limit, qp_not_convex, qp_not_finite
    use wavycon_working_set, only: working_set
    implicit none (type, external)
    private
@@ -122,7 +122,7 @@ contains
          if (solution%pivots >= limit) exit
          call self%table%rebuild(self%problem, self%set, solution)
          call restore_optimum(self%table, limit, solution%pivots, last_status)
-         if (solution%pivots == pivots_before) exit
+         if (solution%pivots == pivots_before .or. last_status == qp_infeasible) exit
       end do
       if (last_status /= qp_converged) solution%status = last_status
    end subroutine settle

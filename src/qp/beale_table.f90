@@ -62,7 +62,7 @@ contains
       table%basic = [(i, i=1, m)]
       table%basic_count = m
       table%values = -problem%bounds
-      call dgemm('T', 'N', m, n, n, 1.0_dp, problem%normals, n, set%directions, n, 0.0_dp, table%rows, m)
+      call dgemm('T', 'N', m, n, n, 1.0_dp, problem%normals, n, set%directions, n, 0.0_dp, table%rows, max(1, m))
       call dgemv('T', n, n, -1.0_dp, set%directions, n, problem%linear, 1, 0.0_dp, table%gradient, 1)
       table%zero_descent = derivative_tolerance*norm2(table%gradient)
    end subroutine start
@@ -76,7 +76,7 @@ contains
       integer :: k, m, m_basic
 
       k = table%active_count
-      m = size(table%rows, 1)
+      m = max(1, size(table%rows, 1))
       m_basic = table%basic_count
       shift = change(table%active(:k))
       call dsymv('U', k, 1.0_dp, table%hessian, size(table%hessian, 1), shift, 1, 1.0_dp, table%gradient, 1)
@@ -119,7 +119,7 @@ contains
 
       integer :: m, n, k
 
-      m = size(table%rows, 1)
+      m = max(1, size(table%rows, 1))
       n = size(table%rows, 2)
       k = table%active_count
       if (k == n) then
@@ -150,7 +150,7 @@ contains
       real(dp) :: row(size(table%gradient)), v(size(table%gradient)), image(table%basic_count), tau, beta
       integer :: k, m, n, last, free_count
 
-      m = size(table%rows, 1)
+      m = max(1, size(table%rows, 1))
       n = size(table%rows, 2)
       k = table%active_count
       free_count = n - k
@@ -193,7 +193,7 @@ contains
       real(dp) :: column(table%active_count), curvature
       integer :: k, m, n, name
 
-      m = size(table%rows, 1)
+      m = max(1, size(table%rows, 1))
       n = size(table%rows, 2)
       k = table%active_count
       call move_to_last(table, released)
@@ -280,7 +280,7 @@ contains
       associate (normals => problem%normals(:, table%basic(:m - k)))
          table%values(:m - k) = -problem%bounds(table%basic(:m - k))
          call dgemv('T', n, m - k, 1.0_dp, normals, n, solution%x, 1, 1.0_dp, table%values, 1)
-         call dgemm('T', 'N', m - k, n, n, 1.0_dp, normals, n, to_x, n, 0.0_dp, table%rows, m)
+         call dgemm('T', 'N', m - k, n, n, 1.0_dp, normals, n, to_x, n, 0.0_dp, table%rows, max(1, m))
       end associate
    end subroutine rebuild
 

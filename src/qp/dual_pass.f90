@@ -17,9 +17,9 @@ module wavycon_dual_pass
 
    !> A slack that is less negative than this fraction of the largest value of any slack is rounding.
    real(dp), parameter :: zero_slack = 32*epsilon(1.0_dp)
-   !> A constraint whose row in the free variables is smaller than this fraction of that of the largest depends on the
-   !> active ones.
-   real(dp), parameter :: dependence = 1e-13_dp
+   !> An element of a row that is smaller than this fraction of it is rounding: a constraint with no larger ones in the
+   !> free variables depends on the active ones.
+   real(dp), parameter :: zero_element = 1e-13_dp
 
 contains
 
@@ -63,7 +63,7 @@ contains
       integer, intent(out) :: status
 
       real(dp) :: row(size(table%gradient)), rates(table%basic_count + size(table%gradient))
-      real(dp) :: multiplier, full_step, step, stiffness
+      real(dp) :: multiplier, full_step, step, stiffness, zero
       integer :: place, released, i, k
 
       ! With the multiplier mu of s = a + A z + B y the free variables are at y = mu B', where their derivative is
@@ -77,13 +77,14 @@ contains
          place = findloc(table%basic(:table%basic_count), constraint, dim=1)
          row = table%rows(place, :)
          stiffness = dot_product(row(k + 1:), row(k + 1:))
+         zero = zero_element*norm2(row)
          full_step = huge(full_step)
-         if (sqrt(stiffness) > dependence*norm2(row)) full_step = -table%values(place)/stiffness
+         if (sqrt(stiffness) > zero) full_step = -table%values(place)/stiffness
 
          step = full_step
          released = 0
          do i = 1, k
-            if (row(i) <= 0.0_dp) cycle
+            if (row(i) <= zero) cycle
             if (table%gradient(i) < (multiplier + step)*row(i)) then
                step = max(table%gradient(i)/row(i) - multiplier, 0.0_dp)
                released = i

@@ -45,7 +45,7 @@ contains
       real(dp), intent(in) :: multipliers(:)  !! y of the active constraints, shape (size(active))
 
       real(dp) :: gradient(size(x)), term(size(x)), slack(size(problem%bounds))
-      real(dp) :: gradient_scale, slack_scale, multiplier_scale
+      real(dp) :: gradient_scale, slack_scale, force(size(active))
       integer :: i, n, m
 
       n = size(x)
@@ -69,9 +69,10 @@ contains
       residual = max(residual, ratio(max(0.0_dp, -minval(slack)), slack_scale))
       if (size(active) == 0) return
 
-      multiplier_scale = maxval(abs(multipliers))
-      residual = max(residual, ratio(max(0.0_dp, -minval(multipliers)), multiplier_scale))
-      residual = max(residual, ratio(maxval(abs(multipliers*slack(active))), multiplier_scale*slack_scale))
+      ! A multiplier counts by the force that it puts on the gradient.
+      force = multipliers*maxval(abs(problem%normals(:, active)), dim=1)
+      residual = max(residual, ratio(max(0.0_dp, -minval(force)), gradient_scale))
+      residual = max(residual, ratio(maxval(abs(force*slack(active))), gradient_scale*slack_scale))
    end function kkt_residual
 
    !> a/b where 0/0 is no violation.
