@@ -1,12 +1,13 @@
 !> Contact with the pressure as a Fourier series: Johnson, Greenwood & Higginson (1985), by Beale's method.
 module wavycon_fourier_contact
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_beale, only: beale_solver
    use wavycon_complementary_energy, only: energy_problem
    use wavycon_contact_state, only: contact_state, full_contact, no_load
    use wavycon_cosine_series, only: cosine_series
    use wavycon_fourier_terms, only: choose_terms, fourier_terms
    use wavycon_kinds, only: dp
-   use wavycon_qp_problem, only: qp_problem, qp_solution, qp_status_name
+   use wavycon_qp_problem, only: qp_problem, qp_solution, qp_not_finite, qp_status_name
    implicit none (type, external)
    private
 
@@ -62,6 +63,10 @@ contains
       end if
       if (pbar_over_pstar <= 0.0_dp) then
          state%status = no_load
+         return
+      end if
+      if (ieee_is_nan(pbar_over_pstar)) then
+         state%status = qp_status_name(qp_not_finite)
          return
       end if
 

@@ -85,7 +85,7 @@ contains
          released = 0
          do i = 1, k
             if (row(i) <= zero) cycle
-            if (table%gradient(i) < (multiplier + step)*row(i)) then
+            if (table%gradient(i)/row(i) - multiplier < step) then
                step = max(table%gradient(i)/row(i) - multiplier, 0.0_dp)
                released = i
             end if
