@@ -2,7 +2,7 @@
 module wavycon_deck_text
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_error, only: error_type, exit_file_trouble, fatal_error
-   use wavycon_plain_text, only: escaped
+   use wavycon_plain_text, only: escaped, system_words
    use wavycon_system, only: path_absent, path_directory, path_kind
    implicit none (type, external)
    private
@@ -119,14 +119,14 @@ contains
       open (newunit=unit, file=path, access='stream', form='unformatted', action='read', status='old', &
          iostat=status, iomsg=message)
       if (status /= 0) then
-         call trouble('cannot be opened: '//trim(message))
+         call trouble('cannot be opened: '//system_words(message))
          return
       end if
       content = ''
       call read_bytes(unit, content, status, message)
       close (unit)
       if (status /= 0) then
-         call trouble('cannot be read: '//trim(message))
+         call trouble('cannot be read: '//system_words(message))
          return
       end if
       text = deck_text_type(path, content)

@@ -2,17 +2,20 @@
 module wavycon_deck_writer
    use wavycon_key_table, only: allowed_values, key_group_type, key_index, key_type
    use wavycon_kinds, only: dp
-   use wavycon_plain_text, only: integer_text, quoted
+   use wavycon_plain_text, only: exact_number, integer_text, quoted
    implicit none (type, external)
    private
 
    public :: deck_writer_type
 
-   !> Open a group, put its keys, close it.
+   !> Open a group, put its keys, close it. After a write that failed nothing more is written.
    type :: deck_writer_type
+      integer :: status = 0                      !! iostat of the first write that failed
+      character(200) :: message = ''             !! its iomsg
       integer, private :: unit = -1
       type(key_group_type), private :: table
    contains
+      procedure :: put_comment
       procedure :: open_group
       procedure :: close_group
       procedure, private :: put_real
@@ -27,9 +30,6 @@ module wavycon_deck_writer
       module procedure new_deck_writer
    end interface deck_writer_type
 
-   !> 17 significant digits: read back, a number is the same to the last bit.
-   character(*), parameter :: real_format = '(es24.16e3)'
-
 contains
 
    type(deck_writer_type) function new_deck_writer(unit) result(writer)
@@ -38,44 +38,51 @@ contains
       writer%unit = unit
    end function new_deck_writer
 
+   subroutine put_comment(self, words)
+      class(deck_writer_type), intent(inout) :: self
+      character(*), intent(in) :: words
+
+      call write_line(self, '! '//words)
+   end subroutine put_comment
+
    subroutine open_group(self, table)
       class(deck_writer_type), intent(inout) :: self
       type(key_group_type), intent(in) :: table
 
       self%table = table
-      write (self%unit, '(a)') '&'//trim(table%name)//'   ! '//trim(table%meaning)
+      call write_line(self, '&'//trim(table%name)//'   ! '//trim(table%meaning))
    end subroutine open_group
 
    subroutine close_group(self)
-      class(deck_writer_type), intent(in) :: self
+      class(deck_writer_type), intent(inout) :: self
 
-      write (self%unit, '(a)') '/'
+      call write_line(self, '/')
    end subroutine close_group
 
    subroutine put_real(self, key, value)
-      class(deck_writer_type), intent(in) :: self
+      class(deck_writer_type), intent(inout) :: self
       character(*), intent(in) :: key
       real(dp), intent(in) :: value
 
-      call put_line(self, key, real_text(value))
+      call put_line(self, key, exact_number(value))
    end subroutine put_real
 
    !> One value a line. No commas: gfortran takes one with a comment behind it for a value left out.
    subroutine put_reals(self, key, values)
-      class(deck_writer_type), intent(in) :: self
+      class(deck_writer_type), intent(inout) :: self
       character(*), intent(in) :: key
       real(dp), intent(in) :: values(:)  !! at least one
 
       integer :: i
 
-      call put_line(self, key, real_text(values(1)))
+      call put_line(self, key, exact_number(values(1)))
       do i = 2, size(values)
-         write (self%unit, '(a)') '      '//real_text(values(i))
+         call write_line(self, '      '//exact_number(values(i)))
       end do
    end subroutine put_reals
 
    subroutine put_integer(self, key, value)
-      class(deck_writer_type), intent(in) :: self
+      class(deck_writer_type), intent(inout) :: self
       character(*), intent(in) :: key
       integer, intent(in) :: value
 
@@ -83,7 +90,7 @@ contains
    end subroutine put_integer
 
    subroutine put_logical(self, key, value)
-      class(deck_writer_type), intent(in) :: self
+      class(deck_writer_type), intent(inout) :: self
       character(*), intent(in) :: key
       logical, intent(in) :: value
 
@@ -91,7 +98,7 @@ contains
    end subroutine put_logical
 
    subroutine put_text(self, key, value)
-      class(deck_writer_type), intent(in) :: self
+      class(deck_writer_type), intent(inout) :: self
       character(*), intent(in) :: key
       character(*), intent(in) :: value  !! blanks at its end are left out
 
@@ -100,7 +107,7 @@ contains
 
    !> "key = value   ! [unit] allowed"
    subroutine put_line(writer, key, value)
-      type(deck_writer_type), intent(in) :: writer
+      type(deck_writer_type), intent(inout) :: writer
       character(*), intent(in) :: key, value
 
       character(:), allocatable :: comment
@@ -109,17 +116,14 @@ contains
          comment = allowed_values(entry)
          if (entry%unit /= '') comment = '['//trim(entry%unit)//'] '//comment
       end associate
-      write (writer%unit, '(a)') '   '//key//' = '//value//'   ! '//comment
+      call write_line(writer, '   '//key//' = '//value//'   ! '//comment)
    end subroutine put_line
 
-   function real_text(value) result(text)
-      real(dp), intent(in) :: value
-      character(:), allocatable :: text
+   subroutine write_line(writer, line)
+      type(deck_writer_type), intent(inout) :: writer
+      character(*), intent(in) :: line
 
-      character(24) :: buffer
-
-      write (buffer, real_format) value
-      text = trim(adjustl(buffer))
-   end function real_text
+      if (writer%status == 0) write (writer%unit, '(a)', iostat=writer%status, iomsg=writer%message) line
+   end subroutine write_line
 
 end module wavycon_deck_writer

@@ -3,7 +3,7 @@
 !> The checks of a deck, the key reference and the comments of resolved decks are all made from these tables.
 module wavycon_key_table
    use wavycon_kinds, only: dp
-   use wavycon_plain_text, only: integer_text
+   use wavycon_plain_text, only: integer_text, short_number
    implicit none (type, external)
    private
 
@@ -192,34 +192,11 @@ contains
 
       words = ''
       if (key%least > -largest_number) words = merge(' > ', ' >=', key%above)
-      if (key%least > -largest_number) words = trim(words)//' '//number_text(key%least)
+      if (key%least > -largest_number) words = trim(words)//' '//short_number(key%least)
       if (key%most < largest_number) then
          if (len(words) > 0) words = words//' and'
-         words = words//trim(merge(' < ', ' <=', key%below))//' '//number_text(key%most)
+         words = words//trim(merge(' < ', ' <=', key%below))//' '//short_number(key%most)
       end if
    end function bounds
-
-   !> A bound in short; up to three digits after the point.
-   pure function number_text(number) result(text)
-      real(dp), intent(in) :: number
-      character(:), allocatable :: text
-
-      real(dp), parameter :: shortest_with_exponent = 1.0e5_dp
-      character(16) :: buffer
-      integer :: last
-
-      if (abs(number) >= shortest_with_exponent) then
-         write (buffer, '(es8.0e1)') number
-         text = trim(adjustl(buffer))
-         text = text(:index(text, '.') - 1)//'e'//text(index(text, 'E') + 2:)
-         return
-      end if
-      write (buffer, '(f0.3)') number
-      if (abs(number) < 1) write (buffer, '(f6.3)') number
-      text = trim(adjustl(buffer))
-      last = verify(text, '0', back=.true.)
-      if (text(last:last) == '.') last = last - 1
-      text = text(:last)
-   end function number_text
 
 end module wavycon_key_table

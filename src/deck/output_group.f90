@@ -7,10 +7,10 @@ module wavycon_output_group
    implicit none (type, external)
    private
 
-   public :: output_group_type, output_table, read_output_group, write_output_group
+   public :: output_group_type, output_table, read_output_group, write_output_group, plain_directory
 
    !> More than the longest name of a case: the default must fit.
-   integer, parameter :: longest_directory = 250
+   integer, parameter, public :: longest_directory = 250
 
    !> What &output says.
    type :: output_group_type
@@ -62,7 +62,8 @@ contains
       points_per_wavelength = group%points_per_wavelength
       read (input%record, nml=output, iostat=status, iomsg=message)
       if (status /= 0) call problems%add(input%place, trim(message))
-      group = output_group_type(directory, lines, map, contours, coefficients, theory, points_per_wavelength)
+      group = output_group_type(plain_directory(directory), lines, map, contours, coefficients, theory, &
+         points_per_wavelength)
    end subroutine read_output_group
 
    subroutine write_output_group(group, writer)
@@ -79,5 +80,36 @@ contains
       call writer%put('points_per_wavelength', group%points_per_wavelength)
       call writer%close_group()
    end subroutine write_output_group
+
+   !> The name of a directory without any './', '//' and '/' at its end that say nothing, so that one place has
+   !> one name.
+   pure function plain_directory(name) result(plain)
+      character(*), intent(in) :: name
+      character(:), allocatable :: plain
+
+      plain = trim(name)//'/'
+      call drop('//', 1)
+      call drop('/./', 2)
+      if (index(plain, './') == 1) plain = plain(3:)
+      if (plain == '') plain = './'
+      if (len(plain) > 1) plain = plain(:len(plain) - 1)
+
+   contains
+
+      !> Takes so many bytes off each place where there is some text.
+      pure subroutine drop(text, bytes)
+         character(*), intent(in) :: text
+         integer, intent(in) :: bytes
+
+         integer :: i
+
+         i = index(plain, text)
+         do while (i > 0)
+            plain = plain(:i - 1)//plain(i + bytes:)
+            i = index(plain, text)
+         end do
+      end subroutine drop
+
+   end function plain_directory
 
 end module wavycon_output_group

@@ -1,10 +1,11 @@
 !> Text for people: lower case, numbers, quotes, and what to do with bytes that no terminal should see.
 module wavycon_plain_text
+   use wavycon_kinds, only: dp
    implicit none (type, external)
    private
 
-   public :: lower_case, integer_text, quoted, unquoted, is_printable, escaped, excerpt, character_count
-   public :: is_continuation
+   public :: lower_case, integer_text, short_number, exact_number, quoted, unquoted, system_words
+   public :: is_printable, escaped, excerpt, character_count, is_continuation
 
    character(*), parameter, public :: newline = achar(10)
 
@@ -35,6 +36,64 @@ contains
       write (buffer, '(i0)') number
       text = trim(buffer)
    end function integer_text
+
+   !> A number to six significant digits: 0.01, 4.44288, 1e-7, -2.5e6.
+   pure function short_number(number) result(text)
+      real(dp), intent(in) :: number
+      character(:), allocatable :: text
+
+      text = rounded(number, 6)
+   end function short_number
+
+   !> A number in the fewest digits, of those tried, that read back as the same number.
+   pure function exact_number(number) result(text)
+      real(dp), intent(in) :: number
+      character(:), allocatable :: text
+
+      integer, parameter :: digits(*) = [6, 15, 16, 17]   !! 17 are enough for any double precision number
+      real(dp) :: again
+      integer :: i
+
+      do i = 1, size(digits)
+         text = rounded(number, digits(i))
+         read (text, *) again
+         if (.not. (again < number .or. again > number)) return
+      end do
+   end function exact_number
+
+   !> A number to so many significant digits in as few characters as they need.
+   pure function rounded(number, digits) result(text)
+      real(dp), intent(in) :: number
+      integer, intent(in) :: digits   !! at most 17
+      character(:), allocatable :: text
+
+      integer, parameter :: least_plain = -4, most_plain = 5   !! powers of ten that need no exponent
+      character(32) :: buffer, layout
+      integer :: letter, power
+
+      write (layout, '(a, i0, a)') '(es32.', digits - 1, 'e3)'
+      write (buffer, layout) number
+      text = trim(adjustl(buffer))
+      letter = index(text, 'E')
+      if (letter == 0) return   ! an infinity, or no number
+      read (text(letter + 1:), *) power
+      if (power < least_plain .or. power > most_plain) then
+         text = without_final_zeros(text(:letter - 1))//'e'//integer_text(power)
+         return
+      end if
+      write (layout, '(a, i0, a)') '(f32.', digits - 1 - power, ')'
+      write (buffer, layout) number
+      text = without_final_zeros(trim(adjustl(buffer)))
+   end function rounded
+
+   !> A decimal fraction without the zeros that end it, nor a point behind which nothing is left.
+   pure function without_final_zeros(fraction) result(text)
+      character(*), intent(in) :: fraction   !! with a point
+      character(:), allocatable :: text
+
+      text = fraction(:verify(fraction, '0', back=.true.))
+      if (text(len(text):) == '.') text = text(:len(text) - 1)
+   end function without_final_zeros
 
    !> The text as a Fortran character constant.
    pure function quoted(text) result(constant)
@@ -181,6 +240,19 @@ contains
       end do
       short = escaped(text(:last))//'...'
    end function excerpt
+
+   !> What the system said, out of an iomsg that may say first "Cannot open file 'name': ".
+   pure function system_words(message) result(words)
+      character(*), intent(in) :: message
+      character(:), allocatable :: words
+
+      character(*), parameter :: before = "': "
+      integer :: place
+
+      place = index(message, before, back=.true.)
+      words = trim(message)
+      if (place > 0) words = trim(message(place + len(before):))
+   end function system_words
 
    !> Number of characters of a UTF-8 text.
    pure integer function character_count(text)

@@ -16,20 +16,24 @@ module wavycon_resolved_deck
 
 contains
 
-   subroutine write_resolved_deck(deck, unit)
+   subroutine write_resolved_deck(deck, unit, iostat, iomsg)
       type(deck_type), intent(in) :: deck  !! as read
       integer, intent(in) :: unit          !! open for formatted writing
+      integer, intent(out), optional :: iostat          !! of the first write that failed, 0 if none
+      character(*), intent(inout), optional :: iomsg    !! its words
 
       type(deck_writer_type) :: writer
 
-      write (unit, '(a)') '! '//escaped(deck%path)//' with the value in effect of every key that applies.'
       writer = deck_writer_type(unit)
+      call writer%put_comment(escaped(deck%path)//' with the value in effect of every key that applies.')
       call write_scene_group(deck%scene, writer)
       call write_material_group(deck%material, writer)
       call write_surface_group(deck%surface, writer)
       call write_load_group(deck%load, writer)
       call write_method_group(deck%method, surface_dimension(deck%surface), writer)
       call write_output_group(deck%output, writer)
+      if (present(iostat)) iostat = writer%status
+      if (present(iomsg) .and. writer%status /= 0) iomsg = writer%message
    end subroutine write_resolved_deck
 
 end module wavycon_resolved_deck
