@@ -18,14 +18,13 @@ contains
 
       type(output_file) :: file
       real(dp), allocatable :: a(:, :)
-      character(40) :: numbers
       integer :: load, i, j
 
       call results%open_table('coefficients', file)
       if (results%scene%surface%dimension == 1) then
-         call file%put('#  i        A_i[-]')
+         call file%put_columns([character(8) :: 'i[-]', 'A_i[-]'])
       else
-         call file%put('#  i  j     A_ij[-]')
+         call file%put_columns([character(8) :: 'i[-]', 'j[-]', 'A_ij[-]'])
       end if
       do load = 1, size(results%states)
          call results%put_load_heading(file, load, first=load == 1)
@@ -33,12 +32,10 @@ contains
          do i = 0, ubound(a, 1)
             do j = 0, ubound(a, 2)
                if (i + j == 0) cycle
-               if (results%scene%surface%dimension == 1) then
-                  write (numbers, '(i4, 1x, es24.15e3)') i, a(i, j)
-               else
-                  write (numbers, '(i4, i3, 1x, es24.15e3)') i, j, a(i, j)
-               end if
-               call file%put(trim(numbers))
+               call file%add(i)
+               if (results%scene%surface%dimension == 2) call file%add(j)
+               call file%add(a(i, j))
+               call file%end_row()
             end do
          end do
       end do

@@ -91,8 +91,11 @@ contains
                          crack_pressure(hypot(pi - phi, theta)/(2*pi), load_p), &
                          crack_opening(hypot(pi - phi, theta)/(2*pi), load_p)]
             end if
-            call file%put_values([load_p, real(line, dp), distance, x, y, pressure%at(phi, theta), u, &
-                                  surface%undeformed_gap_over_amplitude(phi, theta) + u - approach, beside])
+            call file%add(load_p)
+            call file%add(line)
+            call file%add([distance, x, y, pressure%at(phi, theta), u, &
+                           surface%undeformed_gap_over_amplitude(phi, theta) + u - approach, beside])
+            call file%end_row()
          end do
       end associate
    end subroutine put_line

@@ -2,30 +2,44 @@
 !>
 !> gnuplot reads them unaided: header lines start with '#', the last of them names the columns as name[unit].
 module wavycon_output_file
+   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_error, only: error_type, exit_file_trouble, fatal_error
    use wavycon_kinds, only: dp
+   use wavycon_plain_text, only: escaped, system_words
    use wavycon_system, only: process_id, remove_file, rename_file
    implicit none (type, external)
    private
 
-   public :: output_file, real_width
+   public :: output_file
 
-   !> Width of a real number, 16 digits and a three-digit exponent, and of the blank before it.
-   integer, parameter :: real_width = 25
-   character(*), parameter :: real_format = '(*(1x, es24.15e3))'
+   !> A real number: 16 digits and a three-digit exponent.
+   character(*), parameter :: real_format = '(es24.15e3)'
+   !> The narrowest column: such a number with a blank before it.
+   integer, parameter :: narrowest = 25
 
    type :: output_file
       private
       integer, public :: unit = -1                !! for writers of their own; `put` is to be preferred
+      logical :: opened = .false.
       character(:), allocatable :: name           !! final name
       character(:), allocatable :: working_name
       character(:), allocatable :: trouble        !! the first thing that went wrong
+      integer, allocatable :: column_end(:)       !! where in a row each column ends
+      character(:), allocatable :: row            !! the row begun
+      integer :: columns_filled = 0               !! of that row
    contains
       procedure :: open => open_file
       procedure :: is_open
       procedure :: put
-      procedure :: put_values
       procedure :: put_columns
+      procedure :: add_real
+      procedure :: add_reals
+      procedure :: add_integer
+      procedure :: add_word
+      generic :: add => add_real, add_reals, add_integer, add_word
+      procedure :: end_row
+      procedure :: put_values
+      procedure :: note_trouble
       procedure :: finish
    end type output_file
 
@@ -44,8 +58,11 @@ contains
       write (process, '(i0)') process_id()
       self%name = directory//'/'//name
       self%working_name = directory//'/.'//name//'.'//trim(process)//'.part'
-      open (newunit=self%unit, file=self%working_name, status='replace', action='write', iostat=status, iomsg=message)
-      if (status /= 0) self%trouble = trim(message)
+      ! As a stream, so that `finish` can ask how far it was written.
+      open (newunit=self%unit, file=self%working_name, access='stream', form='formatted', status='replace', &
+            action='write', iostat=status, iomsg=message)
+      self%opened = status == 0
+      if (.not. self%opened) call self%note_trouble(message)
    end subroutine open_file
 
    !> Whether it can be written to.
@@ -65,66 +82,135 @@ contains
 
       if (allocated(self%trouble)) return
       write (self%unit, '(a)', iostat=status, iomsg=message) line
-      if (status /= 0) self%trouble = trim(message)
+      if (status /= 0) call self%note_trouble(message)
    end subroutine put
 
-   !> Writes a line of numbers, and words behind them.
-   subroutine put_values(self, values, words)
-      class(output_file), intent(inout) :: self
-      real(dp), intent(in) :: values(:)
-      character(*), intent(in), optional :: words
-
-      character(real_width*size(values)) :: line
-
-      write (line, real_format) values
-      if (present(words)) then
-         call self%put(line//' '//words)
-      else
-         call self%put(line)
-      end if
-   end subroutine put_values
-
-   !> Writes the header line that names the columns, aligned with the numbers.
+   !> Writes the header line that names the columns; rows are aligned with it.
    subroutine put_columns(self, names)
       class(output_file), intent(inout) :: self
       character(*), intent(in) :: names(:)   !! name[unit]
 
-      character(:), allocatable :: line
-      integer :: i, blanks
+      integer :: i, last
 
-      line = '#'
+      allocate (self%column_end(size(names)))
+      last = 0
       do i = 1, size(names)
-         blanks = max(1, i*real_width - len(line) - len_trim(names(i)))
-         line = line//repeat(' ', blanks)//trim(names(i))
+         last = last + max(narrowest, len_trim(names(i)) + merge(2, 1, i == 1))
+         self%column_end(i) = last
       end do
-      call self%put(line)
+      self%row = repeat(' ', last)
+      do i = 1, size(names)
+         call self%add(trim(names(i)))
+      end do
+      self%row(1:1) = '#'
+      call self%end_row()
    end subroutine put_columns
+
+   !> Fills the next column of a row with a number.
+   subroutine add_real(self, value)
+      class(output_file), intent(inout) :: self
+      real(dp), intent(in) :: value
+
+      character(narrowest) :: text
+
+      write (text, real_format) value
+      call self%add(trim(adjustl(text)))
+   end subroutine add_real
+
+   subroutine add_reals(self, values)
+      class(output_file), intent(inout) :: self
+      real(dp), intent(in) :: values(:)
+
+      integer :: i
+
+      do i = 1, size(values)
+         call self%add(values(i))
+      end do
+   end subroutine add_reals
+
+   subroutine add_integer(self, value)
+      class(output_file), intent(inout) :: self
+      integer, intent(in) :: value
+
+      character(narrowest) :: text
+
+      write (text, '(i0)') value
+      call self%add(trim(text))
+   end subroutine add_integer
+
+   subroutine add_word(self, word)
+      class(output_file), intent(inout) :: self
+      character(*), intent(in) :: word   !! without blanks, no longer than the column is wide
+
+      integer :: last
+
+      self%columns_filled = self%columns_filled + 1
+      last = self%column_end(self%columns_filled)
+      self%row(last - len(word) + 1:last) = word
+   end subroutine add_word
+
+   !> Writes the row that was filled.
+   subroutine end_row(self)
+      class(output_file), intent(inout) :: self
+
+      call self%put(self%row)
+      self%row(:) = ' '
+      self%columns_filled = 0
+   end subroutine end_row
+
+   !> Writes a row of numbers.
+   subroutine put_values(self, values)
+      class(output_file), intent(inout) :: self
+      real(dp), intent(in) :: values(:)   !! as many as there are columns
+
+      call self%add(values)
+      call self%end_row()
+   end subroutine put_values
+
+   !> Takes note of something that went wrong; the file will not get its name.
+   subroutine note_trouble(self, message)
+      class(output_file), intent(inout) :: self
+      character(*), intent(in) :: message   !! as from iomsg
+
+      if (.not. allocated(self%trouble)) self%trouble = system_words(message)
+   end subroutine note_trouble
 
    !> Closes the file and gives it its name; if anything went wrong nothing of it stays. Errors: exit_file_trouble.
    subroutine finish(self, error)
       class(output_file), intent(inout) :: self
       type(error_type), allocatable, intent(out) :: error
 
-      character(200) :: message
       character(:), allocatable :: failure
-      integer :: status
 
-      if (.not. allocated(self%trouble)) then
-         flush (self%unit, iostat=status, iomsg=message)
-         if (status /= 0) self%trouble = trim(message)
-         close (self%unit, iostat=status, iomsg=message)
-         if (status /= 0) self%trouble = trim(message)
-      else
-         close (self%unit, iostat=status)
-      end if
+      if (self%opened) call close_file(self)
       if (.not. allocated(self%trouble)) then
          call rename_file(self%working_name, self%name, failure)
-         if (allocated(failure)) self%trouble = failure
+         if (allocated(failure)) call self%note_trouble(failure)
       end if
       if (allocated(self%trouble)) then
-         call remove_file(self%working_name)
-         call fatal_error(error, exit_file_trouble, self%name//': cannot be written: '//self%trouble)
+         if (self%opened) call remove_file(self%working_name)
+         call fatal_error(error, exit_file_trouble, escaped(self%name)//': cannot be written: '//self%trouble)
       end if
    end subroutine finish
+
+   !> Closes the file and makes sure that all of it is there.
+   !>
+   !> N.B. On a full disk gfortran 12 reports nothing: neither write, flush nor close fails. The file is too short.
+   subroutine close_file(self)
+      type(output_file), intent(inout) :: self
+
+      character(200) :: message
+      integer(int64) :: bytes_there, next_byte
+      integer :: status
+
+      flush (self%unit, iostat=status, iomsg=message)
+      if (status /= 0) call self%note_trouble(message)
+      inquire (unit=self%unit, pos=next_byte)
+      close (self%unit, iostat=status, iomsg=message)
+      if (status /= 0) call self%note_trouble(message)
+      inquire (file=self%working_name, size=bytes_there)
+      if (bytes_there /= next_byte - 1) &
+         call self%note_trouble('it is cut short: the disk is full, or over a quota or a limit on file sizes')
+   end subroutine close_file
 
 end module wavycon_output_file

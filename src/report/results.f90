@@ -7,7 +7,7 @@ module wavycon_results
    use wavycon_fourier_contact, only: fourier_contact
    use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
-   use wavycon_plain_text, only: escaped
+   use wavycon_plain_text, only: escaped, exact_number, integer_text
    use wavycon_scene, only: scene_type
    use wavycon_version, only: revision, version
    implicit none (type, external)
@@ -36,24 +36,25 @@ contains
       character(*), intent(in) :: kind
       type(output_file), intent(out) :: file
 
-      character(200) :: line
+      character(:), allocatable :: symmetry
 
       call file%open(self%directory, trim(self%deck%scene%case)//'.'//kind//'.dat')
       call file%put('# wavycon '//version//' ('//revision//')')
       call file%put('# deck: '//escaped(self%deck%path))
-      call file%put('# title: '//escaped(trim(self%deck%scene%title)))
+      if (self%deck%scene%title /= '') call file%put('# title: '//escaped(trim(self%deck%scene%title)))
       associate (surface => self%scene%surface, method => self%deck%method)
-         write (line, '(3a, 2(a, es24.15e3))') '# surface: ', trim(self%deck%surface%kind), ',', &
-            ' Delta[length] =', surface%amplitude, ', lambda[length] =', surface%wavelength
-         call file%put(trim(line))
-         write (line, '(2(a, es24.15e3))') '# material: e_star[pressure] =', self%scene%e_star, &
-            ', p*[pressure] =', self%scene%p_star
-         call file%put(trim(line))
-         write (line, '(3a, i0, a, i0, 3a, i0, a, i0, a, es10.3)') '# method: ', trim(method%solver), ', harmonics = ', &
-            method%harmonics, ', constraint_points = ', method%constraint_points, ', symmetry = ', &
-            trim(method%symmetry), ' (', self%contact%terms%count(), ' unknowns, ', &
-            size(self%contact%problem%bounds), ' constraints), edge_level[p*] =', method%edge_level
-         call file%put(trim(line))
+         symmetry = ''
+         if (surface%dimension == 2) symmetry = ', symmetry = '//trim(method%symmetry)
+         call file%put('# surface: '//trim(self%deck%surface%kind)// &
+                       ', Delta[length] = '//exact_number(surface%amplitude)// &
+                       ', lambda[length] = '//exact_number(surface%wavelength))
+         call file%put('# material: e_star[pressure] = '//exact_number(self%scene%e_star)// &
+                       ', p*[pressure] = '//exact_number(self%scene%p_star))
+         call file%put('# method: '//trim(method%solver)//', harmonics = '//integer_text(method%harmonics)// &
+                       ', constraint_points = '//integer_text(method%constraint_points)//symmetry// &
+                       ' ('//integer_text(self%contact%terms%count())//' unknowns, '// &
+                       integer_text(size(self%contact%problem%bounds))//' constraints), edge_level[p*] = '// &
+                       exact_number(method%edge_level))
       end associate
    end subroutine open_table
 
@@ -64,15 +65,12 @@ contains
       integer, intent(in) :: load
       logical, intent(in) :: first   !! block of the file
 
-      character(80) :: line
-
       if (.not. first) then
          call file%put('')
          call file%put('')
       end if
-      write (line, '(a, i0, a, g0.9, 2a)') '# load ', load, ': pbar/p* = ', self%states(load)%pbar_over_pstar, ', ', &
-         trim(self%states(load)%status)
-      call file%put(trim(line))
+      call file%put('# load '//integer_text(load)//': pbar/p* = '//exact_number(self%states(load)%pbar_over_pstar)// &
+                    ', '//trim(self%states(load)%status))
    end subroutine put_load_heading
 
    !> p/p* and (u - ubar)/Delta at a load as series, and the approach that goes with them.

@@ -2,7 +2,7 @@
 module wavycon_run_log
    use, intrinsic :: iso_fortran_env, only: int64, output_unit
    use wavycon_kinds, only: dp
-   use wavycon_plain_text, only: escaped
+   use wavycon_plain_text, only: escaped, integer_text, short_number
    use wavycon_results, only: results_type
    use wavycon_system, only: stdout_is_terminal
    use wavycon_version, only: revision, version
@@ -45,9 +45,12 @@ contains
       class(run_log), intent(inout) :: self
       character(*), intent(in) :: line
 
+      integer :: ignored
+
       if (self%quiet) return
       call clear_progress(self)
-      write (output_unit, '(a)') line
+      ! A log that nobody can read is no reason to lose the results.
+      write (output_unit, '(a)', iostat=ignored) line
    end subroutine say
 
    !> Says a line with the time since the start.
@@ -66,25 +69,21 @@ contains
       class(run_log), intent(inout) :: self
       type(results_type), intent(in) :: results
 
-      character(160) :: line
-
       if (self%quiet) return
       associate (deck => results%deck, scene => results%scene)
          call self%say('wavycon '//version//' ('//revision//')')
          call self%say('deck      '//escaped(deck%path))
          if (deck%scene%title /= '') call self%say('title     '//escaped(trim(deck%scene%title)))
-         write (line, '(2a, 2(a, g0.6))') 'surface   ', trim(deck%surface%kind), ', Delta [length] = ', &
-            scene%surface%amplitude, ', lambda [length] = ', scene%surface%wavelength
-         call self%say(trim(line))
-         write (line, '(2(a, g0.6))') 'material  E* [pressure] = ', scene%e_star, ', p* [pressure] = ', scene%p_star
-         call self%say(trim(line))
-         write (line, '(a, i0, 2(a, g0.6))') 'loads     ', size(scene%pbar_over_pstar), ', pbar/p* from ', &
-            minval(scene%pbar_over_pstar), ' to ', maxval(scene%pbar_over_pstar)
-         call self%say(trim(line))
-         write (line, '(3a, i0, a, i0, a, i0, a)') 'method    ', trim(deck%method%solver), ', ', deck%method%harmonics, &
-            ' harmonics (', results%contact%terms%count(), ' unknowns), ', size(results%contact%problem%bounds), &
-            ' constraint points'
-         call self%say(trim(line))
+         call self%say('surface   '//trim(deck%surface%kind)//', Delta = '//short_number(scene%surface%amplitude)// &
+                       ' [length], lambda = '//short_number(scene%surface%wavelength)//' [length]')
+         call self%say('material  E* = '//short_number(scene%e_star)//' [pressure], p* = '// &
+                       short_number(scene%p_star)//' [pressure]')
+         call self%say('loads     '//integer_text(size(scene%pbar_over_pstar))//', pbar/p* from '// &
+                       short_number(minval(scene%pbar_over_pstar))//' to '// &
+                       short_number(maxval(scene%pbar_over_pstar)))
+         call self%say('method    '//trim(deck%method%solver)//', '//integer_text(deck%method%harmonics)// &
+                       ' harmonics ('//integer_text(results%contact%terms%count())//' unknowns), '// &
+                       integer_text(size(results%contact%problem%bounds))//' constraint points')
       end associate
    end subroutine show_scene
 
@@ -115,17 +114,33 @@ contains
       integer :: i
 
       if (self%quiet) return
-      call self%say('     pbar/p*      pbar       gap/Delta    area/A0   peak/p*   active  pivots  kkt      status')
+      write (line, '(5a12, 2a8, a9, 2x, a)') 'pbar/p*', 'pbar', 'gap/Delta', 'area/A0', 'peak/p*', 'active', 'pivots', &
+         'kkt', 'status'
+      call self%say(trim(line))
       do i = 1, size(results%states)
          associate (state => results%states(i), measures => results%measures(i))
-            write (line, '(f12.6, es12.4, f13.8, f10.6, f10.6, 2i8, es9.1, 2x, a)') state%pbar_over_pstar, &
-               results%scene%mean_pressure(i), measures%mean_gap_over_amplitude, measures%contact_area_fraction, &
-               measures%peak_pressure_over_pstar, state%active_constraints, state%pivots, state%kkt_residual, &
-               trim(state%status)
+            write (line, '(5a, 2i8, es9.1, 2x, a)') &
+               cell(state%pbar_over_pstar), cell(results%scene%mean_pressure(i)), &
+               cell(measures%mean_gap_over_amplitude), cell(measures%contact_area_fraction), &
+               cell(measures%peak_pressure_over_pstar), state%active_constraints, state%pivots, &
+               state%kkt_residual, trim(state%status)
             call self%say(trim(line))
          end associate
       end do
    end subroutine show_loads
+
+   !> A number in a column of 12: with six decimals where that shows enough of it and fits, else with an exponent.
+   character(12) function cell(number)
+      real(dp), intent(in) :: number
+
+      real(dp), parameter :: least = 1.0e-3_dp, most = 1.0e4_dp
+
+      if ((abs(number) >= least .and. abs(number) < most) .or. .not. abs(number) > 0) then
+         write (cell, '(f12.6)') number
+      else
+         write (cell, '(es12.4)') number
+      end if
+   end function cell
 
    subroutine clear_progress(self)
       class(run_log), intent(inout) :: self

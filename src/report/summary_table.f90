@@ -1,7 +1,6 @@
 !> <case>.summary.dat: a line a load.
 module wavycon_summary_table
    use wavycon_error, only: error_type
-   use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
    use wavycon_results, only: results_type
    implicit none (type, external)
@@ -23,14 +22,18 @@ contains
       call file%put_columns([character(40) :: 'pbar_over_pstar[-]', 'mean_pressure[pressure]', &
                              'mean_gap_over_amplitude[-]', 'approach_over_amplitude[-]', 'contact_area_fraction[-]', &
                              'peak_pressure_over_pstar[-]', 'min_pressure_over_pstar[-]', 'active_constraints[-]', &
-                             'pivots[-]', 'kkt_residual[-]', 'status'])
+                             'pivots[-]', 'kkt_residual[-]', 'status[-]'])
       do i = 1, size(results%states)
          associate (state => results%states(i), measures => results%measures(i))
-            call file%put_values([state%pbar_over_pstar, results%scene%mean_pressure(i), &
-                                  measures%mean_gap_over_amplitude, measures%approach_over_amplitude, &
-                                  measures%contact_area_fraction, measures%peak_pressure_over_pstar, &
-                                  measures%min_pressure_over_pstar, real(state%active_constraints, dp), &
-                                  real(state%pivots, dp), state%kkt_residual], trim(state%status))
+            call file%add([state%pbar_over_pstar, results%scene%mean_pressure(i), &
+                           measures%mean_gap_over_amplitude, measures%approach_over_amplitude, &
+                           measures%contact_area_fraction, measures%peak_pressure_over_pstar, &
+                           measures%min_pressure_over_pstar])
+            call file%add(state%active_constraints)
+            call file%add(state%pivots)
+            call file%add(state%kkt_residual)
+            call file%add(trim(state%status))
+            call file%end_row()
          end associate
       end do
       call file%finish(error)
