@@ -3,7 +3,8 @@ module wavycon_command_line
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_key_reference, only: key_reference
    use wavycon_nearest_name, only: nearest_name
-   use wavycon_plain_text, only: escaped
+   use wavycon_output_group, only: longest_directory
+   use wavycon_plain_text, only: escaped, integer_text, is_printable
    implicit none (type, external)
    private
 
@@ -43,6 +44,12 @@ contains
       do while (i < command_argument_count())
          i = i + 1
          word = argument(i)
+         if (.not. options_over .and. index(word, '--output=') == 1) then
+            command_line%output = word(len('--output=') + 1:)
+            call check_output(command_line%output, error)
+            if (allocated(error)) return
+            cycle
+         end if
          if (options_over .or. index(word, '-') /= 1) then
             if (word == '') call fatal_error(error, exit_bad_input, 'the name of a deck is empty'//new_line('a')//usage)
             if (allocated(error)) return
@@ -61,15 +68,13 @@ contains
          case ('--help', '-h')
             command_line%help = .true.
          case ('--output')
+            command_line%output = ''
             if (i < command_argument_count()) then
                i = i + 1
                command_line%output = argument(i)
             end if
-            if (.not. allocated(command_line%output)) command_line%output = ''
-            if (command_line%output == '' .or. index(command_line%output, '--') == 1) then
-               call fatal_error(error, exit_bad_input, '--output needs the name of a directory'//new_line('a')//usage)
-               return
-            end if
+            call check_output(command_line%output, error)
+            if (allocated(error)) return
          case default
             near = nearest_name(word, options)
             if (near > 0) then
@@ -84,6 +89,22 @@ contains
       if (size(command_line%decks) == 0 .and. .not. (command_line%version .or. command_line%help)) &
          call fatal_error(error, exit_bad_input, 'no deck is given'//new_line('a')//usage)
    end subroutine read_command_line
+
+   !> Errors: exit_bad_input if it is no directory that a deck could name too.
+   subroutine check_output(directory, error)
+      character(*), intent(in) :: directory
+      type(error_type), allocatable, intent(out) :: error
+
+      if (directory == '' .or. index(directory, '--') == 1) then
+         call fatal_error(error, exit_bad_input, '--output needs the name of a directory'//new_line('a')//usage)
+      else if (len(directory) > longest_directory) then
+         call fatal_error(error, exit_bad_input, '--output: the name of a directory must be at most '// &
+                          integer_text(longest_directory)//' bytes long, got '//integer_text(len(directory)))
+      else if (.not. is_printable(directory)) then
+         call fatal_error(error, exit_bad_input, "--output: the name '"//escaped(directory)// &
+                          "' must be ASCII or UTF-8 text without control characters")
+      end if
+   end subroutine check_output
 
    function help_text() result(text)
       character(:), allocatable :: text

@@ -4,9 +4,11 @@ program wavycon_main
    use wavycon_command_line, only: command_line_type, help_text, read_command_line
    use wavycon_deck, only: deck_type
    use wavycon_error, only: error_type, exit_bad_input, exit_fine, fatal_error
+   use wavycon_output_group, only: plain_directory
    use wavycon_plain_text, only: escaped
    use wavycon_read_deck, only: read_deck
    use wavycon_run_scene, only: run_scene
+   use wavycon_scene, only: make_scene, scene_type
    use wavycon_version, only: revision, version
    implicit none (type, external)
 
@@ -58,12 +60,14 @@ contains
       type(deck_type), allocatable, intent(out) :: decks(:)
 
       type(error_type), allocatable :: error
+      type(scene_type) :: scene
       integer :: i, j, worst
 
       allocate (decks(size(command_line%decks)))
       worst = exit_fine
       do i = 1, size(decks)
          call read_deck(command_line%decks(i)%path, decks(i), error)
+         if (.not. allocated(error)) call make_scene(decks(i), scene, error)
          if (allocated(error)) then
             write (error_unit, '(a)') error%message
             worst = max(worst, error%status)
@@ -72,7 +76,7 @@ contains
       if (worst /= exit_fine) call finish(worst)
 
       do i = 1, size(decks)
-         if (allocated(command_line%output)) decks(i)%output%directory = command_line%output
+         if (allocated(command_line%output)) decks(i)%output%directory = plain_directory(command_line%output)
          do j = 1, i - 1
             if (decks(i)%scene%case /= decks(j)%scene%case) cycle
             if (decks(i)%output%directory /= decks(j)%output%directory) cycle

@@ -18,7 +18,7 @@ module wavycon_run_scene
    use wavycon_run_log, only: run_log
    use wavycon_scene, only: make_scene
    use wavycon_summary_table, only: write_summary_table
-   use wavycon_system, only: make_directories
+   use wavycon_system, only: make_directories, path_kind, path_other
    use wavycon_theory_table, only: write_theory_table
    implicit none (type, external)
    private
@@ -66,6 +66,7 @@ contains
       if (allocated(error)) return
       bad = count(.not. results%states%is_good())
       if (bad > 0) status = exit_not_converged
+      if (results%scene%p_star <= 0.0_dp) call log%say('the surface is flat: there is only a summary')
       call log%say_timed('tables written')
       call log%say('results: '//escaped(results%directory)//'/'//trim(deck%scene%case)//'.summary.dat')
       if (bad == 0) then
@@ -82,8 +83,15 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       character(:), allocatable :: failure
+      character(200) :: message
+      integer :: status
       type(output_file) :: file
 
+      if (path_kind(results%directory) == path_other) then
+         call fatal_error(error, exit_file_trouble, escaped(results%directory)// &
+                          ': the output directory cannot be made: a file of that name is in the way')
+         return
+      end if
       call make_directories(results%directory, failure)
       if (allocated(failure)) then
          call fatal_error(error, exit_file_trouble, escaped(results%directory)// &
@@ -91,7 +99,10 @@ contains
          return
       end if
       call file%open(results%directory, trim(results%deck%scene%case)//'.resolved.nml')
-      if (file%is_open()) call write_resolved_deck(results%deck, file%unit)
+      if (file%is_open()) then
+         call write_resolved_deck(results%deck, file%unit, status, message)
+         if (status /= 0) call file%note_trouble(message)
+      end if
       call file%finish(error)
    end subroutine prepare_directory
 
@@ -114,12 +125,14 @@ contains
       end do
    end subroutine solve_loads
 
-   !> Writes the tables that the deck asks for.
+   !> Writes the tables that the deck asks for. Of a flat surface only the summary: its fields are to be shown in p* and
+   !> Delta, which are zero.
    subroutine write_tables(results, error)
       type(results_type), intent(in) :: results
       type(error_type), allocatable, intent(out) :: error
 
-      call write_if(.true., write_summary_table)
+      call write_summary_table(results, error)
+      if (results%scene%p_star <= 0.0_dp) return
       call write_if(results%deck%output%lines, write_lines_table)
       call write_if(results%deck%output%map, write_map_table)
       call write_if(results%deck%output%contours, write_contour_table)

@@ -6,6 +6,7 @@ module wavycon_scene
    use wavycon_fourier_terms, only: symmetry_diagonal, symmetry_full, symmetry_none
    use wavycon_kinds, only: dp
    use wavycon_load_group, only: largest_pbar_over_pstar
+   use wavycon_plain_text, only: escaped, short_number
    use wavycon_surface, only: crossed_1d, surface_type, wave_1d, wave_2d
    implicit none (type, external)
    private
@@ -29,8 +30,7 @@ contains
       type(scene_type), intent(out) :: scene
       type(error_type), allocatable, intent(out) :: error
 
-      character(120) :: text
-      integer :: worst
+      real(dp) :: worst
 
       associate (surface => deck%surface)
          select case (surface%kind)
@@ -53,15 +53,16 @@ contains
 
       if (allocated(deck%load%mean_pressure)) then
          allocate (scene%mean_pressure, source=deck%load%mean_pressure)
+         worst = maxval(scene%mean_pressure)
+         ! Before the division, which may overflow.
+         if (scene%p_star > 0.0_dp .and. worst > largest_pbar_over_pstar*scene%p_star) then
+            call fatal_error(error, exit_bad_input, escaped(deck%path)//': mean_pressure = '//short_number(worst)// &
+                             ' is more than '//short_number(largest_pbar_over_pstar)//' times p* = '// &
+                             short_number(scene%p_star)// &
+                             '. Do its unit and that of e_star agree, and those of the lengths?')
+            return
+         end if
          allocate (scene%pbar_over_pstar, source=in_p_star(scene%mean_pressure, scene%p_star))
-         if (scene%p_star <= 0.0_dp) return
-         worst = maxloc(scene%pbar_over_pstar, dim=1)
-         if (scene%pbar_over_pstar(worst) <= largest_pbar_over_pstar) return
-         write (text, '(a, g0.6, a, es9.2, a, g0.6, a, es8.1, a)') ': mean_pressure = ', scene%mean_pressure(worst), &
-            ' is ', scene%pbar_over_pstar(worst), ' times p* = ', scene%p_star, '; at most ', &
-            largest_pbar_over_pstar, ' times'
-         call fatal_error(error, exit_bad_input, deck%path//trim(text)// &
-                          ' is allowed. Do its unit and that of e_star agree, and those of the lengths?')
       else
          allocate (scene%mean_pressure, source=scene%p_star*deck%load%pbar_over_pstar)
          allocate (scene%pbar_over_pstar, source=deck%load%pbar_over_pstar)
