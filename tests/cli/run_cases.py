@@ -1,0 +1,220 @@
+#!/usr/bin/env python3
+"""Runs the program as a user would and compares what it says, makes and returns with what a file of cases expects.
+
+usage: run_cases.py --program WAVYCON CASES [--only WORDS]
+
+CASES holds cases like this one:
+
+   case: the deck is not there
+   run:
+      wavycon nowhere.nml
+   status: 3
+   stderr:
+      nowhere.nml: there is no such file
+
+Each case runs in a new empty folder. Lines of three blanks belong to the keyword above them; lines that start with
+'#' are remarks. The keywords are
+
+   case: WORDS         starts a case
+   file NAME:          a file to be there before the run, as it stands below
+   bytes NAME:         the same, with Python's escapes (\\t, \\r, \\xff) and nothing added behind the last character
+   run:                what the user types: lines for sh, in which `wavycon` is the program
+   status: N           the exit status of the last line of `run`; 0 if not given
+   stdout:, stderr:    lines that must be there, one right after the other in this order; a line '...' stands for any
+                       number of lines. All lines must be given.
+   makes:              every file that is there after the run and was not before
+   as a user other than root:
+                       if root runs the tests this case runs as nobody, and is skipped, visibly, if nobody cannot
+
+What a case does not mention must be empty: no file is made and nothing is printed, except that a case that does not
+mention stdout does not look at it if the exit status is 0 or 2: that is the log.
+
+Exit status: 0 if all cases pass, 77 if all were skipped, else 1.
+"""
+import argparse
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+SKIPPED = 77
+NOBODY = 65534
+SECONDS = 60  # no case takes one; more means that the program hangs
+
+
+class Case:
+    def __init__(self, name, line):
+        self.name = name
+        self.line = line
+        self.files = {}
+        self.expected = {}
+        self.run = None
+        self.status = 0
+        self.unprivileged = False
+
+
+def read_cases(path):
+    """The cases of a file. What is not understood is an error: a keyword misspelt must not check nothing."""
+    cases, block = [], None
+
+    def close(block):
+        if block is None:
+            return
+        case, keyword, lines, number = block
+        while lines and not lines[-1].strip():
+            lines.pop()
+        text = "".join(line[3:] + "\n" for line in lines)
+        if keyword.startswith("file "):
+            case.files[keyword[5:]] = text.encode()
+        elif keyword.startswith("bytes "):
+            case.files[keyword[6:]] = text[:-1].encode().decode("unicode_escape").encode("latin-1")
+        elif keyword == "run":
+            case.run = text
+        elif keyword in ("stdout", "stderr", "makes"):
+            case.expected[keyword] = text.splitlines()
+        else:
+            raise SystemExit(f"{path}:{number}: no such keyword: {keyword}")
+
+    for number, line in enumerate(path.read_text().splitlines(), 1):
+        if line.startswith("   ") or not line.strip():
+            if block:
+                block[2].append(line)
+            elif line.strip():
+                raise SystemExit(f"{path}:{number}: this line belongs to no keyword")
+            continue
+        close(block)
+        block = None
+        if line.startswith("#"):
+            continue
+        match = re.fullmatch(r"([^:]+):\s*(.*)", line)
+        if not match:
+            raise SystemExit(f"{path}:{number}: expected 'keyword:', found: {line}")
+        keyword, value = match.groups()
+        if keyword == "case":
+            cases.append(Case(value, number))
+        elif not cases:
+            raise SystemExit(f"{path}:{number}: '{keyword}' before the first case")
+        elif keyword == "status":
+            cases[-1].status = int(value)
+        elif keyword == "as a user other than root":
+            cases[-1].unprivileged = True
+        elif value:
+            raise SystemExit(f"{path}:{number}: nothing may follow '{keyword}:'")
+        else:
+            block = (cases[-1], keyword, [], number)
+    close(block)
+    for case in cases:
+        if not case.run:
+            raise SystemExit(f"{path}:{case.line}: the case '{case.name}' runs nothing")
+    return cases
+
+
+def pattern_of(lines):
+    """A regular expression for expected lines, in which '...' is any number of lines."""
+    return "".join(r"(?:.*\n)*?" if line == "..." else re.escape(line) + r"\n" for line in lines)
+
+
+def files_below(folder):
+    return {str(path.relative_to(folder)) for path in folder.rglob("*") if not path.is_dir() or path.is_symlink()}
+
+
+def differences(case, status, output, made):
+    """What differs from what the case expects, in words."""
+    words = []
+    if status != case.status:
+        words.append(f"exit status {status}, expected {case.status}")
+    for stream in ("stdout", "stderr"):
+        if stream == "stdout" and stream not in case.expected and case.status in (0, 2):
+            continue
+        expected = case.expected.get(stream, [])
+        if not re.fullmatch(pattern_of(expected), output[stream]):
+            words.append(f"{stream} is not as expected; expected:\n" + "".join(f"   {line}\n" for line in expected))
+    expected = set(case.expected.get("makes", []))
+    words += [f"was not made: {name}" for name in sorted(expected - made)]
+    words += [f"was made, but is not expected: {name}" for name in sorted(made - expected)]
+    return words
+
+
+def become_nobody():
+    os.setgroups([])
+    os.setgid(NOBODY)
+    os.setuid(NOBODY)
+
+
+def nobody_can_run(program):
+    return subprocess.run([program, "--version"], preexec_fn=become_nobody, stdout=subprocess.DEVNULL,
+                          stderr=subprocess.DEVNULL, check=False).returncode == 0
+
+
+def run_case(case, program, folder):
+    """The differences of one case; None if it was skipped."""
+    step_down = case.unprivileged and os.geteuid() == 0
+    if step_down:
+        try:
+            if not nobody_can_run(program):
+                return None
+        except (OSError, subprocess.SubprocessError):
+            return None
+        os.chown(folder, NOBODY, NOBODY)
+    for name, content in case.files.items():
+        path = folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(content)
+        if step_down:
+            os.chown(path, NOBODY, NOBODY)
+    before = files_below(folder)
+    environment = dict(os.environ, PATH=f"{program.parent}{os.pathsep}{os.environ['PATH']}")
+    result = subprocess.run(["sh", "-c", case.run], cwd=folder, env=environment, stdin=subprocess.DEVNULL,
+                            capture_output=True, timeout=SECONDS, check=False,
+                            preexec_fn=become_nobody if step_down else None)
+    output = {"stdout": result.stdout.decode(errors="backslashreplace"),
+              "stderr": result.stderr.decode(errors="backslashreplace")}
+    words = differences(case, result.returncode, output, files_below(folder) - before)
+    if words:
+        for stream, text in output.items():
+            words.append(f"{stream} was:\n" + "".join(f"   {line}\n" for line in text.splitlines()))
+    return words
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--program", type=pathlib.Path, required=True)
+    parser.add_argument("--only", default="", help="run the cases whose names hold these words")
+    parser.add_argument("cases", type=pathlib.Path)
+    arguments = parser.parse_args()
+
+    program = arguments.program.resolve()
+    if program.name != "wavycon" or not os.access(program, os.X_OK):
+        raise SystemExit(f"{program} is no program called wavycon")
+    cases = [case for case in read_cases(arguments.cases) if arguments.only in case.name]
+    if not cases:
+        raise SystemExit(f"{arguments.cases}: no cases")
+    failed = skipped = 0
+    for case in cases:
+        # Not called after the program: a blank, because folders of users have them.
+        folder = pathlib.Path(tempfile.mkdtemp(prefix="a case "))
+        try:
+            words = run_case(case, program, folder)
+        finally:
+            shutil.rmtree(folder, ignore_errors=True)
+        if words is None:
+            skipped += 1
+            print(f"SKIPPED {case.name}: no user other than root can run {program}")
+        elif words:
+            failed += 1
+            print(f"FAILED {arguments.cases}:{case.line}: {case.name}")
+            print("\n".join(words))
+        else:
+            print(f"passed {case.name}")
+    print(f"{len(cases)} cases, {failed} failed, {skipped} skipped")
+    if failed:
+        sys.exit(1)
+    if skipped == len(cases):
+        sys.exit(SKIPPED)
+
+
+if __name__ == "__main__":
+    main()

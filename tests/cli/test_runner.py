@@ -1,0 +1,77 @@
+#!/usr/bin/env python3
+"""run_cases.py must fail where the program differs from a case, and must not overlook a case that it misreads."""
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+RUNNER = pathlib.Path(__file__).resolve().parent / "run_cases.py"
+
+SOUND = """\
+# A remark.
+case: a run
+file deck.nml:
+   &surface kind = 'wave_1d' /
+   &load pbar_over_pstar = 1 /
+bytes odd:
+   \\x41\\n
+run:
+   cat odd && wavycon deck.nml --quiet && wavycon --nonsense
+status: 1
+stdout:
+   A
+stderr:
+   wavycon: unknown option '--nonsense'
+   ...
+makes:
+   outputs/deck/deck.resolved.nml
+   outputs/deck/deck.summary.dat
+"""
+
+# What is tried, the line of SOUND, what stands there instead, words that the runner must print.
+FAILURES = [
+    ("status", "status: 1\n", "status: 2\n", "exit status 1, expected 2"),
+    ("no status", "status: 1\n", "", "exit status 1, expected 0"),
+    ("stdout", "   A\n", "   B\n", "stdout is not as expected"),
+    ("stdout not mentioned", "stdout:\n   A\n", "", "stdout is not as expected"),
+    ("a line of stderr", "'--nonsense'\n", "'--nonsens'\n", "stderr is not as expected"),
+    ("the rest of stderr", "   ...\n", "", "stderr is not as expected"),
+    ("a file too many", "   outputs/deck/deck.summary.dat\n", "", "was made, but is not expected: outputs/deck/deck.s"),
+    ("a file too few", "makes:\n", "makes:\n   more\n", "was not made: more"),
+    ("a keyword misspelt", "stderr:\n", "sdterr:\n", "no such keyword: sdterr"),
+    ("a line without a keyword", "status: 1\n", "status 1\n", "expected 'keyword:'"),
+    ("a case without a run", SOUND[SOUND.index("run:"):SOUND.index("status:")], "", "runs nothing"),
+    ("no case at all", SOUND, "# nothing\n", "no cases"),
+]
+
+
+class Runner(unittest.TestCase):
+    program = ""
+
+    def outcome(self, cases):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "some.cases"
+            path.write_text(cases)
+            result = subprocess.run([sys.executable, RUNNER, "--program", self.program, path], capture_output=True,
+                                    text=True, check=False)
+        return result.returncode, result.stdout + result.stderr
+
+    def test_a_sound_case_passes(self):
+        status, output = self.outcome(SOUND)
+        self.assertEqual(0, status, output)
+        self.assertIn("1 cases, 0 failed, 0 skipped", output)
+
+    def test_anything_else_fails(self):
+        for name, old, new, words in FAILURES:
+            with self.subTest(name):
+                self.assertEqual(1, SOUND.count(old))
+                status, output = self.outcome(SOUND.replace(old, new))
+                self.assertEqual(1, status, output)
+                self.assertIn(words, output)
+
+
+if __name__ == "__main__":
+    Runner.program = sys.argv.pop(sys.argv.index("--program") + 1)
+    sys.argv.remove("--program")
+    unittest.main()
