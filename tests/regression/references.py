@@ -1,0 +1,168 @@
+"""References: what is kept of the tables of a deck, and how nearly a new run must agree with it."""
+import math
+import pathlib
+import subprocess
+
+from tables import Table
+
+HERE = pathlib.Path(__file__).resolve().parent
+REFERENCES = HERE / "references"
+INPUTS = HERE.parent.parent / "inputs"
+
+# All references together [byte].
+LARGEST = 1_000_000
+# Rows that are kept of a long table: enough to see any change of a field, few enough to be committed.
+SAMPLE = 60
+
+# Tolerances. A number agrees if it differs by at most `absolute + of_largest*L`, where L is the largest size that the
+# reference has in that column.
+#
+# The quadratic problem is solved to some 1e-14 of its size, but another BLAS adds in another order, and the numbers
+# made of its answer (a minimum of the pressure, a gap that is a small difference) lose some digits of that.
+SOLVED = (1e-9, 1e-9)
+# Areas and lengths of the edge of contact: the same, divided by the slope of the pressure there.
+EDGE = (0.0, 1e-8)
+# Closed forms: elementary functions and quadratures to 1e-12, some of them differences of numbers of order 1.
+CLOSED_FORM = (0.0, 1e-10)
+# Products and sums of a few numbers of the deck.
+ARITHMETIC = (0.0, 1e-12)
+# Numbers of things that do not depend on the way to the answer.
+COUNTED = (0.0, 0.0)
+
+TOLERANCES = {
+    "summary": {
+        "pbar_over_pstar": ARITHMETIC,
+        "mean_pressure": ARITHMETIC,
+        "mean_gap_over_amplitude": SOLVED,
+        "approach_over_amplitude": SOLVED,
+        "contact_area_fraction": EDGE,
+        "peak_pressure_over_pstar": SOLVED,
+        "min_pressure_over_pstar": SOLVED,
+        "active_constraints": COUNTED,
+        "pivots": None,  # depends on which of two nearly equal candidates a rounding error puts first
+        "kkt_residual": None,  # is a rounding error; `status` says that it is small enough
+    },
+    "coefficients": {"i": COUNTED, "j": COUNTED, "A_i": SOLVED, "A_ij": SOLVED},
+    "lines": {"line": COUNTED, "pbar_over_pstar": ARITHMETIC, "distance": ARITHMETIC, "x": ARITHMETIC, "y": ARITHMETIC,
+              "pressure_over_pstar": SOLVED, "displacement_over_amplitude": SOLVED, "gap_over_amplitude": SOLVED},
+    "map": {"pbar_over_pstar": ARITHMETIC, "x": ARITHMETIC, "y": ARITHMETIC, "undeformed_gap": CLOSED_FORM,
+            "pressure_over_pstar": SOLVED, "displacement": SOLVED, "gap": SOLVED},
+    "contour": {"pbar_over_pstar": ARITHMETIC, "x_min": EDGE, "x_max": EDGE, "y_min": EDGE, "y_max": EDGE},
+    "theory": {},
+}
+# Any other column of numbers, such as those of the closed forms beside the lines.
+OTHERWISE = CLOSED_FORM
+
+
+class Excerpt:
+    """What is compared of a table: remarks and column names, which must be equal, and rows, nearly."""
+
+    def __init__(self, kind, head, columns, rows):
+        self.kind, self.head, self.columns, self.rows = kind, head, columns, rows
+
+    def text(self):
+        lines = [f"# {line}" for line in self.head] + ["# " + " ".join(self.columns)]
+        return "\n".join(lines + [" ".join(row) for row in self.rows]) + "\n"
+
+
+def tolerance_of(kind, column):
+    """The tolerance of a column name[unit]; None if it is not compared."""
+    return TOLERANCES.get(kind, {}).get(column.split("[")[0], OTHERWISE)
+
+
+def shortened(word):
+    """A number to 13 digits, one more than the narrowest tolerance needs; other words as they are."""
+    try:
+        return f"{float(word):.13g}"
+    except ValueError:
+        return word
+
+
+def excerpt_of(path):
+    """The excerpt of a table: all of a short one, a sample of the rows of lines and maps, the extents of contours."""
+    kind = path.name.split(".")[-2]
+    table = Table(path)
+    head, columns = [], table.columns
+    if kind in ("lines", "map"):
+        # An odd step, so that it is in step with no row of a map.
+        step = (len(table.lines) // SAMPLE) | 1
+        head = [f"{len(table.lines)} rows in {table.blocks} blocks, 1 of {step} is here"]
+        rows = table.rows(step)
+    elif kind == "contour":
+        # The number of points of a curve may depend on the last digit, where the curve meets a node of the grid.
+        head = ["the least and the largest coordinates of each load"]
+        columns = table.columns[:1] + [f"{axis}_{end}[length]" for axis in "xy" for end in ("min", "max")]
+        points = {}
+        for load, *point in table.rows():
+            points.setdefault(load, []).append([float(word) for word in point])
+        rows = [[load] + [repr(end(axis)) for axis in zip(*points[load]) for end in (min, max)] for load in points]
+    else:
+        rows = table.rows()
+    kept = [tolerance_of(kind, column) is not None for column in columns]
+    return Excerpt(kind, head, columns,
+                   [[shortened(word) if keep else "-" for word, keep in zip(row, kept)] for row in rows])
+
+
+def read_reference(path):
+    """An excerpt as `Excerpt.text` wrote it."""
+    lines = path.read_text().splitlines()
+    head = [line[2:] for line in lines if line.startswith("# ")]
+    rows = [line.split() for line in lines if not line.startswith("#")]
+    return Excerpt(path.name.split(".")[-2], head[:-1], head[-1].split(), rows)
+
+
+def agrees(word, reference, allowed):
+    if word == reference:
+        return True
+    try:
+        value, expected = float(word), float(reference)
+    except ValueError:
+        return False
+    if not (math.isfinite(value) and math.isfinite(expected)):
+        return False
+    return abs(value - expected) <= allowed
+
+
+def largest(words):
+    """The largest size among those words that are finite numbers; 0 if there is none."""
+    sizes = [0.0]
+    for word in words:
+        try:
+            sizes.append(abs(float(word)))
+        except ValueError:
+            pass
+    return max(size for size in sizes if math.isfinite(size))
+
+
+def differences(new, reference):
+    """What differs between two excerpts, in words; at most one for each column."""
+    if new.head != reference.head:
+        return [f"it begins with {new.head}, in the reference with {reference.head}"]
+    if new.columns != reference.columns:
+        return [f"its columns are {new.columns}, in the reference {reference.columns}"]
+    if len(new.rows) != len(reference.rows):
+        return [f"it has {len(new.rows)} rows, the reference {len(reference.rows)}"]
+    words = []
+    for place, column in enumerate(new.columns):
+        tolerance = tolerance_of(new.kind, column)
+        if tolerance is None:
+            continue
+        absolute, of_largest = tolerance
+        allowed = absolute + of_largest*largest(row[place] for row in reference.rows)
+        bad = [row for row, (ours, theirs) in enumerate(zip(new.rows, reference.rows))
+               if not agrees(ours[place], theirs[place], allowed)]
+        if bad:
+            words.append(f"{column} differs in {len(bad)} of {len(new.rows)} rows, first in row {bad[0] + 1}: "
+                         f"{new.rows[bad[0]][place]}, in the reference {reference.rows[bad[0]][place]}")
+    return words
+
+
+def decks():
+    return sorted(INPUTS.glob("*.nml"))
+
+
+def run(program, deck, folder):
+    """{file name: excerpt} of all tables of a deck. Any exit status but 0 raises an error."""
+    output = pathlib.Path(folder) / deck.stem
+    subprocess.run([program, deck, "--quiet", "--output", output], check=True)
+    return {path.name: excerpt_of(path) for path in sorted(output.glob("*.dat"))}

@@ -1,0 +1,102 @@
+#!/usr/bin/env python3
+"""The comparison with references: what it must see, and what it must not mind."""
+import pathlib
+import sys
+import tempfile
+import unittest
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import references  # noqa: E402
+
+SUMMARY = """\
+# wavycon
+#  pbar_over_pstar[-]  mean_gap_over_amplitude[-]  active_constraints[-]  pivots[-]  kkt_residual[-]  status[-]
+   1.0E-001            4.063305171914782E-001      27                     121        5.1E-016         converged
+   5.0E-001            4.936147336729224E-002      13                     44         3.8E-016         converged
+"""
+MAP = "# wavycon\n# pbar_over_pstar[-] x[length] gap[Delta]\n# load 1: pbar/p* = 0.5, converged\n" + "".join(
+    f"0.5 {i} {i*1e-3}\n" for i in range(1000))
+CONTOUR = """\
+# pbar_over_pstar[-] x[length] y[length]
+# load 1: pbar/p* = 0.5, converged
+0.5  1.0  0.0
+0.5  0.0  1.0
+0.5 -1.0  0.0
+
+
+# load 2: pbar/p* = 0.6, converged
+0.6  2.0  0.0
+"""
+
+
+class References(unittest.TestCase):
+    def excerpt(self, name, text):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / name
+            path.write_text(text)
+            return references.excerpt_of(path)
+
+    def words(self, name, text, *changes):
+        """What differs after changes (old, new) to a table."""
+        changed = text
+        for old, new in changes:
+            self.assertIn(old, changed)
+            changed = changed.replace(old, new, 1)
+        return references.differences(self.excerpt(name, changed), self.excerpt(name, text))
+
+    def summary(self, *changes):
+        return self.words("a.summary.dat", SUMMARY, *changes)
+
+    def test_an_excerpt_reads_back(self):
+        for name, text in (("a.summary.dat", SUMMARY), ("a.map.dat", MAP), ("a.contour.dat", CONTOUR)):
+            with self.subTest(name), tempfile.TemporaryDirectory() as folder:
+                new = self.excerpt(name, text)
+                path = pathlib.Path(folder) / name
+                path.write_text(new.text())
+                again = references.read_reference(path)
+                self.assertEqual((new.kind, new.head, new.columns, new.rows),
+                                 (again.kind, again.head, again.columns, again.rows))
+                self.assertGreater(len(new.rows), 0)
+
+    def test_what_differs_is_seen(self):
+        for change, words in ((("4.06330517", "4.06330527"), "mean_gap_over_amplitude[-] differs in 1 of 2 rows"),
+                              ((" 27 ", " 28 "), "active_constraints[-] differs"),
+                              (("converged", "inaccurate"), "status[-] differs"),
+                              (("4.063305171914782E-001", "NaN"), "mean_gap_over_amplitude[-] differs"),
+                              (("1.0E-001", "1.00000000001E-001"), "pbar_over_pstar[-] differs"),
+                              (("pivots[-]", "pivots[1]"), "its columns are"),
+                              (("mean_gap_over", "mean_gap_under"), "its columns are")):
+            with self.subTest(change):
+                found = self.summary(change)
+                self.assertEqual(1, len(found), found)
+                self.assertIn(words, found[0])
+        self.assertIn("it has 1 rows", self.summary((SUMMARY.splitlines(True)[-1], ""))[0])
+
+    def test_what_may_differ_is_not_minded(self):
+        self.assertEqual([], self.summary())
+        self.assertEqual([], self.summary(("# wavycon", "# another"), (" 121 ", " 99 "), ("5.1E-016", "9.9E-013"),
+                                          ("4.063305171914782", "4.063305175914782")))
+
+    def test_long_tables_are_sampled(self):
+        new = self.excerpt("a.map.dat", MAP)
+        self.assertLess(len(new.rows), 2*references.SAMPLE)
+        self.assertIn("1000 rows in 1 blocks", new.head[0])
+        self.assertEqual([], self.words("a.map.dat", MAP))
+        self.assertIn("gap[Delta] differs", self.words("a.map.dat", MAP, ("0.5 0 0.0\n", "0.5 0 1e-6\n"))[0])
+        self.assertIn("it begins with", self.words("a.map.dat", MAP, ("0.5 1 0.001\n", ""))[0])
+
+    def test_of_contours_the_extents_count(self):
+        self.assertEqual([["0.5", "-1", "1", "0", "1"], ["0.6", "2", "2", "0", "0"]],
+                         self.excerpt("a.contour.dat", CONTOUR).rows)
+        self.assertEqual([], self.words("a.contour.dat", CONTOUR, ("0.5  0.0  1.0\n", "0.5 0.0 1.0\n0.5 0.0 1.0\n")))
+        self.assertIn("y_max", self.words("a.contour.dat", CONTOUR, ("0.5  0.0  1.0\n", "0.5 0.0 1.1\n"))[0])
+
+    def test_a_table_must_name_its_columns(self):
+        for text in ("1 2 3\n", SUMMARY.replace("status[-]", ""), SUMMARY.replace("status[-]", "status")):
+            with self.subTest(text), self.assertRaises(ValueError):
+                self.excerpt("a.summary.dat", text)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])  # what it compares is made here: no program is needed
