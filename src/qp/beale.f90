@@ -120,6 +120,12 @@ contains
          call finish_on_active_set(self%problem, self%set, self%table%active(:self%table%active_count), solution)
          if (solution%status == qp_converged) return
          if (solution%pivots >= limit) exit
+         ! Of nearly dependent constraints only those that push are kept: the dual pass needs multipliers >= 0, and a table
+         ! of the others loses its digits when they are exchanged.
+         do while (any(solution%multipliers < 0.0_dp))
+            call finish_on_active_set(self%problem, self%set, pack(solution%active, solution%multipliers > 0.0_dp), &
+                                      solution)
+         end do
          call self%table%rebuild(self%problem, self%set, solution)
          call restore_optimum(self%table, limit, solution%pivots, last_status)
          if (solution%pivots == pivots_before .or. last_status == qp_infeasible) exit
@@ -139,7 +145,7 @@ contains
       type(table_type), intent(inout) :: table
       integer, intent(in) :: pivot_limit
       integer, intent(inout) :: pivots
-      logical, intent(out) :: optimal  !! false: the pivot limit was reached
+      logical, intent(out) :: optimal  !! false: the pivot limit was reached, or the table has drifted
 
       integer :: idle_steps, leaving, released
       real(dp) :: step
@@ -159,6 +165,8 @@ contains
          optimal = released == 0
          if (optimal .or. pivots >= pivot_limit) return
          call table%exchange_with_derivative(released)
+         optimal = .false.
+         if (table%drifted) return
          pivots = pivots + 1
       end do
    end subroutine descend

@@ -24,6 +24,9 @@ module wavycon_beale_table
    !> fraction of what the unconstrained minimum does: the rounding of a table just made.
    real(dp), parameter :: derivative_tolerance = 64*epsilon(1.0_dp)
 
+   !> An exchange that leaves less than this fraction of a diagonal element of H leaves too few of its digits.
+   real(dp), parameter :: least_remainder = 1e-10_dp
+
    !> The objective and the basic slacks, written in the non-basic variables.
    type :: table_type
       integer :: active_count = 0             !! k, number of active slacks; there are n - k free variables
@@ -35,6 +38,7 @@ module wavycon_beale_table
       real(dp), allocatable :: values(:)      !! a, values(1:basic_count)
       real(dp), allocatable :: rows(:, :)     !! (A, B), shape (m, n): row i of basic slack i, columns as `gradient`
       real(dp) :: zero_descent = 0.0_dp       !! |dF/dz|/sqrt(d2F/dz2) below this is rounding
+      logical :: drifted = .false.            !! digits of H were lost by cancellation: the table is to be made afresh
    contains
       procedure :: start
       procedure :: rebuild
@@ -186,12 +190,13 @@ contains
    end subroutine exchange_with_slack
 
    !> Exchange (b): an active slack becomes basic, and the free variable u = dF/dz/sqrt(d2F/dz2) non-basic in its place.
+   !> Where that would cost too many digits nothing is exchanged and the table counts as drifted.
    subroutine exchange_with_derivative(table, released)
       class(table_type), intent(inout) :: table
       integer, intent(in) :: released   !! place in `active`
 
       real(dp) :: column(table%active_count), curvature
-      integer :: k, m, n, name
+      integer :: i, k, m, n, name
 
       m = max(1, size(table%rows, 1))
       n = size(table%rows, 2)
@@ -200,6 +205,13 @@ contains
       name = table%active(k)
       curvature = table%hessian(k, k)
       column = table%hessian(:k, k)
+
+      table%drifted = table%drifted .or. curvature <= 0.0_dp
+      do i = 1, k - 1
+         if (table%drifted) exit
+         table%drifted = table%hessian(i, i) - column(i)*(column(i)/curvature) < least_remainder*table%hessian(i, i)
+      end do
+      if (table%drifted) return
 
       ! sqrt(curvature) z_k = u - column'z/sqrt(curvature), z_k left out of z.
       call dsyr('U', k - 1, -1.0_dp/curvature, column, 1, table%hessian, n)
@@ -274,6 +286,7 @@ contains
       table%gradient(:k) = solution%multipliers
       table%active_count = k
       table%active(:k) = solution%active
+      table%drifted = .false.
 
       table%basic_count = m - k
       table%basic(:m - k) = pack([(i, i=1, m)], .not. is_active)

@@ -23,7 +23,8 @@ module wavycon_dual_pass
 
 contains
 
-   !> Makes a table optimal whose free variables are at their minimum.
+   !> Makes a table optimal whose free variables are at their minimum. If the table drifts on the way it is left as it is,
+   !> to be made afresh from its active constraints.
    subroutine restore_optimum(table, pivot_limit, pivots, status)
       type(table_type), intent(inout) :: table
       integer, intent(in) :: pivot_limit
@@ -33,10 +34,12 @@ contains
       real(dp) :: zero
       integer :: violated, released
 
+      status = qp_converged
       do
          released = table%steepest_slack(.false.)
          if (released == 0) exit
          call table%exchange_with_derivative(released)
+         if (table%drifted) return
          call table%move_to_minimum()
          pivots = pivots + 1
       end do
@@ -49,7 +52,7 @@ contains
          if (violated == 0) return
          if (table%values(violated) >= -zero) return
          call make_active(table, table%basic(violated), pivot_limit, pivots, status)
-         if (status /= qp_converged) return
+         if (status /= qp_converged .or. table%drifted) return
       end do
    end subroutine restore_optimum
 
@@ -102,6 +105,8 @@ contains
          pivots = pivots + 1
          if (released == 0) exit
          call table%exchange_with_derivative(released)
+         status = qp_converged
+         if (table%drifted) return
       end do
       table%values(place) = 0.0_dp
       call table%exchange_with_slack(place)
