@@ -1,0 +1,43 @@
+#!/bin/sh
+# Fig. 2: pressures of the one-dimensional wave: quadratic programming, Westergaard, Dundurs et al.
+set -eu
+# shellcheck source=scripts/figure_common.sh
+. "$(dirname "$0")/figure_common.sh"
+start_figure fig02 'Fig. 2, the pressures of the one-dimensional wave,' "$@"
+run_decks fig02
+draw_figure 480 400 "edge_level = $(header_value fig02 lines 'edge_level[p*]')" <<'EOF'
+lines = table('fig02', 'lines')
+dundurs_load = 0.4
+stats lines using 1 nooutput
+loads = STATS_blocks
+set xlabel '{/:Italic x}/'.lambda
+set ylabel p.'/'.p_star
+set xrange [-0.5:0.5]
+set yrange [-0.1:2.05]
+set xtics 0.1 format '%.1f'
+set ytics 0, 0.5 format '%.1f'
+set mytics 5
+set key top left samplen 3 font ',12'
+
+# A load is named under its crest, the highest beside it.
+do for [i = 0:loads - 1] {
+   stats lines index i using 9 nooutput
+   crest = STATS_max
+   stats lines index i using 1 nooutput
+   if (i < loads - 1) {
+      set label sprintf('%.1f', STATS_max) at 0, crest - 0.16 center font ',13'
+   } else {
+      set label sprintf('%s = %.1f', load, STATS_max) at 0.06, crest + 0.03 left font ',13'
+   }
+}
+
+plot for [i = 0:loads - 1] for [side = -1:1:2] lines index i using (side*$4):9 with lines ls 1, \
+     for [i = 0:loads - 1] for [side = -1:1:2] lines index i using (side*$4):6 with lines ls 2 lc rgb blue, \
+     for [side = -1:1:2] lines using (side*$4):(abs($1 - dundurs_load) < 1e-9 ? $12 : NaN) \
+        with lines ls 3 lc rgb red, \
+     edge_level with lines ls 3 lw 0.8, \
+     NaN with lines ls 2 lc rgb blue title 'quadratic programming', \
+     NaN with lines ls 1 title 'Westergaard', \
+     NaN with lines ls 3 lc rgb red title sprintf('Dundurs {/:Italic et al.}, %.1f', dundurs_load), \
+     NaN with lines ls 3 lw 0.8 title sprintf('%.1f ', edge_level).p_star
+EOF

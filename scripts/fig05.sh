@@ -1,0 +1,66 @@
+#!/bin/sh
+# Fig. 5: pressures of the two-dimensional wave along the dotted lines of Fig. 4.
+set -eu
+# shellcheck source=scripts/figure_common.sh
+. "$(dirname "$0")/figure_common.sh"
+start_figure fig05 'Fig. 5, the pressures along the dotted lines of Fig. 4,' "$@"
+run_decks fig05 fig05_fine
+draw_figure 600 400 <<'EOF'
+lines = table('fig05', 'lines')
+fine = table('fig05_fine', 'lines')
+stats lines using 1 nooutput
+loads = STATS_blocks
+
+# Panels as wide as the lines that they show are long.
+left = 0.105
+middle = 0.445
+gap = 0.05
+right = 0.98
+set yrange [-0.05:2.05]
+set ytics 0, 0.5 format '%.1f'
+set mytics 5
+set xtics 0.1 format '%.1f'
+set mxtics 2
+set key at graph 0.5, 0.96 center top samplen 3
+pressures = 'for [i = 0:loads - 1] fine index i every :::block::block using 3:6 with lines ls 5,' \
+   .' for [i = 0:loads - 1] lines index i every :::block::block using 3:6 with lines ls 1'
+
+set multiplot
+set bmargin screen 0.16
+set tmargin screen 0.93
+set lmargin screen left
+set rmargin screen middle
+set ylabel p.'/'.p_star
+set xlabel '{/:Italic x}/'.lambda
+set xrange [0:0.5]
+set label 'crest' at graph 0, 1.04 left
+set label 'trough' at graph 1, 1.04 right
+block = 0
+plot @pressures
+
+unset label
+unset ylabel
+set lmargin screen middle + gap
+set rmargin screen right
+set xrange [0:0.5*sqrt(2)]
+set xlabel 'distance along the diagonal /'.lambda
+set format y ''
+set label 'saddle' at graph 0.5, 1.04 center
+set label 'crest' at graph 1, 1.04 right
+# A load is named over its curve's saddle.
+do for [i = 0:loads - 1] {
+   stats lines index i every :::1::1 using (abs($4 - 0.25) < 1e-6 ? $6 : NaN) nooutput
+   saddle = STATS_max
+   stats lines index i using 1 nooutput
+   if (i < loads - 1) {
+      set label sprintf('%.1f', STATS_max) at graph 0.5, first saddle + 0.07 center font ',12'
+   } else {
+      set label sprintf('%s = %.1f', load, STATS_max) at graph 0.5, first saddle + 0.17 center font ',12'
+   }
+}
+block = 1
+plot @pressures, \
+     NaN with lines ls 1 title 'harmonics to the 9th', \
+     NaN with lines ls 5 title 'to the 60th'
+unset multiplot
+EOF

@@ -1,0 +1,54 @@
+#!/bin/sh
+# Fig. 6: shapes of the contact areas of the two-dimensional wave.
+set -eu
+# shellcheck source=scripts/figure_common.sh
+. "$(dirname "$0")/figure_common.sh"
+start_figure fig06 'Fig. 6, the shapes of the contact areas,' "$@"
+run_decks fig06 fig06_circles
+draw_figure 480 480 "edge_level = $(header_value fig06 contour 'edge_level[p*]')" <<'EOF'
+edges = table('fig06', 'contour')
+circles = table('fig06_circles', 'theory')
+stats edges using 1 nooutput
+loads = STATS_blocks
+array P[loads]
+
+set size ratio -1
+set xlabel '{/:Italic x}/'.lambda
+set ylabel '{/:Italic y}/'.lambda
+set xrange [0:1]
+set yrange [0:1]
+set xtics 0.25 format '%.2f' nomirror
+set ytics 0.25 format '%.2f' nomirror
+set cbrange [0:1]
+set lmargin screen 0.17
+set rmargin screen 0.93
+set bmargin screen 0.13
+set tmargin screen 0.89
+set key at graph 0.5, 1.01 center bottom samplen 3 font ',12.5'
+
+# A load is named where its curve crosses the line from the crest in the middle to the trough on its right
+# or on its left.
+set style textbox opaque fillcolor rgb '#ffffff' noborder margins 0.3, 0.3
+do for [i = 0:loads - 1] {
+   stats edges index i using (abs($3) < 0.01 && abs($2) < 0.5 ? abs($2) : NaN) nooutput
+   r = STATS_mean
+   stats edges index i using 1 nooutput
+   P[i + 1] = STATS_max
+   # The lightest load's would hide the circle beside its curve.
+   aside = (i == 0 ? 0.022 : 0)
+   set label sprintf('%.1f', P[i + 1]) at 0.5 + (i % 2 ? -r : r) + aside, 0.5 \
+      center rotate by 90 front font ',10' boxed
+}
+
+# The table has the edges of one cell; the next ones are a wavelength away.
+set style fill empty
+plot for [i = 0:loads - 1] for [k = 0:2] for [l = 0:2] edges index i using (k + $2):(l + $3) \
+        with lines lc palette cb P[i + 1] lw 1.4, \
+     for [k = 0:1] for [l = 0:1] circles every ::0::0 using (k):(l):12 with circles ls 4, \
+     circles every ::0::0 using (0.5):(0.5):12 with circles ls 4, \
+     for [k = 0:1] circles every ::1::1 using (k):(0.5):13 with circles ls 4, \
+     for [k = 0:1] circles every ::1::1 using (0.5):(k):13 with circles ls 4, \
+     NaN with lines lc palette cb P[loads] lw 1.4 \
+        title sprintf('%s = %.1f %s, %s = %.1f to %.1f', p, edge_level, p_star, load, P[1], P[loads]), \
+     NaN with lines ls 4 title sprintf('(23) at %.1f, (24) at %.1f', P[1], P[loads])
+EOF

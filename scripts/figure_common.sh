@@ -1,0 +1,88 @@
+# shellcheck shell=sh
+# What the scripts fig01.sh ... figA1.sh share: options, the program, the decks, gnuplot. To be sourced.
+
+# start_figure NAME TITLE [OPTION...]: reads the options, finds the tree and the program.
+start_figure() {
+   figure=$1
+   title=$2
+   shift 2
+   format=png
+   while [ $# -gt 0 ]; do
+      case $1 in
+         --format) [ $# -gt 1 ] || refuse '--format wants png, svg or pdf'; format=$2; shift ;;
+         --format=*) format=${1#--format=} ;;
+         --help | -h) show_help; exit 0 ;;
+         *) refuse "unknown option '$1'" ;;
+      esac
+      shift
+   done
+   case $format in
+      png | svg | pdf) ;;
+      *) refuse "unknown format '$format': png, svg or pdf" ;;
+   esac
+
+   # A program that is named by a relative path is looked for from where the caller stands, not from the root.
+   wavycon=${WAVYCON-}
+   case $wavycon in
+      */*) wavycon=$(cd "$(dirname "$wavycon")" && pwd)/$(basename "$wavycon") ;;
+   esac
+   cd "$(dirname "$0")/.." || exit
+   [ -n "$wavycon" ] || wavycon=$PWD/build/wavycon
+   command -v "$wavycon" >/dev/null ||
+      stop "no program $wavycon: build it, 'cmake -S . -B build && cmake --build build', or set WAVYCON"
+   command -v gnuplot >/dev/null || stop 'gnuplot is not installed'
+}
+
+show_help() {
+   cat <<EOF
+usage: $(basename "$0") [--format png|svg|pdf] [--help]
+
+Draws $title
+of Johnson, Greenwood & Higginson (1985) into outputs/figures/$figure.FORMAT of the tree, png if
+not said otherwise, from tables that the program writes under outputs/;
+says where the picture is.
+The program is build/wavycon of the tree, or what the variable WAVYCON says.
+EOF
+}
+
+refuse() {
+   printf '%s: %s\n' "$(basename "$0")" "$1" >&2
+   show_help >&2
+   exit 2
+}
+
+stop() {
+   printf '%s: %s\n' "$(basename "$0")" "$1" >&2
+   exit 1
+}
+
+# run_decks CASE...: runs inputs/CASE.nml, results under outputs/CASE/.
+run_decks() {
+   for case in "$@"; do
+      "$wavycon" --quiet "inputs/$case.nml"
+   done
+}
+
+# header_value CASE TABLE NAME: a number that stands as 'NAME = number' in the head of a table.
+header_value() {
+   awk -v name="$3 =" '/^#/ && (i = index($0, name)) {
+      split(substr($0, i + length(name)), field, ","); print field[1]; exit }' "outputs/$1/$1.$2.dat"
+}
+
+# draw_figure WIDTH HEIGHT [NAME=VALUE...]: draws the gnuplot commands of the standard input, width and height
+# in points of 1/72 inch. The picture appears whole or not at all.
+draw_figure() {
+   settings="width = $1; height = $2; format = '$format'"
+   shift 2
+   for setting in "$@"; do
+      settings="$settings; $setting"
+   done
+   mkdir -p outputs/figures
+   picture=outputs/figures/$figure.$format
+   aside=outputs/figures/.$figure.$$.$format
+   trap 'rm -f "$aside"' EXIT
+   # -d: without the user's own gnuplot settings.
+   gnuplot -d -e "$settings; picture = '$aside'" scripts/figure_style.gp /dev/stdin
+   mv "$aside" "$picture"
+   printf '%s\n' "$PWD/$picture"
+}

@@ -1,0 +1,60 @@
+# The looks of all figures, and what they share. draw_figure of figure_common.sh sets before: format, width,
+# height (points of 1/72 inch) and picture.
+
+set encoding utf8
+set minussign
+# "Times" is whatever serif face of that measure the machine has.
+# N.B. The png terminal takes a point as 4/3 of its unit of length, hence the 0.75.
+face = 'Times,14'
+pixels_a_point = 10.0/3
+mark = 1.0   # size of a point
+if (format eq 'png') {
+   set terminal pngcairo size width*pixels_a_point, height*pixels_a_point font face \
+      fontscale 0.75*pixels_a_point linewidth pixels_a_point pointscale 0.75*pixels_a_point \
+      dashlength 0.35*pixels_a_point background '#ffffff' butt
+}
+if (format eq 'svg') {
+   set terminal svg size width, height font face fontscale 0.9 linewidth 1 background '#ffffff' butt
+   mark = 0.65
+}
+if (format eq 'pdf') {
+   set terminal pdfcairo size width/72.0, height/72.0 font face fontscale 0.8 linewidth 2.4 pointscale 1.1 \
+      background '#ffffff' butt
+}
+set output picture
+
+# Colours that the colour-blind tell apart; printed without colour they differ in darkness or dash.
+black = '#000000'
+grey = '#8c8c8c'
+blue = '#0065a3'
+red = '#c8500a'
+body = '#d9d9d9'
+
+# The line styles of the captions.
+set style line 1 lc rgb black lw 1.1 dt solid
+set style line 2 lc rgb black lw 1.1 dt (7, 4)
+set style line 3 lc rgb black lw 1.1 dt (12, 4, 2, 4)
+set style line 4 lc rgb black lw 1.1 dt (1.5, 3.5)
+set style line 5 lc rgb grey lw 0.7 dt solid
+# Points: of the quadratic programme, and values to compare with.
+set style line 11 lc rgb black lw 1.0 pt 6 ps mark
+set style line 12 lc rgb black lw 1.0 pt 7 ps mark
+set style line 13 lc rgb black lw 1.2 pt 2 ps mark
+set style line 14 lc rgb red lw 1.2 pt 1 ps 1.1*mark
+
+# From light loads, pale, to heavy ones.
+set palette defined (0 '#7fb8de', 0.5 '#2f6fb0', 1 '#08204a')
+unset colorbox
+
+set border lw 0.7
+set tics scale 0.6 front
+set key spacing 1.15 samplen 3.2 noautotitle Left reverse
+
+p = '{/:Italic p}'
+p_bar = '{/:Italic p̄}'
+p_star = '{/:Italic p}*'
+load = p_bar.'/'.p_star
+lambda = '{/:Italic λ}'
+Delta = '{/:Italic Δ}'
+
+table(case, kind) = 'outputs/'.case.'/'.case.'.'.kind.'.dat'
