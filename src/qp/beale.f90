@@ -55,7 +55,7 @@ contains
       class(beale_solver), intent(out) :: self
       type(qp_problem), intent(in) :: problem
       type(qp_solution), intent(out) :: solution    !! where the problem itself is refused only `status` is set
-      integer, intent(in), optional :: pivot_limit  !! > 0; 50 (n + m) if absent
+      integer, intent(in), optional :: pivot_limit  !! > 0; 20 (n + m) if absent
 
       integer :: n, limit, status
       logical :: positive_definite, optimal
@@ -136,7 +136,7 @@ contains
    pure integer function default_limit(problem)
       type(qp_problem), intent(in) :: problem
 
-      default_limit = 50*(size(problem%linear) + size(problem%bounds))
+      default_limit = 20*(size(problem%linear) + size(problem%bounds))
    end function default_limit
 
    !> Changes non-basic variables until none can lower the objective, or, the pivot limit passed, until the free ones
