@@ -1,0 +1,321 @@
+!> Times the method of Johnson, Greenwood & Higginson (1985) for the two-dimensional wave.
+!>
+!>    bench_paper_method REFERENCE SECONDS
+!>
+!> REFERENCE is a table with P and G in its first two columns, SECONDS the time to be spent on each
+!> comparison. What is compared is run in turns, so that what else the machine does falls on all of it alike.
+!> The tables go to standard output as blocks for gnuplot (two empty lines before each but the first).
+program bench_paper_method
+   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
+   use samples, only: clock_ms, sample_set
+   use wavycon, only: beale_solver, contact_state, cosine_series, dp, fourier_contact, qp_problem, &
+                      qp_solution, qp_status_name, symmetry_diagonal, symmetry_full
+   implicit none (type, external)
+
+   !> A way to solve for one load, its times at the load under test and its last answer.
+   type :: contender
+      integer :: harmonics, points, symmetry
+      logical :: straight = .false.      !! by Beale's method from x = 0 at the load itself
+      type(fourier_contact) :: fresh     !! that has solved nothing yet
+      type(sample_set) :: times
+      type(contact_state) :: state
+   end type contender
+
+   !> Fewest rounds of a comparison, however long they take.
+   integer, parameter :: least_rounds = 3
+   !> Solves of a contender when it is its turn: the first of them finds the others' data in the cache.
+   integer, parameter :: solves_in_turn = 4
+   !> A load's aim: one solve of 29 unknowns, 196 constraints [ms].
+   real(dp), parameter :: solve_aim = 0.2_dp
+   !> The sweep's aim, in mean single solves.
+   real(dp), parameter :: sweep_aim = 2.0_dp
+   !> What the paper says of the time with 49 unknowns and 378 constraints, over that with 29 and 196.
+   integer, parameter :: ratio_of_paper = 20
+
+   real(dp), allocatable :: loads(:), gaps(:)
+   real(dp) :: budget   ! [ms]
+   logical :: all_good   ! all answers got in the usual way
+
+   call read_arguments()
+   all_good = .true.
+   call compare_methods()
+   call compare_sweep()
+   call show_convergence()
+   if (.not. all_good) call give_up('some loads were not solved')
+
+contains
+
+   !> The paper's two discretisations, in the usual way and by Beale's method alone; and points on as many
+   !> intervals as there are harmonics.
+   subroutine compare_methods()
+      type(contender) :: contenders(5)
+      real(dp) :: medians(size(loads), size(contenders)), leasts(size(loads), size(contenders))
+      integer :: i, j, unsolved
+
+      contenders(1) = new_contender(9, 27, symmetry_full)
+      contenders(2) = new_contender(9, 27, symmetry_diagonal)
+      contenders(3) = new_contender(9, 27, symmetry_full, straight=.true.)
+      contenders(4) = new_contender(9, 27, symmetry_diagonal, straight=.true.)
+      contenders(5) = new_contender(9, 10, symmetry_full)
+      unsolved = 0
+      call write_table_head('One load. dual: Beale''s method at P = 0.9, then the dual pass, as the '// &
+                            'program does; beale: Beale''s method from x = 0')
+      do i = 1, size(loads)
+         call race(contenders, loads(i))
+         do j = 1, size(contenders)
+            medians(i, j) = contenders(j)%times%median()
+            leasts(i, j) = contenders(j)%times%least()
+            call write_row(contenders(j), loads(i), gaps(i))
+            if (contenders(j)%straight .and. .not. contenders(j)%state%is_good()) unsolved = unsolved + 1
+         end do
+      end do
+      if (unsolved > 0) then
+         write (output_unit, '(a,i0,a)') '# Beale''s method from x = 0 did not solve ', unsolved, ' of these'
+      end if
+
+      call write_head('Means over the loads [ms]: name, of the median times, of the least times')
+      associate (median => sum(medians, 1)/size(loads), least => sum(leasts, 1)/size(loads))
+         call write_values('29/196', [median(1), least(1)])
+         call write_aim(median(1), solve_aim)
+         call write_values('49/378', [median(2), least(2)])
+         call write_values('49/378 over 29/196', [median(2)/median(1), least(2)/least(1)])
+         write (output_unit, '(a,i3)') '#    the paper: about', ratio_of_paper
+         call write_values('29/196, Beale from x = 0', [median(3), least(3)])
+         call write_values('49/378, Beale from x = 0', [median(4), least(4)])
+         call write_values('49/378 over 29/196, Beale from x = 0', [median(4)/median(3), least(4)/least(3)])
+         call write_values('29/196, Beale from x = 0 over dual', [median(3)/median(1), least(3)/least(1)])
+         call write_values('29/30, points on 9 intervals', [median(5), least(5)])
+      end associate
+   end subroutine compare_methods
+
+   !> All loads by one dual pass from the highest to the lowest, against each load on its own.
+   subroutine compare_sweep()
+      type(fourier_contact) :: fresh, contact
+      type(contact_state) :: state
+      type(sample_set) :: sweeps, singles
+      real(dp) :: before, start
+      integer :: i
+
+      call fresh%start(2, 9, 27, symmetry_full)
+      start = clock_ms()
+      do while (clock_ms() - start < budget .or. sweeps%count < least_rounds)
+         contact = fresh
+         before = clock_ms()
+         do i = size(loads), 1, -1
+            call contact%solve(loads(i), state)
+         end do
+         call sweeps%add(clock_ms() - before)
+
+         before = clock_ms()
+         do i = size(loads), 1, -1
+            contact = fresh
+            call contact%solve(loads(i), state)
+         end do
+         call singles%add(clock_ms() - before)
+      end do
+
+      call write_head('The sweep of all loads, 29/196 [ms]: name, median, least, largest')
+      call write_values('dual pass', [sweeps%median(), sweeps%least(), sweeps%largest()])
+      call write_values('each load on its own', [singles%median(), singles%least(), singles%largest()])
+      call write_head('The same, ratios: name, of the median times, of the least times')
+      associate (ratio => [sweeps%median()/singles%median(), sweeps%least()/singles%least()])
+         call write_values('dual pass over each on its own', ratio)
+         call write_values('dual pass in mean single solves', size(loads)*ratio)
+         call write_aim(size(loads)*ratio(1), sweep_aim)
+      end associate
+   end subroutine compare_sweep
+
+   !> Error against time for more and more harmonics, with constraint points on as many intervals.
+   subroutine show_convergence()
+      integer, parameter :: harmonics(*) = [5, 7, 9, 12, 15, 20, 25, 30, 35, 40]
+      real(dp), parameter :: shown(*) = [0.05_dp, 0.2_dp, 0.5_dp, 0.9_dp]
+      type(contender) :: contenders(1)
+      integer :: i, j
+
+      do i = 1, size(shown)
+         call write_table_head('Convergence: points on n intervals, P = '//text('(f4.2)', shown(i)))
+         do j = 1, size(harmonics)
+            contenders(1) = new_contender(harmonics(j), harmonics(j) + 1, symmetry_full)
+            call race(contenders, shown(i))
+            call write_row(contenders(1), shown(i), gaps(minloc(abs(loads - shown(i)), dim=1)))
+         end do
+      end do
+   end subroutine show_convergence
+
+   function new_contender(harmonics, points, symmetry, straight) result(new)
+      integer, intent(in) :: harmonics, points, symmetry
+      logical, intent(in), optional :: straight
+      type(contender) :: new
+
+      new%harmonics = harmonics
+      new%points = points
+      new%symmetry = symmetry
+      if (present(straight)) new%straight = straight
+      call new%fresh%start(2, harmonics, points, symmetry)
+   end function new_contender
+
+   !> Solves for one load by every contender in turn until the time is spent.
+   subroutine race(contenders, load)
+      type(contender), intent(inout) :: contenders(:)
+      real(dp), intent(in) :: load
+
+      real(dp) :: start
+      integer :: i, j, round
+
+      do i = 1, size(contenders)
+         contenders(i)%times = sample_set()
+      end do
+      start = clock_ms()
+      round = 0
+      do while (clock_ms() - start < budget .or. round < least_rounds)
+         round = round + 1
+         do i = 1, size(contenders)
+            do j = 1, solves_in_turn
+               if (contenders(i)%straight) then
+                  call run_beale(contenders(i), load)
+               else
+                  call run_usual_way(contenders(i), load)
+               end if
+            end do
+         end do
+      end do
+   end subroutine race
+
+   subroutine run_usual_way(self, load)
+      type(contender), intent(inout) :: self
+      real(dp), intent(in) :: load
+
+      type(fourier_contact) :: contact
+      real(dp) :: before
+
+      contact = self%fresh
+      before = clock_ms()
+      call contact%solve(load, self%state)
+      call self%times%add(clock_ms() - before)
+   end subroutine run_usual_way
+
+   subroutine run_beale(self, load)
+      type(contender), intent(inout) :: self
+      real(dp), intent(in) :: load
+
+      type(beale_solver) :: solver
+      type(qp_problem) :: problem
+      type(qp_solution) :: solution
+      real(dp) :: before
+
+      problem = self%fresh%problem
+      problem%bounds = -load
+      before = clock_ms()
+      call solver%solve(problem, solution)
+      call self%times%add(clock_ms() - before)
+      self%state = contact_state(pbar_over_pstar=load, x=solution%x, pivots=solution%pivots, &
+                                 active_constraints=size(solution%active), &
+                                 kkt_residual=solution%kkt_residual, status=qp_status_name(solution%status))
+   end subroutine run_beale
+
+   subroutine write_table_head(title)
+      character(*), intent(in) :: title
+
+      call write_head(title)
+      write (output_unit, '(a1,a4,a7,a10,a6,a9,a12,3a7,3a10,2a14,1x,a)') '#', 'n', 'points', 'symmetry', &
+         'way', 'unknowns', 'constraints', 'P', 'pivots', 'solves', 'time[ms]', 'least', 'largest', 'G', &
+         'error', 'status'
+   end subroutine write_table_head
+
+   subroutine write_row(self, load, gap)
+      type(contender), intent(inout) :: self
+      real(dp), intent(in) :: load
+      real(dp), intent(in) :: gap   !! G that the answer is compared with
+
+      type(cosine_series) :: displacement
+      real(dp) :: own_gap
+
+      displacement = self%fresh%displacement(self%state)
+      own_gap = 1.0_dp - displacement%at(0.0_dp, 0.0_dp)   ! eq. (28)
+      write (output_unit, '(i5,i7,a10,a6,i9,i12,f7.2,2i7,3f10.4,f14.9,es14.3,1x,a)') &
+         self%harmonics, self%points, merge('full    ', 'diagonal', self%symmetry == symmetry_full), &
+         merge('beale', 'dual ', self%straight), shape(self%fresh%problem%normals), load, self%state%pivots, &
+         self%times%count, self%times%median(), self%times%least(), self%times%largest(), own_gap, &
+         own_gap - gap, trim(self%state%status)
+      flush (output_unit)
+      all_good = all_good .and. (self%straight .or. self%state%is_good())
+   end subroutine write_row
+
+   subroutine write_head(title)
+      character(*), intent(in) :: title
+
+      logical, save :: first = .true.
+
+      if (.not. first) write (output_unit, '(/)')
+      first = .false.
+      write (output_unit, '(2a)') '# ', title
+   end subroutine write_head
+
+   subroutine write_values(name, values)
+      character(*), intent(in) :: name
+      real(dp), intent(in) :: values(:)
+
+      character(40) :: quoted
+
+      quoted = '"'//name//'"'
+      write (output_unit, '(a,*(f10.4))') quoted, values
+      flush (output_unit)
+   end subroutine write_values
+
+   !> Says whether the number written last is as small as it should be.
+   subroutine write_aim(value, aim)
+      real(dp), intent(in) :: value, aim
+
+      if (value <= aim) then
+         write (output_unit, '(a,f4.1,a)') '#    aim:', aim, ', met'
+      else
+         write (output_unit, '(a,f4.1,a,f5.2)') '#    aim:', aim, ', missed by a factor of', value/aim
+      end if
+   end subroutine write_aim
+
+   function text(format, value)
+      character(*), intent(in) :: format
+      real(dp), intent(in) :: value
+      character(:), allocatable :: text
+
+      character(20) :: buffer
+
+      write (buffer, format) value
+      text = trim(buffer)
+   end function text
+
+   subroutine read_arguments()
+      character(4096) :: path
+      character(200) :: line
+      real(dp) :: load, gap
+      integer :: unit, failed
+
+      call get_command_argument(2, line)
+      read (line, *, iostat=failed) budget
+      if (failed /= 0) call give_up('usage: bench_paper_method REFERENCE SECONDS')
+      budget = 1000*budget
+
+      call get_command_argument(1, path)
+      open (newunit=unit, file=path, status='old', action='read', iostat=failed)
+      if (failed /= 0) call give_up('the reference table cannot be opened')
+      allocate (loads(0), gaps(0))
+      do
+         read (unit, '(a)', iostat=failed) line
+         if (failed /= 0) exit
+         if (line == '' .or. index(adjustl(line), '#') == 1) cycle
+         read (line, *, iostat=failed) load, gap
+         if (failed /= 0) call give_up('a line of the reference table cannot be read')
+         loads = [loads, load]
+         gaps = [gaps, gap]
+      end do
+      close (unit)
+   end subroutine read_arguments
+
+   subroutine give_up(message)
+      character(*), intent(in) :: message
+
+      write (error_unit, '(2a)') 'bench_paper_method: ', message
+      stop 1, quiet=.true.
+   end subroutine give_up
+
+end program bench_paper_method

@@ -1,0 +1,71 @@
+!> Times of many runs of the same thing, and what is said of them.
+module samples
+   use, intrinsic :: iso_fortran_env, only: int64
+   use wavycon_kinds, only: dp
+   implicit none (type, external)
+   private
+
+   public :: sample_set, clock_ms
+
+   !> A set keeps so many times; later ones are not taken in.
+   integer, parameter :: capacity = 10000
+
+   type :: sample_set
+      integer :: count = 0
+      real(dp), allocatable, private :: times(:)   !! [ms]
+   contains
+      procedure :: add
+      procedure :: median
+      procedure :: least
+      procedure :: largest
+   end type sample_set
+
+contains
+
+   !> The time since some moment in the past [ms].
+   real(dp) function clock_ms()
+      integer(int64) :: ticks, rate
+
+      call system_clock(ticks, rate)
+      clock_ms = 1000*(real(ticks, dp)/real(rate, dp))
+   end function clock_ms
+
+   subroutine add(self, time)
+      class(sample_set), intent(inout) :: self
+      real(dp), intent(in) :: time   !! [ms]
+
+      if (.not. allocated(self%times)) allocate (self%times(capacity))
+      if (self%count == capacity) return
+      self%count = self%count + 1
+      self%times(self%count) = time
+   end subroutine add
+
+   !> The middle time; of an even number of times the later one of the two in the middle.
+   pure real(dp) function median(self)
+      class(sample_set), intent(in) :: self   !! not empty
+
+      real(dp) :: candidate
+      integer :: i
+
+      ! The least time that more than half of them do not exceed.
+      median = huge(median)
+      do i = 1, self%count
+         candidate = self%times(i)
+         if (candidate >= median) cycle
+         if (2*count(self%times(:self%count) <= candidate) > self%count) median = candidate
+      end do
+   end function median
+
+   pure real(dp) function least(self)
+      class(sample_set), intent(in) :: self   !! not empty
+
+      least = minval(self%times(:self%count))
+   end function least
+
+   pure real(dp) function largest(self)
+      class(sample_set), intent(in) :: self   !! not empty
+
+      largest = maxval(self%times(:self%count))
+   end function largest
+
+end module samples
