@@ -1,7 +1,9 @@
 !> The public interface of the library.
 module wavycon
    use wavycon_beale, only: beale_solver
-   use wavycon_contact_measures, only: contact_measures, measure_contact
+   use wavycon_closed_form_contact, only: closed_form_contact
+   use wavycon_contact_measures, only: contact_measures
+   use wavycon_contact_solver, only: contact_solver
    use wavycon_contact_state, only: contact_state
    use wavycon_cosine_series, only: cosine_series
    use wavycon_deck, only: deck_type
@@ -9,6 +11,7 @@ module wavycon
    use wavycon_error, only: error_type
    use wavycon_fourier_contact, only: fourier_contact
    use wavycon_fourier_terms, only: symmetry_diagonal, symmetry_full, symmetry_none
+   use wavycon_grid_contact, only: grid_contact
    use wavycon_hertz_line
    use wavycon_hertz_point
    use wavycon_kinds, only: dp

@@ -1,9 +1,9 @@
 !> A deck from beginning to end: scene, answers, measures, tables.
 module wavycon_run_scene
    use, intrinsic :: iso_c_binding, only: c_size_t
+   use wavycon_choose_solver, only: choose_solver
    use wavycon_coefficients_table, only: write_coefficients_table
-   use wavycon_contact_measures, only: measure_contact
-   use wavycon_contact_state, only: contact_state
+   use wavycon_contact_state, only: converged
    use wavycon_contour_table, only: write_contour_table
    use wavycon_deck, only: deck_type
    use wavycon_error, only: error_type, exit_file_trouble, exit_fine, exit_not_converged, fatal_error
@@ -12,7 +12,7 @@ module wavycon_run_scene
    use wavycon_lines_table, only: write_lines_table
    use wavycon_map_table, only: write_map_table
    use wavycon_output_file, only: output_file
-   use wavycon_plain_text, only: escaped, integer_text
+   use wavycon_plain_text, only: escaped, integer_text, short_number
    use wavycon_resolved_deck, only: write_resolved_deck
    use wavycon_results, only: results_type
    use wavycon_run_log, only: run_log
@@ -44,7 +44,7 @@ contains
 
       type(results_type) :: results
       type(run_log) :: log
-      integer :: bad
+      integer :: bad, hidden
 
       status = exit_fine
       call log%start(quiet)
@@ -52,8 +52,7 @@ contains
       results%directory = trim(deck%output%directory)
       call make_scene(deck, results%scene, error)
       if (allocated(error)) return
-      call results%contact%start(results%scene%surface%dimension, deck%method%harmonics, &
-                                 deck%method%constraint_points, results%scene%symmetry)
+      call choose_solver(deck, results%scene, results%contact)
       call log%show_scene(results)
       call prepare_directory(results, error)
       if (allocated(error)) return
@@ -61,6 +60,9 @@ contains
       call solve_loads(results, log)
       call log%say_timed('solved and measured')
       call log%show_loads(results)
+      hidden = count(results%states%status == converged .and. results%states%measures%contact_area_fraction <= 0.0_dp)
+      if (hidden > 0) call log%say('note: at '//integer_text(hidden)//' loads no pressure reaches edge_level = '// &
+                                   short_number(deck%method%edge_level)//' p*, so that their contact area shows as 0')
 
       call write_tables(results, error)
       if (allocated(error)) return
@@ -114,13 +116,10 @@ contains
       integer :: order(size(results%scene%pbar_over_pstar)), i, load
 
       order = descending(results%scene%pbar_over_pstar)
-      allocate (results%states(size(order)), results%measures(size(order)))
+      allocate (results%states(size(order)))
       do i = 1, size(order)
          load = order(i)
          call results%contact%solve(results%scene%pbar_over_pstar(load), results%states(load))
-         call measure_contact(results%states(load), results%contact%pressure(results%states(load)), &
-                              results%contact%displacement(results%states(load)), results%deck%method%edge_level, &
-                              results%measures(load))
          call log%show_progress(i, size(order))
       end do
    end subroutine solve_loads

@@ -1,21 +1,26 @@
 !> The answer at one load.
 module wavycon_contact_state
+   use wavycon_contact_measures, only: contact_measures
+   use wavycon_grid_edge, only: grid_edge
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
 
    public :: contact_state
 
-   !> The status of an answer that needed no optimiser.
-   character(*), parameter, public :: full_contact = 'full_contact', no_load = 'no_load'
-   !> The status of a good answer of an optimiser.
-   character(*), parameter, public :: converged = 'converged'
+   !> The statuses of good answers: of an optimiser, and those that need none.
+   character(*), parameter, public :: converged = 'converged', full_contact = 'full_contact', no_load = 'no_load', &
+                                      closed_form = 'closed_form'
+   !> The load is no number; the finest grid still has a larger error estimate than was asked for.
+   character(*), parameter, public :: not_finite = 'not_finite', not_accurate = 'not_accurate'
 
    type :: contact_state
       real(dp) :: pbar_over_pstar = 0.0_dp    !! P >= 0, the mean pressure over p*
-      real(dp), allocatable :: x(:)           !! amplitudes of the Fourier terms of (p - pbar)/p*
+      type(contact_measures) :: measures
+      real(dp), allocatable :: x(:)           !! amplitudes of the Fourier terms of (p - pbar)/p*, of a series
+      type(grid_edge), allocatable :: edge    !! pressure and gap on the points of a grid, of a solution there
       integer :: active_constraints = 0       !! points at which the pressure is held at zero
-      integer :: pivots = 0                   !! exchanges of variables since the load solved before
+      integer :: pivots = 0                   !! exchanges of variables since the load solved before; iterations on grids
       real(dp) :: kkt_residual = 0.0_dp       !! relative
       character(16) :: status = ''            !! one of the above, or why it is not good
    contains
@@ -28,7 +33,8 @@ contains
    elemental logical function is_good(self)
       class(contact_state), intent(in) :: self
 
-      is_good = self%status == full_contact .or. self%status == no_load .or. self%status == converged
+      is_good = self%status == full_contact .or. self%status == no_load .or. self%status == converged .or. &
+                self%status == closed_form
    end function is_good
 
 end module wavycon_contact_state

@@ -1,13 +1,17 @@
 !> Contact with the pressure as a Fourier series: Johnson, Greenwood & Higginson (1985), by Beale's method.
 module wavycon_fourier_contact
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_beale, only: beale_solver
    use wavycon_complementary_energy, only: energy_problem
+   use wavycon_contact_measures, only: measure_series, measuring_intervals
+   use wavycon_contact_solver, only: contact_solver, settle_without_solver
    use wavycon_contact_state, only: contact_state, full_contact, no_load
    use wavycon_cosine_series, only: cosine_series
+   use wavycon_edge_curves, only: edge_curve, strip_ends, trace_edges
    use wavycon_fourier_terms, only: choose_terms, fourier_terms
+   use wavycon_isobar_cell, only: isobar_grid, start_isobar_grid
    use wavycon_kinds, only: dp
-   use wavycon_qp_problem, only: qp_problem, qp_solution, qp_not_finite, qp_status_name
+   use wavycon_line_zeros, only: line_zeros
+   use wavycon_qp_problem, only: qp_problem, qp_solution, qp_status_name
    implicit none (type, external)
    private
 
@@ -18,37 +22,60 @@ module wavycon_fourier_contact
    !> at a light load, along which neighbouring points near the troughs make nearly dependent sets.
    real(dp), parameter :: starting_load = 0.9_dp
 
-   !> A solver for loads that are best given from the highest to the lowest.
-   type :: fourier_contact
+   type, extends(contact_solver) :: fourier_contact
       type(fourier_terms) :: terms
       type(qp_problem) :: problem                      !! at zero load
+      real(dp) :: edge_level = 0.1_dp                  !! isobar taken as the edge of contact, over p*
       type(beale_solver), private :: solver
       real(dp), private :: last_load = -1.0_dp         !! that `solver` holds the answer of; negative: none
    contains
       procedure :: start
       procedure :: solve
+      procedure :: solve_series
       procedure :: pressure
       procedure :: displacement
+      procedure :: edge_curves
+      procedure :: describe
    end type fourier_contact
 
 contains
 
    !> Chooses the terms of the series and the points of the constraints.
-   subroutine start(self, dimension, harmonics, constraint_points, symmetry)
+   subroutine start(self, dimension, harmonics, constraint_points, symmetry, edge_level)
       class(fourier_contact), intent(out) :: self
       integer, intent(in) :: dimension           !! 1 or 2
       integer, intent(in) :: harmonics           !! n >= 1
       integer, intent(in) :: constraint_points   !! on [0, pi] in each direction, >= 2
       integer, intent(in) :: symmetry            !! one of the names of wavycon_fourier_terms
+      real(dp), intent(in), optional :: edge_level   !! isobar taken as the edge of contact, over p*; 0.1 if absent
 
+      if (present(edge_level)) self%edge_level = edge_level
       self%terms = choose_terms(dimension, harmonics, symmetry)
       self%problem = energy_problem(self%terms, constraint_points, symmetry)
    end subroutine start
 
-   !> Solves for one load. Whatever happens the state has a status.
+   !> Solves for one load and measures it. Whatever happens the state has a status.
    subroutine solve(self, pbar_over_pstar, state)
       class(fourier_contact), intent(inout) :: self
-      real(dp), intent(in) :: pbar_over_pstar       !! P >= 0
+      real(dp), intent(in) :: pbar_over_pstar       !! P
+      type(contact_state), intent(out) :: state
+
+      logical :: settled
+
+      call settle_without_solver(pbar_over_pstar, state, settled)
+      if (.not. settled) then
+         call self%solve_series(pbar_over_pstar, state)
+         call measure_series(self%pressure(state), self%displacement(state), self%edge_level, state%measures)
+         return
+      end if
+      allocate (state%x(self%terms%count()), source=0.0_dp)
+      if (state%status == full_contact) state%x(self%terms%fundamental()) = 1.0_dp   ! eq. (22)
+   end subroutine solve
+
+   !> Solves for the series alone.
+   subroutine solve_series(self, pbar_over_pstar, state)
+      class(fourier_contact), intent(inout) :: self
+      real(dp), intent(in) :: pbar_over_pstar       !! 0 < P < 1
       type(contact_state), intent(out) :: state
 
       type(qp_problem) :: problem
@@ -56,20 +83,6 @@ contains
 
       state%pbar_over_pstar = pbar_over_pstar
       allocate (state%x(self%terms%count()), source=0.0_dp)
-      if (pbar_over_pstar >= 1.0_dp) then
-         state%x(self%terms%fundamental()) = 1.0_dp   ! eq. (22)
-         state%status = full_contact
-         return
-      end if
-      if (pbar_over_pstar <= 0.0_dp) then
-         state%status = no_load
-         return
-      end if
-      if (ieee_is_nan(pbar_over_pstar)) then
-         state%status = qp_status_name(qp_not_finite)
-         return
-      end if
-
       if (self%last_load < pbar_over_pstar) then
          problem = self%problem
          self%last_load = max(starting_load, pbar_over_pstar)
@@ -88,25 +101,63 @@ contains
       if (.not. allocated(solution%x)) return
       state%x = solution%x
       state%active_constraints = size(solution%active)
-   end subroutine solve
+   end subroutine solve_series
 
    !> p/p* of a state as a series.
-   pure type(cosine_series) function pressure(self, state)
+   function pressure(self, state) result(field)
       class(fourier_contact), intent(in) :: self
       type(contact_state), intent(in) :: state
+      type(cosine_series) :: field
 
-      call self%terms%coefficients(state%x, pressure%c)
-      pressure%c(0, 0) = state%pbar_over_pstar
+      call self%terms%coefficients(state%x, field%c)
+      field%c(0, 0) = state%pbar_over_pstar
    end function pressure
 
    !> (u - ubar)/Delta of a state as a series: eqs. (13), (A10).
-   pure type(cosine_series) function displacement(self, state)
+   function displacement(self, state) result(field)
       class(fourier_contact), intent(in) :: self
       type(contact_state), intent(in) :: state
+      type(cosine_series) :: field
 
       integer :: k
 
-      call self%terms%coefficients([(self%terms%compliance(k)*state%x(k), k=1, self%terms%count())], displacement%c)
+      call self%terms%coefficients([(self%terms%compliance(k)*state%x(k), k=1, self%terms%count())], field%c)
    end function displacement
+
+   !> The isobar p = edge_level p*.
+   subroutine edge_curves(self, state, curves)
+      class(fourier_contact), intent(in) :: self
+      type(contact_state), intent(in) :: state
+      type(edge_curve), allocatable, intent(out) :: curves(:)
+
+      type(cosine_series) :: pressure
+      type(isobar_grid) :: grid
+      real(dp), allocatable :: zeros(:)
+
+      if (state%status == full_contact .or. state%status == no_load) then
+         allocate (curves(0))
+         return
+      end if
+      pressure = self%pressure(state)
+      if (self%terms%dimension == 2) then
+         call start_isobar_grid(grid, pressure, self%edge_level, measuring_intervals(self%terms%harmonics))
+         call trace_edges(grid, curves)
+      else
+         pressure%c(0, 0) = pressure%c(0, 0) - self%edge_level
+         call line_zeros(pressure%c(:, 0), measuring_intervals(self%terms%harmonics), zeros)
+         call strip_ends(zeros, sum(pressure%c) >= 0.0_dp, curves)
+      end if
+   end subroutine edge_curves
+
+   pure function describe(self) result(words)
+      class(fourier_contact), intent(in) :: self
+      character(:), allocatable :: words
+
+      character(120) :: line
+
+      write (line, '(3(i0, a))') self%terms%harmonics, ' harmonics (', self%terms%count(), ' unknowns), ', &
+         size(self%problem%bounds), ' constraint points'
+      words = trim(line)
+   end function describe
 
 end module wavycon_fourier_contact

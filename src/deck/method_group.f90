@@ -13,11 +13,12 @@ module wavycon_method_group
 
    !> What &method says. The two counts are 0 until the surface's dimension settles their defaults.
    type :: method_group_type
-      character(12) :: solver = 'beale'    !! 'beale'
+      character(12) :: solver = 'beale'    !! 'beale', 'grid' or 'auto'
       integer :: harmonics = 0             !! n, highest harmonic of the pressure, in each direction
       integer :: constraint_points = 0     !! points on 0..pi, ends included, in each direction
       character(12) :: symmetry = 'full'   !! 'full', 'diagonal' or 'none'; of no meaning in 1-D
       real(dp) :: edge_level = 0.1_dp      !! the isobar taken as the edge of contact [p*]
+      real(dp) :: accuracy = 1.0e-3_dp     !! of the summary's numbers, in their units; not of 'beale'
    end type method_group_type
 
    !> The paper's numbers, for 1-D and 2-D waves.
@@ -26,13 +27,22 @@ module wavycon_method_group
    !> Bounds of the time and memory that a slip of the hand can cost, for 1-D and 2-D waves.
    integer, parameter :: most_harmonics = 60, most_constraint_points(2) = [6001, 601]
 
+   character(17), parameter :: of_beale(*) = ['harmonics        ', 'constraint_points', 'symmetry         ', &
+                                              'edge_level       ']
+
 contains
 
    function method_table() result(table)
       type(key_group_type) :: table
 
       table = key_group('method', 'how the contact is computed', [ &
-         choice_key('solver', "'beale'", "'beale': Beale's method of quadratic programming.", ['beale']), &
+         choice_key('solver', "'beale'", &
+            "'beale': the paper's truncated series by Beale's method of quadratic programming. 'grid': ever "// &
+            "finer grids until mean gap, area and peak pressure are accurate. 'auto': the closed form for "// &
+            "wave_1d, else 'grid'.", ['beale', 'grid ', 'auto ']), &
+         real_key('accuracy', '1e-3', '-', &
+            "Of 'grid' and 'auto': largest error allowed of mean gap [amplitude], contact area fraction and peak "// &
+            'pressure [p*]. A load that cannot be had so accurately says so.', least=1.0e-12_dp, most=0.1_dp), &
          integer_key('harmonics', '9 (2-D), 10 (1-D)', &
             'Highest harmonic of the pressure, in each direction.', 1, most_harmonics), &
          integer_key('constraint_points', '27 (2-D), 26 (1-D)', &
@@ -56,13 +66,14 @@ contains
       character(len(group%solver)) :: solver
       character(len(group%symmetry)) :: symmetry
       integer :: constraint_points, harmonics, status
-      real(dp) :: edge_level
+      real(dp) :: accuracy, edge_level
       character(200) :: message
-      namelist /method/ solver, harmonics, constraint_points, symmetry, edge_level
+      namelist /method/ solver, harmonics, constraint_points, symmetry, edge_level, accuracy
 
       solver = group%solver
       symmetry = group%symmetry
       edge_level = group%edge_level
+      accuracy = group%accuracy
       harmonics = group%harmonics
       constraint_points = group%constraint_points
       if (dimension > 0) then
@@ -71,7 +82,8 @@ contains
       end if
       read (input%record, nml=method, iostat=status, iomsg=message)
       if (status /= 0) call problems%add(input%place, trim(message))
-      group = method_group_type(solver, harmonics, constraint_points, symmetry, edge_level)
+      group = method_group_type(solver, harmonics, constraint_points, symmetry, edge_level, accuracy)
+      call check_solver_keys()
 
       if (dimension == 0) return
       if (dimension == 1 .and. input%has('symmetry')) call problems%add(input%place_of('symmetry'), &
@@ -87,6 +99,21 @@ contains
             by_default('constraint_points')//' and '//integer_text(harmonics)//by_default('harmonics'))
 
    contains
+
+      subroutine check_solver_keys()
+         integer :: i
+
+         if (input%is_bad('solver')) return
+         if (solver == 'beale') then
+            if (input%has('accuracy')) call problems%add(input%place_of('accuracy'), &
+               "accuracy is a key of solver = 'grid' and 'auto': the series of 'beale' has no error estimate")
+            return
+         end if
+         do i = 1, size(of_beale)
+            if (input%has(trim(of_beale(i)))) call problems%add(input%place_of(trim(of_beale(i))), &
+               trim(of_beale(i))//" is a key of solver = 'beale', not of '"//trim(solver)//"'")
+         end do
+      end subroutine check_solver_keys
 
       function by_default(key) result(words)
          character(*), intent(in) :: key
@@ -105,10 +132,14 @@ contains
 
       call writer%open_group(method_table())
       call writer%put('solver', group%solver)
-      call writer%put('harmonics', group%harmonics)
-      call writer%put('constraint_points', group%constraint_points)
-      if (dimension == 2) call writer%put('symmetry', group%symmetry)
-      call writer%put('edge_level', group%edge_level)
+      if (group%solver == 'beale') then
+         call writer%put('harmonics', group%harmonics)
+         call writer%put('constraint_points', group%constraint_points)
+         if (dimension == 2) call writer%put('symmetry', group%symmetry)
+         call writer%put('edge_level', group%edge_level)
+      else
+         call writer%put('accuracy', group%accuracy)
+      end if
       call writer%close_group()
    end subroutine write_method_group
 

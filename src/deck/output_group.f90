@@ -41,9 +41,10 @@ contains
    end function output_table
 
    !> Reads the group; a directory that is not given takes its name from the case.
-   subroutine read_output_group(input, case, group, problems)
+   subroutine read_output_group(input, case, solver, group, problems)
       type(group_input_type), intent(in) :: input
-      character(*), intent(in) :: case
+      character(*), intent(in) :: case     !! that the default directory is named after
+      character(*), intent(in) :: solver   !! of &method
       type(output_group_type), intent(out) :: group
       type(problem_list_type), intent(inout) :: problems
 
@@ -64,6 +65,8 @@ contains
       if (status /= 0) call problems%add(input%place, trim(message))
       group = output_group_type(plain_directory(directory), lines, map, contours, coefficients, theory, &
          points_per_wavelength)
+      if (group%coefficients .and. solver /= 'beale') call problems%add(input%place_of('coefficients'), &
+         "coefficients are those of the series of solver = 'beale'; '"//solver//"' has none")
    end subroutine read_output_group
 
    subroutine write_output_group(group, writer)

@@ -67,7 +67,7 @@ contains
       dimension = 0
       if (deck%surface%kind /= '') dimension = surface_dimension(deck%surface)
       call read_method_group(inputs(method_number), dimension, deck%method, problems)
-      call read_output_group(inputs(output_number), trim(deck%scene%case), deck%output, problems)
+      call read_output_group(inputs(output_number), trim(deck%scene%case), trim(deck%method%solver), deck%output, problems)
 
       if (problems%number > 0) call fatal_error(error, exit_bad_input, problem_report(problems, text))
    end subroutine parse_deck

@@ -6,7 +6,7 @@ module wavycon_cosine_series
    implicit none (type, external)
    private
 
-   public :: cosine_series, cosine_table, evaluate_line
+   public :: cosine_series, cosine_table, evaluate_line, folded
 
    !> f(phi, theta) = sum_ij c_ij cos(i phi) cos(j theta). In 1-D j = 0 alone.
    type :: cosine_series
@@ -23,11 +23,13 @@ contains
       class(cosine_series), intent(in) :: self
       real(dp), intent(in) :: phi, theta   !! [rad]
 
+      real(dp) :: cosines(0:ubound(self%c, 1))
       integer :: i, j
 
+      cosines = [(cos(i*phi), i=0, ubound(self%c, 1))]
       at = 0.0_dp
       do j = 0, ubound(self%c, 2)
-         at = at + cos(j*theta)*sum([(self%c(i, j)*cos(i*phi), i=0, ubound(self%c, 1))])
+         at = at + cos(j*theta)*dot_product(self%c(:, j), cosines)
       end do
    end function at
 
@@ -76,6 +78,14 @@ contains
          end do
       end do
    end function cosine_table
+
+   !> The node of 0..N, phi = pi k/N, at which an even field has the value that it has at any node of the whole line.
+   elemental integer function folded(k, intervals)
+      integer, intent(in) :: k, intervals
+
+      folded = modulo(k, 2*intervals)
+      folded = min(folded, 2*intervals - folded)
+   end function folded
 
    !> sum_i c_i cos(i x) and its derivative.
    pure subroutine evaluate_line(c, x, value, slope)

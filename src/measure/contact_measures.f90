@@ -1,22 +1,24 @@
-!> The numbers of the summary: from an answer's series to gap, area and pressures.
+!> The numbers of the summary: mean gap, contact area and pressures.
 module wavycon_contact_measures
    use wavycon_constants, only: pi
-   use wavycon_contact_state, only: contact_state, full_contact, no_load
    use wavycon_cosine_series, only: cosine_series
    use wavycon_isobar_cell, only: isobar_grid, start_isobar_grid
    use wavycon_kinds, only: dp
-   use wavycon_line_zeros, only: line_zeros
+   use wavycon_line_zeros, only: length_inside, line_zeros
    implicit none (type, external)
    private
 
-   public :: contact_measures, measure_contact, measuring_intervals
+   public :: contact_measures, full_contact_measures, measure_series, measuring_intervals
 
    type :: contact_measures
       real(dp) :: mean_gap_over_amplitude = 1.0_dp       !! G: eqs. (19), (28)
       real(dp) :: approach_over_amplitude = 0.0_dp       !! of the mean planes, delta'/Delta = 1 - G
-      real(dp) :: contact_area_fraction = 0.0_dp         !! of the area where p >= edge_level p*, to the nominal area
+      real(dp) :: contact_area_fraction = 0.0_dp         !! of the nominal area; 1 by definition from P = 1 on
       real(dp) :: peak_pressure_over_pstar = 0.0_dp      !! largest
-      real(dp) :: min_pressure_over_pstar = 0.0_dp       !! smallest; negative between constraint points
+      real(dp) :: min_pressure_over_pstar = 0.0_dp       !! smallest; negative between the constraint points of a series
+      real(dp) :: mean_gap_error = 0.0_dp                !! estimated error of the mean gap, in its unit
+      real(dp) :: contact_area_error = 0.0_dp            !! likewise
+      real(dp) :: peak_pressure_error = 0.0_dp           !! likewise
    end type contact_measures
 
    !> Grid intervals on half a wavelength for areas and extremes, per harmonic and at least.
@@ -31,22 +33,21 @@ contains
       measuring_intervals = max(least_intervals, intervals_per_harmonic*harmonics)
    end function measuring_intervals
 
-   !> Measures a state. Without load and in full contact the closed forms hold and nothing is evaluated.
-   subroutine measure_contact(state, pressure, displacement, edge_level, measures)
-      type(contact_state), intent(in) :: state
+   !> The measures of full contact, P >= 1: p = P + cos phi (cos theta), eq. (22).
+   elemental type(contact_measures) function full_contact_measures(pbar_over_pstar) result(measures)
+      real(dp), intent(in) :: pbar_over_pstar   !! P
+
+      measures = contact_measures(mean_gap_over_amplitude=0.0_dp, approach_over_amplitude=1.0_dp, &
+                                  contact_area_fraction=1.0_dp, peak_pressure_over_pstar=pbar_over_pstar + 1.0_dp, &
+                                  min_pressure_over_pstar=pbar_over_pstar - 1.0_dp)
+   end function full_contact_measures
+
+   !> Measures the series of a pressure and its displacement. The edge of contact is the isobar p = edge_level p*.
+   subroutine measure_series(pressure, displacement, edge_level, measures)
       type(cosine_series), intent(in) :: pressure       !! p/p*
       type(cosine_series), intent(in) :: displacement   !! (u - ubar)/Delta
-      real(dp), intent(in) :: edge_level                !! isobar taken as the edge of contact, over p*
+      real(dp), intent(in) :: edge_level                !! over p*
       type(contact_measures), intent(out) :: measures
-
-      if (state%status == no_load) return
-      if (state%status == full_contact) then
-         measures = contact_measures(mean_gap_over_amplitude=0.0_dp, approach_over_amplitude=1.0_dp, &
-                                     contact_area_fraction=1.0_dp, &
-                                     peak_pressure_over_pstar=state%pbar_over_pstar + 1.0_dp, &
-                                     min_pressure_over_pstar=state%pbar_over_pstar - 1.0_dp)
-         return
-      end if
 
       ! The crest, phi = theta = 0, is in contact: it approaches by its own displacement.
       measures%approach_over_amplitude = sum(displacement%c)
@@ -56,7 +57,7 @@ contains
       else
          call measure_plane(pressure, edge_level, measures)
       end if
-   end subroutine measure_contact
+   end subroutine measure_series
 
    subroutine measure_plane(pressure, edge_level, measures)
       type(cosine_series), intent(in) :: pressure
@@ -77,9 +78,8 @@ contains
       type(contact_measures), intent(inout) :: measures
 
       real(dp), allocatable :: edges(:), values(:, :)
-      real(dp) :: line(0:ubound(pressure%c, 1)), area, from
-      logical :: inside
-      integer :: i, intervals
+      real(dp) :: line(0:ubound(pressure%c, 1))
+      integer :: intervals
 
       intervals = measuring_intervals(ubound(pressure%c, 1))
       call pressure%evaluate_on_grid(intervals, values)
@@ -89,16 +89,7 @@ contains
       line = pressure%c(:, 0)
       line(0) = line(0) - edge_level
       call line_zeros(line, intervals, edges)
-      inside = values(0, 0) >= edge_level
-      area = 0.0_dp
-      from = 0.0_dp
-      do i = 1, size(edges)
-         if (inside) area = area + edges(i) - from
-         from = edges(i)
-         inside = .not. inside
-      end do
-      if (inside) area = area + pi - from
-      measures%contact_area_fraction = area/pi
+      measures%contact_area_fraction = length_inside(edges, sum(line) >= 0.0_dp)/pi
    end subroutine measure_line
 
 end module wavycon_contact_measures

@@ -1,4 +1,4 @@
-!> The isobar p = level of a pressure series, cell by cell of a grid, and the area that it encloses.
+!> The isobar p = level of a pressure series as the edge of contact.
 !>
 !> The grid has N intervals on [0, pi] in phi and theta; the series is even and periodic, so that any cell of the plane
 !> is the image of one of these. Where the isobar crosses a grid line the point is solved for exactly, with the
@@ -6,23 +6,17 @@
 !> tangents: areas are then good to the fourth power of the grid's step, not the second as for a polygon.
 module wavycon_isobar_cell
    use wavycon_constants, only: pi
-   use wavycon_cosine_series, only: cosine_series, cosine_table, evaluate_line
+   use wavycon_contact_edge, only: contact_edge, edge_point
+   use wavycon_cosine_series, only: cosine_series, cosine_table, evaluate_line, folded
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgemm
    use wavycon_line_zeros, only: zero_between
    implicit none (type, external)
    private
 
-   public :: isobar_grid, edge_point, start_isobar_grid
+   public :: isobar_grid, start_isobar_grid
 
-   !> A point of the isobar on an edge of a cell.
-   type :: edge_point
-      logical :: exists = .false.
-      real(dp) :: phi = 0.0_dp, theta = 0.0_dp       !! [rad], in the plane
-      real(dp) :: p_phi = 0.0_dp, p_theta = 0.0_dp   !! gradient of the pressure
-   end type edge_point
-
-   type :: isobar_grid
+   type, extends(contact_edge) :: isobar_grid
       integer :: intervals = 0                           !! N
       real(dp), allocatable :: pressure(:, :)            !! minus the level, at the nodes, shape (0:N, 0:N)
       real(dp), allocatable :: along_phi(:, :)           !! series in phi on the line theta_l, shape (0:n, 0:N)
@@ -30,10 +24,11 @@ module wavycon_isobar_cell
       real(dp), allocatable :: along_theta(:, :)         !! series in theta on the line phi_k, shape (0:n, 0:N)
       real(dp), allocatable :: along_theta_slope(:, :)   !! its derivative across the line
    contains
-      procedure :: node
-      procedure :: edge
-      procedure :: cell_area
+      procedure :: in_contact
+      procedure :: angles
+      procedure :: side
       procedure :: area_fraction
+      procedure, private :: node
    end type isobar_grid
 
 contains
@@ -50,6 +45,7 @@ contains
 
       n = ubound(pressure%c, 1)
       grid%intervals = intervals
+      grid%period = 2*intervals
       call pressure%evaluate_on_grid(intervals, grid%pressure)
       grid%pressure = grid%pressure - level
       cosines = cosine_table(intervals, n)
@@ -80,6 +76,22 @@ contains
 
    end subroutine start_isobar_grid
 
+   pure logical function in_contact(self, k, l)
+      class(isobar_grid), intent(in) :: self
+      integer, intent(in) :: k, l
+
+      in_contact = self%node(k, l) >= 0.0_dp
+   end function in_contact
+
+   pure subroutine angles(self, k, l, phi, theta)
+      class(isobar_grid), intent(in) :: self
+      integer, intent(in) :: k, l
+      real(dp), intent(out) :: phi, theta   !! [rad]
+
+      phi = k*(pi/self%intervals)
+      theta = l*(pi/self%intervals)
+   end subroutine angles
+
    !> p - level at any node of the plane.
    pure real(dp) function node(self, k, l)
       class(isobar_grid), intent(in) :: self
@@ -88,9 +100,8 @@ contains
       node = self%pressure(folded(k, self%intervals), folded(l, self%intervals))
    end function node
 
-   !> The point on an edge of the cell whose lower left node is (k, l). Edges are numbered against the clock: 1 from
-   !> (k, l) to (k+1, l), 2 up, 3 back, 4 down.
-   pure type(edge_point) function edge(self, k, l, number) result(point)
+   !> The point of the isobar on a side of a cell.
+   pure type(edge_point) function side(self, k, l, number) result(point)
       class(isobar_grid), intent(in) :: self
       integer, intent(in) :: k, l      !! any
       integer, intent(in) :: number    !! 1 .. 4
@@ -125,7 +136,7 @@ contains
             point%p_phi = away*across(self%along_theta_slope(:, i), point%theta)
          end if
       end associate
-   end function edge
+   end function side
 
    pure real(dp) function across(c, x)
       real(dp), intent(in) :: c(0:), x
@@ -135,101 +146,21 @@ contains
       call evaluate_line(c, x, across, slope)
    end function across
 
-   !> The area of the part of a cell with p >= level [rad^2]. In a cell that the isobar enters twice the parts above the
-   !> level are taken as joined.
-   pure real(dp) function cell_area(self, k, l) result(area)
-      class(isobar_grid), intent(in) :: self
-      integer, intent(in) :: k, l   !! lower left node
-
-      integer, parameter :: dk(4) = [0, 1, 1, 0], dl(4) = [0, 0, 1, 1]
-      type(edge_point) :: points(8)
-      logical :: leaves(8)
-      real(dp) :: step
-      integer :: number, count, i, j
-
-      step = pi/self%intervals
-      count = 0
-      do number = 1, 4
-         if (self%node(k + dk(number), l + dl(number)) >= 0.0_dp) then
-            count = count + 1
-            points(count) = edge_point(.false., (k + dk(number))*step, (l + dl(number))*step)
-            leaves(count) = .false.
-         end if
-         points(count + 1) = self%edge(k, l, number)
-         if (points(count + 1)%exists) then
-            count = count + 1
-            ! The level is left behind if the corner before this edge is above it.
-            leaves(count) = self%node(k + dk(number), l + dl(number)) >= 0.0_dp
-         end if
-      end do
-
-      area = 0.0_dp
-      do i = 1, count
-         j = mod(i, count) + 1
-         area = area + 0.5_dp*(points(i)%phi*points(j)%theta - points(j)%phi*points(i)%theta)
-         if (leaves(i)) area = area - lens(points(i), points(j))
-      end do
-   end function cell_area
-
-   !> Area between the chord from one point of the isobar to the next and the cubic curve, on the side above the level
-   !> (to the left).
-   pure real(dp) function lens(from, to)
-      type(edge_point), intent(in) :: from, to
-
-      real(dp), parameter :: steepest = 3.0_dp   ! a curve steeper than this against its chord is not resolved
-      real(dp) :: c_phi, c_theta, slopes(2)
-
-      c_phi = to%phi - from%phi
-      c_theta = to%theta - from%theta
-      ! The tangent has the gradient on its left: (p_theta, -p_phi).
-      slopes(1) = slope(from)
-      slopes(2) = slope(to)
-      lens = 0.0_dp
-      if (maxval(abs(slopes)) < steepest) lens = (c_phi**2 + c_theta**2)*(slopes(1) - slopes(2))/12
-
-   contains
-
-      pure real(dp) function slope(point)
-         type(edge_point), intent(in) :: point
-
-         real(dp) :: along, sideways
-
-         along = point%p_theta*c_phi - point%p_phi*c_theta
-         sideways = -point%p_theta*c_theta - point%p_phi*c_phi
-         slope = huge(slope)
-         if (along > 0.0_dp) slope = sideways/along
-      end function slope
-
-   end function lens
-
    !> The part of the surface with p >= level.
    pure real(dp) function area_fraction(self)
       class(isobar_grid), intent(in) :: self
 
       real(dp) :: area
-      integer :: k, l, above
+      integer :: k, l
 
       area = 0.0_dp
       do l = 0, self%intervals - 1
          do k = 0, self%intervals - 1
-            above = count(self%pressure(k:k + 1, l:l + 1) >= 0.0_dp)
-            if (above == 4) then
-               area = area + (pi/self%intervals)**2
-            else if (above > 0) then
-               area = area + self%cell_area(k, l)
-            end if
+            area = area + self%cell_area(k, l)
          end do
       end do
       area_fraction = area/pi**2
    end function area_fraction
-
-   !> The node of 0..N that a node of the whole line mirrors.
-   elemental integer function folded(k, intervals)
-      integer, intent(in) :: k, intervals
-
-      folded = modulo(k, 2*intervals)
-      folded = min(folded, 2*intervals - folded)
-   end function folded
 
    !> -1 where folding turns a derivative round.
    elemental real(dp) function mirrored(k, intervals)

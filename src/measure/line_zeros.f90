@@ -6,7 +6,7 @@ module wavycon_line_zeros
    implicit none (type, external)
    private
 
-   public :: line_zeros, zero_between
+   public :: length_inside, line_zeros, zero_between
 
 contains
 
@@ -31,6 +31,26 @@ contains
       end do
       allocate (zeros, source=found(:count))
    end subroutine line_zeros
+
+   !> The length of the parts of 0..pi that are inside, given where inside and outside change.
+   pure real(dp) function length_inside(edges, starts_inside) result(length)
+      real(dp), intent(in) :: edges(:)          !! ascending [rad]
+      logical, intent(in) :: starts_inside
+
+      real(dp) :: from
+      logical :: inside
+      integer :: i
+
+      length = 0.0_dp
+      from = 0.0_dp
+      inside = starts_inside
+      do i = 1, size(edges)
+         if (inside) length = length + edges(i) - from
+         from = edges(i)
+         inside = .not. inside
+      end do
+      if (inside) length = length + pi - from
+   end function length_inside
 
    !> Where sum_i c_i cos(i x) changes sign between two points: Newton's method, kept inside the bracket by bisection.
    pure subroutine zero_between(c, start, step, at_start, at_end, x, slope)

@@ -11,8 +11,8 @@
 !> N.B. Three departures. The free variables change together (see the table). An active slack gives way to its u
 !> before the step, not after it: the path is the same. And the table, which Beale carries in exact arithmetic, only
 !> finds the set of active constraints: the answer is then solved for from the problem's own data, its
-!> Karush-Kuhn-Tucker conditions are checked, and where the table has drifted it is made afresh from that set and the
-!> method goes on; slacks that the drift has left negative are mended by the dual pass.
+!> Karush-Kuhn-Tucker conditions are checked, and where the table has drifted or Beale's way is long it is made afresh
+!> from that set and the dual pass ends the work.
 module wavycon_beale
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use wavycon_beale_table, only: table_type
@@ -34,8 +34,9 @@ module wavycon_beale
    !> After so many steps of length zero in a row the least index decides all choices, so that none recurs
    !> (Chang & Cottle, Math. Program. 18 (1980) 127-138), until a step has length again.
    integer, parameter :: patience = 12
-   !> The table is made afresh after so many pivots times n.
-   integer, parameter :: check_interval = 8
+   !> Beale's own steps end after so many pivots times n, and the dual pass goes on from their active constraints: by then
+   !> the way leads through vertices of nearly dependent constraints.
+   integer, parameter :: own_pivots = 8
 
    !> A solver that keeps its table, so that the next problem, which differs in the bounds alone, starts from it.
    type :: beale_solver
@@ -81,7 +82,7 @@ contains
       self%problem = problem
 
       call self%table%start(problem, self%set)
-      call descend(self%table, min(limit, check_interval*n), solution%pivots, optimal)
+      call descend(self%table, min(limit, own_pivots*n), solution%pivots, optimal)
       if (optimal) then
          status = qp_converged
       else

@@ -1,5 +1,6 @@
 !> <case>.coefficients.dat: the Fourier coefficients of the pressure, A_i of eq. (12) or A_ij of eq. (25), a block a load.
 module wavycon_coefficients_table
+   use wavycon_cosine_series, only: cosine_series
    use wavycon_error, only: error_type
    use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
@@ -17,7 +18,8 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(output_file) :: file
-      real(dp), allocatable :: a(:, :)
+      type(cosine_series) :: pressure, displacement
+      real(dp) :: approach
       integer :: load, i, j
 
       call results%open_table('coefficients', file)
@@ -28,13 +30,13 @@ contains
       end if
       do load = 1, size(results%states)
          call results%put_load_heading(file, load, first=load == 1)
-         call results%contact%terms%coefficients(results%states(load)%x, a)
-         do i = 0, ubound(a, 1)
-            do j = 0, ubound(a, 2)
+         call results%series(load, pressure, displacement, approach)
+         do i = 0, ubound(pressure%c, 1)
+            do j = 0, ubound(pressure%c, 2)
                if (i + j == 0) cycle
                call file%add(i)
                if (results%scene%surface%dimension == 2) call file%add(j)
-               call file%add(a(i, j))
+               call file%add(pressure%c(i, j))
                call file%end_row()
             end do
          end do

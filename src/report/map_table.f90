@@ -2,7 +2,7 @@
 !> format).
 module wavycon_map_table
    use wavycon_constants, only: pi
-   use wavycon_cosine_series, only: cosine_series
+   use wavycon_cosine_series, only: cosine_series, folded
    use wavycon_error, only: error_type
    use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
@@ -64,13 +64,5 @@ contains
          end do
       end associate
    end subroutine put_map
-
-   !> The node of 0..N that a node of the whole line mirrors.
-   elemental integer function folded(k, intervals)
-      integer, intent(in) :: k, intervals
-
-      folded = modulo(k, 2*intervals)
-      folded = min(folded, 2*intervals - folded)
-   end function folded
 
 end module wavycon_map_table

@@ -1,10 +1,9 @@
 !> All that the tables of one scene are written from, and the header that they share.
 module wavycon_results
-   use wavycon_contact_measures, only: contact_measures
+   use wavycon_contact_solver, only: contact_solver
    use wavycon_contact_state, only: contact_state
    use wavycon_cosine_series, only: cosine_series
    use wavycon_deck, only: deck_type
-   use wavycon_fourier_contact, only: fourier_contact
    use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
    use wavycon_plain_text, only: escaped, exact_number, integer_text
@@ -18,10 +17,9 @@ module wavycon_results
    type :: results_type
       type(deck_type) :: deck
       type(scene_type) :: scene
-      type(fourier_contact) :: contact
+      class(contact_solver), allocatable :: contact
       character(:), allocatable :: directory             !! that the tables go to
       type(contact_state), allocatable :: states(:)      !! in the deck's order of loads
-      type(contact_measures), allocatable :: measures(:) !! the same
    contains
       procedure :: open_table
       procedure :: put_load_heading
@@ -36,26 +34,30 @@ contains
       character(*), intent(in) :: kind
       type(output_file), intent(out) :: file
 
-      character(:), allocatable :: symmetry
-
       call file%open(self%directory, trim(self%deck%scene%case)//'.'//kind//'.dat')
       call file%put('# wavycon '//version//' ('//revision//')')
       call file%put('# deck: '//escaped(self%deck%path))
       if (self%deck%scene%title /= '') call file%put('# title: '//escaped(trim(self%deck%scene%title)))
       associate (surface => self%scene%surface, method => self%deck%method)
-         symmetry = ''
-         if (surface%dimension == 2) symmetry = ', symmetry = '//trim(method%symmetry)
          call file%put('# surface: '//trim(self%deck%surface%kind)// &
                        ', Delta[length] = '//exact_number(surface%amplitude)// &
                        ', lambda[length] = '//exact_number(surface%wavelength))
          call file%put('# material: e_star[pressure] = '//exact_number(self%scene%e_star)// &
                        ', p*[pressure] = '//exact_number(self%scene%p_star))
-         call file%put('# method: '//trim(method%solver)//', harmonics = '//integer_text(method%harmonics)// &
-                       ', constraint_points = '//integer_text(method%constraint_points)//symmetry// &
-                       ' ('//integer_text(self%contact%terms%count())//' unknowns, '// &
-                       integer_text(size(self%contact%problem%bounds))//' constraints), edge_level[p*] = '// &
-                       exact_number(method%edge_level))
+         call file%put('# method: '//trim(method%solver)//', '//self%contact%describe()//edge_level())
       end associate
+
+   contains
+
+      !> The isobar taken as the edge of contact, of the solver that needs one.
+      function edge_level() result(words)
+         character(:), allocatable :: words
+
+         words = ''
+         if (self%deck%method%solver == 'beale') &
+            words = ', edge_level[p*] = '//exact_number(self%deck%method%edge_level)
+      end function edge_level
+
    end subroutine open_table
 
    !> Parts the block of a load from the one before it, as gnuplot's `index` wants it, and names the load.
@@ -82,7 +84,7 @@ contains
 
       pressure = self%contact%pressure(self%states(load))
       displacement = self%contact%displacement(self%states(load))
-      approach_over_amplitude = self%measures(load)%approach_over_amplitude
+      approach_over_amplitude = self%states(load)%measures%approach_over_amplitude
    end subroutine series
 
 end module wavycon_results

@@ -81,9 +81,7 @@ contains
          call self%say('loads     '//integer_text(size(scene%pbar_over_pstar))//', pbar/p* from '// &
                        short_number(minval(scene%pbar_over_pstar))//' to '// &
                        short_number(maxval(scene%pbar_over_pstar)))
-         call self%say('method    '//trim(deck%method%solver)//', '//integer_text(deck%method%harmonics)// &
-                       ' harmonics ('//integer_text(results%contact%terms%count())//' unknowns), '// &
-                       integer_text(size(results%contact%problem%bounds))//' constraint points')
+         call self%say('method    '//trim(deck%method%solver)//', '//results%contact%describe())
       end associate
    end subroutine show_scene
 
@@ -118,7 +116,7 @@ contains
          'kkt', 'status'
       call self%say(trim(line))
       do i = 1, size(results%states)
-         associate (state => results%states(i), measures => results%measures(i))
+         associate (state => results%states(i), measures => results%states(i)%measures)
             write (line, '(5a, 2i8, es9.1, 2x, a)') &
                cell(state%pbar_over_pstar), cell(results%scene%mean_pressure(i)), &
                cell(measures%mean_gap_over_amplitude), cell(measures%contact_area_fraction), &

@@ -8,6 +8,14 @@ module wavycon_summary_table
 
    public :: write_summary_table
 
+   character(40), parameter :: columns(*) = [character(40) :: &
+      'pbar_over_pstar[-]', 'mean_pressure[pressure]', 'mean_gap_over_amplitude[-]', 'approach_over_amplitude[-]', &
+      'contact_area_fraction[-]', 'peak_pressure_over_pstar[-]', 'min_pressure_over_pstar[-]', 'active_constraints[-]', &
+      'pivots[-]', 'kkt_residual[-]']
+   !> Estimated errors, of the solvers that have them; the truncated series of 'beale' knows none.
+   character(40), parameter :: error_columns(*) = [character(40) :: &
+      'mean_gap_error[-]', 'contact_area_error[-]', 'peak_pressure_error[-]']
+
 contains
 
    !> Errors: exit_file_trouble.
@@ -16,15 +24,14 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(output_file) :: file
+      logical :: with_errors
       integer :: i
 
       call results%open_table('summary', file)
-      call file%put_columns([character(40) :: 'pbar_over_pstar[-]', 'mean_pressure[pressure]', &
-                             'mean_gap_over_amplitude[-]', 'approach_over_amplitude[-]', 'contact_area_fraction[-]', &
-                             'peak_pressure_over_pstar[-]', 'min_pressure_over_pstar[-]', 'active_constraints[-]', &
-                             'pivots[-]', 'kkt_residual[-]', 'status[-]'])
+      with_errors = results%deck%method%solver /= 'beale'
+      call file%put_columns([character(40) :: columns, pack(error_columns, spread(with_errors, 1, 3)), 'status[-]'])
       do i = 1, size(results%states)
-         associate (state => results%states(i), measures => results%measures(i))
+         associate (state => results%states(i), measures => results%states(i)%measures)
             call file%add([state%pbar_over_pstar, results%scene%mean_pressure(i), &
                            measures%mean_gap_over_amplitude, measures%approach_over_amplitude, &
                            measures%contact_area_fraction, measures%peak_pressure_over_pstar, &
@@ -32,6 +39,8 @@ contains
             call file%add(state%active_constraints)
             call file%add(state%pivots)
             call file%add(state%kkt_residual)
+            if (with_errors) call file%add([measures%mean_gap_error, measures%contact_area_error, &
+                                            measures%peak_pressure_error])
             call file%add(trim(state%status))
             call file%end_row()
          end associate

@@ -1,12 +1,13 @@
 !> What a deck describes, in the program's own normalisation: pressures in p*, displacements and gaps in Delta.
 module wavycon_scene
    use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_value
+   use wavycon_constraint_points, only: choose_points
    use wavycon_deck, only: deck_type
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
-   use wavycon_fourier_terms, only: symmetry_diagonal, symmetry_full, symmetry_none
+   use wavycon_fourier_terms, only: choose_terms, fourier_terms, symmetry_diagonal, symmetry_full, symmetry_none
    use wavycon_kinds, only: dp
    use wavycon_load_group, only: largest_pbar_over_pstar
-   use wavycon_plain_text, only: escaped, short_number
+   use wavycon_plain_text, only: escaped, integer_text, short_number
    use wavycon_surface, only: crossed_1d, surface_type, wave_1d, wave_2d
    implicit none (type, external)
    private
@@ -51,6 +52,9 @@ contains
          scene%symmetry = symmetry_diagonal
       end select
 
+      call check_size(deck, scene, error)
+      if (allocated(error)) return
+
       if (allocated(deck%load%mean_pressure)) then
          allocate (scene%mean_pressure, source=deck%load%mean_pressure)
          worst = maxval(scene%mean_pressure)
@@ -69,6 +73,28 @@ contains
          if (scene%p_star <= 0.0_dp) scene%pbar_over_pstar = in_p_star(scene%mean_pressure, scene%p_star)
       end if
    end subroutine make_scene
+
+   !> Refuses a series whose constraint matrix would fill the memory. Errors: exit_bad_input.
+   subroutine check_size(deck, scene, error)
+      type(deck_type), intent(in) :: deck
+      type(scene_type), intent(in) :: scene
+      type(error_type), allocatable, intent(out) :: error
+
+      !> Elements of the matrix, of which a handful of copies are held: 160 MB each.
+      real(dp), parameter :: most_elements = 2.0e7_dp
+      type(fourier_terms) :: terms
+      integer, allocatable :: k(:), l(:)
+
+      if (deck%method%solver /= 'beale') return
+      terms = choose_terms(scene%surface%dimension, deck%method%harmonics, scene%symmetry)
+      call choose_points(scene%surface%dimension, deck%method%constraint_points, scene%symmetry, k, l)
+      if (real(terms%count(), dp)*size(k) > most_elements) &
+         call fatal_error(error, exit_bad_input, escaped(deck%path)//': harmonics = '// &
+                          integer_text(deck%method%harmonics)//' and constraint_points = '// &
+                          integer_text(deck%method%constraint_points)//' make '//integer_text(terms%count())// &
+                          ' unknowns and '//integer_text(size(k))//' constraints: too many for the memory. '// &
+                          'Give fewer constraint_points (harmonics + 1 serve well), or a symmetry.')
+   end subroutine check_size
 
    !> A mean pressure over p*. On a flat surface p* = 0 and any pressure is full contact: none at all is p* itself.
    elemental real(dp) function in_p_star(mean_pressure, p_star)

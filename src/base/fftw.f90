@@ -1,0 +1,7 @@
+!> Interface of FFTW, from its own header.
+module wavycon_fftw
+   use, intrinsic :: iso_c_binding
+   implicit none (type, external)
+   public
+   include 'fftw3.f03'
+end module wavycon_fftw

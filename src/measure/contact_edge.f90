@@ -1,0 +1,136 @@
+!> The edge of contact on a grid of points, of which some are in contact and some not.
+!>
+!> Where it crosses a line between two neighbouring points, and how it runs there, is for the extensions to say: an isobar of
+!> a series, or the edge that a solution on the grid itself has.
+module wavycon_contact_edge
+   use wavycon_kinds, only: dp
+   implicit none (type, external)
+   private
+
+   public :: contact_edge, edge_point
+
+   !> A point of the edge of contact on the side of a cell.
+   type :: edge_point
+      logical :: exists = .false.
+      real(dp) :: phi = 0.0_dp, theta = 0.0_dp       !! [rad], in the plane
+      real(dp) :: p_phi = 0.0_dp, p_theta = 0.0_dp   !! across the edge into the contact; zero where that is not known
+   end type edge_point
+
+   !> Points (k, l) of the whole plane; a cell has the name of its lower left point. Its sides are numbered against the
+   !> clock: 1 from (k, l) to (k+1, l), 2 up, 3 back, 4 down.
+   type, abstract :: contact_edge
+      integer :: period(2) = 1   !! points to a period of phi and theta
+   contains
+      procedure(point_in_contact), deferred :: in_contact
+      procedure(angles_of_point), deferred :: angles
+      procedure(edge_on_side), deferred :: side
+      procedure :: cell_area
+   end type contact_edge
+
+   abstract interface
+      !> Whether a point is in contact.
+      pure logical function point_in_contact(self, k, l)
+         import :: contact_edge
+         class(contact_edge), intent(in) :: self
+         integer, intent(in) :: k, l
+      end function point_in_contact
+
+      !> Where a point is.
+      pure subroutine angles_of_point(self, k, l, phi, theta)
+         import :: contact_edge, dp
+         class(contact_edge), intent(in) :: self
+         integer, intent(in) :: k, l
+         real(dp), intent(out) :: phi, theta   !! [rad]
+      end subroutine angles_of_point
+
+      !> The point of the edge on a side of a cell, if there is one.
+      pure type(edge_point) function edge_on_side(self, k, l, number)
+         import :: contact_edge, edge_point
+         class(contact_edge), intent(in) :: self
+         integer, intent(in) :: k, l      !! the cell
+         integer, intent(in) :: number    !! of the side, 1 .. 4
+      end function edge_on_side
+   end interface
+
+   !> From the lower left point of a cell to the first point of each side; the fifth is the first again.
+   integer, parameter, public :: corner_k(5) = [0, 1, 1, 0, 0], corner_l(5) = [0, 0, 1, 1, 0]
+
+contains
+
+   !> The area of a cell in contact [rad^2]. Between two points of the edge it is taken as the cubic curve with the
+   !> directions there, or straight where they are not known. In a cell that the edge enters twice the parts in contact are
+   !> taken as joined.
+   pure real(dp) function cell_area(self, k, l) result(area)
+      class(contact_edge), intent(in) :: self
+      integer, intent(in) :: k, l
+
+      type(edge_point) :: points(9)
+      logical :: corners(4), leaves(9)
+      real(dp) :: low(2), high(2)
+      integer :: number, count, i, next
+
+      corners = [(self%in_contact(k + corner_k(number), l + corner_l(number)), number=1, 4)]
+      area = 0.0_dp
+      if (.not. any(corners)) return
+      if (all(corners)) then
+         call self%angles(k, l, low(1), low(2))
+         call self%angles(k + 1, l + 1, high(1), high(2))
+         area = product(high - low)
+         return
+      end if
+
+      count = 0
+      do number = 1, 4
+         if (corners(number)) then
+            count = count + 1
+            points(count) = edge_point()
+            call self%angles(k + corner_k(number), l + corner_l(number), points(count)%phi, points(count)%theta)
+            leaves(count) = .false.
+         end if
+         points(count + 1) = self%side(k, l, number)
+         if (points(count + 1)%exists) then
+            count = count + 1
+            ! The contact is left behind if the corner before this side is in it.
+            leaves(count) = corners(number)
+         end if
+      end do
+
+      do i = 1, count
+         next = mod(i, count) + 1
+         area = area + 0.5_dp*(points(i)%phi*points(next)%theta - points(next)%phi*points(i)%theta)
+         if (leaves(i)) area = area - lens(points(i), points(next))
+      end do
+   end function cell_area
+
+   !> Area between the chord from one point of the edge to the next and the cubic curve, on the side of the contact (to the
+   !> left).
+   pure real(dp) function lens(from, to)
+      type(edge_point), intent(in) :: from, to
+
+      real(dp), parameter :: steepest = 3.0_dp   ! a curve steeper than this against its chord is not resolved
+      real(dp) :: c_phi, c_theta, slopes(2)
+
+      c_phi = to%phi - from%phi
+      c_theta = to%theta - from%theta
+      slopes(1) = slope(from)
+      slopes(2) = slope(to)
+      lens = 0.0_dp
+      if (maxval(abs(slopes)) < steepest) lens = (c_phi**2 + c_theta**2)*(slopes(1) - slopes(2))/12
+
+   contains
+
+      pure real(dp) function slope(point)
+         type(edge_point), intent(in) :: point
+
+         real(dp) :: along, sideways
+
+         ! The tangent has the gradient on its left: (p_theta, -p_phi).
+         along = point%p_theta*c_phi - point%p_phi*c_theta
+         sideways = -point%p_theta*c_theta - point%p_phi*c_phi
+         slope = huge(slope)
+         if (along > 0.0_dp) slope = sideways/along
+      end function slope
+
+   end function lens
+
+end module wavycon_contact_edge

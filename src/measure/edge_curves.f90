@@ -1,0 +1,112 @@
+!> The edge of contact as closed curves.
+module wavycon_edge_curves
+   use wavycon_contact_edge, only: contact_edge, corner_k, corner_l, edge_point
+   use wavycon_kinds, only: dp
+   implicit none (type, external)
+   private
+
+   public :: edge_curve, strip_ends, trace_edges
+
+   !> A curve with the contact on its left. Its last point repeats the first, but for a curve that runs
+   !> through the whole plane: that ends one period on.
+   type :: edge_curve
+      real(dp), allocatable :: phi(:), theta(:)   !! [rad]; not reduced to one cell, so that the curve is of one piece
+   end type edge_curve
+
+contains
+
+   !> All curves of one period of phi and theta.
+   subroutine trace_edges(edge, curves)
+      class(contact_edge), intent(in) :: edge
+      type(edge_curve), allocatable, intent(out) :: curves(:)
+
+      logical :: seen(4, 0:edge%period(1) - 1, 0:edge%period(2) - 1)
+      type(edge_curve) :: curve
+      integer :: k, l, number
+
+      allocate (curves(0))
+      seen = .false.
+      do l = 0, edge%period(2) - 1
+         do k = 0, edge%period(1) - 1
+            do number = 1, 4
+               if (seen(number, k, l) .or. .not. leaves_contact(edge, k, l, number)) cycle
+               call trace(edge, k, l, number, seen, curve)
+               curves = [curves, curve]
+            end do
+         end do
+      end do
+   end subroutine trace_edges
+
+   !> The strips of a 1-D contact that lie between some edges in 0..pi, as curves of two points each. Where the crest is in
+   !> contact the first edge and its mirror image bound the strip about it.
+   pure subroutine strip_ends(edges, crest_in_contact, curves)
+      real(dp), intent(in) :: edges(:)             !! ascending [rad]
+      logical, intent(in) :: crest_in_contact
+      type(edge_curve), allocatable, intent(out) :: curves(:)
+
+      real(dp) :: ends(size(edges) + 1)
+      integer :: i, count
+
+      count = size(edges) + merge(1, 0, crest_in_contact .and. size(edges) > 0)
+      if (count > size(edges)) ends(1) = -edges(1)
+      ends(count - size(edges) + 1:count) = edges
+      allocate (curves(count/2))
+      do i = 1, count/2
+         allocate (curves(i)%phi, source=ends(2*i - 1:2*i))
+         allocate (curves(i)%theta(2), source=0.0_dp)
+      end do
+   end subroutine strip_ends
+
+   !> Follows one curve from an edge of a cell back to it.
+   subroutine trace(edge, first_k, first_l, first_number, seen, curve)
+      class(contact_edge), intent(in) :: edge
+      integer, intent(in) :: first_k, first_l, first_number
+      logical, intent(inout) :: seen(:, 0:, 0:)
+      type(edge_curve), intent(out) :: curve
+
+      integer, parameter :: step_k(4) = [0, 1, 0, -1], step_l(4) = [-1, 0, 1, 0]
+      integer, parameter :: opposite(4) = [3, 4, 1, 2]
+      real(dp), allocatable :: phi(:), theta(:)
+      type(edge_point) :: point
+      integer :: k, l, number, count, wrapped_k, wrapped_l
+
+      allocate (phi(size(seen) + 1), theta(size(seen) + 1))
+      k = first_k
+      l = first_l
+      number = first_number
+      count = 0
+      do
+         point = edge%side(k, l, number)
+         count = count + 1
+         phi(count) = point%phi
+         theta(count) = point%theta
+         wrapped_k = modulo(k, edge%period(1))
+         wrapped_l = modulo(l, edge%period(2))
+         if (seen(number, wrapped_k, wrapped_l)) exit
+         seen(number, wrapped_k, wrapped_l) = .true.
+
+         ! Inside the cell the curve ends on the next edge with a crossing, against the clock (see cell_area).
+         do
+            number = mod(number, 4) + 1
+            point = edge%side(k, l, number)
+            if (point%exists) exit
+         end do
+         k = k + step_k(number)
+         l = l + step_l(number)
+         number = opposite(number)
+      end do
+      allocate (curve%phi, source=phi(:count))
+      allocate (curve%theta, source=theta(:count))
+   end subroutine trace
+
+   !> Whether the contact is left along a side of a cell, followed against the clock: a curve with the contact on its left
+   !> enters the cell there.
+   pure logical function leaves_contact(edge, k, l, number)
+      class(contact_edge), intent(in) :: edge
+      integer, intent(in) :: k, l, number
+
+      leaves_contact = edge%in_contact(k + corner_k(number), l + corner_l(number)) .and. &
+                       .not. edge%in_contact(k + corner_k(number + 1), l + corner_l(number + 1))
+   end function leaves_contact
+
+end module wavycon_edge_curves
