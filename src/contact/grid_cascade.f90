@@ -25,6 +25,9 @@ module wavycon_grid_cascade
    !> edge happens to lie between the points.
    real(dp), parameter :: safety(3) = [1.25_dp, 2.0_dp, 1.25_dp]
 
+   !> In place of a number that no grid has given yet; so large that no change from it passes for small.
+   real(dp), parameter :: unknown = 1e30_dp
+
    type :: cascade_answer
       type(grid_state) :: state            !! on the finest grid
       type(grid_edge) :: edge              !! the same, with the edge of contact
@@ -49,8 +52,8 @@ contains
       real(dp), allocatable :: finer(:, :)
       integer :: m, n
 
-      last_change = huge(1.0_dp)
-      values = huge(1.0_dp)
+      last_change = unknown
+      values = unknown
       m = first_points*max(1, nint(surface%length(1)/surface%length(2)))
       n = first_points*max(1, nint(surface%length(2)/surface%length(1)))
       if (dimension == 1) n = 1
