@@ -1,5 +1,5 @@
 # The picture of a summary table, on standard output. scripts/plot calls it with
-#    the table, the name of the case, the format (png, svg, pdf)
+#    the table, the name of the case, the format (png, svg, pdf), the number of columns
 table = ARG1
 case_name = ARG2
 
@@ -14,19 +14,24 @@ if (ARG3 eq 'pdf') {
    set terminal pdfcairo size 30cm,11cm font 'sans-serif,14' linewidth 1.5 background '#ffffff'
 }
 
-# Column 11 is the status.
-good(status) = (status eq 'converged' || status eq 'full_contact' || status eq 'no_load')
-if_good(value) = good(strcol(11)) ? value : NaN
-if_bad(value) = good(strcol(11)) ? NaN : value
+# The last column is the status.
+status_column = int(ARG4)
+good(status) = (status eq 'converged' || status eq 'full_contact' || status eq 'no_load' || status eq 'closed_form')
+inaccurate(status) = (status eq 'not_accurate')
+if_good(value) = good(strcol(status_column)) ? value : NaN
+if_inaccurate(value) = inaccurate(strcol(status_column)) ? value : NaN
+if_bad(value) = good(strcol(status_column)) || inaccurate(strcol(status_column)) ? NaN : value
 least(a, b) = (a < b) ? a : b
 greatest(a, b) = (a > b) ? a : b
 
-stats table using (good(strcol(11)) ? 0 : 1) name 'unsolved' nooutput
+stats table using (good(strcol(status_column)) || inaccurate(strcol(status_column)) ? 0 : 1) name 'unsolved' nooutput
+stats table using (inaccurate(strcol(status_column)) ? 1 : 0) name 'inaccurate' nooutput
 stats table using 1 name 'load' nooutput
 stats table using 3 name 'gap' nooutput
 
 set linetype 1 linecolor rgb '#1f4e8c' linewidth 1.3 pointtype 7 pointsize 0.8
 set linetype 2 linecolor rgb '#c0392b' linewidth 1.3 pointtype 2 pointsize 1.1
+set linetype 3 linecolor rgb '#d17a00' linewidth 1.3 pointtype 9 pointsize 1.1
 set border 3 linewidth 0.8
 set tics nomirror out scale 0.7
 set grid linecolor rgb '#d0d0d0' linewidth 0.6 dashtype 1
@@ -36,7 +41,11 @@ unset key
 
 curves = 'table using (if_good($1)):(column(n)) smooth unique with lines linetype 1 notitle, ' \
    .'table using (if_good($1)):(column(n)) with points linetype 1 notitle, ' \
-   .'table using (if_bad($1)):(column(n)) with points linetype 2 title "not solved"'
+   .'table using (if_bad($1)):(column(n)) with points linetype 2 title unsolved_title, ' \
+   .'table using (if_inaccurate($1)):(column(n)) with points linetype 3 title inaccurate_title'
+# A title that is empty has no line in the key.
+unsolved_title = unsolved_max > 0 ? 'not solved' : ''
+inaccurate_title = inaccurate_max > 0 ? 'not accurate' : ''
 
 set multiplot layout 1,3 title case_name noenhanced
 
@@ -48,7 +57,7 @@ plot @curves
 n = 3
 set ylabel 'mean gap  {/:Italic g̅} / Δ'
 set yrange [least(0.0, gap_min):greatest(1.0, gap_max)]
-if (unsolved_max > 0) {
+if (unsolved_max > 0 || inaccurate_max > 0) {
    set key top right Left reverse samplen 1
 }
 plot @curves
