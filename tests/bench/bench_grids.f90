@@ -1,0 +1,81 @@
+!> Measures the grids: time, cost and true error of the two-dimensional wave at a number of accuracies.
+program bench_grids
+   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
+   use samples, only: clock_ms, sample_set
+   use wavycon_grid_cascade, only: cascade_answer, solve_by_cascade
+   use wavycon_harmonic_surface, only: harmonic_surface, wave_sum
+   use wavycon_kinds, only: dp
+   implicit none (type, external)
+
+   real(dp), parameter :: accuracies(*) = [1e-2_dp, 1e-3_dp, 1e-4_dp]
+   !> Solves of one load at one accuracy, of which the median counts.
+   integer, parameter :: repeats = 5
+
+   type(harmonic_surface) :: wave
+   real(dp), allocatable :: loads(:), references(:, :)
+   logical :: all_accurate
+   integer :: i, k
+
+   call read_reference(loads, references)
+   wave = wave_sum([1.0_dp, 1.0_dp], [0.5_dp, 0.5_dp], [1, 0], [0, 1])
+   all_accurate = .true.
+   write (output_unit, '(a)') '# Grids: a load of the 2-D wave to an accuracy of mean gap, area and peak pressure. Pairs of', &
+      '# transforms are counted in units of one on the finest grid. Errors are true, estimates the program''s own.', &
+      '# accuracy      P points grids iterations  pairs  time[ms]     least  gap_error  estimate area_error  estimate '// &
+      'peak_error  estimate'
+   do k = 1, size(accuracies)
+      do i = 1, size(loads)
+         call measure(loads(i), references(:, i), accuracies(k))
+      end do
+   end do
+   if (.not. all_accurate) then
+      write (error_unit, '(a)') 'bench: a load is not as accurate as asked for'
+      stop 1, quiet=.true.
+   end if
+
+contains
+
+   subroutine measure(load, reference, accuracy)
+      real(dp), intent(in) :: load, reference(3), accuracy
+
+      type(cascade_answer) :: answer
+      type(sample_set) :: times
+      real(dp) :: start, errors(2, 3)
+      integer :: run
+
+      do run = 1, repeats
+         start = clock_ms()
+         call solve_by_cascade(wave, 2, load, accuracy, answer)
+         call times%add(clock_ms() - start)
+      end do
+      errors(1, :) = answer%values - reference
+      errors(2, :) = answer%errors
+      all_accurate = all_accurate .and. answer%accurate
+      write (output_unit, '(es10.1, f7.2, 2i6, i11, f7.1, 2f10.3, 6es11.1)') accuracy, load, &
+         size(answer%state%pressure, 1), answer%grids, answer%iterations, answer%transform_pairs, times%median(), &
+         times%least(), errors
+   end subroutine measure
+
+   !> The loads of the reference table and their mean gap, contact area and peak pressure, shape (3, loads).
+   subroutine read_reference(loads, values)
+      real(dp), allocatable, intent(out) :: loads(:), values(:, :)
+
+      character(200) :: line, path
+      real(dp) :: row(4)
+      integer :: unit, status
+
+      call get_command_argument(1, path)
+      open (newunit=unit, file=trim(path), status='old', action='read')
+      allocate (loads(0), values(3, 0))
+      do
+         read (unit, '(a)', iostat=status) line
+         if (status /= 0) exit
+         if (line(1:1) == '#' .or. line == '') cycle
+         read (line, *) row
+         loads = [loads, row(1)]
+         values = reshape([values, row(2:)], [3, size(loads)])
+      end do
+      close (unit)
+   end subroutine read_reference
+
+end program bench_grids
