@@ -9,6 +9,7 @@ program wavycon_main
    use wavycon_read_deck, only: read_deck
    use wavycon_run_scene, only: run_scene
    use wavycon_scene, only: make_scene, scene_type
+   use wavycon_system, only: outlive_file_size_limit
    use wavycon_version, only: revision, version
    implicit none (type, external)
 
@@ -25,6 +26,7 @@ program wavycon_main
    type(error_type), allocatable :: error
    integer :: i, status, worst
 
+   call outlive_file_size_limit()
    call read_command_line(command_line, error)
    call stop_on(error)
    if (command_line%help) then

@@ -1,5 +1,6 @@
 /* The few calls to the operating system that Fortran has no word for. */
 #include <errno.h>
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -31,6 +32,12 @@ int wavycon_rename(const char *from, const char *to)
 int wavycon_remove(const char *path)
 {
     return unlink(path) == 0 ? 0 : errno;
+}
+
+/* A file that grows beyond the limit set for it is then an error of the write, as on a full disk, not the end. */
+void wavycon_outlive_file_size_limit(void)
+{
+    signal(SIGXFSZ, SIG_IGN);
 }
 
 int wavycon_process_id(void)

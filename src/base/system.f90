@@ -4,7 +4,8 @@ module wavycon_system
    implicit none (type, external)
    private
 
-   public :: path_kind, make_directories, rename_file, remove_file, process_id, stdout_is_terminal
+   public :: path_kind, make_directories, rename_file, remove_file
+   public :: outlive_file_size_limit, process_id, stdout_is_terminal
 
    !> What `path_kind` can answer.
    integer, parameter, public :: path_absent = 0, path_directory = 1, path_other = 2
@@ -29,6 +30,9 @@ module wavycon_system
          import :: c_char, c_int
          character(kind=c_char), intent(in) :: path(*)
       end function c_remove
+
+      subroutine c_outlive_file_size_limit() bind(c, name='wavycon_outlive_file_size_limit')
+      end subroutine c_outlive_file_size_limit
 
       integer(c_int) function c_process_id() bind(c, name='wavycon_process_id')
          import :: c_int
@@ -58,7 +62,7 @@ contains
    !> Makes a directory and those above it.
    subroutine make_directories(path, failure)
       character(*), intent(in) :: path
-      character(:), allocatable, intent(out) :: failure  !! the system's words; not allocated if all is well
+      character(:), allocatable, intent(out) :: failure  !! which part, and the system's words; not allocated if all is well
 
       integer :: i, number
 
@@ -68,7 +72,7 @@ contains
          end if
          number = int(c_make_directory(path(:i - 1)//c_null_char))
          if (number /= 0) then
-            failure = error_text(number)
+            failure = path(:i - 1)//': '//error_text(number)
             return
          end if
       end do
@@ -93,6 +97,12 @@ contains
 
       ignored = int(c_remove(path//c_null_char))
    end subroutine remove_file
+
+   !> Makes a write beyond the limit of a file's size (ulimit -f) an error of that write, as on a full disk, not the end of
+   !> the program.
+   subroutine outlive_file_size_limit()
+      call c_outlive_file_size_limit()
+   end subroutine outlive_file_size_limit
 
    !> This process's number, for names of files that no other process uses.
    integer function process_id()
