@@ -105,23 +105,28 @@ contains
       answer%transform_pairs = answer%transform_pairs/merge(2, 4, n == 1) + half_space%transform_pairs
    end subroutine solve_level
 
-   !> What a grid can't see, whatever its changes say: a contact of a few points has no known peak, and an open island can
-   !> hide between points that are all in contact, with a gap that falls faster than the square of its area (eqs. 24, 30).
+   !> Errors that no change tells of while the grid is too coarse to see the last open gap, about a corner of the quarter, or
+   !> has fewer points of the contact about the crest than its pressure there is made of.
    pure function unresolved(pressure) result(errors)
-      real(dp), intent(in) :: pressure(:, :)
-      real(dp) :: errors(3)
+      real(dp), intent(in) :: pressure(:, :)   !! shape (m, n)
+      real(dp) :: errors(3)                    !! of mean gap, contact area and peak pressure
 
-      !> So many points make a spot or an island, and this is the largest peak of a partial contact [p*].
-      integer, parameter :: least_points = 4
-      real(dp), parameter :: largest_peak = 2.0_dp
-      real(dp) :: point
-      integer :: in_contact
+      ! A contact that has its edge between the first and the second point: Hertz's peak of the widest such one, in 1-D
+      ! pi times the part in contact, which is 3/(2m), in 2-D less.
+      real(dp), parameter :: peak_of_one_cell = 1.5_dp*pi
+
+      real(dp) :: open_part
 
       errors = 0.0_dp
-      point = 1.0_dp/size(pressure)
-      in_contact = count(pressure > 0.0_dp)
-      if (in_contact < least_points) errors = [0.0_dp, least_points*point, largest_peak]
-      if (size(pressure) - in_contact < least_points) errors(:2) = max(errors(:2), [point**2, least_points*point])
+      if (all(pressure > 0.0_dp)) then
+         ! The gap may be open one step from the corner. With this part of the surface the mean gap falls as the power
+         ! 5/2 or faster, and with it the change of the peak.
+         open_part = 1.0_dp/size(pressure, 1)
+         if (size(pressure, 2) > 1) open_part = 0.25_dp*pi*open_part/size(pressure, 2)
+         errors = [open_part**2, open_part, open_part**2]
+      else if (.not. pressure(3, 1) > 0.0_dp) then
+         errors(3) = peak_of_one_cell/maxval(shape(pressure))
+      end if
    end function unresolved
 
    !> The pressure on a grid twice as fine, linear between points. In 1-D the second direction stays.
