@@ -75,7 +75,7 @@ contains
          call log%say(trim(deck%scene%case)//': all '//integer_text(size(results%states))//' loads solved')
       else
          call log%say(trim(deck%scene%case)//': '//integer_text(bad)//' of '//integer_text(size(results%states))// &
-                      ' loads NOT solved, see the status column')
+                      ' loads NOT solved as asked, see the status column')
       end if
    end subroutine run_scene
 

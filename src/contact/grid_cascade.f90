@@ -1,7 +1,7 @@
 !> Grids, each twice as fine as the one before, until the answer is as accurate as asked for.
 !>
 !> A coarse answer starts the next finer one and tells its error: of each number the error estimate is the larger of its
-!> last change and a quarter of the change before, so that a change that is small by chance does not pass for accuracy,
+!> last change and half of the change before, so that a change that is small by chance does not pass for accuracy,
 !> with a factor of safety that the irregular convergence of the area needs.
 module wavycon_grid_cascade
    use wavycon_compliance_operator, only: compliance_operator
@@ -16,7 +16,7 @@ module wavycon_grid_cascade
    public :: cascade_answer, solve_by_cascade
 
    !> Points on the shorter side of the quarter cell, of the first grid and at most.
-   integer, parameter :: first_points = 8, most_points(2) = [65536, 1024]
+   integer, parameter :: first_points = 8, most_points(2) = [262144, 1024]
    !> A grid of step h is solved to a residual of this times h^(3/2) of the mean gap: the gap next to the edge of contact,
    !> which places it, is of the order of h^(3/2).
    real(dp), parameter :: tolerance_factor = 1e-4_dp
@@ -73,7 +73,7 @@ contains
          answer%values = [answer%state%mean_gap, grid_contact_area(answer%edge), &
                           grid_crest_pressure(answer%state%pressure)]
          change = abs(answer%values - values)
-         answer%errors = max(safety*change, 0.25_dp*safety*last_change, unresolved(answer%state%pressure))
+         answer%errors = max(safety*change, 0.5_dp*safety*last_change, unresolved(answer%state%pressure))
          answer%accurate = answer%state%converged .and. all(answer%errors <= accuracy)
          if (answer%accurate .or. 2*min(m, merge(m, n, n == 1)) > most_points(dimension)) exit
          values = answer%values
@@ -105,27 +105,35 @@ contains
       answer%transform_pairs = answer%transform_pairs/merge(2, 4, n == 1) + half_space%transform_pairs
    end subroutine solve_level
 
-   !> Errors that no change tells of while the grid is too coarse to see the last open gap, about a corner of the quarter, or
-   !> has fewer points of the contact about the crest than its pressure there is made of.
+   !> Errors that no change tells of: the edge's place between the points, where two grids may err alike; while the grid is too
+   !> coarse for it, the last open gap, about a corner of the quarter; a peak made of fewer points than its polynomial.
    pure function unresolved(pressure) result(errors)
       real(dp), intent(in) :: pressure(:, :)   !! shape (m, n)
       real(dp) :: errors(3)                    !! of mean gap, contact area and peak pressure
 
-      ! A contact that has its edge between the first and the second point: Hertz's peak of the widest such one, in 1-D
-      ! pi times the part in contact, which is 3/(2m), in 2-D less.
+      !> On the average over the edge it is placed to this part of a step.
+      real(dp), parameter :: edge_uncertainty = 0.005_dp
+      !> A contact that has its edge between the first and the second point: Hertz's peak of the widest such one, in 1-D
+      !> pi times the part in contact, which is 3/(2m), in 2-D less.
       real(dp), parameter :: peak_of_one_cell = 1.5_dp*pi
 
+      logical :: contact(size(pressure, 1), size(pressure, 2))
       real(dp) :: open_part
+      integer :: m, n, edges
 
-      errors = 0.0_dp
-      if (all(pressure > 0.0_dp)) then
+      m = size(pressure, 1)
+      n = size(pressure, 2)
+      contact = pressure > 0.0_dp
+      edges = count(contact(:m - 1, :) .neqv. contact(2:, :)) + count(contact(:, :n - 1) .neqv. contact(:, 2:))
+      errors = [0.0_dp, edge_uncertainty*edges/size(pressure), 0.0_dp]
+      if (all(contact)) then
          ! The gap may be open one step from the corner. With this part of the surface the mean gap falls as the power
          ! 5/2 or faster, and with it the change of the peak.
-         open_part = 1.0_dp/size(pressure, 1)
-         if (size(pressure, 2) > 1) open_part = 0.25_dp*pi*open_part/size(pressure, 2)
+         open_part = 1.0_dp/m
+         if (n > 1) open_part = 0.25_dp*pi*open_part/n
          errors = [open_part**2, open_part, open_part**2]
-      else if (.not. pressure(3, 1) > 0.0_dp) then
-         errors(3) = peak_of_one_cell/maxval(shape(pressure))
+      else if (.not. contact(3, 1)) then
+         errors(3) = peak_of_one_cell/max(m, n)
       end if
    end function unresolved
 

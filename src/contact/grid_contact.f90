@@ -178,7 +178,7 @@ contains
       character(16) :: number
 
       write (number, '(es8.1)') self%accuracy
-      words = 'grids, each twice as fine as the one before, to an accuracy of '//trim(adjustl(number))
+      words = 'each grid twice as fine as the one before, to an accuracy of '//trim(adjustl(number))
    end function describe
 
 end module wavycon_grid_contact
