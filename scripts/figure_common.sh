@@ -82,7 +82,8 @@ draw_figure() {
    aside=outputs/figures/.$figure.$$.$format
    trap 'rm -f "$aside"' EXIT
    # -d: without the user's own gnuplot settings.
-   gnuplot -d -e "$settings; picture = '$aside'" scripts/figure_style.gp /dev/stdin
+   # In UTF-8 whatever the user's locale, for the signs of the labels.
+   LC_ALL=C.UTF-8 gnuplot -d -e "$settings; picture = '$aside'" scripts/figure_style.gp /dev/stdin
    mv "$aside" "$picture"
    printf '%s\n' "$PWD/$picture"
 }
