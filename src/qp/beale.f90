@@ -114,8 +114,10 @@ contains
       type(qp_solution), intent(inout) :: solution
 
       integer :: pivots_before, last_status
+      logical :: active(size(self%problem%bounds)), active_before(size(self%problem%bounds))
 
       last_status = status
+      active_before = .false.
       do
          pivots_before = solution%pivots
          call finish_on_active_set(self%problem, self%set, self%table%active(:self%table%active_count), solution)
@@ -128,6 +130,11 @@ contains
                                       solution)
          end do
          call self%table%rebuild(self%problem, self%set, solution)
+         ! From the same constraints the same steps would follow: then the digits that stopped them are given up.
+         active = .false.
+         active(solution%active) = .true.
+         self%table%may_drift = all(active .eqv. active_before)
+         active_before = active
          call restore_optimum(self%table, limit, solution%pivots, last_status)
          if (solution%pivots == pivots_before .or. last_status == qp_infeasible) exit
       end do

@@ -39,6 +39,7 @@ module wavycon_beale_table
       real(dp), allocatable :: rows(:, :)     !! (A, B), shape (m, n): row i of basic slack i, columns as `gradient`
       real(dp) :: zero_descent = 0.0_dp       !! |dF/dz|/sqrt(d2F/dz2) below this is rounding
       logical :: drifted = .false.            !! digits of H were lost by cancellation: the table is to be made afresh
+      logical :: may_drift = .false.          !! lost digits are put up with, as long as H stays positive
    contains
       procedure :: start
       procedure :: rebuild
@@ -208,7 +209,7 @@ contains
 
       table%drifted = table%drifted .or. curvature <= 0.0_dp
       do i = 1, k - 1
-         if (table%drifted) exit
+         if (table%drifted .or. table%may_drift) exit
          table%drifted = table%hessian(i, i) - column(i)*(column(i)/curvature) < least_remainder*table%hessian(i, i)
       end do
       if (table%drifted) return
