@@ -8,7 +8,7 @@ module wavycon_fourier_contact
    use wavycon_cosine_series, only: cosine_series
    use wavycon_edge_curves, only: edge_curve, strip_ends, trace_edges
    use wavycon_fourier_terms, only: choose_terms, fourier_terms
-   use wavycon_isobar_cell, only: isobar_grid, start_isobar_grid
+   use wavycon_isobar_grid, only: isobar_grid, start_isobar_grid
    use wavycon_kinds, only: dp
    use wavycon_line_zeros, only: line_zeros
    use wavycon_qp_problem, only: qp_problem, qp_solution, qp_status_name

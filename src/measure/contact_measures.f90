@@ -2,7 +2,7 @@
 module wavycon_contact_measures
    use wavycon_constants, only: pi
    use wavycon_cosine_series, only: cosine_series
-   use wavycon_isobar_cell, only: isobar_grid, start_isobar_grid
+   use wavycon_isobar_grid, only: isobar_grid, start_isobar_grid
    use wavycon_kinds, only: dp
    use wavycon_line_zeros, only: length_inside, line_zeros
    implicit none (type, external)

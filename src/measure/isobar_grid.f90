@@ -4,7 +4,7 @@
 !> is the image of one of these. Where the isobar crosses a grid line the point is solved for exactly, with the
 !> gradient of the pressure there. Between two crossings the curve is taken as the cubic through both with its
 !> tangents: areas are then good to the fourth power of the grid's step, not the second as for a polygon.
-module wavycon_isobar_cell
+module wavycon_isobar_grid
    use wavycon_constants, only: pi
    use wavycon_contact_edge, only: contact_edge, edge_point
    use wavycon_cosine_series, only: cosine_series, cosine_table, evaluate_line, folded
@@ -169,4 +169,4 @@ contains
       mirrored = merge(-1.0_dp, 1.0_dp, modulo(k, 2*intervals) > intervals)
    end function mirrored
 
-end module wavycon_isobar_cell
+end module wavycon_isobar_grid
