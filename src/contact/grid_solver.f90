@@ -38,7 +38,7 @@ contains
 
       real(dp), dimension(size(undeformed_gap, 1), size(undeformed_gap, 2)) :: residual, last_residual, direction, image
       logical :: contact(size(undeformed_gap, 1), size(undeformed_gap, 2)), set_changed
-      real(dp) :: approach, shift, descent, last_descent, step, allowed
+      real(dp) :: approach, shift, descent, last_descent, step, curvature, allowed
       integer :: points
 
       if (.not. allocated(state%gap)) allocate (state%gap, mold=state%pressure)
@@ -74,13 +74,16 @@ contains
             if (set_changed) then
                direction = image
             else
-               direction = image + (descent - sum(last_residual*image))/last_descent*direction
+               direction = image + (descent - sum(last_residual*image))/max(last_descent, tiny(last_descent))*direction
             end if
             last_residual = residual
             last_descent = descent
 
             call half_space%displacement(direction, image)
-            step = sum(residual*direction)/sum(direction*image)
+            ! A contact that leaves nothing to move may still have to grow.
+            curvature = sum(direction*image)
+            step = 0.0_dp
+            if (curvature > 0.0_dp) step = sum(residual*direction)/curvature
             p = p - step*direction
             set_changed = any(contact .and. p <= 0.0_dp)
             if (set_changed) then
