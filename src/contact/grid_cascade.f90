@@ -30,7 +30,6 @@ module wavycon_grid_cascade
 
    type :: cascade_answer
       type(grid_state) :: state            !! on the finest grid
-      type(grid_edge) :: edge              !! the same, with the edge of contact
       real(dp) :: values(3) = 0.0_dp       !! mean gap [Delta], contact area fraction, peak pressure [p*]
       real(dp) :: errors(3) = huge(1.0_dp) !! estimated, in the same units
       logical :: accurate = .false.        !! whether all errors are as small as asked for
@@ -50,6 +49,7 @@ contains
 
       real(dp) :: values(3), change(3), last_change(3)
       real(dp), allocatable :: finer(:, :)
+      type(grid_edge) :: edge
       integer :: m, n
 
       last_change = unknown
@@ -69,8 +69,8 @@ contains
          end if
          call solve_level(surface, mean_pressure, answer)
          answer%grids = answer%grids + 1
-         call start_grid_edge(answer%edge, answer%state%pressure, answer%state%gap)
-         answer%values = [answer%state%mean_gap, grid_contact_area(answer%edge), &
+         call start_grid_edge(edge, answer%state%pressure, answer%state%gap)
+         answer%values = [answer%state%mean_gap, grid_contact_area(edge), &
                           grid_crest_pressure(answer%state%pressure)]
          change = abs(answer%values - values)
          answer%errors = max(safety*change, 0.5_dp*safety*last_change, unresolved(answer%state%pressure))

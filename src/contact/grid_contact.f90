@@ -10,7 +10,7 @@ module wavycon_grid_contact
    use wavycon_compliance_operator, only: cosine_coefficients
    use wavycon_edge_curves, only: edge_curve, strip_ends, trace_edges
    use wavycon_grid_cascade, only: cascade_answer, solve_by_cascade
-   use wavycon_grid_edge, only: grid_strip_edges
+   use wavycon_grid_edge, only: grid_strip_edges, start_grid_edge
    use wavycon_harmonic_surface, only: harmonic_surface, wave_sum
    use wavycon_kinds, only: dp
    use wavycon_qp_problem, only: qp_iteration_limit, qp_status_name
@@ -80,7 +80,10 @@ contains
       else
          state%status = not_accurate
       end if
-      if (self%keep_fields) allocate (state%edge, source=answer%edge)
+      if (self%keep_fields) then
+         allocate (state%edge)
+         call start_grid_edge(state%edge, answer%state%pressure, answer%state%gap)
+      end if
    end subroutine solve
 
    function pressure(self, state) result(field)

@@ -9,7 +9,6 @@ module wavycon_material_group
    private
 
    public :: material_group_type, material_table, read_material_group, write_material_group
-   public :: plane_strain_modulus
 
    !> What &material says. `e_star` holds in either form of the group.
    type :: material_group_type

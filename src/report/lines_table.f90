@@ -38,6 +38,8 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(output_file) :: file
+      type(cosine_series) :: pressure, displacement
+      real(dp) :: approach
       integer :: load, line
 
       call results%open_table('lines', file)
@@ -50,26 +52,30 @@ contains
       end if
       do load = 1, size(results%states)
          call results%put_load_heading(file, load, first=load == 1)
+         call results%series(load, pressure, displacement, approach)
          do line = 1, results%scene%surface%dimension
             if (line > 1) call file%put('')
-            call put_line(results, file, load, line)
+            call put_line(results, file, load, line, pressure, displacement, approach)
          end do
       end do
       call file%finish(error)
    end subroutine write_lines_table
 
-   subroutine put_line(results, file, load, line)
+   subroutine put_line(results, file, load, line, pressure, displacement, approach)
       type(results_type), intent(in) :: results
       type(output_file), intent(inout) :: file
       integer, intent(in) :: load, line
+      type(cosine_series), intent(in) :: pressure, displacement   !! of the load
+      real(dp), intent(in) :: approach                            !! over Delta, likewise
 
-      type(cosine_series) :: pressure, displacement
       real(dp), allocatable :: beside(:)
-      real(dp) :: approach, phi, theta, distance, x, y, u, load_p
+      real(dp) :: dundurs(results%deck%method%harmonics), phi, theta, distance, x, y, u, load_p
       integer :: k, intervals
 
-      call results%series(load, pressure, displacement, approach)
       load_p = results%states(load)%pbar_over_pstar
+      dundurs = 0.0_dp
+      if (results%deck%output%theory .and. results%scene%surface%dimension == 1) &
+         dundurs = dundurs_coefficients(load_p, size(dundurs))
       intervals = results%deck%output%points_per_wavelength/2
       associate (surface => results%scene%surface)
          do k = 0, intervals
@@ -84,8 +90,7 @@ contains
                beside = [westergaard_pressure_over_pstar(phi/2, load_p), &
                          westergaard_displacement_over_amplitude(phi/2, load_p), &
                          westergaard_gap_over_amplitude(phi/2, load_p), &
-                         dundurs_pressure_over_pstar(phi, load_p, &
-                                                     dundurs_coefficients(load_p, results%deck%method%harmonics))]
+                         dundurs_pressure_over_pstar(phi, load_p, dundurs)]
             else
                beside = [hertz_point_pressure_over_pstar(nearest_crest(phi, theta), load_p), &
                          crack_pressure(hypot(pi - phi, theta)/(2*pi), load_p), &
