@@ -5,10 +5,11 @@ module wavycon
    use wavycon_contact_measures, only: contact_measures
    use wavycon_contact_solver, only: contact_solver
    use wavycon_contact_state, only: contact_state
-   use wavycon_cosine_series, only: cosine_series
+   use wavycon_fourier_series, only: fourier_series
    use wavycon_deck, only: deck_type
    use wavycon_dundurs, only: dundurs_coefficients, dundurs_pressure_over_pstar
    use wavycon_error, only: error_type
+   use wavycon_find_load, only: solve_for_contact_area, solve_for_mean_gap
    use wavycon_fourier_contact, only: fourier_contact
    use wavycon_fourier_terms, only: symmetry_diagonal, symmetry_full, symmetry_none
    use wavycon_grid_contact, only: grid_contact
@@ -24,8 +25,10 @@ module wavycon
    use wavycon_qp_problem
    use wavycon_read_deck, only: read_deck
    use wavycon_scene, only: make_scene, scene_type
-   use wavycon_surface, only: crossed_1d, surface_type, wave_1d, wave_2d
+   use wavycon_surface, only: surface_of_points, surface_of_series, surface_type
+   use wavycon_threads, only: set_threads
    use wavycon_version, only: revision, version
+   use wavycon_wave_surfaces, only: crossed_1d, hexagonal, wave_1d, wave_2d, wave_sum
    use wavycon_westergaard
    implicit none (type, external)
    public

@@ -7,15 +7,18 @@ module wavycon_run_scene
    use wavycon_contour_table, only: write_contour_table
    use wavycon_deck, only: deck_type
    use wavycon_error, only: error_type, exit_file_trouble, exit_fine, exit_not_converged, fatal_error
+   use wavycon_find_load, only: solve_for_contact_area, solve_for_mean_gap
+   use wavycon_grid_contact, only: grid_contact
    use wavycon_gsl, only: gsl_sort_index
    use wavycon_kinds, only: dp
    use wavycon_lines_table, only: write_lines_table
+   use wavycon_load_group, only: by_contact_area, by_mean_gap
    use wavycon_map_table, only: write_map_table
    use wavycon_output_file, only: output_file
    use wavycon_plain_text, only: escaped, integer_text, short_number
    use wavycon_resolved_deck, only: write_resolved_deck
    use wavycon_results, only: results_type
-   use wavycon_run_log, only: run_log
+   use wavycon_run_log, only: log_progress, run_log
    use wavycon_scene, only: make_scene
    use wavycon_summary_table, only: write_summary_table
    use wavycon_system, only: make_directories, path_kind, path_other
@@ -43,7 +46,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(results_type) :: results
-      type(run_log) :: log
+      type(run_log), target :: log
       integer :: bad, hidden
 
       status = exit_fine
@@ -111,17 +114,38 @@ contains
    !> Solves and measures all loads, from the highest to the lowest so that each starts from the one before.
    subroutine solve_loads(results, log)
       type(results_type), intent(inout) :: results
-      type(run_log), intent(inout) :: log
+      type(run_log), intent(inout), target :: log
 
-      integer :: order(size(results%scene%pbar_over_pstar)), i, load
+      integer :: i, load, order(size(results%scene%target))
+      type(log_progress), target :: progress
 
-      order = descending(results%scene%pbar_over_pstar)
-      allocate (results%states(size(order)))
-      do i = 1, size(order)
-         load = order(i)
-         call results%contact%solve(results%scene%pbar_over_pstar(load), results%states(load))
-         call log%show_progress(i, size(order))
-      end do
+      associate (target => results%scene%target, loads_by => results%scene%loads_by)
+         order = descending(merge(-target, target, loads_by == by_mean_gap))
+         allocate (results%states(size(order)))
+         progress%log => log
+         progress%loads = size(order)
+         select type (solver => results%contact)
+         type is (grid_contact)
+            solver%progress => progress
+         end select
+         do i = 1, size(order)
+            load = order(i)
+            progress%load = i
+            select case (loads_by)
+            case (by_mean_gap)
+               call solve_for_mean_gap(results%contact, target(load), results%states(load))
+            case (by_contact_area)
+               call solve_for_contact_area(results%contact, target(load), results%states(load))
+            case default
+               call results%contact%solve(target(load), results%states(load))
+            end select
+            call log%show_progress(i, size(order))
+         end do
+         select type (solver => results%contact)
+         type is (grid_contact)
+            nullify (solver%progress)
+         end select
+      end associate
    end subroutine solve_loads
 
    !> Writes the tables that the deck asks for. Of a flat surface only the summary: its fields are to be shown in p* and

@@ -2,6 +2,7 @@
 #include <errno.h>
 #include <signal.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <sys/types.h>
@@ -54,4 +55,12 @@ int wavycon_stdout_is_terminal(void)
 void wavycon_error_text(int number, char *text, size_t length)
 {
     snprintf(text, length, "%s", strerror(number));
+}
+
+/* The number that a text begins with. Returns how many bytes it takes, 0 if it is none. */
+size_t wavycon_parse_number(const char *text, double *value)
+{
+    char *end;
+    *value = strtod(text, &end);
+    return (size_t)(end - text);
 }

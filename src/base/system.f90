@@ -1,11 +1,11 @@
 !> Directories, renaming and the terminal: thin wrappers of the C calls in system.c.
 module wavycon_system
-   use, intrinsic :: iso_c_binding, only: c_char, c_int, c_null_char, c_size_t
+   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int, c_null_char, c_size_t
    implicit none (type, external)
    private
 
    public :: path_kind, make_directories, rename_file, remove_file
-   public :: outlive_file_size_limit, process_id, stdout_is_terminal
+   public :: outlive_file_size_limit, parse_number, process_id, stdout_is_terminal
 
    !> What `path_kind` can answer.
    integer, parameter, public :: path_absent = 0, path_directory = 1, path_other = 2
@@ -41,6 +41,13 @@ module wavycon_system
       integer(c_int) function c_stdout_is_terminal() bind(c, name='wavycon_stdout_is_terminal')
          import :: c_int
       end function c_stdout_is_terminal
+
+      !> The number that a text begins with. Returns how many bytes it takes, 0 if it is none.
+      integer(c_size_t) function parse_number(text, value) bind(c, name='wavycon_parse_number')
+         import :: c_char, c_double, c_size_t
+         character(kind=c_char), intent(in) :: text(*)   !! ended by a null character
+         real(c_double), intent(out) :: value
+      end function parse_number
 
       subroutine c_error_text(number, text, length) bind(c, name='wavycon_error_text')
          import :: c_char, c_int, c_size_t

@@ -3,21 +3,30 @@ module wavycon_contact_solver
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_contact_measures, only: full_contact_measures
    use wavycon_contact_state, only: contact_state, full_contact, no_load, not_finite
-   use wavycon_cosine_series, only: cosine_series
    use wavycon_edge_curves, only: edge_curve
+   use wavycon_fourier_series, only: fourier_series
    use wavycon_kinds, only: dp
+   use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
 
-   public :: contact_solver, settle_without_solver
+   public :: contact_solver
 
-   !> A solver for loads that are best given from the highest to the lowest.
+   !> A solver of one surface, for loads that are best given from the highest to the lowest. Fields and edges are in the angles
+   !> X, Y of the surface's cell.
    type, abstract :: contact_solver
+      type(surface_type) :: surface
+      !> Of mean gap [Delta], contact area fraction and peak pressure [p*], asked of the loads to come; zero for what the
+      !> discretisation gives.
+      real(dp) :: accuracy = 0.0_dp
    contains
+      procedure :: settle
+      procedure :: pressure
+      procedure :: displacement
+      procedure :: edge_curves
       procedure(solve_load), deferred :: solve
-      procedure(field_of_state), deferred :: pressure
-      procedure(field_of_state), deferred :: displacement
-      procedure(edge_of_state), deferred :: edge_curves
+      procedure(field_of_state), deferred :: solved_pressure
+      procedure(edge_of_state), deferred :: solved_edge_curves
       procedure(words_of_solver), deferred :: describe
    end type contact_solver
 
@@ -30,15 +39,15 @@ module wavycon_contact_solver
          type(contact_state), intent(out) :: state
       end subroutine solve_load
 
-      !> p/p*, or (u - ubar)/Delta, of a state as a series in phi and theta.
+      !> p/p* of a state between no load and full contact.
       function field_of_state(self, state) result(field)
-         import :: contact_solver, contact_state, cosine_series
+         import :: contact_solver, contact_state, fourier_series
          class(contact_solver), intent(in) :: self
          type(contact_state), intent(in) :: state
-         type(cosine_series) :: field
+         type(fourier_series) :: field
       end function field_of_state
 
-      !> The edge of contact of a state in phi and theta: closed curves in 2-D, in 1-D the two ends of each strip.
+      !> The edge of contact of such a state: closed curves in 2-D, in 1-D the two ends of each strip.
       subroutine edge_of_state(self, state, curves)
          import :: contact_solver, contact_state, edge_curve
          class(contact_solver), intent(in) :: self
@@ -57,7 +66,8 @@ module wavycon_contact_solver
 contains
 
    !> Settles the loads that need no solver: none, those from full contact on, and what is no number.
-   pure subroutine settle_without_solver(pbar_over_pstar, state, settled)
+   subroutine settle(self, pbar_over_pstar, state, settled)
+      class(contact_solver), intent(in) :: self
       real(dp), intent(in) :: pbar_over_pstar
       type(contact_state), intent(inout) :: state
       logical, intent(out) :: settled
@@ -68,12 +78,55 @@ contains
          state%status = not_finite
       else if (pbar_over_pstar >= 1.0_dp) then
          state%status = full_contact
-         state%measures = full_contact_measures(pbar_over_pstar)
+         state%measures = full_contact_measures(pbar_over_pstar, self%surface%full_contact_peak)
       else if (pbar_over_pstar <= 0.0_dp) then
          state%status = no_load
       else
          settled = .false.
       end if
-   end subroutine settle_without_solver
+   end subroutine settle
+
+   !> p/p* of a state.
+   function pressure(self, state) result(field)
+      class(contact_solver), intent(in) :: self
+      type(contact_state), intent(in) :: state
+      type(fourier_series) :: field
+
+      if (.not. is_settled(state)) then
+         field = self%solved_pressure(state)
+      else if (state%status == full_contact) then
+         field = self%surface%pressure_of(self%surface%shape)
+         field%c(0, 0) = state%pbar_over_pstar
+      else
+         allocate (field%c(0:0, 0:0), source=0.0_dp)
+      end if
+   end function pressure
+
+   !> (u - ubar)/Delta of a state.
+   function displacement(self, state) result(field)
+      class(contact_solver), intent(in) :: self
+      type(contact_state), intent(in) :: state
+      type(fourier_series) :: field
+
+      field = self%surface%displacement_of(self%pressure(state))
+   end function displacement
+
+   subroutine edge_curves(self, state, curves)
+      class(contact_solver), intent(in) :: self
+      type(contact_state), intent(in) :: state
+      type(edge_curve), allocatable, intent(out) :: curves(:)
+
+      if (is_settled(state)) then
+         allocate (curves(0))
+      else
+         call self%solved_edge_curves(state, curves)
+      end if
+   end subroutine edge_curves
+
+   pure logical function is_settled(state)
+      type(contact_state), intent(in) :: state
+
+      is_settled = state%status == full_contact .or. state%status == no_load .or. state%status == not_finite
+   end function is_settled
 
 end module wavycon_contact_solver

@@ -3,15 +3,17 @@ module wavycon_fourier_contact
    use wavycon_beale, only: beale_solver
    use wavycon_complementary_energy, only: energy_problem
    use wavycon_contact_measures, only: measure_series, measuring_intervals
-   use wavycon_contact_solver, only: contact_solver, settle_without_solver
-   use wavycon_contact_state, only: contact_state, full_contact, no_load
-   use wavycon_cosine_series, only: cosine_series
-   use wavycon_edge_curves, only: edge_curve, strip_ends, trace_edges
+   use wavycon_contact_solver, only: contact_solver
+   use wavycon_contact_state, only: contact_state, full_contact
+   use wavycon_fourier_series, only: fourier_series
+   use wavycon_edge_curves, only: edge_curve, strip_ends, trace_edges, turn_curves
    use wavycon_fourier_terms, only: choose_terms, fourier_terms
    use wavycon_isobar_grid, only: isobar_grid, start_isobar_grid
    use wavycon_kinds, only: dp
    use wavycon_line_zeros, only: line_zeros
    use wavycon_qp_problem, only: qp_problem, qp_solution, qp_status_name
+   use wavycon_surface, only: surface_type, turned_paper_wave
+   use wavycon_turned_series, only: to_sum_angles
    implicit none (type, external)
    private
 
@@ -24,6 +26,7 @@ module wavycon_fourier_contact
 
    type, extends(contact_solver) :: fourier_contact
       type(fourier_terms) :: terms
+      logical :: turned = .false.                      !! phi and theta, the series' angles, against the cell's
       type(qp_problem) :: problem                      !! at zero load
       real(dp) :: edge_level = 0.1_dp                  !! isobar taken as the edge of contact, over p*
       type(beale_solver), private :: solver
@@ -32,25 +35,26 @@ module wavycon_fourier_contact
       procedure :: start
       procedure :: solve
       procedure :: solve_series
-      procedure :: pressure
-      procedure :: displacement
-      procedure :: edge_curves
+      procedure :: solved_pressure
+      procedure :: solved_edge_curves
       procedure :: describe
    end type fourier_contact
 
 contains
 
    !> Chooses the terms of the series and the points of the constraints.
-   subroutine start(self, dimension, harmonics, constraint_points, symmetry, edge_level)
+   subroutine start(self, surface, harmonics, constraint_points, symmetry, edge_level)
       class(fourier_contact), intent(out) :: self
-      integer, intent(in) :: dimension           !! 1 or 2
+      type(surface_type), intent(in) :: surface  !! a wave of the paper
       integer, intent(in) :: harmonics           !! n >= 1
       integer, intent(in) :: constraint_points   !! on [0, pi] in each direction, >= 2
       integer, intent(in) :: symmetry            !! one of the names of wavycon_fourier_terms
       real(dp), intent(in), optional :: edge_level   !! isobar taken as the edge of contact, over p*; 0.1 if absent
 
       if (present(edge_level)) self%edge_level = edge_level
-      self%terms = choose_terms(dimension, harmonics, symmetry)
+      self%surface = surface
+      self%turned = surface%paper_wave() == turned_paper_wave
+      self%terms = choose_terms(surface%dimension, harmonics, symmetry)
       self%problem = energy_problem(self%terms, constraint_points, symmetry)
    end subroutine start
 
@@ -62,10 +66,10 @@ contains
 
       logical :: settled
 
-      call settle_without_solver(pbar_over_pstar, state, settled)
+      call self%settle(pbar_over_pstar, state, settled)
       if (.not. settled) then
          call self%solve_series(pbar_over_pstar, state)
-         call measure_series(self%pressure(state), self%displacement(state), self%edge_level, state%measures)
+         call measure_series(series_of(self, state), displacement_series(self, state), self%edge_level, state%measures)
          return
       end if
       allocate (state%x(self%terms%count()), source=0.0_dp)
@@ -103,51 +107,55 @@ contains
       state%active_constraints = size(solution%active)
    end subroutine solve_series
 
-   !> p/p* of a state as a series.
-   function pressure(self, state) result(field)
-      class(fourier_contact), intent(in) :: self
+   !> p/p* of a state as a series in phi and theta.
+   type(fourier_series) function series_of(self, state) result(series)
+      type(fourier_contact), intent(in) :: self
       type(contact_state), intent(in) :: state
-      type(cosine_series) :: field
 
-      call self%terms%coefficients(state%x, field%c)
-      field%c(0, 0) = state%pbar_over_pstar
-   end function pressure
+      call self%terms%coefficients(state%x, series%c)
+      series%c(0, 0) = state%pbar_over_pstar
+   end function series_of
 
-   !> (u - ubar)/Delta of a state as a series: eqs. (13), (A10).
-   function displacement(self, state) result(field)
-      class(fourier_contact), intent(in) :: self
+   !> (u - ubar)/Delta of a state, likewise: eqs. (13), (A10).
+   type(fourier_series) function displacement_series(self, state) result(series)
+      type(fourier_contact), intent(in) :: self
       type(contact_state), intent(in) :: state
-      type(cosine_series) :: field
 
       integer :: k
 
-      call self%terms%coefficients([(self%terms%compliance(k)*state%x(k), k=1, self%terms%count())], field%c)
-   end function displacement
+      call self%terms%coefficients([(self%terms%compliance(k)*state%x(k), k=1, self%terms%count())], series%c)
+   end function displacement_series
+
+   function solved_pressure(self, state) result(field)
+      class(fourier_contact), intent(in) :: self
+      type(contact_state), intent(in) :: state
+      type(fourier_series) :: field
+
+      field = series_of(self, state)
+      if (self%turned) field = to_sum_angles(field)
+   end function solved_pressure
 
    !> The isobar p = edge_level p*.
-   subroutine edge_curves(self, state, curves)
+   subroutine solved_edge_curves(self, state, curves)
       class(fourier_contact), intent(in) :: self
       type(contact_state), intent(in) :: state
       type(edge_curve), allocatable, intent(out) :: curves(:)
 
-      type(cosine_series) :: pressure
+      type(fourier_series) :: series
       type(isobar_grid) :: grid
       real(dp), allocatable :: zeros(:)
 
-      if (state%status == full_contact .or. state%status == no_load) then
-         allocate (curves(0))
-         return
-      end if
-      pressure = self%pressure(state)
+      series = series_of(self, state)
       if (self%terms%dimension == 2) then
-         call start_isobar_grid(grid, pressure, self%edge_level, measuring_intervals(self%terms%harmonics))
+         call start_isobar_grid(grid, series, self%edge_level, measuring_intervals(self%terms%harmonics))
          call trace_edges(grid, curves)
+         if (self%turned) call turn_curves(curves, factor=1.0_dp)
       else
-         pressure%c(0, 0) = pressure%c(0, 0) - self%edge_level
-         call line_zeros(pressure%c(:, 0), measuring_intervals(self%terms%harmonics), zeros)
-         call strip_ends(zeros, sum(pressure%c) >= 0.0_dp, curves)
+         series%c(0, 0) = series%c(0, 0) - self%edge_level
+         call line_zeros(series%c(:, 0), measuring_intervals(self%terms%harmonics), zeros)
+         call strip_ends(zeros, sum(series%c) >= 0.0_dp, curves)
       end if
-   end subroutine edge_curves
+   end subroutine solved_edge_curves
 
    pure function describe(self) result(words)
       class(fourier_contact), intent(in) :: self

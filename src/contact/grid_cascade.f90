@@ -6,17 +6,20 @@
 module wavycon_grid_cascade
    use wavycon_compliance_operator, only: compliance_operator
    use wavycon_constants, only: pi
-   use wavycon_grid_edge, only: grid_contact_area, grid_crest_pressure, grid_edge, start_grid_edge
+   use wavycon_grid_edge, only: grid_contact_area, grid_edge, start_grid_edge
+   use wavycon_grid_peak, only: grid_peak_pressure
+   use wavycon_grid_progress, only: grid_progress
    use wavycon_grid_solver, only: grid_state, solve_on_grid
-   use wavycon_harmonic_surface, only: harmonic_surface
    use wavycon_kinds, only: dp
+   use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
 
    public :: cascade_answer, solve_by_cascade
 
-   !> Points on the shorter side of the quarter cell, of the first grid and at most.
-   integer, parameter :: first_points = 8, most_points(2) = [262144, 1024]
+   !> Points of the first grid to half of the shortest wave each way; of the last grid, of a profile and of a surface, on an
+   !> even one's quarter cell. Any other may have twice as many on its whole cell.
+   integer, parameter :: first_points = 8, most_points(2) = [262144, 1024*1024]
    !> A grid of step h is solved to a residual of this times h^(3/2) of the mean gap: the gap next to the edge of contact,
    !> which places it, is of the order of h^(3/2).
    real(dp), parameter :: tolerance_factor = 1e-4_dp
@@ -40,121 +43,226 @@ module wavycon_grid_cascade
 
 contains
 
-   subroutine solve_by_cascade(surface, dimension, mean_pressure, accuracy, answer)
-      type(harmonic_surface), intent(in) :: surface   !! that mirrors itself at the middle lines of its cell
-      integer, intent(in) :: dimension                !! 1 or 2
+   subroutine solve_by_cascade(surface, mean_pressure, accuracy, points, answer, progress)
+      type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: mean_pressure           !! P in (0, 1)
-      real(dp), intent(in) :: accuracy                !! of all three values, absolute
+      real(dp), intent(in) :: accuracy                !! of all three values, absolute; 0 for none but that of `points`
+      integer, intent(in) :: points(2)                !! of the last grid's whole cell; zeros if the accuracy decides
       type(cascade_answer), intent(out) :: answer
+      class(grid_progress), intent(in), optional :: progress   !! that hears of each grid
 
       real(dp) :: values(3), change(3), last_change(3)
       real(dp), allocatable :: finer(:, :)
       type(grid_edge) :: edge
-      integer :: m, n
+      logical :: last, resolved
+      integer :: grid(2), last_grid(2), trusted_grid(2)
 
       last_change = unknown
       values = unknown
-      m = first_points*max(1, nint(surface%length(1)/surface%length(2)))
-      n = first_points*max(1, nint(surface%length(2)/surface%length(1)))
-      if (dimension == 1) n = 1
+      call plan_grids(surface, points, grid, trusted_grid, last_grid)
+      allocate (answer%state%pressure(grid(1), grid(2)), source=mean_pressure)
       do
-         if (allocated(answer%state%pressure)) then
-            call refine(answer%state%pressure, finer)
-            call move_alloc(finer, answer%state%pressure)
-            if (allocated(answer%state%gap)) deallocate (answer%state%gap)
-            m = size(answer%state%pressure, 1)
-            n = size(answer%state%pressure, 2)
-         else
-            allocate (answer%state%pressure(m, n), source=mean_pressure)
-         end if
          call solve_level(surface, mean_pressure, answer)
          answer%grids = answer%grids + 1
-         call start_grid_edge(edge, answer%state%pressure, answer%state%gap)
-         answer%values = [answer%state%mean_gap, grid_contact_area(edge), &
-                          grid_crest_pressure(answer%state%pressure)]
+         call start_grid_edge(edge, answer%state%pressure, answer%state%gap, surface%shape%is_even())
+         answer%values(:2) = [answer%state%mean_gap, grid_contact_area(edge)]
+         call grid_peak_pressure(edge, answer%values(3), resolved)
          change = abs(answer%values - values)
-         answer%errors = max(safety*change, 0.5_dp*safety*last_change, unresolved(answer%state%pressure))
-         answer%accurate = answer%state%converged .and. all(answer%errors <= accuracy)
-         if (answer%accurate .or. 2*min(m, merge(m, n, n == 1)) > most_points(dimension)) exit
+         answer%errors = max(safety*change, 0.5_dp*safety*last_change, unresolved(surface, edge, resolved))
+         answer%accurate = answer%state%converged .and. all(answer%errors <= accuracy) .and. all(grid >= trusted_grid)
+         last = all(grid == last_grid)
+         if (present(progress)) call progress%grid_solved(grid*merge(2, 1, surface%shape%is_even() .and. grid > 1), &
+                                                          answer%state%iterations, answer%state%residual)
+         if (answer%accurate .or. last) exit
          values = answer%values
          last_change = change
+         call refine(answer%state%pressure, surface%shape%is_even(), finer)
+         call move_alloc(finer, answer%state%pressure)
+         deallocate (answer%state%gap)
+         grid = shape(answer%state%pressure)
       end do
    end subroutine solve_by_cascade
 
+   !> The first grid, the first whose changes tell of all waves of the surface, and the last.
+   pure subroutine plan_grids(surface, points, first, trusted, last)
+      type(surface_type), intent(in) :: surface
+      integer, intent(in) :: points(2)
+      integer, intent(out) :: first(2), trusted(2), last(2)   !! of a quarter cell, if the surface is even
+
+      integer :: parts(2), least(2)
+
+      parts = merge(2, 1, surface%shape%is_even())
+      if (surface%dimension == 1) parts(2) = 1
+      least = 2*first_points/parts
+      if (surface%dimension == 1) least(2) = 1
+      if (all(points > 0)) then
+         last = points/parts
+         trusted = last
+         first = coarsest(last)
+      else if (all(surface%points > 0)) then
+         last = finest(surface%points/parts)
+         trusted = min(2*surface%points/parts, last)
+         first = coarsest(surface%points/parts)
+      else
+         first = least*easy(max(1, ubound(surface%shape%c)))
+         if (surface%dimension == 1) first(2) = 1
+         trusted = first
+         last = finest(first)
+      end if
+
+   contains
+
+      !> A grid halved as long as it can be and something is left of it.
+      pure function coarsest(grid)
+         integer, intent(in) :: grid(2)
+         integer :: coarsest(2)
+
+         coarsest = grid
+         do while (all((mod(coarsest, 2) == 0 .and. coarsest/2 >= least) .or. coarsest == 1))
+            if (all(coarsest == 1)) exit
+            coarsest = max(coarsest/2, 1)
+         end do
+      end function coarsest
+
+      !> A grid doubled as long as it is not too fine.
+      pure function finest(grid)
+         integer, intent(in) :: grid(2)
+         integer :: finest(2)
+
+         integer :: most
+
+         most = most_points(surface%dimension)*merge(1, 2, surface%shape%is_even())
+         finest = grid
+         do while (product(finest) <= most/2**surface%dimension)
+            finest = 2*finest
+            if (surface%dimension == 1) finest(2) = 1
+         end do
+      end function finest
+
+   end subroutine plan_grids
+
+   !> The next number whose transforms are fast: 1, 3 or 5 times a power of two.
+   elemental integer function easy(number)
+      integer, intent(in) :: number   !! >= 1
+
+      integer :: power
+
+      power = 1
+      do while (5*power < number)
+         power = 2*power
+      end do
+      easy = 5*power
+      if (3*power >= number) easy = 3*power
+      if (2*power >= number) easy = 2*power
+      if (power >= number) easy = power
+   end function easy
+
    subroutine solve_level(surface, mean_pressure, answer)
-      type(harmonic_surface), intent(in) :: surface
+      type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: mean_pressure
       type(cascade_answer), intent(inout) :: answer
 
       type(compliance_operator) :: half_space
       real(dp), allocatable :: h(:, :)
-      integer :: i, j, m, n
+      integer :: points(2)
 
-      m = size(answer%state%pressure, 1)
-      n = size(answer%state%pressure, 2)
-      allocate (h(m, n))
-      do j = 1, n
-         do i = 1, m
-            h(i, j) = surface%gap_at(pi*(i - 0.5_dp)/m, merge(0.0_dp, pi*(j - 0.5_dp)/n, n == 1))
-         end do
-      end do
-      call half_space%start(surface, m, n)
-      answer%state%pressure = answer%state%pressure*(mean_pressure*m*n/sum(answer%state%pressure))
-      call solve_on_grid(half_space, h, mean_pressure, tolerance_factor/max(m, n)**1.5_dp, iteration_limit, answer%state)
+      points = shape(answer%state%pressure)
+      allocate (h(points(1), points(2)))
+      call half_space%start(surface, points)
+      call half_space%transform%sample(surface%shape, h)
+      h = 1.0_dp - h
+      answer%state%pressure = answer%state%pressure*(mean_pressure*size(h)/sum(answer%state%pressure))
+      call solve_on_grid(half_space, h, mean_pressure, tolerance_factor/maxval(points)**1.5_dp, iteration_limit, &
+                         answer%state)
       answer%iterations = answer%iterations + answer%state%iterations
-      answer%transform_pairs = answer%transform_pairs/merge(2, 4, n == 1) + half_space%transform_pairs
+      answer%transform_pairs = answer%transform_pairs/2**surface%dimension + half_space%transform_pairs
    end subroutine solve_level
 
    !> Errors that no change tells of: the edge's place between the points, where two grids may err alike; while the grid is too
-   !> coarse for it, the last open gap, about a corner of the quarter; a peak made of fewer points than its polynomial.
-   pure function unresolved(pressure) result(errors)
-      real(dp), intent(in) :: pressure(:, :)   !! shape (m, n)
+   !> coarse for it, the last open gap, between points that are all in contact; a peak made of fewer points than its
+   !> polynomial.
+   pure function unresolved(surface, edge, peak_resolved) result(errors)
+      type(surface_type), intent(in) :: surface
+      type(grid_edge), intent(in) :: edge
+      logical, intent(in) :: peak_resolved
       real(dp) :: errors(3)                    !! of mean gap, contact area and peak pressure
 
       !> On the average over the edge it is placed to this part of a step.
       real(dp), parameter :: edge_uncertainty = 0.005_dp
-      !> A contact that has its edge between the first and the second point: Hertz's peak of the widest such one, in 1-D
-      !> pi times the part in contact, which is 3/(2m), in 2-D less.
-      real(dp), parameter :: peak_of_one_cell = 1.5_dp*pi
+      !> Hertz's peak pressure of a contact of half width or radius a: this times a over the radius of curvature.
+      real(dp), parameter :: hertz_peak(2) = [2*pi, 8.0_dp]
 
-      logical :: contact(size(pressure, 1), size(pressure, 2))
-      real(dp) :: open_part
-      integer :: m, n, edges
+      real(dp) :: open_part, step(2)
+      integer :: edges, m, n
 
-      m = size(pressure, 1)
-      n = size(pressure, 2)
-      contact = pressure > 0.0_dp
-      edges = count(contact(:m - 1, :) .neqv. contact(2:, :)) + count(contact(:, :n - 1) .neqv. contact(:, 2:))
-      errors = [0.0_dp, edge_uncertainty*edges/size(pressure), 0.0_dp]
-      if (all(contact)) then
-         ! The gap may be open one step from the corner. With this part of the surface the mean gap falls as the power
-         ! 5/2 or faster, and with it the change of the peak.
-         open_part = 1.0_dp/m
-         if (n > 1) open_part = 0.25_dp*pi*open_part/n
-         errors = [open_part**2, open_part, open_part**2]
-      else if (.not. contact(3, 1)) then
-         errors(3) = peak_of_one_cell/max(m, n)
-      end if
+      associate (field => edge%pressure_or_gap)
+         m = size(field, 1)
+         n = size(field, 2)
+         edges = count((field(:m - 1, :) > 0.0_dp) .neqv. (field(2:, :) > 0.0_dp)) &
+                 + count((field(:, :n - 1) > 0.0_dp) .neqv. (field(:, 2:) > 0.0_dp))
+         errors = [0.0_dp, edge_uncertainty*edges/size(field), 0.0_dp]
+         if (all(field > 0.0_dp)) then
+            ! With this part of the surface the mean gap falls as the power 5/2 or faster, and with it the change of the peak.
+            open_part = max(1, hidden_openings(edge))/real(size(field), dp)
+            errors = [open_part**2, open_part, open_part**2]
+         else if (.not. peak_resolved) then
+            ! The contact may have its edge between the first and the second point from the crest.
+            step = surface%length/(merge(2, 1, edge%even)*[m, n])
+            if (n == 1) step(2) = 0.0_dp
+            errors(3) = hertz_peak(surface%dimension)*1.5_dp*maxval(step)*surface%stiffness*surface%crest_curvature
+         end if
+      end associate
    end function unresolved
 
+   !> Points in contact whose pressure is so far below a neighbour's that there may be a gap beside them.
+   pure integer function hidden_openings(edge)
+      type(grid_edge), intent(in) :: edge
+
+      real(dp) :: around
+      integer :: i, j
+
+      hidden_openings = 0
+      associate (field => edge%pressure_or_gap)
+         do j = 1, size(field, 2)
+            do i = 1, size(field, 1)
+               around = max(field(edge%place(i - 1, 1), j), field(edge%place(i + 1, 1), j), &
+                            field(i, edge%place(j - 1, 2)), field(i, edge%place(j + 1, 2)))
+               if (around > 2*field(i, j)) hidden_openings = hidden_openings + 1
+            end do
+         end do
+      end associate
+   end function hidden_openings
+
    !> The pressure on a grid twice as fine, linear between points. In 1-D the second direction stays.
-   pure subroutine refine(coarse, fine)
+   pure subroutine refine(coarse, even, fine)
       real(dp), intent(in) :: coarse(:, :)
+      logical, intent(in) :: even
       real(dp), allocatable, intent(out) :: fine(:, :)
 
-      real(dp) :: half_way(2*size(coarse, 1), size(coarse, 2))
+      real(dp), allocatable :: half_way(:, :)
       integer :: m, n, i
 
       m = size(coarse, 1)
       n = size(coarse, 2)
-      half_way(1::2, :) = 0.75_dp*coarse + 0.25_dp*coarse([(max(i - 1, 1), i=1, m)], :)
-      half_way(2::2, :) = 0.75_dp*coarse + 0.25_dp*coarse([(min(i + 1, m), i=1, m)], :)
-      if (n == 1) then
-         allocate (fine, source=half_way)
+      allocate (half_way(2*m, n))
+      if (even) then
+         half_way(1::2, :) = 0.75_dp*coarse + 0.25_dp*coarse([(max(i - 1, 1), i=1, m)], :)
+         half_way(2::2, :) = 0.75_dp*coarse + 0.25_dp*coarse([(min(i + 1, m), i=1, m)], :)
       else
-         allocate (fine(2*m, 2*n))
+         half_way(1::2, :) = coarse
+         half_way(2::2, :) = 0.5_dp*(coarse + coarse([(mod(i, m) + 1, i=1, m)], :))
+      end if
+      if (n == 1) then
+         call move_alloc(half_way, fine)
+         return
+      end if
+      allocate (fine(2*m, 2*n))
+      if (even) then
          fine(:, 1::2) = 0.75_dp*half_way + 0.25_dp*half_way(:, [(max(i - 1, 1), i=1, n)])
          fine(:, 2::2) = 0.75_dp*half_way + 0.25_dp*half_way(:, [(min(i + 1, n), i=1, n)])
+      else
+         fine(:, 1::2) = half_way
+         fine(:, 2::2) = 0.5_dp*(half_way + half_way(:, [(mod(i, n) + 1, i=1, n)]))
       end if
    end subroutine refine
 

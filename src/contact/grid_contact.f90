@@ -1,55 +1,58 @@
-!> Contact on grids to an accuracy asked for.
+!> Contact on grids, to an accuracy asked for or on a grid of so many points.
 !>
-!> The 1-D wave is solved on half a wavelength. The 2-D wave (21) is solved on its primitive cell, a square of side
-!> lambda/sqrt2 with one crest: X = phi + theta, Y = phi - theta, h/Delta = 1 - (cos X + cos Y)/2, of which a quarter is enough.
+!> Surfaces that mirror themselves are solved on a quarter of their cell. The wave (21), and any like it, repeats itself on a
+!> square of half the area turned by 45 degrees, of which a quarter is enough, unless the points are to lie on the user's cell.
 module wavycon_grid_contact
    use wavycon_contact_measures, only: contact_measures
-   use wavycon_contact_solver, only: contact_solver, settle_without_solver
+   use wavycon_contact_solver, only: contact_solver
    use wavycon_contact_state, only: contact_state, converged, not_accurate
-   use wavycon_cosine_series, only: cosine_series
-   use wavycon_compliance_operator, only: cosine_coefficients
-   use wavycon_edge_curves, only: edge_curve, strip_ends, trace_edges
+   use wavycon_edge_curves, only: edge_curve, strip_ends, trace_edges, turn_curves, whole_strips
+   use wavycon_fourier_series, only: fourier_series
    use wavycon_grid_cascade, only: cascade_answer, solve_by_cascade
    use wavycon_grid_edge, only: grid_strip_edges, start_grid_edge
-   use wavycon_harmonic_surface, only: harmonic_surface, wave_sum
+   use wavycon_grid_progress, only: grid_progress
+   use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
+   use wavycon_plain_text, only: integer_text, short_number
    use wavycon_qp_problem, only: qp_iteration_limit, qp_status_name
+   use wavycon_surface, only: surface_type
+   use wavycon_turned_series, only: to_half_angles
    implicit none (type, external)
    private
 
    public :: grid_contact
 
    type, extends(contact_solver) :: grid_contact
-      private
-      integer :: dimension = 2
-      real(dp) :: accuracy = 1e-4_dp
-      logical :: keep_fields = .true.
-      type(harmonic_surface) :: surface
+      class(grid_progress), pointer :: progress => null()   !! that hears of each grid
+      integer, private :: points(2) = 0
+      logical, private :: keep_fields = .true., turned = .false.
+      type(surface_type), private :: solved                  !! the surface on the cell that is solved
    contains
       procedure :: start
       procedure :: solve
-      procedure :: pressure
-      procedure :: displacement
-      procedure :: edge_curves
+      procedure :: solved_pressure
+      procedure :: solved_edge_curves
       procedure :: describe
    end type grid_contact
 
 contains
 
-   subroutine start(self, dimension, accuracy, keep_fields)
+   subroutine start(self, surface, accuracy, keep_fields, points)
       class(grid_contact), intent(out) :: self
-      integer, intent(in) :: dimension      !! 1 or 2
-      real(dp), intent(in) :: accuracy      !! > 0, of mean gap [Delta], contact area fraction and peak pressure [p*]
-      logical, intent(in) :: keep_fields    !! whether `pressure` and `displacement` will be asked for
+      type(surface_type), intent(in) :: surface
+      real(dp), intent(in) :: accuracy      !! of mean gap [Delta], contact area fraction and peak pressure [p*]
+      logical, intent(in) :: keep_fields    !! whether `pressure`, `displacement` and `edge_curves` will be asked for
+      !> Of the whole cell; if present and above zero the grid to be solved, whatever the accuracy. Even numbers for a surface
+      !> that mirrors itself.
+      integer, intent(in), optional :: points(2)
 
-      self%dimension = dimension
+      self%surface = surface
       self%accuracy = accuracy
       self%keep_fields = keep_fields
-      if (dimension == 1) then
-         self%surface = wave_sum([1.0_dp, 1.0_dp], [1.0_dp], [1], [0])
-      else
-         self%surface = wave_sum([1.0_dp, 1.0_dp], [0.5_dp, 0.5_dp], [1, 0], [0, 1])
-      end if
+      if (present(points)) self%points = points
+      self%solved = surface
+      self%turned = all(self%points == 0) .and. surface%has_smaller_cell()
+      if (self%turned) self%solved = surface%smaller_cell()
    end subroutine start
 
    subroutine solve(self, pbar_over_pstar, state)
@@ -60,9 +63,13 @@ contains
       type(cascade_answer) :: answer
       logical :: settled
 
-      call settle_without_solver(pbar_over_pstar, state, settled)
+      call self%settle(pbar_over_pstar, state, settled)
       if (settled) return
-      call solve_by_cascade(self%surface, self%dimension, pbar_over_pstar, self%accuracy, answer)
+      if (associated(self%progress)) then
+         call solve_by_cascade(self%solved, pbar_over_pstar, self%accuracy, self%points, answer, self%progress)
+      else
+         call solve_by_cascade(self%solved, pbar_over_pstar, self%accuracy, self%points, answer)
+      end if
       state%measures = contact_measures(mean_gap_over_amplitude=answer%values(1), &
                                         approach_over_amplitude=1.0_dp - answer%values(1), &
                                         contact_area_fraction=answer%values(2), &
@@ -75,113 +82,65 @@ contains
       state%kkt_residual = answer%state%residual
       if (.not. answer%state%converged) then
          state%status = qp_status_name(qp_iteration_limit)
-      else if (answer%accurate) then
+      else if (answer%accurate .or. all(self%points > 0)) then
          state%status = converged
       else
          state%status = not_accurate
       end if
       if (self%keep_fields) then
          allocate (state%edge)
-         call start_grid_edge(state%edge, answer%state%pressure, answer%state%gap)
+         call start_grid_edge(state%edge, answer%state%pressure, answer%state%gap, self%solved%shape%is_even())
       end if
    end subroutine solve
 
-   function pressure(self, state) result(field)
+   function solved_pressure(self, state) result(field)
       class(grid_contact), intent(in) :: self
       type(contact_state), intent(in) :: state
-      type(cosine_series) :: field
+      type(fourier_series) :: field
 
-      if (allocated(state%edge)) then
-         call cosine_coefficients(state%edge%pressure, field%c)
-         if (self%dimension == 2) call turn(field)
-      else
-         field = single_wave(self%dimension, state%pbar_over_pstar)
-         field%c(0, 0) = state%pbar_over_pstar
-      end if
-   end function pressure
+      type(grid_transform) :: transform
+      real(dp), allocatable :: p(:, :)
 
-   function displacement(self, state) result(field)
-      class(grid_contact), intent(in) :: self
-      type(contact_state), intent(in) :: state
-      type(cosine_series) :: field
+      allocate (p, mold=state%edge%pressure_or_gap)
+      p = max(state%edge%pressure_or_gap, 0.0_dp)
+      call transform%start(shape(p), state%edge%even)
+      call transform%series(p, field)
+      if (self%turned) field = to_half_angles(field)
+   end function solved_pressure
 
-      integer :: i, j
-
-      if (allocated(state%edge)) then
-         call cosine_coefficients(state%edge%pressure, field%c)
-         do j = 0, ubound(field%c, 2)
-            do i = 0, ubound(field%c, 1)
-               if (i + j > 0) field%c(i, j) = field%c(i, j)/(self%surface%stiffness*self%surface%frequency(i, j))
-            end do
-         end do
-         field%c(0, 0) = 0.0_dp
-         if (self%dimension == 2) call turn(field)
-      else
-         field = single_wave(self%dimension, state%pbar_over_pstar)
-      end if
-   end function displacement
-
-   subroutine edge_curves(self, state, curves)
+   subroutine solved_edge_curves(self, state, curves)
       class(grid_contact), intent(in) :: self
       type(contact_state), intent(in) :: state
       type(edge_curve), allocatable, intent(out) :: curves(:)
 
-      real(dp), allocatable :: edges(:), turned(:)
-      integer :: i
+      real(dp), allocatable :: edges(:)
 
-      if (.not. allocated(state%edge)) then
-         allocate (curves(0))
-      else if (self%dimension == 1) then
-         call grid_strip_edges(state%edge, edges)
+      if (self%solved%dimension == 2) then
+         call trace_edges(state%edge, curves)
+         if (self%turned) call turn_curves(curves, factor=0.5_dp)
+         return
+      end if
+      call grid_strip_edges(state%edge, edges)
+      if (state%edge%even) then
          call strip_ends(edges, state%edge%in_contact(1, 1), curves)
       else
-         call trace_edges(state%edge, curves)
-         do i = 1, size(curves)
-            associate (x => curves(i)%phi, y => curves(i)%theta)
-               turned = 0.5_dp*(x + y)
-               y = 0.5_dp*(x - y)
-               x = turned
-            end associate
-         end do
+         call whole_strips(edges, state%edge%in_contact(1, 1), curves)
       end if
-   end subroutine edge_curves
-
-   !> cos phi (cos theta) in full contact, eq. (22), else nothing.
-   pure type(cosine_series) function single_wave(dimension, pbar_over_pstar) result(field)
-      integer, intent(in) :: dimension
-      real(dp), intent(in) :: pbar_over_pstar
-
-      allocate (field%c(0:1, 0:dimension - 1), source=0.0_dp)
-      if (pbar_over_pstar >= 1.0_dp) field%c(1, dimension - 1) = 1.0_dp
-   end function single_wave
-
-   !> From a series in X = phi + theta, Y = phi - theta, alike in both, to one in phi and theta:
-   !> cos mX cos nY + cos nX cos mY = cos(m+n)phi cos(m-n)theta + cos(m-n)phi cos(m+n)theta.
-   pure subroutine turn(field)
-      type(cosine_series), intent(inout) :: field
-
-      real(dp), allocatable :: turned(:, :)
-      integer :: m, n, last
-
-      last = 2*ubound(field%c, 1)
-      allocate (turned(0:last, 0:last), source=0.0_dp)
-      do n = 0, ubound(field%c, 2)
-         do m = 0, ubound(field%c, 1)
-            turned(m + n, abs(m - n)) = turned(m + n, abs(m - n)) + 0.5_dp*field%c(m, n)
-            turned(abs(m - n), m + n) = turned(abs(m - n), m + n) + 0.5_dp*field%c(m, n)
-         end do
-      end do
-      call move_alloc(turned, field%c)
-   end subroutine turn
+   end subroutine solved_edge_curves
 
    pure function describe(self) result(words)
       class(grid_contact), intent(in) :: self
       character(:), allocatable :: words
 
-      character(16) :: number
-
-      write (number, '(es8.1)') self%accuracy
-      words = 'each grid twice as fine as the one before, to an accuracy of '//trim(adjustl(number))
+      if (all(self%points > 0)) then
+         words = 'a grid of '//integer_text(self%points(1))
+         if (self%solved%dimension == 2) words = words//' x '//integer_text(self%points(2))
+         words = words//' points'
+      else
+         words = 'grids refined until mean gap, area and peak pressure are within '//short_number(self%accuracy)
+      end if
+      if (self%solved%shape%is_even()) words = words//', on a quarter of the cell'
+      if (self%turned) words = words//' turned by 45 degrees'
    end function describe
 
 end module wavycon_grid_contact

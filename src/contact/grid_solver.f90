@@ -5,9 +5,13 @@
 !> compliance, cut down to the contact; after a change of the set the search starts afresh from the preconditioned
 !> residual; and the contact is entered by points at pressure zero. With a start from a coarser grid some seven iterations,
 !> whatever the grid, gain six digits.
+!>
+!> Sums are taken column by column and then over the columns, so that they do not depend on the number of threads.
 module wavycon_grid_solver
+   use, intrinsic :: iso_c_binding, only: c_bool
    use wavycon_compliance_operator, only: compliance_operator
    use wavycon_kinds, only: dp
+   use wavycon_threads, only: threads_for
    implicit none (type, external)
    private
 
@@ -36,14 +40,19 @@ contains
       integer, intent(in) :: iteration_limit
       type(grid_state), intent(inout) :: state       !! `pressure` holds the start, whose mean is P
 
-      real(dp), dimension(size(undeformed_gap, 1), size(undeformed_gap, 2)) :: residual, last_residual, direction, image
-      logical :: contact(size(undeformed_gap, 1), size(undeformed_gap, 2)), set_changed
-      real(dp) :: approach, shift, descent, last_descent, step, curvature, allowed
-      integer :: points
+      real(dp), allocatable :: direction(:, :), image(:, :), last_residual(:, :)
+      logical(c_bool), allocatable :: contact(:, :)
+      real(dp), dimension(size(undeformed_gap, 2)) :: sums, more_sums
+      integer :: counts(size(undeformed_gap, 2))
+      logical :: set_changed, changes(size(undeformed_gap, 2))
+      real(dp) :: allowed, approach, beta, curvature, descent, factor, last_descent, mean, shift, step
+      integer :: j, m, n, points, threads
 
-      if (.not. allocated(state%gap)) allocate (state%gap, mold=state%pressure)
-      last_residual = 0.0_dp
-      direction = 0.0_dp
+      m = size(undeformed_gap, 1)
+      n = size(undeformed_gap, 2)
+      threads = threads_for(m*n)
+      if (.not. allocated(state%gap)) allocate (state%gap(m, n))
+      allocate (direction(m, n), image(m, n), last_residual(m, n), contact(m, n))
       last_descent = 1.0_dp
       set_changed = .true.
       state%iterations = 0
@@ -53,63 +62,115 @@ contains
          call start_gap()
          do
             ! The mean over the contact is taken out step by step: of numbers near zero it is as exact as they are.
-            points = count(contact)
-            shift = sum(gap, contact)/points
-            gap = gap - shift
+            shift = mean_gap_in_contact()
             approach = approach + shift
-            residual = merge(gap, 0.0_dp, contact)
+            !$omp parallel do num_threads(threads)
+            do j = 1, n
+               gap(:, j) = gap(:, j) - shift
+               image(:, j) = merge(gap(:, j), 0.0_dp, contact(:, j))
+               sums(j) = sum(merge(gap(:, j), min(gap(:, j), 0.0_dp), contact(:, j))**2)
+            end do
             state%mean_gap = 1.0_dp - approach
-            state%residual = sqrt((sum(residual**2) + sum(min(gap, 0.0_dp)**2, .not. contact))/size(gap))
+            state%residual = sqrt(sum(sums)/size(gap))
             allowed = max(tolerance*abs(state%mean_gap), rounding)
             state%converged = state%residual <= allowed
             state%residual = state%residual/max(abs(state%mean_gap), rounding)
             if (state%converged .or. state%iterations >= iteration_limit) exit
             state%iterations = state%iterations + 1
 
-            call half_space%pressure(residual, image)
-            image = merge(image, 0.0_dp, contact)
-            step = sum(image)/points
-            where (contact) image = image - step
-            descent = sum(residual*image)
-            if (set_changed) then
-               direction = image
-            else
-               direction = image + (descent - sum(last_residual*image))/max(last_descent, tiny(last_descent))*direction
-            end if
-            last_residual = residual
+            call half_space%pressure(image)
+            !$omp parallel do num_threads(threads)
+            do j = 1, n
+               sums(j) = sum(image(:, j), contact(:, j))
+            end do
+            mean = sum(sums)/points
+            !$omp parallel do num_threads(threads)
+            do j = 1, n
+               image(:, j) = merge(image(:, j) - mean, 0.0_dp, contact(:, j))
+               sums(j) = dot_product(gap(:, j), image(:, j))
+               if (.not. set_changed) more_sums(j) = dot_product(last_residual(:, j), image(:, j))
+            end do
+            descent = sum(sums)
+            beta = 0.0_dp
+            if (.not. set_changed) beta = (descent - sum(more_sums))/max(last_descent, tiny(last_descent))
             last_descent = descent
+            !$omp parallel do num_threads(threads)
+            do j = 1, n
+               if (set_changed) then
+                  direction(:, j) = image(:, j)
+               else
+                  direction(:, j) = image(:, j) + beta*direction(:, j)
+               end if
+               last_residual(:, j) = merge(gap(:, j), 0.0_dp, contact(:, j))
+               image(:, j) = direction(:, j)
+            end do
 
-            call half_space%displacement(direction, image)
+            call half_space%displacement(image)
+            !$omp parallel do num_threads(threads)
+            do j = 1, n
+               sums(j) = dot_product(direction(:, j), image(:, j))
+               more_sums(j) = dot_product(last_residual(:, j), direction(:, j))
+            end do
+            curvature = sum(sums)
             ! A contact that leaves nothing to move may still have to grow.
-            curvature = sum(direction*image)
             step = 0.0_dp
-            if (curvature > 0.0_dp) step = sum(residual*direction)/curvature
-            p = p - step*direction
-            set_changed = any(contact .and. p <= 0.0_dp)
+            if (curvature > 0.0_dp) step = sum(more_sums)/curvature
+            !$omp parallel do num_threads(threads)
+            do j = 1, n
+               p(:, j) = p(:, j) - step*direction(:, j)
+               changes(j) = any(contact(:, j) .and. p(:, j) <= 0.0_dp)
+               contact(:, j) = contact(:, j) .and. p(:, j) > 0.0_dp
+               p(:, j) = merge(p(:, j), 0.0_dp, contact(:, j))
+               sums(j) = sum(p(:, j))
+            end do
+            set_changed = any(changes)
             if (set_changed) then
-               contact = contact .and. p > 0.0_dp
-               p = merge(p, 0.0_dp, contact)
-               p = p*(mean_pressure*size(p)/sum(p))
+               factor = mean_pressure*size(p)/sum(sums)
+               p = factor*p
                call start_gap()
             else
-               gap = gap - step*image
+               !$omp parallel do num_threads(threads)
+               do j = 1, n
+                  gap(:, j) = gap(:, j) - step*image(:, j)
+               end do
             end if
 
             ! Overlaps far below the residual allowed are left alone: they may be rounding, and come and go for ever.
-            shift = sum(gap, contact)/count(contact) - 0.1_dp*allowed
-            if (any(.not. contact .and. gap < shift)) then
-               set_changed = .true.
-               contact = contact .or. gap < shift
-            end if
+            shift = mean_gap_in_contact() - 0.1_dp*allowed
+            !$omp parallel do num_threads(threads)
+            do j = 1, n
+               changes(j) = any(.not. contact(:, j) .and. gap(:, j) < shift)
+               contact(:, j) = contact(:, j) .or. gap(:, j) < shift
+            end do
+            set_changed = set_changed .or. any(changes)
          end do
       end associate
 
    contains
 
       subroutine start_gap()
-         call half_space%displacement(state%pressure, state%gap)
-         state%gap = state%gap + (undeformed_gap - approach)
+         integer :: k
+
+         state%gap = state%pressure
+         call half_space%displacement(state%gap)
+         !$omp parallel do num_threads(threads)
+         do k = 1, n
+            state%gap(:, k) = state%gap(:, k) + (undeformed_gap(:, k) - approach)
+         end do
       end subroutine start_gap
+
+      !> It counts the points in contact too.
+      real(dp) function mean_gap_in_contact()
+         integer :: k
+
+         !$omp parallel do num_threads(threads)
+         do k = 1, n
+            sums(k) = sum(state%gap(:, k), contact(:, k))
+            counts(k) = count(contact(:, k))
+         end do
+         points = sum(counts)
+         mean_gap_in_contact = sum(sums)/points
+      end function mean_gap_in_contact
 
    end subroutine solve_on_grid
 

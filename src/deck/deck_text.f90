@@ -2,7 +2,7 @@
 module wavycon_deck_text
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_error, only: error_type, exit_file_trouble, fatal_error
-   use wavycon_plain_text, only: escaped, system_words
+   use wavycon_plain_text, only: escaped, integer_text, system_words
    use wavycon_system, only: path_absent, path_directory, path_kind
    implicit none (type, external)
    private
@@ -99,10 +99,11 @@ contains
    end subroutine line_bounds
 
    !> Reads a file whole; all its errors have the status `exit_file_trouble`.
-   subroutine read_deck_text(path, text, error)
+   subroutine read_deck_text(path, text, error, most_bytes)
       character(*), intent(in) :: path
       type(deck_text_type), intent(out) :: text
       type(error_type), allocatable, intent(out) :: error
+      integer, intent(in), optional :: most_bytes   !! of a file that is no deck
 
       character(:), allocatable :: content
       character(200) :: message
@@ -113,7 +114,7 @@ contains
          call trouble('there is no such file')
          return
       case (path_directory)
-         call trouble('this is a directory, not a deck')
+         call trouble('this is a directory, not a file')
          return
       end select
       open (newunit=unit, file=path, access='stream', form='unformatted', action='read', status='old', &
@@ -123,7 +124,11 @@ contains
          return
       end if
       content = ''
-      call read_bytes(unit, content, status, message)
+      if (present(most_bytes)) then
+         call read_bytes(unit, most_bytes, content, status, message)
+      else
+         call read_bytes(unit, largest, content, status, message)
+      end if
       close (unit)
       if (status /= 0) then
          call trouble('cannot be read: '//system_words(message))
@@ -142,8 +147,8 @@ contains
    end subroutine read_deck_text
 
    !> All the bytes of a file; a pipe, whose size is not known, is read a byte at a time.
-   subroutine read_bytes(unit, content, status, message)
-      integer, intent(in) :: unit
+   subroutine read_bytes(unit, most, content, status, message)
+      integer, intent(in) :: unit, most
       character(:), allocatable, intent(inout) :: content
       integer, intent(out) :: status
       character(*), intent(inout) :: message
@@ -154,7 +159,7 @@ contains
 
       status = 0
       inquire (unit=unit, size=size_of_file)
-      if (size_of_file > largest) then
+      if (size_of_file > most) then
          call too_large()
       else if (size_of_file > 0) then
          content = repeat(' ', int(size_of_file))
@@ -166,7 +171,7 @@ contains
             read (unit, iostat=status, iomsg=message) byte
             if (is_iostat_end(status)) exit
             if (status /= 0) return
-            if (used == largest) then
+            if (used == most) then
                call too_large()
                return
             end if
@@ -182,7 +187,7 @@ contains
 
       subroutine too_large()
          status = 1
-         message = 'it is larger than any deck'
+         message = 'it is larger than the '//integer_text(most/1024**2)//' MB allowed'
       end subroutine too_large
 
    end subroutine read_bytes

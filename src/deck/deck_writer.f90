@@ -21,9 +21,10 @@ module wavycon_deck_writer
       procedure, private :: put_real
       procedure, private :: put_reals
       procedure, private :: put_integer
+      procedure, private :: put_integers
       procedure, private :: put_logical
       procedure, private :: put_text
-      generic :: put => put_real, put_reals, put_integer, put_logical, put_text
+      generic :: put => put_real, put_reals, put_integer, put_integers, put_logical, put_text
    end type deck_writer_type
 
    interface deck_writer_type
@@ -88,6 +89,19 @@ contains
 
       call put_line(self, key, integer_text(value))
    end subroutine put_integer
+
+   subroutine put_integers(self, key, values)
+      class(deck_writer_type), intent(inout) :: self
+      character(*), intent(in) :: key
+      integer, intent(in) :: values(:)  !! at least one
+
+      integer :: i
+
+      call put_line(self, key, integer_text(values(1)))
+      do i = 2, size(values)
+         call write_line(self, '      '//integer_text(values(i)))
+      end do
+   end subroutine put_integers
 
    subroutine put_logical(self, key, value)
       class(deck_writer_type), intent(inout) :: self

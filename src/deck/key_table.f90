@@ -18,12 +18,12 @@ module wavycon_key_table
    !> nor underflow.
    real(dp), parameter, public :: smallest_number = 1.0e-90_dp, largest_number = 1.0e90_dp
 
-   integer, parameter :: name_length = 24, choice_length = 12, most_choices = 4
+   integer, parameter :: name_length = 24, choice_length = 12, most_choices = 6
 
    type :: key_type
       character(name_length) :: name = ''
       integer :: kind = real_value
-      character(240) :: meaning = ''
+      character(320) :: meaning = ''
       character(40) :: default = ''                      !! as in a deck, or in words; empty if there is none
       character(24) :: unit = ''                         !! empty for what is no quantity
       logical :: required = .false.                      !! in any deck
@@ -81,10 +81,11 @@ contains
       if (present(most_values)) key%most_values = most_values
    end function real_key
 
-   !> A key whose value is an integer from least to most.
-   pure function integer_key(name, default, meaning, least, most) result(key)
+   !> A key whose value is an integer from least to most or, with most_values, a list of them.
+   pure function integer_key(name, default, meaning, least, most, most_values) result(key)
       character(*), intent(in) :: name, default, meaning
       integer, intent(in) :: least, most
+      integer, intent(in), optional :: most_values
       type(key_type) :: key
 
       key%name = name
@@ -93,6 +94,7 @@ contains
       key%meaning = meaning
       key%least = real(least, dp)
       key%most = real(most, dp)
+      if (present(most_values)) key%most_values = most_values
    end function integer_key
 
    pure function logical_key(name, default, meaning) result(key)
@@ -170,7 +172,9 @@ contains
          if (key%most_values > 1) words = 'up to '//integer_text(key%most_values)//' numbers'
          words = words//bounds(key)
       case (integer_value)
-         words = 'an integer from '//integer_text(nint(key%least))//' to '//integer_text(nint(key%most))
+         words = 'an integer'
+         if (key%most_values > 1) words = 'up to '//integer_text(key%most_values)//' integers'
+         words = words//' from '//integer_text(nint(key%least))//' to '//integer_text(nint(key%most))
       case (logical_value)
          words = '.true. or .false.'
       case (text_value)

@@ -1,4 +1,4 @@
-!> The &load group: the mean pressures to solve for.
+!> The &load group: the loads to solve for, by mean pressure, mean gap or contact area.
 module wavycon_load_group
    use wavycon_deck_writer, only: deck_writer_type
    use wavycon_group_input, only: group_input_type
@@ -10,12 +10,20 @@ module wavycon_load_group
 
    public :: load_group_type, load_table, read_load_group, write_load_group
 
-   !> What &load says. Exactly one of the two lists is allocated in a deck read.
+   !> What the loads are given by.
+   integer, parameter, public :: by_pressure = 1, by_mean_gap = 2, by_contact_area = 3
+
+   !> What &load says. Exactly one of the lists is allocated in a deck read.
    type :: load_group_type
       real(dp), allocatable :: pbar_over_pstar(:)   !! mean pressures over p* [-]; a sweep fills it too
       real(dp), allocatable :: mean_pressure(:)     !! mean pressures [unit of e_star]
+      real(dp), allocatable :: mean_gap_over_amplitude(:)   !! mean gaps over that before load [-]
+      real(dp), allocatable :: mean_gap(:)                  !! mean gaps [length]
+      real(dp), allocatable :: contact_area_fraction(:)     !! parts of the nominal area [-]
       integer :: sweep_steps = 0                    !! number of loads of a sweep; 0 where none was given
       real(dp) :: sweep_from = 0, sweep_to = 0      !! its ends, over p* [-]
+   contains
+      procedure :: given_by
    end type load_group_type
 
    !> Contact is complete at 1; a load beyond this is a slip, most likely of units.
@@ -25,19 +33,30 @@ module wavycon_load_group
 
    character(11), parameter :: sweep_keys(*) = ['sweep_from ', 'sweep_to   ', 'sweep_steps']
    character(*), parameter :: forms = &
-      'pbar_over_pstar, or mean_pressure, or sweep_from, sweep_to and sweep_steps'
+      'pbar_over_pstar, mean_pressure, mean_gap_over_amplitude, mean_gap or contact_area_fraction, or sweep_from, '// &
+      'sweep_to and sweep_steps'
+   character(23), parameter :: lists(*) = [character(23) :: 'pbar_over_pstar', 'mean_pressure', 'mean_gap_over_amplitude', &
+                                           'mean_gap', 'contact_area_fraction']
 
 contains
 
    function load_table() result(table)
       type(key_group_type) :: table
 
-      table = key_group('load', 'the mean pressures to solve for: a list of either kind, or a sweep', [ &
+      table = key_group('load', 'the loads to solve for: a list of one kind, or a sweep', [ &
          real_key('pbar_over_pstar', '', '-', &
             'Mean pressures over p*, the mean pressure that just closes the gap everywhere.', &
             least=0.0_dp, most=largest_pbar_over_pstar, most_values=most_loads), &
          real_key('mean_pressure', '', 'unit of e_star', 'Mean pressures, over the nominal area.', &
             least=0.0_dp, most_values=most_loads), &
+         real_key('mean_gap_over_amplitude', '', '-', &
+            'Mean gaps over the mean gap before load, the amplitude of a wave; the loads that leave them are found.', &
+            least=0.0_dp, most=1.0_dp, most_values=most_loads), &
+         real_key('mean_gap', '', 'length', 'Mean gaps; the loads that leave them are found.', least=0.0_dp, &
+            most_values=most_loads), &
+         real_key('contact_area_fraction', '', '-', &
+            'Parts of the nominal area in contact; the loads that make them are found.', &
+            least=0.0_dp, most=1.0_dp, most_values=most_loads), &
          real_key('sweep_from', '', '-', 'First mean pressure over p* of a sweep in equal steps.', &
             least=0.0_dp, most=largest_pbar_over_pstar), &
          real_key('sweep_to', '', '-', 'Last mean pressure over p* of the sweep, above or below the first.', &
@@ -52,15 +71,20 @@ contains
       type(load_group_type), intent(out) :: group
       type(problem_list_type), intent(inout) :: problems
 
-      real(dp), allocatable :: mean_pressure(:), pbar_over_pstar(:)
+      real(dp), allocatable :: contact_area_fraction(:), mean_gap(:), mean_gap_over_amplitude(:), mean_pressure(:), &
+                               pbar_over_pstar(:)
       real(dp) :: sweep_from, sweep_to
       integer :: i, status, sweep_steps
       logical :: has_sweep
       character(200) :: message
-      namelist /load/ pbar_over_pstar, mean_pressure, sweep_from, sweep_to, sweep_steps
+      namelist /load/ pbar_over_pstar, mean_pressure, mean_gap_over_amplitude, mean_gap, &
+         contact_area_fraction, sweep_from, sweep_to, sweep_steps
 
       allocate (pbar_over_pstar(input%values_of('pbar_over_pstar')), &
-                mean_pressure(input%values_of('mean_pressure')), source=0.0_dp)
+                mean_pressure(input%values_of('mean_pressure')), &
+                mean_gap_over_amplitude(input%values_of('mean_gap_over_amplitude')), &
+                mean_gap(input%values_of('mean_gap')), &
+                contact_area_fraction(input%values_of('contact_area_fraction')), source=0.0_dp)
       sweep_from = group%sweep_from
       sweep_to = group%sweep_to
       sweep_steps = group%sweep_steps
@@ -80,6 +104,12 @@ contains
          if (sweep_is_good()) group%pbar_over_pstar = sweep(group)
       else if (input%has('mean_pressure')) then
          group%mean_pressure = mean_pressure
+      else if (input%has('mean_gap_over_amplitude')) then
+         group%mean_gap_over_amplitude = mean_gap_over_amplitude
+      else if (input%has('mean_gap')) then
+         group%mean_gap = mean_gap
+      else if (input%has('contact_area_fraction')) then
+         group%contact_area_fraction = contact_area_fraction
       else
          group%pbar_over_pstar = pbar_over_pstar
       end if
@@ -87,12 +117,11 @@ contains
    contains
 
       subroutine check_forms()
-         integer :: k
+         integer :: k, ways
 
-         if (input%place > 0 .and. .not. (has_sweep .or. input%has('pbar_over_pstar') .or. &
-                                          input%has('mean_pressure'))) &
-            call problems%add(input%place, '&load needs '//forms)
-         if (count([input%has('pbar_over_pstar'), input%has('mean_pressure'), has_sweep]) > 1) then
+         ways = count([has_sweep, (input%has(trim(lists(k))), k=1, size(lists))])
+         if (input%place > 0 .and. ways == 0) call problems%add(input%place, '&load needs '//forms)
+         if (ways > 1) then
             call problems%add(input%place, 'loads are given in more than one way: give '//forms)
             return
          end if
@@ -137,11 +166,26 @@ contains
          call writer%put('sweep_steps', group%sweep_steps)
       else if (allocated(group%mean_pressure)) then
          call writer%put('mean_pressure', group%mean_pressure)
+      else if (allocated(group%mean_gap_over_amplitude)) then
+         call writer%put('mean_gap_over_amplitude', group%mean_gap_over_amplitude)
+      else if (allocated(group%mean_gap)) then
+         call writer%put('mean_gap', group%mean_gap)
+      else if (allocated(group%contact_area_fraction)) then
+         call writer%put('contact_area_fraction', group%contact_area_fraction)
       else
          call writer%put('pbar_over_pstar', group%pbar_over_pstar)
       end if
       call writer%close_group()
    end subroutine write_load_group
+
+   !> One of the names above.
+   pure integer function given_by(self)
+      class(load_group_type), intent(in) :: self
+
+      given_by = by_pressure
+      if (allocated(self%mean_gap_over_amplitude) .or. allocated(self%mean_gap)) given_by = by_mean_gap
+      if (allocated(self%contact_area_fraction)) given_by = by_contact_area
+   end function given_by
 
    !> The loads of a sweep, equally spaced; the ends are met exactly.
    pure function sweep(group) result(loads)

@@ -13,12 +13,13 @@ module wavycon_method_group
 
    !> What &method says. The two counts are 0 until the surface's dimension settles their defaults.
    type :: method_group_type
-      character(12) :: solver = 'beale'    !! 'beale', 'grid' or 'auto'
+      character(12) :: solver = ''         !! 'beale', 'grid' or 'auto'
       integer :: harmonics = 0             !! n, highest harmonic of the pressure, in each direction
       integer :: constraint_points = 0     !! points on 0..pi, ends included, in each direction
       character(12) :: symmetry = 'full'   !! 'full', 'diagonal' or 'none'; of no meaning in 1-D
       real(dp) :: edge_level = 0.1_dp      !! the isobar taken as the edge of contact [p*]
-      real(dp) :: accuracy = 1.0e-3_dp     !! of the summary's numbers, in their units; not of 'beale'
+      real(dp) :: accuracy = 1.0e-3_dp     !! of the summary's numbers, in their units; 0 for that of a grid given
+      integer :: grid_points(2) = 0        !! of the whole cell, of 'grid'; zeros: as the accuracy or the file has it
    end type method_group_type
 
    !> The paper's numbers, for 1-D and 2-D waves.
@@ -36,13 +37,16 @@ contains
       type(key_group_type) :: table
 
       table = key_group('method', 'how the contact is computed', [ &
-         choice_key('solver', "'beale'", &
-            "'beale': the paper's truncated series by Beale's method of quadratic programming. 'grid': ever "// &
-            "finer grids until mean gap, area and peak pressure are accurate. 'auto': the closed form for "// &
-            "wave_1d, else 'grid'.", ['beale', 'grid ', 'auto ']), &
+         choice_key('solver', "'beale' for its waves", &
+            "'beale': the paper's truncated series by Beale's method, for its waves. 'grid': ever finer grids until "// &
+            "mean gap, area and peak pressure are accurate. 'auto': the closed form for wave_1d, else 'grid'; the "// &
+            'default for other surfaces.', ['beale', 'grid ', 'auto ']), &
          real_key('accuracy', '1e-3', '-', &
             "Of 'grid' and 'auto': largest error allowed of mean gap [amplitude], contact area fraction and peak "// &
             'pressure [p*]. A load that cannot be had so accurately says so.', least=1.0e-12_dp, most=0.1_dp), &
+         integer_key('grid_points', '', &
+            "Of 'grid' and 'auto', in place of accuracy: points of the cell along x and y of the one grid to solve; one "// &
+            'number for both. Even numbers. For a file the default is its own grid.', 8, 8192, most_values=2), &
          integer_key('harmonics', '9 (2-D), 10 (1-D)', &
             'Highest harmonic of the pressure, in each direction.', 1, most_harmonics), &
          integer_key('constraint_points', '27 (2-D), 26 (1-D)', &
@@ -57,20 +61,23 @@ contains
             above=0.0_dp, below=1.0_dp)])
    end function method_table
 
-   subroutine read_method_group(input, dimension, group, problems)
+   subroutine read_method_group(input, dimension, paper_wave, from_file, group, problems)
       type(group_input_type), intent(in) :: input
-      integer, intent(in) :: dimension  !! of the surface, 1 or 2; 0 if that is not known
+      integer, intent(in) :: dimension      !! of the surface, 1 or 2; 0 if that is not known
+      logical, intent(in) :: paper_wave     !! whether it is one that 'beale' solves
+      logical, intent(in) :: from_file      !! whether it has a grid of its own
       type(method_group_type), intent(out) :: group
       type(problem_list_type), intent(inout) :: problems
 
       character(len(group%solver)) :: solver
       character(len(group%symmetry)) :: symmetry
-      integer :: constraint_points, harmonics, status
+      integer :: constraint_points, grid_points(2), harmonics, status
       real(dp) :: accuracy, edge_level
       character(200) :: message
-      namelist /method/ solver, harmonics, constraint_points, symmetry, edge_level, accuracy
+      namelist /method/ solver, harmonics, constraint_points, symmetry, edge_level, accuracy, grid_points
 
-      solver = group%solver
+      solver = merge('beale', 'auto ', paper_wave)
+      grid_points = group%grid_points
       symmetry = group%symmetry
       edge_level = group%edge_level
       accuracy = group%accuracy
@@ -82,7 +89,9 @@ contains
       end if
       read (input%record, nml=method, iostat=status, iomsg=message)
       if (status /= 0) call problems%add(input%place, trim(message))
-      group = method_group_type(solver, harmonics, constraint_points, symmetry, edge_level, accuracy)
+      if (input%values_of('grid_points') == 1) grid_points(2) = grid_points(1)
+      if (.not. input%has('accuracy') .and. (from_file .or. input%has('grid_points'))) accuracy = 0.0_dp
+      group = method_group_type(solver, harmonics, constraint_points, symmetry, edge_level, accuracy, grid_points)
       call check_solver_keys()
 
       if (dimension == 0) return
@@ -105,10 +114,18 @@ contains
 
          if (input%is_bad('solver')) return
          if (solver == 'beale') then
+            if (.not. paper_wave .and. dimension > 0) call problems%add(input%place_of('solver'), &
+               "solver = 'beale' is for the waves of the paper: wave_1d, wave_2d with one wavelength, crossed_1d with "// &
+               "equal waves. Give 'grid' or 'auto'")
             if (input%has('accuracy')) call problems%add(input%place_of('accuracy'), &
                "accuracy is a key of solver = 'grid' and 'auto': the series of 'beale' has no error estimate")
+            if (input%has('grid_points')) call problems%add(input%place_of('grid_points'), &
+               "grid_points is a key of solver = 'grid' and 'auto'; 'beale' has harmonics and constraint_points")
             return
          end if
+         call input%forbid(problems, 'accuracy', 'grid_points', 'give the one or the other')
+         if (any(mod(grid_points, 2) /= 0)) call problems%add(input%place_of('grid_points'), &
+            'grid_points must be even: of surfaces that mirror themselves half of them are solved each way')
          do i = 1, size(of_beale)
             if (input%has(trim(of_beale(i)))) call problems%add(input%place_of(trim(of_beale(i))), &
                trim(of_beale(i))//" is a key of solver = 'beale', not of '"//trim(solver)//"'")
@@ -137,7 +154,9 @@ contains
          call writer%put('constraint_points', group%constraint_points)
          if (dimension == 2) call writer%put('symmetry', group%symmetry)
          call writer%put('edge_level', group%edge_level)
-      else
+      else if (all(group%grid_points > 0)) then
+         call writer%put('grid_points', group%grid_points(:dimension))
+      else if (group%accuracy > 0.0_dp) then
          call writer%put('accuracy', group%accuracy)
       end if
       call writer%close_group()

@@ -37,14 +37,15 @@ contains
          logical_key('contours', '.false.', 'The edge of contact as closed curves.'), &
          logical_key('coefficients', '.false.', 'The Fourier coefficients of the pressure.'), &
          logical_key('theory', '.false.', 'The closed forms beside the numbers.'), &
-         integer_key('points_per_wavelength', '128', 'Points of lines and maps.', 8, 4096)])
+         integer_key('points_per_wavelength', '128', 'Points of lines and maps along a side of the cell.', 8, 4096)])
    end function output_table
 
    !> Reads the group; a directory that is not given takes its name from the case.
-   subroutine read_output_group(input, case, solver, group, problems)
+   subroutine read_output_group(input, case, solver, paper_wave, group, problems)
       type(group_input_type), intent(in) :: input
       character(*), intent(in) :: case     !! that the default directory is named after
       character(*), intent(in) :: solver   !! of &method
+      logical, intent(in) :: paper_wave    !! whether there are closed forms of the surface
       type(output_group_type), intent(out) :: group
       type(problem_list_type), intent(inout) :: problems
 
@@ -67,6 +68,9 @@ contains
          points_per_wavelength)
       if (group%coefficients .and. solver /= 'beale') call problems%add(input%place_of('coefficients'), &
          "coefficients are those of the series of solver = 'beale'; '"//solver//"' has none")
+      if (group%theory .and. .not. paper_wave) call problems%add(input%place_of('theory'), &
+         'theory is known of the waves of the paper alone: wave_1d, wave_2d with one wavelength, crossed_1d with equal '// &
+         'waves')
    end subroutine read_output_group
 
    subroutine write_output_group(group, writer)

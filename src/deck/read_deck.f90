@@ -17,7 +17,7 @@ module wavycon_read_deck
    use wavycon_plain_text, only: escaped
    use wavycon_problems, only: problem_list_type, problem_report
    use wavycon_scene_group, only: read_scene_group
-   use wavycon_surface_group, only: read_surface_group, surface_dimension
+   use wavycon_surface_group, only: read_surface_group, surface_dimension, surface_is_paper_wave
    implicit none (type, external)
    private
 
@@ -51,6 +51,7 @@ contains
       type(problem_list_type) :: problems
       type(scan_type) :: scan
       integer :: dimension
+      logical :: paper_wave
 
       call scan_deck(text, scan, problems)
       if (size(scan%tokens) == 0) then
@@ -66,8 +67,12 @@ contains
       call read_load_group(inputs(load_number), deck%load, problems)
       dimension = 0
       if (deck%surface%kind /= '') dimension = surface_dimension(deck%surface)
-      call read_method_group(inputs(method_number), dimension, deck%method, problems)
-      call read_output_group(inputs(output_number), trim(deck%scene%case), trim(deck%method%solver), deck%output, problems)
+      ! What is said of an unknown surface would only mislead.
+      paper_wave = dimension == 0 .or. surface_is_paper_wave(deck%surface)
+      call read_method_group(inputs(method_number), dimension, paper_wave, deck%surface%kind == 'file', deck%method, &
+                             problems)
+      call read_output_group(inputs(output_number), trim(deck%scene%case), trim(deck%method%solver), paper_wave, &
+                             deck%output, problems)
 
       if (problems%number > 0) call fatal_error(error, exit_bad_input, problem_report(problems, text))
    end subroutine parse_deck

@@ -4,7 +4,7 @@
 !> N = 27 gives the counts of Johnson, Greenwood & Higginson (1985): 729 points, 378 in the triangle
 !> phi + theta <= pi, 196 in the triangle phi <= theta <= pi - phi between the crest, the trough and the saddle.
 module wavycon_constraint_points
-   use wavycon_cosine_series, only: cosine_table
+   use wavycon_fourier_series, only: cosine_table
    use wavycon_fourier_terms, only: fourier_terms, symmetry_full, symmetry_none
    use wavycon_kinds, only: dp
    implicit none (type, external)

@@ -1,7 +1,7 @@
 !> The numbers of the summary: mean gap, contact area and pressures.
 module wavycon_contact_measures
    use wavycon_constants, only: pi
-   use wavycon_cosine_series, only: cosine_series
+   use wavycon_fourier_series, only: fourier_series
    use wavycon_isobar_grid, only: isobar_grid, start_isobar_grid
    use wavycon_kinds, only: dp
    use wavycon_line_zeros, only: length_inside, line_zeros
@@ -33,19 +33,20 @@ contains
       measuring_intervals = max(least_intervals, intervals_per_harmonic*harmonics)
    end function measuring_intervals
 
-   !> The measures of full contact, P >= 1: p = P + cos phi (cos theta), eq. (22).
-   elemental type(contact_measures) function full_contact_measures(pbar_over_pstar) result(measures)
+   !> The measures of full contact, P >= 1, eq. (22): p - P is at least -1.
+   elemental type(contact_measures) function full_contact_measures(pbar_over_pstar, largest) result(measures)
       real(dp), intent(in) :: pbar_over_pstar   !! P
+      real(dp), intent(in) :: largest           !! p - P [p*], of the waves of the paper 1
 
       measures = contact_measures(mean_gap_over_amplitude=0.0_dp, approach_over_amplitude=1.0_dp, &
-                                  contact_area_fraction=1.0_dp, peak_pressure_over_pstar=pbar_over_pstar + 1.0_dp, &
+                                  contact_area_fraction=1.0_dp, peak_pressure_over_pstar=pbar_over_pstar + largest, &
                                   min_pressure_over_pstar=pbar_over_pstar - 1.0_dp)
    end function full_contact_measures
 
    !> Measures the series of a pressure and its displacement. The edge of contact is the isobar p = edge_level p*.
    subroutine measure_series(pressure, displacement, edge_level, measures)
-      type(cosine_series), intent(in) :: pressure       !! p/p*
-      type(cosine_series), intent(in) :: displacement   !! (u - ubar)/Delta
+      type(fourier_series), intent(in) :: pressure       !! p/p*
+      type(fourier_series), intent(in) :: displacement   !! (u - ubar)/Delta
       real(dp), intent(in) :: edge_level                !! over p*
       type(contact_measures), intent(out) :: measures
 
@@ -60,7 +61,7 @@ contains
    end subroutine measure_series
 
    subroutine measure_plane(pressure, edge_level, measures)
-      type(cosine_series), intent(in) :: pressure
+      type(fourier_series), intent(in) :: pressure
       real(dp), intent(in) :: edge_level
       type(contact_measures), intent(inout) :: measures
 
@@ -73,7 +74,7 @@ contains
    end subroutine measure_plane
 
    subroutine measure_line(pressure, edge_level, measures)
-      type(cosine_series), intent(in) :: pressure
+      type(fourier_series), intent(in) :: pressure
       real(dp), intent(in) :: edge_level
       type(contact_measures), intent(inout) :: measures
 
@@ -89,7 +90,7 @@ contains
       line = pressure%c(:, 0)
       line(0) = line(0) - edge_level
       call line_zeros(line, intervals, edges)
-      measures%contact_area_fraction = length_inside(edges, sum(line) >= 0.0_dp)/pi
+      measures%contact_area_fraction = length_inside(edges, sum(line) >= 0.0_dp, 0.0_dp, pi)/pi
    end subroutine measure_line
 
 end module wavycon_contact_measures

@@ -1,11 +1,12 @@
 !> The edge of contact as closed curves.
 module wavycon_edge_curves
+   use wavycon_constants, only: pi
    use wavycon_contact_edge, only: contact_edge, corner_k, corner_l, edge_point
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
 
-   public :: edge_curve, strip_ends, trace_edges
+   public :: edge_curve, strip_ends, trace_edges, turn_curves, whole_strips
 
    !> A curve with the contact on its left. Its last point repeats the first, but for a curve that runs
    !> through the whole plane: that ends one period on.
@@ -56,6 +57,42 @@ contains
          allocate (curves(i)%theta(2), source=0.0_dp)
       end do
    end subroutine strip_ends
+
+   !> Curves in axes turned by 45 degrees: factor times the sum and the difference of the angles.
+   pure subroutine turn_curves(curves, factor)
+      type(edge_curve), intent(inout) :: curves(:)
+      real(dp), intent(in) :: factor
+
+      real(dp), allocatable :: turned(:)
+      integer :: i
+
+      do i = 1, size(curves)
+         associate (x => curves(i)%phi, y => curves(i)%theta)
+            ! Turned round as well, as the new axes are mirrored against the old: the contact stays on the left.
+            turned = factor*(x(size(x):1:-1) + y(size(y):1:-1))
+            y = factor*(x(size(x):1:-1) - y(size(y):1:-1))
+            x = turned
+         end associate
+      end do
+   end subroutine turn_curves
+
+   !> The strips of a 1-D contact over a whole period, as curves of two points each.
+   pure subroutine whole_strips(edges, starts_in_contact, curves)
+      real(dp), intent(in) :: edges(:)   !! an even number, ascending, within a period [rad]
+      logical, intent(in) :: starts_in_contact
+      type(edge_curve), allocatable, intent(out) :: curves(:)
+
+      real(dp) :: ends(size(edges))
+      integer :: i
+
+      ends = edges
+      if (starts_in_contact .and. size(edges) > 0) ends = [edges(size(edges)) - 2*pi, edges(:size(edges) - 1)]
+      allocate (curves(size(edges)/2))
+      do i = 1, size(curves)
+         allocate (curves(i)%phi, source=ends(2*i - 1:2*i))
+         allocate (curves(i)%theta(2), source=0.0_dp)
+      end do
+   end subroutine whole_strips
 
    !> Follows one curve from an edge of a cell back to it.
    subroutine trace(edge, first_k, first_l, first_number, seen, curve)

@@ -1,8 +1,8 @@
 !> The edge of contact of a solution on the points of a grid, placed better than between two points.
 !>
-!> The grid has M x N points of a quarter of the cell at phi = pi (i - 1/2)/M, theta = pi (j - 1/2)/N; its mirror images
-!> fill the plane. Outside the contact the gap grows as the power 3/2 of the distance d from the edge, so that
-!> gap^(2/3) over two points outside leads back to d = 0.
+!> The points are those of wavycon_grid_transform: M x N of a quarter of the cell, whose mirror images fill the plane, or of
+!> the whole cell, which repeats itself. Outside the contact the gap grows as the power 3/2 of the distance d from the edge, so
+!> that gap^(2/3) over two points outside leads back to d = 0.
 module wavycon_grid_edge
    use wavycon_constants, only: pi
    use wavycon_contact_edge, only: contact_edge, corner_k, corner_l, edge_point
@@ -11,34 +11,38 @@ module wavycon_grid_edge
    implicit none (type, external)
    private
 
-   public :: grid_edge, grid_contact_area, grid_crest_pressure, grid_strip_edges, start_grid_edge
+   public :: grid_edge, grid_contact_area, grid_strip_edges, start_grid_edge
 
    type, extends(contact_edge) :: grid_edge
-      real(dp), allocatable :: pressure(:, :)   !! positive in contact, else zero, shape (M, N)
-      real(dp), allocatable :: gap(:, :)        !! in any unit
+      !> In contact the pressure, else minus the gap, in any unit, shape (M, N); N = 1 for one dimension.
+      real(dp), allocatable :: pressure_or_gap(:, :)
+      logical :: even = .true.   !! whether the points are those of a quarter
    contains
       procedure :: in_contact
       procedure :: angles
       procedure :: side
+      procedure :: place
    end type grid_edge
 
 contains
 
-   pure subroutine start_grid_edge(edge, pressure, gap)
+   pure subroutine start_grid_edge(edge, pressure, gap, even)
       type(grid_edge), intent(out) :: edge
-      real(dp), intent(in) :: pressure(:, :)   !! positive in contact, else zero, shape (M, N); N = 1 for a 1-D wave
+      real(dp), intent(in) :: pressure(:, :)   !! positive in contact, else zero, shape (M, N)
       real(dp), intent(in) :: gap(:, :)        !! in any unit
+      logical, intent(in) :: even
 
-      allocate (edge%pressure, source=pressure)
-      allocate (edge%gap, source=gap)
-      edge%period = 2*shape(pressure)
+      allocate (edge%pressure_or_gap(size(gap, 1), size(gap, 2)))
+      edge%pressure_or_gap = merge(pressure, -gap, pressure > 0.0_dp)
+      edge%even = even
+      edge%period = merge(2, 1, even)*shape(gap)
    end subroutine start_grid_edge
 
    pure logical function in_contact(self, k, l)
       class(grid_edge), intent(in) :: self
       integer, intent(in) :: k, l
 
-      in_contact = self%pressure(mirrored(k, size(self%gap, 1)), mirrored(l, size(self%gap, 2))) > 0.0_dp
+      in_contact = self%pressure_or_gap(self%place(k, 1), self%place(l, 2)) > 0.0_dp
    end function in_contact
 
    pure subroutine angles(self, k, l, phi, theta)
@@ -46,9 +50,31 @@ contains
       integer, intent(in) :: k, l
       real(dp), intent(out) :: phi, theta
 
-      phi = pi*(k - 0.5_dp)/size(self%gap, 1)
-      theta = pi*(l - 0.5_dp)/size(self%gap, 2)
+      phi = angle(self, k, 1)
+      theta = angle(self, l, 2)
    end subroutine angles
+
+   elemental real(dp) function angle(edge, k, direction)
+      class(grid_edge), intent(in) :: edge
+      integer, intent(in) :: k, direction
+
+      angle = merge(pi*(k - 0.5_dp), 2*pi*(k - 1), edge%even)/size(edge%pressure_or_gap, direction)
+   end function angle
+
+   !> The index of the point that a point of the plane is an image of.
+   elemental integer function place(self, k, direction)
+      class(grid_edge), intent(in) :: self
+      integer, intent(in) :: k, direction   !! any; 1 or 2
+
+      associate (n => size(self%pressure_or_gap, direction))
+         if (self%even) then
+            place = modulo(k - 1, 2*n)
+            place = min(place, 2*n - 1 - place) + 1
+         else
+            place = modulo(k - 1, n) + 1
+         end if
+      end associate
+   end function place
 
    pure type(edge_point) function side(self, k, l, number) result(point)
       class(grid_edge), intent(in) :: self
@@ -67,7 +93,7 @@ contains
          call swap(k_in, k_out)
          call swap(l_in, l_out)
       end if
-      t = way_to_edge(self%gap, k_in, l_in, k_out - k_in, l_out - l_in)
+      t = way_to_edge(self, k_in, l_in, k_out - k_in, l_out - l_in)
       call self%angles(k_in, l_in, phi_in, theta_in)
       call self%angles(k_out, l_out, phi_out, theta_out)
       point%phi = phi_in + t*(phi_out - phi_in)
@@ -75,20 +101,27 @@ contains
    end function side
 
    !> How far the edge is from a point in contact towards its neighbour out of it, 0 .. 1.
-   pure real(dp) function way_to_edge(gap, i, j, di, dj) result(way)
-      real(dp), intent(in) :: gap(:, :)
-      integer, intent(in) :: i, j     !! the point in contact
-      integer, intent(in) :: di, dj   !! the step to its neighbour
+   pure real(dp) function way_to_edge(edge, k, l, dk, dl) result(way)
+      class(grid_edge), intent(in) :: edge
+      integer, intent(in) :: k, l     !! the point in contact
+      integer, intent(in) :: dk, dl   !! the step to its neighbour
 
       real(dp) :: near, far
-      integer :: m, n
 
-      m = size(gap, 1)
-      n = size(gap, 2)
-      near = max(gap(mirrored(i + di, m), mirrored(j + dj, n)), 0.0_dp)**(2.0_dp/3)
-      far = max(gap(mirrored(i + 2*di, m), mirrored(j + 2*dj, n)), 0.0_dp)**(2.0_dp/3)
+      near = root(1)
+      far = root(2)
       way = 0.5_dp
       if (far > near) way = min(max(1.0_dp - near/(far - near), 0.0_dp), 1.0_dp)
+
+   contains
+
+      pure real(dp) function root(steps)
+         integer, intent(in) :: steps
+
+         root = max(-edge%pressure_or_gap(edge%place(k + steps*dk, 1), edge%place(l + steps*dl, 2)), &
+                    0.0_dp)**(2.0_dp/3)
+      end function root
+
    end function way_to_edge
 
    !> The part of the surface in contact.
@@ -99,68 +132,60 @@ contains
       real(dp) :: area, part
       integer :: i, j, m, n
 
-      m = size(edge%gap, 1)
-      n = size(edge%gap, 2)
+      m = size(edge%pressure_or_gap, 1)
+      n = size(edge%pressure_or_gap, 2)
       if (n == 1) then
          call grid_strip_edges(edge, edges)
-         fraction = length_inside(edges, edge%in_contact(1, 1))/pi
+         if (edge%even) then
+            fraction = length_inside(edges, edge%in_contact(1, 1), 0.0_dp, pi)/pi
+         else
+            fraction = length_inside(edges, edge%in_contact(1, 1), 0.0_dp, 2*pi)/(2*pi)
+         end if
          return
       end if
 
       area = 0.0_dp
-      ! Of the cells between points those at the rim of the quarter are cut by its mirrors: half of each counts.
-      do j = 0, n
-         do i = 0, m
-            part = merge(0.5_dp, 1.0_dp, i == 0 .or. i == m)*merge(0.5_dp, 1.0_dp, j == 0 .or. j == n)
-            area = area + part*edge%cell_area(i, j)
+      if (edge%even) then
+         ! Of the cells between points those at the rim of the quarter are cut by its mirrors: half of each counts.
+         do j = 0, n
+            do i = 0, m
+               part = merge(0.5_dp, 1.0_dp, i == 0 .or. i == m)*merge(0.5_dp, 1.0_dp, j == 0 .or. j == n)
+               area = area + part*edge%cell_area(i, j)
+            end do
          end do
-      end do
-      fraction = area/pi**2
+         fraction = area/pi**2
+      else
+         do j = 1, n
+            do i = 1, m
+               area = area + edge%cell_area(i, j)
+            end do
+         end do
+         fraction = area/(2*pi)**2
+      end if
    end function grid_contact_area
 
-   !> The edges of contact between phi = 0 and pi of a 1-D wave [rad], ascending.
+   !> The edges of contact of one dimension, ascending: between 0 and pi of an even one, else within a period from the first
+   !> point [rad].
    pure subroutine grid_strip_edges(edge, edges)
       type(grid_edge), intent(in) :: edge
       real(dp), allocatable, intent(out) :: edges(:)
 
-      real(dp) :: found(size(edge%gap, 1))
-      integer :: i, m, count
+      real(dp) :: found(size(edge%pressure_or_gap, 1))
+      integer :: i, count
 
-      m = size(edge%gap, 1)
       count = 0
-      do i = 1, m - 1
+      do i = 1, size(found) - merge(1, 0, edge%even)
          if (edge%in_contact(i, 1) .eqv. edge%in_contact(i + 1, 1)) cycle
          count = count + 1
          if (edge%in_contact(i, 1)) then
-            found(count) = pi*(i - 0.5_dp + way_to_edge(edge%gap, i, 1, 1, 0))/m
+            found(count) = angle(edge, i, 1) + way_to_edge(edge, i, 1, 1, 0)*(angle(edge, 2, 1) - angle(edge, 1, 1))
          else
-            found(count) = pi*(i + 0.5_dp - way_to_edge(edge%gap, i + 1, 1, -1, 0))/m
+            found(count) = angle(edge, i + 1, 1) &
+                           - way_to_edge(edge, i + 1, 1, -1, 0)*(angle(edge, 2, 1) - angle(edge, 1, 1))
          end if
       end do
       allocate (edges, source=found(:count))
    end subroutine grid_strip_edges
-
-   !> The pressure at the crest, the origin, which the half-step grid leaves out: by the even polynomial through the nearest
-   !> three points each way.
-   pure real(dp) function grid_crest_pressure(pressure) result(peak)
-      real(dp), intent(in) :: pressure(:, :)   !! shape (m, n), m >= 3, n >= 3 or n = 1
-
-      real(dp), parameter :: weights(3) = [150, -25, 3]/128.0_dp
-
-      if (size(pressure, 2) == 1) then
-         peak = dot_product(weights, pressure(:3, 1))
-      else
-         peak = dot_product(weights, matmul(pressure(:3, :3), weights))
-      end if
-   end function grid_crest_pressure
-
-   !> The point of 1..n that a point beyond the mirrors at 1/2 and n + 1/2 stands for.
-   elemental integer function mirrored(i, n)
-      integer, intent(in) :: i, n
-
-      mirrored = modulo(i - 1, 2*n)
-      mirrored = min(mirrored, 2*n - 1 - mirrored) + 1
-   end function mirrored
 
    elemental subroutine swap(a, b)
       integer, intent(inout) :: a, b

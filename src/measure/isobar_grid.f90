@@ -7,7 +7,7 @@
 module wavycon_isobar_grid
    use wavycon_constants, only: pi
    use wavycon_contact_edge, only: contact_edge, edge_point
-   use wavycon_cosine_series, only: cosine_series, cosine_table, evaluate_line, folded
+   use wavycon_fourier_series, only: fourier_series, cosine_table, evaluate_line, folded
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgemm
    use wavycon_line_zeros, only: zero_between
@@ -36,7 +36,7 @@ contains
    !> Evaluates a pressure series on the grid.
    subroutine start_isobar_grid(grid, pressure, level, intervals)
       type(isobar_grid), intent(out) :: grid
-      type(cosine_series), intent(in) :: pressure   !! p/p* in 2-D
+      type(fourier_series), intent(in) :: pressure   !! p/p* in 2-D
       real(dp), intent(in) :: level                 !! over p*
       integer, intent(in) :: intervals              !! N >= 1
 

@@ -1,7 +1,7 @@
 !> Zeros of a cosine series along a line.
 module wavycon_line_zeros
    use wavycon_constants, only: pi
-   use wavycon_cosine_series, only: evaluate_line
+   use wavycon_fourier_series, only: evaluate_line
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
@@ -32,24 +32,25 @@ contains
       allocate (zeros, source=found(:count))
    end subroutine line_zeros
 
-   !> The length of the parts of 0..pi that are inside, given where inside and outside change.
-   pure real(dp) function length_inside(edges, starts_inside) result(length)
+   !> The length of the parts of a range that are inside, given where inside and outside change.
+   pure real(dp) function length_inside(edges, starts_inside, first, last) result(length)
       real(dp), intent(in) :: edges(:)          !! ascending [rad]
       logical, intent(in) :: starts_inside
+      real(dp), intent(in) :: first, last       !! ends of the range [rad]
 
       real(dp) :: from
       logical :: inside
       integer :: i
 
       length = 0.0_dp
-      from = 0.0_dp
+      from = first
       inside = starts_inside
       do i = 1, size(edges)
          if (inside) length = length + edges(i) - from
          from = edges(i)
          inside = .not. inside
       end do
-      if (inside) length = length + pi - from
+      if (inside) length = length + last - from
    end function length_inside
 
    !> Where sum_i c_i cos(i x) changes sign between two points: Newton's method, kept inside the bracket by bisection.

@@ -1,6 +1,6 @@
 !> <case>.coefficients.dat: the Fourier coefficients of the pressure, A_i of eq. (12) or A_ij of eq. (25), a block a load.
 module wavycon_coefficients_table
-   use wavycon_cosine_series, only: cosine_series
+   use wavycon_fourier_series, only: fourier_series
    use wavycon_error, only: error_type
    use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
@@ -18,7 +18,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(output_file) :: file
-      type(cosine_series) :: pressure, displacement
+      type(fourier_series) :: pressure, displacement
       real(dp) :: approach
       integer :: load, i, j
 

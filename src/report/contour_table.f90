@@ -1,8 +1,9 @@
-!> <case>.contour.dat: the edge of contact, the isobar p = edge_level p*, as closed curves in the user's axes.
+!> <case>.contour.dat: the edge of contact, the isobar p = edge_level p*, as closed curves.
 !>
-!> A block a load that has an edge, a blank line between curves. In 2-D a curve has the contact on its left in (phi, theta);
+!> A block a load that has an edge, a blank line between curves. In 2-D a curve has the contact on its left;
 !> it is of one piece and may reach beyond the cell. In 1-D a curve is the two ends of a strip.
 module wavycon_contour_table
+   use wavycon_constants, only: pi
    use wavycon_error, only: error_type
    use wavycon_edge_curves, only: edge_curve
    use wavycon_kinds, only: dp
@@ -44,14 +45,13 @@ contains
       type(results_type), intent(in) :: results
       type(output_file), intent(inout) :: file
       integer, intent(in) :: load
-      type(edge_curve), intent(in) :: curve
+      type(edge_curve), intent(in) :: curve   !! in X and Y
 
-      real(dp) :: x, y
       integer :: i
 
       do i = 1, size(curve%phi)
-         call results%scene%surface%point_at(curve%phi(i), curve%theta(i), x, y)
-         call file%put_values([results%states(load)%pbar_over_pstar, x, y])
+         call file%put_values([results%states(load)%pbar_over_pstar, &
+                               results%scene%surface%length*[curve%phi(i), curve%theta(i)]/(2*pi)])
       end do
    end subroutine put_curve
 

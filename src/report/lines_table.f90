@@ -1,12 +1,12 @@
-!> <case>.lines.dat: pressure, displacement and gap along the lines of symmetry, a block a load.
+!> <case>.lines.dat: pressure, displacement and gap along lines, a block a load.
 !>
-!> Line 1 goes from a crest along phi to a trough. In 2-D line 2 goes from a crest along the diagonal over the saddle to the
-!> next crest; a blank line parts the two. With `theory` the closed forms stand beside the numbers: in 1-D Westergaard's
+!> Line 1 goes from a crest along x, in 2-D line 2 from the same crest along the diagonal of the cell; a blank line parts the
+!> two. They end half a cell away if the surface mirrors itself there, else after a whole one. With `theory` the closed forms stand beside the numbers: in 1-D Westergaard's
 !> solution and the Dundurs-Tsai-Keer series of as many terms, in 2-D the Hertz pressure about the nearest crest (light
 !> load) and the pressure in the penny-shaped crack about the nearest trough and its opening (heavy load).
 module wavycon_lines_table
-   use wavycon_constants, only: pi, sqrt2
-   use wavycon_cosine_series, only: cosine_series
+   use wavycon_constants, only: pi
+   use wavycon_fourier_series, only: fourier_series
    use wavycon_dundurs, only: dundurs_coefficients, dundurs_pressure_over_pstar
    use wavycon_error, only: error_type
    use wavycon_hertz_point, only: hertz_point_pressure_over_pstar
@@ -38,7 +38,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(output_file) :: file
-      type(cosine_series) :: pressure, displacement
+      type(fourier_series) :: pressure, displacement
       real(dp) :: approach
       integer :: load, line
 
@@ -65,25 +65,26 @@ contains
       type(results_type), intent(in) :: results
       type(output_file), intent(inout) :: file
       integer, intent(in) :: load, line
-      type(cosine_series), intent(in) :: pressure, displacement   !! of the load
+      type(fourier_series), intent(in) :: pressure, displacement   !! of the load
       real(dp), intent(in) :: approach                            !! over Delta, likewise
 
       real(dp), allocatable :: beside(:)
-      real(dp) :: dundurs(results%deck%method%harmonics), phi, theta, distance, x, y, u, load_p
+      real(dp) :: dundurs(results%deck%method%harmonics), start(2), way(2), angles(2), phi, theta, u, load_p
       integer :: k, intervals
 
       load_p = results%states(load)%pbar_over_pstar
       dundurs = 0.0_dp
       if (results%deck%output%theory .and. results%scene%surface%dimension == 1) &
          dundurs = dundurs_coefficients(load_p, size(dundurs))
-      intervals = results%deck%output%points_per_wavelength/2
+      intervals = results%deck%output%points_per_wavelength
       associate (surface => results%scene%surface)
+         start = surface%crest
+         if (surface%shape%is_even() .and. all(abs(start) <= 0.0_dp)) intervals = intervals/2
+         way = 2*pi*[1, merge(1, 0, line == 2)]/results%deck%output%points_per_wavelength
          do k = 0, intervals
-            phi = pi*k/intervals
-            theta = merge(phi, 0.0_dp, line == 2)
-            distance = surface%wavelength*k/(2*intervals)*merge(sqrt2, 1.0_dp, line == 2)
-            call surface%point_at(phi, theta, x, y)
-            u = displacement%at(phi, theta)
+            angles = start + k*way
+            call surface%paper_angles(angles(1), angles(2), phi, theta)
+            u = displacement%at(angles(1), angles(2))
             if (.not. results%deck%output%theory) then
                beside = [real(dp) ::]
             else if (surface%dimension == 1) then
@@ -93,24 +94,32 @@ contains
                          dundurs_pressure_over_pstar(phi, load_p, dundurs)]
             else
                beside = [hertz_point_pressure_over_pstar(nearest_crest(phi, theta), load_p), &
-                         crack_pressure(hypot(pi - phi, theta)/(2*pi), load_p), &
-                         crack_opening(hypot(pi - phi, theta)/(2*pi), load_p)]
+                         crack_pressure(nearest_crest(phi - pi, theta), load_p), &
+                         crack_opening(nearest_crest(phi - pi, theta), load_p)]
             end if
             call file%add(load_p)
             call file%add(line)
-            call file%add([distance, x, y, pressure%at(phi, theta), u, &
-                           surface%undeformed_gap_over_amplitude(phi, theta) + u - approach, beside])
+            call file%add([norm2(surface%length*k*way)/(2*pi), surface%length*angles/(2*pi), &
+                           pressure%at(angles(1), angles(2)), u, &
+                           surface%undeformed_gap_over_amplitude(angles(1), angles(2)) + u - approach, beside])
             call file%end_row()
          end do
       end associate
    end subroutine put_line
 
-   !> Distance from the nearest crest over the wavelength, 0 <= phi, theta <= pi.
+   !> Distance from the nearest crest of the wave (21) over its wavelength.
    pure real(dp) function nearest_crest(phi, theta)
       real(dp), intent(in) :: phi, theta
 
-      nearest_crest = min(hypot(phi, theta), hypot(pi - phi, pi - theta))/(2*pi)
+      nearest_crest = min(hypot(reduced(phi), reduced(theta)), hypot(reduced(phi - pi), reduced(theta - pi)))/(2*pi)
    end function nearest_crest
+
+   !> An angle between -pi and pi.
+   elemental real(dp) function reduced(angle)
+      real(dp), intent(in) :: angle
+
+      reduced = angle - 2*pi*nint(angle/(2*pi))
+   end function reduced
 
    !> (A4), zero outside the crack.
    pure real(dp) function crack_pressure(r_over_wavelength, pbar_over_pstar) result(pressure)

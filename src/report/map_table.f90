@@ -1,8 +1,7 @@
-!> <case>.map.dat: the fields over one cell in the user's axes, a block a load, a blank line between rows (gnuplot's grid
+!> <case>.map.dat: the fields over one cell, a block a load, a blank line between rows (gnuplot's grid
 !> format).
 module wavycon_map_table
-   use wavycon_constants, only: pi
-   use wavycon_cosine_series, only: cosine_series, folded
+   use wavycon_fourier_series, only: fourier_series
    use wavycon_error, only: error_type
    use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
@@ -32,34 +31,29 @@ contains
       call file%finish(error)
    end subroutine write_map_table
 
-   !> The cell has as many intervals N a side as points are asked for a wavelength. The nodes of a cell in turned axes are
-   !> nodes k = a + b, l = a - b of the grid phi = pi k/N, theta = pi l/N; those of a straight one k = 2a, l = 2b.
+   !> The cell has as many intervals a side as points are asked for.
    subroutine put_map(results, file, load)
       type(results_type), intent(in) :: results
       type(output_file), intent(inout) :: file
       integer, intent(in) :: load
 
-      type(cosine_series) :: pressure, displacement
-      real(dp), allocatable :: p(:, :), u(:, :)
-      real(dp) :: approach, side, h
-      integer :: a, b, k, l, n
+      type(fourier_series) :: pressure, displacement
+      real(dp), allocatable :: p(:, :), shape(:, :), u(:, :)
+      real(dp) :: approach
+      integer :: k, l, n
 
-      call results%series(load, pressure, displacement, approach)
       n = results%deck%output%points_per_wavelength
-      call pressure%evaluate_on_grid(n, p)
-      call displacement%evaluate_on_grid(n, u)
       associate (surface => results%scene%surface)
-         side = surface%cell_side()
-         do b = 0, merge(n, 0, surface%dimension == 2)
-            if (b > 0) call file%put('')
-            do a = 0, n
-               k = merge(a + b, 2*a, surface%turned)
-               l = merge(a - b, 2*b, surface%turned)
-               h = surface%undeformed_gap_over_amplitude(pi*k/n, pi*l/n)
-               k = folded(k, n)
-               l = folded(l, n)
-               call file%put_values([results%states(load)%pbar_over_pstar, side*a/n, side*b/n, h, &
-                                     p(k, l), u(k, l), h + u(k, l) - approach])
+         call results%series(load, pressure, displacement, approach)
+         call pressure%evaluate_on_cell(n, p)
+         call displacement%evaluate_on_cell(n, u)
+         call surface%shape%evaluate_on_cell(n, shape)
+         do l = 0, merge(n, 0, surface%dimension == 2)
+            if (l > 0) call file%put('')
+            do k = 0, n
+               call file%put_values([results%states(load)%pbar_over_pstar, surface%length(1)*k/n, &
+                                     surface%length(2)*l/n, 1.0_dp - shape(k, l), p(k, l), u(k, l), &
+                                     1.0_dp - shape(k, l) + u(k, l) - approach])
             end do
          end do
       end associate

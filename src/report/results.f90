@@ -2,7 +2,7 @@
 module wavycon_results
    use wavycon_contact_solver, only: contact_solver
    use wavycon_contact_state, only: contact_state
-   use wavycon_cosine_series, only: cosine_series
+   use wavycon_fourier_series, only: fourier_series
    use wavycon_deck, only: deck_type
    use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
@@ -24,6 +24,7 @@ module wavycon_results
       procedure :: open_table
       procedure :: put_load_heading
       procedure :: series
+      procedure :: mean_pressure
    end type results_type
 
 contains
@@ -40,14 +41,21 @@ contains
       if (self%deck%scene%title /= '') call file%put('# title: '//escaped(trim(self%deck%scene%title)))
       associate (surface => self%scene%surface, method => self%deck%method)
          call file%put('# surface: '//trim(self%deck%surface%kind)// &
-                       ', Delta[length] = '//exact_number(surface%amplitude)// &
-                       ', lambda[length] = '//exact_number(surface%wavelength))
+                       ', Delta[length] = '//exact_number(surface%amplitude)//cell_sides())
          call file%put('# material: e_star[pressure] = '//exact_number(self%scene%e_star)// &
                        ', p*[pressure] = '//exact_number(self%scene%p_star))
          call file%put('# method: '//trim(method%solver)//', '//self%contact%describe()//edge_level())
       end associate
 
    contains
+
+      function cell_sides() result(words)
+         character(:), allocatable :: words
+
+         words = ', cell_x[length] = '//exact_number(self%scene%surface%length(1))
+         if (self%scene%surface%dimension == 2) &
+            words = words//', cell_y[length] = '//exact_number(self%scene%surface%length(2))
+      end function cell_sides
 
       !> The isobar taken as the edge of contact, of the solver that needs one.
       function edge_level() result(words)
@@ -79,12 +87,24 @@ contains
    subroutine series(self, load, pressure, displacement, approach_over_amplitude)
       class(results_type), intent(in) :: self
       integer, intent(in) :: load
-      type(cosine_series), intent(out) :: pressure, displacement
+      type(fourier_series), intent(out) :: pressure, displacement
       real(dp), intent(out) :: approach_over_amplitude
 
       pressure = self%contact%pressure(self%states(load))
-      displacement = self%contact%displacement(self%states(load))
+      displacement = self%scene%surface%displacement_of(pressure)
       approach_over_amplitude = self%states(load)%measures%approach_over_amplitude
    end subroutine series
+
+   !> pbar of a load [pressure]; as given, where it was.
+   pure real(dp) function mean_pressure(self, load)
+      class(results_type), intent(in) :: self
+      integer, intent(in) :: load
+
+      if (allocated(self%scene%mean_pressure)) then
+         mean_pressure = self%scene%mean_pressure(load)
+      else
+         mean_pressure = self%scene%p_star*self%states(load)%pbar_over_pstar
+      end if
+   end function mean_pressure
 
 end module wavycon_results

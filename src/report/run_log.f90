@@ -1,18 +1,22 @@
 !> What the program says while it runs, on standard output.
 module wavycon_run_log
    use, intrinsic :: iso_fortran_env, only: int64, output_unit
+   use wavycon_grid_progress, only: grid_progress
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: escaped, integer_text, short_number
    use wavycon_results, only: results_type
+   use wavycon_scene, only: target_words
+   use wavycon_surface, only: surface_type
    use wavycon_system, only: stdout_is_terminal
    use wavycon_version, only: revision, version
    implicit none (type, external)
    private
 
-   public :: run_log
+   public :: log_progress, run_log
 
    !> Seconds between two progress lines on a terminal.
    real(dp), parameter :: progress_interval = 0.2_dp
+   integer, parameter :: progress_columns = 79
 
    type :: run_log
       private
@@ -28,6 +32,14 @@ module wavycon_run_log
       procedure :: show_progress
       procedure :: show_loads
    end type run_log
+
+   !> Shows the grids of a load.
+   type, extends(grid_progress) :: log_progress
+      type(run_log), pointer :: log => null()
+      integer :: load = 0, loads = 0
+   contains
+      procedure :: grid_solved
+   end type log_progress
 
 contains
 
@@ -75,33 +87,62 @@ contains
          call self%say('deck      '//escaped(deck%path))
          if (deck%scene%title /= '') call self%say('title     '//escaped(trim(deck%scene%title)))
          call self%say('surface   '//trim(deck%surface%kind)//', Delta = '//short_number(scene%surface%amplitude)// &
-                       ' [length], lambda = '//short_number(scene%surface%wavelength)//' [length]')
+                       ' [length], cell '//cell_of(scene%surface)//' [length]')
+         if (allocated(scene%map)) call self%say('map       '//integer_text(scene%map%points(1))//' x '// &
+            integer_text(scene%map%points(2))//' points ('//trim(scene%map%format)//'), heights over their mean '// &
+            short_number(scene%map%lowest)//' to '//short_number(scene%map%highest)//', rms '// &
+            short_number(scene%map%rms)//' [length]')
          call self%say('material  E* = '//short_number(scene%e_star)//' [pressure], p* = '// &
                        short_number(scene%p_star)//' [pressure]')
-         call self%say('loads     '//integer_text(size(scene%pbar_over_pstar))//', pbar/p* from '// &
-                       short_number(minval(scene%pbar_over_pstar))//' to '// &
-                       short_number(maxval(scene%pbar_over_pstar)))
+         call self%say('loads     '//integer_text(size(scene%target))//', '//target_words(scene%loads_by)//' from '// &
+                       short_number(minval(scene%target))//' to '//short_number(maxval(scene%target)))
          call self%say('method    '//trim(deck%method%solver)//', '//results%contact%describe())
       end associate
    end subroutine show_scene
 
-   !> A line that overwrites itself, on a terminal only and not too often.
+   !> "2 x 3"
+   pure function cell_of(surface) result(words)
+      type(surface_type), intent(in) :: surface
+      character(:), allocatable :: words
+
+      words = short_number(surface%length(1))
+      if (surface%dimension == 2) words = words//' x '//short_number(surface%length(2))
+   end function cell_of
+
    subroutine show_progress(self, done, all)
       class(run_log), intent(inout) :: self
       integer, intent(in) :: done, all   !! loads
 
-      integer(int64) :: now
-      character(60) :: line
-
-      if (self%quiet .or. .not. self%terminal) return
-      call system_clock(now)
-      if (now - self%last_progress < progress_interval*self%rate) return
-      self%last_progress = now
-      write (line, '(a, i0, a, i0)') 'solved ', done, ' of ', all
-      write (output_unit, '(3a)', advance='no') achar(13), trim(line), repeat(' ', len(line) - len_trim(line))
-      flush (output_unit)
-      self%progress_shown = .true.
+      call put_progress(self, 'solved '//integer_text(done)//' of '//integer_text(all))
    end subroutine show_progress
+
+   subroutine grid_solved(self, points, iterations, residual)
+      class(log_progress), intent(in) :: self
+      integer, intent(in) :: points(2), iterations
+      real(dp), intent(in) :: residual
+
+      call put_progress(self%log, 'load '//integer_text(self%load)//' of '//integer_text(self%loads)//': '// &
+                        integer_text(points(1))//' x '//integer_text(points(2))//' points, '// &
+                        integer_text(iterations)//' iterations, residual '//short_number(residual))
+   end subroutine grid_solved
+
+   !> A line that overwrites itself, on a terminal only and not too often.
+   subroutine put_progress(log, words)
+      class(run_log), intent(inout) :: log
+      character(*), intent(in) :: words
+
+      integer(int64) :: now
+      character(progress_columns) :: line
+
+      if (log%quiet .or. .not. log%terminal) return
+      call system_clock(now)
+      if (now - log%last_progress < progress_interval*log%rate) return
+      log%last_progress = now
+      line = words
+      write (output_unit, '(2a)', advance='no') achar(13), line
+      flush (output_unit)
+      log%progress_shown = .true.
+   end subroutine put_progress
 
    !> A line a load.
    subroutine show_loads(self, results)
@@ -118,7 +159,7 @@ contains
       do i = 1, size(results%states)
          associate (state => results%states(i), measures => results%states(i)%measures)
             write (line, '(5a, 2i8, es9.1, 2x, a)') &
-               cell(state%pbar_over_pstar), cell(results%scene%mean_pressure(i)), &
+               cell(state%pbar_over_pstar), cell(results%mean_pressure(i)), &
                cell(measures%mean_gap_over_amplitude), cell(measures%contact_area_fraction), &
                cell(measures%peak_pressure_over_pstar), state%active_constraints, state%pivots, &
                state%kkt_residual, trim(state%status)
@@ -144,7 +185,7 @@ contains
       class(run_log), intent(inout) :: self
 
       if (.not. self%progress_shown) return
-      write (output_unit, '(3a)', advance='no') achar(13), repeat(' ', 60), achar(13)
+      write (output_unit, '(3a)', advance='no') achar(13), repeat(' ', progress_columns), achar(13)
       self%progress_shown = .false.
    end subroutine clear_progress
 

@@ -32,7 +32,7 @@ contains
       call file%put_columns([character(40) :: columns, pack(error_columns, spread(with_errors, 1, 3)), 'status[-]'])
       do i = 1, size(results%states)
          associate (state => results%states(i), measures => results%states(i)%measures)
-            call file%add([state%pbar_over_pstar, results%scene%mean_pressure(i), &
+            call file%add([state%pbar_over_pstar, results%mean_pressure(i), &
                            measures%mean_gap_over_amplitude, measures%approach_over_amplitude, &
                            measures%contact_area_fraction, measures%peak_pressure_over_pstar, &
                            measures%min_pressure_over_pstar])

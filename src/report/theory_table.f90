@@ -48,7 +48,7 @@ contains
          call file%put_columns(columns_2d)
       end if
       do load = 1, size(results%states)
-         associate (p => results%states(load)%pbar_over_pstar, wavelength => results%scene%surface%wavelength)
+         associate (p => results%states(load)%pbar_over_pstar, wavelength => results%scene%surface%paper_wavelength())
             if (results%scene%surface%dimension == 1) then
                call file%put_values([p, kuznetsov_mean_gap_over_amplitude(p), westergaard_contact_area_fraction(p), &
                                      westergaard_peak_pressure_over_pstar(p), hertz_line_contact_area_fraction(p), &

@@ -5,7 +5,9 @@ module wavycon_choose_solver
    use wavycon_deck, only: deck_type
    use wavycon_fourier_contact, only: fourier_contact
    use wavycon_grid_contact, only: grid_contact
+   use wavycon_kinds, only: dp
    use wavycon_scene, only: scene_type
+   use wavycon_surface, only: no_paper_wave
    implicit none (type, external)
    private
 
@@ -20,10 +22,10 @@ contains
       type(scene_type), intent(in) :: scene
       class(contact_solver), allocatable, intent(out) :: solver
 
-      associate (method => deck%method, dimension => scene%surface%dimension)
+      associate (method => deck%method, surface => scene%surface)
          if (method%solver == 'beale') then
             allocate (fourier_contact :: solver)
-         else if (method%solver == 'auto' .and. dimension == 1) then
+         else if (method%solver == 'auto' .and. surface%dimension == 1 .and. surface%paper_wave() /= no_paper_wave) then
             allocate (closed_form_contact :: solver)
          else
             allocate (grid_contact :: solver)
@@ -31,12 +33,26 @@ contains
 
          select type (solver)
          type is (fourier_contact)
-            call solver%start(dimension, method%harmonics, method%constraint_points, scene%symmetry, method%edge_level)
+            call solver%start(surface, method%harmonics, method%constraint_points, scene%symmetry, method%edge_level)
+         type is (closed_form_contact)
+            call solver%start(surface)
          type is (grid_contact)
-            call solver%start(dimension, method%accuracy, &
-                              keep_fields=deck%output%lines .or. deck%output%map .or. deck%output%contours)
+            call solver%start(surface, method%accuracy, &
+                              keep_fields=deck%output%lines .or. deck%output%map .or. deck%output%contours, &
+                              points=grid_asked_for())
          end select
       end associate
+
+   contains
+
+      !> That of the deck, or that of the file if the deck asks for no accuracy.
+      pure function grid_asked_for() result(points)
+         integer :: points(2)
+
+         points = deck%method%grid_points
+         if (all(points == 0) .and. .not. deck%method%accuracy > 0.0_dp) points = scene%surface%points
+      end function grid_asked_for
+
    end subroutine choose_solver
 
 end module wavycon_choose_solver

@@ -6,43 +6,37 @@ module wavycon_scene
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_fourier_terms, only: choose_terms, fourier_terms, symmetry_diagonal, symmetry_full, symmetry_none
    use wavycon_kinds, only: dp
-   use wavycon_load_group, only: largest_pbar_over_pstar
+   use wavycon_load_group, only: by_contact_area, by_mean_gap, by_pressure, largest_pbar_over_pstar
    use wavycon_plain_text, only: escaped, integer_text, short_number
-   use wavycon_surface, only: crossed_1d, surface_type, wave_1d, wave_2d
+   use wavycon_scene_surface, only: map_statistics, surface_of_deck
+   use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
 
-   public :: scene_type, make_scene
+   public :: scene_type, make_scene, target_words
 
    type :: scene_type
       type(surface_type) :: surface
+      type(map_statistics), allocatable :: map      !! of a height map
       real(dp) :: e_star = 1.0_dp                   !! plane-strain modulus [pressure]
       real(dp) :: p_star = 0.0_dp                   !! p*, mean pressure that just closes the gap [pressure]
-      real(dp), allocatable :: pbar_over_pstar(:)   !! loads in the deck's order
-      real(dp), allocatable :: mean_pressure(:)     !! the same [pressure]
+      integer :: loads_by = by_pressure             !! what the loads are given by: a name of wavycon_load_group
+      real(dp), allocatable :: target(:)            !! in the deck's order: P, G or the contact area fraction
+      real(dp), allocatable :: mean_pressure(:)     !! [pressure]; allocated where loads are given by pressure
       integer :: symmetry = symmetry_full           !! of the Fourier terms
    end type scene_type
 
 contains
 
-   !> Makes the scene of a deck. Errors: exit_bad_input for a mean pressure absurdly above p*.
+   !> Makes the scene of a deck. Errors: exit_bad_input for loads that the surface cannot have and for a bad height map,
+   !> exit_file_trouble for one that cannot be read.
    subroutine make_scene(deck, scene, error)
       type(deck_type), intent(in) :: deck
       type(scene_type), intent(out) :: scene
       type(error_type), allocatable, intent(out) :: error
 
-      real(dp) :: worst
-
-      associate (surface => deck%surface)
-         select case (surface%kind)
-         case ('wave_1d')
-            scene%surface = wave_1d(surface%amplitude, surface%wavelength)
-         case ('wave_2d')
-            scene%surface = wave_2d(surface%amplitude, surface%wavelength)
-         case ('crossed_1d')
-            scene%surface = crossed_1d(surface%amplitude1, surface%wavelength1)
-         end select
-      end associate
+      call surface_of_deck(deck, scene%surface, scene%map, error)
+      if (allocated(error)) return
       scene%e_star = deck%material%e_star
       scene%p_star = scene%surface%full_contact_pressure(scene%e_star)
       select case (deck%method%symmetry)
@@ -51,11 +45,39 @@ contains
       case ('diagonal')
          scene%symmetry = symmetry_diagonal
       end select
-
       call check_size(deck, scene, error)
       if (allocated(error)) return
+      call take_loads(deck, scene, error)
+   end subroutine make_scene
 
-      if (allocated(deck%load%mean_pressure)) then
+   !> Errors: exit_bad_input.
+   subroutine take_loads(deck, scene, error)
+      type(deck_type), intent(in) :: deck
+      type(scene_type), intent(inout) :: scene
+      type(error_type), allocatable, intent(out) :: error
+
+      real(dp) :: worst
+
+      scene%loads_by = deck%load%given_by()
+      if (scene%loads_by /= by_pressure .and. scene%p_star <= 0.0_dp) then
+         call fatal_error(error, exit_bad_input, escaped(deck%path)// &
+                          ': the surface is flat: it has neither a gap nor a part in contact to ask for')
+         return
+      end if
+      if (allocated(deck%load%mean_gap_over_amplitude)) then
+         allocate (scene%target, source=deck%load%mean_gap_over_amplitude)
+      else if (allocated(deck%load%contact_area_fraction)) then
+         allocate (scene%target, source=deck%load%contact_area_fraction)
+      else if (allocated(deck%load%mean_gap)) then
+         worst = maxval(deck%load%mean_gap)
+         if (worst > scene%surface%amplitude) then
+            call fatal_error(error, exit_bad_input, escaped(deck%path)//': mean_gap = '//short_number(worst)// &
+                             ' is more than the mean gap before load, '//short_number(scene%surface%amplitude)// &
+                             '. Do the units of the lengths agree?')
+            return
+         end if
+         allocate (scene%target, source=deck%load%mean_gap/scene%surface%amplitude)
+      else if (allocated(deck%load%mean_pressure)) then
          allocate (scene%mean_pressure, source=deck%load%mean_pressure)
          worst = maxval(scene%mean_pressure)
          ! Before the division, which may overflow.
@@ -66,13 +88,28 @@ contains
                              '. Do its unit and that of e_star agree, and those of the lengths?')
             return
          end if
-         allocate (scene%pbar_over_pstar, source=in_p_star(scene%mean_pressure, scene%p_star))
+         allocate (scene%target, source=in_p_star(scene%mean_pressure, scene%p_star))
       else
          allocate (scene%mean_pressure, source=scene%p_star*deck%load%pbar_over_pstar)
-         allocate (scene%pbar_over_pstar, source=deck%load%pbar_over_pstar)
-         if (scene%p_star <= 0.0_dp) scene%pbar_over_pstar = in_p_star(scene%mean_pressure, scene%p_star)
+         allocate (scene%target, source=deck%load%pbar_over_pstar)
+         if (scene%p_star <= 0.0_dp) scene%target = in_p_star(scene%mean_pressure, scene%p_star)
       end if
-   end subroutine make_scene
+   end subroutine take_loads
+
+   !> What the loads are given by, as a heading.
+   pure function target_words(loads_by) result(words)
+      integer, intent(in) :: loads_by   !! a name of wavycon_load_group
+      character(:), allocatable :: words
+
+      select case (loads_by)
+      case (by_mean_gap)
+         words = 'gap/Delta'
+      case (by_contact_area)
+         words = 'area/A0'
+      case default
+         words = 'pbar/p*'
+      end select
+   end function target_words
 
    !> Refuses a series whose constraint matrix would fill the memory. Errors: exit_bad_input.
    subroutine check_size(deck, scene, error)

@@ -1,98 +1,273 @@
-!> The wavy surfaces: the gap h before deformation, and the pressure that closes it.
+!> Periodic surfaces: the gap h before deformation, and the pressure that closes it.
 module wavycon_surface
    use wavycon_constants, only: pi, sqrt2
+   use wavycon_fourier_series, only: fourier_series
+   use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
+   use wavycon_series_peak, only: find_peak
+   use wavycon_turned_series, only: to_sum_angles
    implicit none (type, external)
    private
 
-   public :: surface_type, wave_1d, wave_2d, crossed_1d
+   public :: surface_type, surface_of_series, surface_of_points
 
-   !> A wave with a flat. phi = 2 pi x/lambda, theta = 2 pi y/lambda:
-   !>   dimension 1: h/Delta = 1 - cos phi                (Johnson, Greenwood & Higginson 1985, eq. 3)
-   !>   dimension 2: h/Delta = 1 - cos phi cos theta      (eq. 21)
+   !> How the cell lies to the wave of Johnson, Greenwood & Higginson (1985), where the surface is that: eq. (3) or (21) in
+   !> phi = X, theta = Y, or (21) in phi = (X + Y)/2, theta = (X - Y)/2.
+   integer, parameter, public :: no_paper_wave = 0, straight_paper_wave = 1, turned_paper_wave = 2
+
+   !> h/Delta = 1 - shape(X, Y),  X = 2 pi x/L_x,  Y = 2 pi y/L_y, with a `shape` of mean zero and peak one: the surfaces
+   !> touch first at its peaks, and Delta is the mean gap before load, for the waves of the paper their amplitude.
    type :: surface_type
       integer :: dimension = 2
-      real(dp) :: amplitude = 1.0_dp       !! Delta [length], >= 0
-      real(dp) :: wavelength = 1.0_dp      !! lambda of phi and theta [length], > 0
-      logical :: turned = .false.          !! the user's axes are turned by 45 degrees against those of phi and theta
+      real(dp) :: length(2) = 1.0_dp            !! L_x, L_y, sides of the periodic cell [length]
+      real(dp) :: amplitude = 1.0_dp            !! Delta [length], >= 0
+      type(fourier_series) :: shape
+      integer :: points(2) = 0                  !! of the grid that it was given on; zeros for a sum of waves
+      real(dp) :: crest(2) = 0.0_dp             !! X, Y of a peak of the shape [rad]
+      real(dp) :: stiffness = 1.0_dp            !! pressure [p*] of a displacement [Delta] times its wavelength [length]
+      real(dp) :: full_contact_peak = 1.0_dp    !! largest p - pbar in full contact [p*]; the least is -1
+      real(dp) :: crest_curvature = 1.0_dp      !! largest sum of the two curvatures over 4 pi^2 Delta [1/length^2]
    contains
       procedure :: full_contact_pressure
       procedure :: undeformed_gap_over_amplitude
-      procedure :: cell_side
-      procedure :: point_at
+      procedure :: frequency
+      procedure :: pressure_of
+      procedure :: displacement_of
+      procedure :: paper_wave
+      procedure :: paper_wavelength
+      procedure :: paper_angles
+      procedure :: has_smaller_cell
+      procedure :: smaller_cell
    end type surface_type
+
+   !> Coefficients of a shape that differ by less are alike: they are sums of a few numbers below one.
+   real(dp), parameter :: rounding = 1e-13_dp
 
 contains
 
-   !> One-dimensional wave of eq. (3).
-   pure type(surface_type) function wave_1d(amplitude, wavelength) result(surface)
-      real(dp), intent(in) :: amplitude    !! Delta [length], >= 0
-      real(dp), intent(in) :: wavelength   !! lambda [length], > 0
+   !> The surface whose height over its mean plane is a series.
+   type(surface_type) function surface_of_series(length, height) result(surface)
+      real(dp), intent(in) :: length(2)            !! L_x, L_y [length], > 0
+      type(fourier_series), intent(in) :: height   !! [length]; its mean does not matter
 
-      surface = surface_type(1, amplitude, wavelength, .false.)
-   end function wave_1d
+      type(fourier_series) :: waves
+      real(dp) :: lowest, unused(2)
 
-   !> Two-dimensional wave of eq. (21).
-   pure type(surface_type) function wave_2d(amplitude, wavelength) result(surface)
-      real(dp), intent(in) :: amplitude    !! Delta [length], >= 0
-      real(dp), intent(in) :: wavelength   !! lambda [length], > 0
+      waves = height
+      waves%c(0, 0) = 0.0_dp
+      surface%length = length
+      surface%dimension = merge(1, 2, ubound(height%c, 2) == 0)
+      call find_peak(waves, surface%amplitude, surface%crest)
+      if (.not. surface%amplitude > 0.0_dp) surface%amplitude = 0.0_dp
+      surface%shape = scaled(waves, surface%amplitude)
+      if (surface%amplitude <= 0.0_dp) return
+      waves = weighted(surface, surface%shape, 1)
+      call find_peak(waves, surface%full_contact_peak, unused)
+      call find_peak(scaled(waves, -1.0_dp), lowest, unused)
+      surface%stiffness = 1.0_dp/lowest
+      surface%full_contact_peak = surface%full_contact_peak/lowest
+      call find_peak(weighted(surface, surface%shape, 2), surface%crest_curvature, unused)
+   end function surface_of_series
 
-      surface = surface_type(2, amplitude, wavelength, .false.)
-   end function wave_2d
+   !> The surface that takes given heights on a grid of its whole cell, between whose points it is as smooth as they allow.
+   !> Its peaks are looked for on the points alone.
+   type(surface_type) function surface_of_points(length, height) result(surface)
+      real(dp), intent(in) :: length(2)                      !! L_x, L_y [length], > 0
+      real(dp), intent(inout), contiguous :: height(:, :)    !! [length], shape (M, N), N = 1 for a profile; kept
 
-   !> Two blocks with the same one-dimensional wave, crossed at right angles. Their gap
-   !> a (1 - cos X) + a (1 - cos Y) is that of eq. (21) with Delta = 2a, lambda = sqrt2 times theirs and the axes
-   !> turned by 45 degrees: phi = (X + Y)/2, theta = (X - Y)/2.
-   pure type(surface_type) function crossed_1d(amplitude, wavelength) result(surface)
-      real(dp), intent(in) :: amplitude    !! a, of each block [length], >= 0
-      real(dp), intent(in) :: wavelength   !! of each block [length], > 0
+      type(grid_transform) :: transform
+      type(fourier_series) :: waves
+      real(dp), allocatable :: values(:, :)
+      integer :: best(2)
 
-      surface = surface_type(2, 2*amplitude, sqrt2*wavelength, .true.)
-   end function crossed_1d
+      surface%length = length
+      surface%dimension = merge(1, 2, size(height, 2) == 1)
+      surface%points = shape(height)
+      call transform%start(shape(height), even=.false.)
+      call transform%series(height, waves)
+      waves%c(0, 0) = 0.0_dp
+      allocate (values, mold=height)
+      call transform%sample(waves, values)
+      best = maxloc(values)
+      surface%crest = [transform%x_angle(best(1)), transform%y_angle(best(2))]
+      surface%amplitude = maxval(values)
+      surface%shape = scaled(waves, surface%amplitude)
+      if (surface%amplitude <= 0.0_dp) return
+      waves = weighted(surface, surface%shape, 1)
+      call transform%sample(waves, values)
+      surface%stiffness = -1.0_dp/minval(values)
+      surface%full_contact_peak = maxval(values)*surface%stiffness
+      waves = weighted(surface, surface%shape, 2)
+      call transform%sample(waves, values)
+      surface%crest_curvature = maxval(values)
+   end function surface_of_points
 
-   !> p*, the mean pressure that just closes the gap everywhere: pi E* Delta/lambda in 1-D (eq. 7), sqrt2 times
-   !> that in 2-D (eq. 22).
+   !> p*, the mean pressure that just closes the gap everywhere: pi E* Delta/lambda in 1-D (eq. 7), sqrt2 times that in 2-D
+   !> (eq. 22); for any surface the depth of its deepest full-contact pressure.
    elemental real(dp) function full_contact_pressure(self, e_star)
       class(surface_type), intent(in) :: self
       real(dp), intent(in) :: e_star   !! plane-strain modulus E* [pressure]
 
-      full_contact_pressure = pi*e_star*self%amplitude/self%wavelength
-      if (self%dimension == 2) full_contact_pressure = sqrt2*full_contact_pressure
+      full_contact_pressure = pi*e_star*self%amplitude/self%stiffness
    end function full_contact_pressure
 
    !> h/Delta.
-   elemental real(dp) function undeformed_gap_over_amplitude(self, phi, theta) result(gap)
+   elemental real(dp) function undeformed_gap_over_amplitude(self, x, y) result(gap)
       class(surface_type), intent(in) :: self
-      real(dp), intent(in) :: phi, theta   !! [rad]; theta does not matter in 1-D
+      real(dp), intent(in) :: x, y   !! X, Y [rad]
 
-      if (self%dimension == 1) then
-         gap = 1.0_dp - cos(phi)
-      else
-         gap = 1.0_dp - cos(phi)*cos(theta)
-      end if
+      gap = 1.0_dp - self%shape%at(x, y)
    end function undeformed_gap_over_amplitude
 
-   !> Side of the periodic cell in the user's axes [length].
-   elemental real(dp) function cell_side(self)
+   !> One over the wavelength of a harmonic [1/length].
+   elemental real(dp) function frequency(self, m, n)
+      class(surface_type), intent(in) :: self
+      integer, intent(in) :: m, n   !! wave numbers in X and Y
+
+      frequency = hypot(m/self%length(1), n/self%length(2))
+   end function frequency
+
+   !> The pressure (p - pbar)/p* of a displacement (u - ubar)/Delta: Johnson, Greenwood & Higginson (1985), App. 1.
+   type(fourier_series) function pressure_of(self, displacement) result(pressure)
+      class(surface_type), intent(in) :: self
+      type(fourier_series), intent(in) :: displacement
+
+      pressure = scaled(weighted(self, displacement, 1), 1.0_dp/self%stiffness)
+   end function pressure_of
+
+   !> The other way round.
+   type(fourier_series) function displacement_of(self, pressure) result(displacement)
+      class(surface_type), intent(in) :: self
+      type(fourier_series), intent(in) :: pressure
+
+      displacement = scaled(weighted(self, pressure, -1), self%stiffness)
+   end function displacement_of
+
+   !> A series with each term times a power of its frequency; none is left of its mean.
+   type(fourier_series) function weighted(surface, series, power)
+      class(surface_type), intent(in) :: surface
+      type(fourier_series), intent(in) :: series
+      integer, intent(in) :: power
+
+      real(dp) :: weight
+      integer :: i, j
+
+      weighted = series
+      do j = 0, ubound(series%c, 2)
+         do i = 0, ubound(series%c, 1)
+            weight = 0.0_dp
+            if (i + j > 0) weight = surface%frequency(i, j)**power
+            weighted%c(i, j) = weight*weighted%c(i, j)
+            if (series%is_even()) cycle
+            weighted%cs(i, j) = weight*weighted%cs(i, j)
+            weighted%sc(i, j) = weight*weighted%sc(i, j)
+            weighted%ss(i, j) = weight*weighted%ss(i, j)
+         end do
+      end do
+   end function weighted
+
+   !> A series over a number; over zero it stays.
+   type(fourier_series) function scaled(series, unit)
+      type(fourier_series), intent(in) :: series
+      real(dp), intent(in) :: unit
+
+      scaled = series
+      if (.not. abs(unit) > 0.0_dp) return
+      scaled%c = scaled%c/unit
+      if (series%is_even()) return
+      scaled%cs = scaled%cs/unit
+      scaled%sc = scaled%sc/unit
+      scaled%ss = scaled%ss/unit
+   end function scaled
+
+   !> One of the names above.
+   pure integer function paper_wave(self)
       class(surface_type), intent(in) :: self
 
-      cell_side = self%wavelength
-      if (self%turned) cell_side = self%wavelength/sqrt2
-   end function cell_side
-
-   !> A point in the user's axes.
-   elemental subroutine point_at(self, phi, theta, x, y)
-      class(surface_type), intent(in) :: self
-      real(dp), intent(in) :: phi, theta   !! [rad]
-      real(dp), intent(out) :: x, y        !! [length]
-
-      if (self%turned) then
-         x = self%cell_side()*(phi + theta)/(2*pi)
-         y = self%cell_side()*(phi - theta)/(2*pi)
-      else
-         x = self%wavelength*phi/(2*pi)
-         y = self%wavelength*theta/(2*pi)
+      paper_wave = no_paper_wave
+      if (.not. self%shape%is_even()) return
+      if (self%dimension == 1) then
+         if (is_wave(1, 0)) paper_wave = straight_paper_wave
+      else if (is_square(self)) then
+         if (is_wave(1, 1)) paper_wave = straight_paper_wave
+         if (is_wave(1, 0)) paper_wave = turned_paper_wave
       end if
-   end subroutine point_at
+
+   contains
+
+      !> Whether the shape is cos iX cos jY, or alike in both angles.
+      pure logical function is_wave(i, j)
+         integer, intent(in) :: i, j
+
+         real(dp) :: rest(0:ubound(self%shape%c, 1), 0:ubound(self%shape%c, 2))
+
+         is_wave = .false.
+         if (max(i, j) > ubound(self%shape%c, 1)) return
+         if (self%dimension == 2 .and. i > ubound(self%shape%c, 2)) return
+         if (j > ubound(self%shape%c, 2)) return
+         rest = self%shape%c
+         rest(i, j) = rest(i, j) - 1.0_dp/merge(1, 2, i == j .or. self%dimension == 1)
+         if (i /= j .and. self%dimension == 2) rest(j, i) = rest(j, i) - 0.5_dp
+         is_wave = all(abs(rest) <= rounding)
+      end function is_wave
+
+   end function paper_wave
+
+   !> lambda of phi and theta [length].
+   pure real(dp) function paper_wavelength(self)
+      class(surface_type), intent(in) :: self   !! a wave of the paper
+
+      paper_wavelength = self%length(1)
+      if (self%paper_wave() == turned_paper_wave) paper_wavelength = sqrt2*self%length(1)
+   end function paper_wavelength
+
+   !> phi and theta of a point.
+   pure subroutine paper_angles(self, x, y, phi, theta)
+      class(surface_type), intent(in) :: self   !! a wave of the paper
+      real(dp), intent(in) :: x, y              !! X, Y [rad]
+      real(dp), intent(out) :: phi, theta       !! [rad]
+
+      phi = x
+      theta = y
+      if (self%paper_wave() == turned_paper_wave) then
+         phi = 0.5_dp*(x + y)
+         theta = 0.5_dp*(x - y)
+      end if
+   end subroutine paper_angles
+
+   !> Whether the surface repeats itself on a square of half the area, turned by 45 degrees, in which it is even and alike in
+   !> both directions.
+   pure logical function has_smaller_cell(self)
+      class(surface_type), intent(in) :: self
+
+      integer :: i, j, n
+
+      n = ubound(self%shape%c, 1)
+      has_smaller_cell = self%dimension == 2 .and. self%shape%is_even() .and. is_square(self) .and. &
+                         n == ubound(self%shape%c, 2)
+      if (.not. has_smaller_cell) return
+      has_smaller_cell = all(abs(self%shape%c - transpose(self%shape%c)) <= rounding)
+      do j = 0, n
+         do i = 0, n
+            if (mod(i + j, 2) == 1) has_smaller_cell = has_smaller_cell .and. abs(self%shape%c(i, j)) <= rounding
+         end do
+      end do
+   end function has_smaller_cell
+
+   !> The same surface on that cell: its angles are X + Y and X - Y.
+   type(surface_type) function smaller_cell(self) result(surface)
+      class(surface_type), intent(in) :: self   !! that has one
+
+      surface = self
+      surface%shape = to_sum_angles(self%shape)
+      surface%length = self%length/sqrt2
+      surface%crest = [self%crest(1) + self%crest(2), self%crest(1) - self%crest(2)]
+   end function smaller_cell
+
+   pure logical function is_square(surface)
+      class(surface_type), intent(in) :: surface
+
+      is_square = abs(surface%length(1) - surface%length(2)) <= rounding*surface%length(1)
+   end function is_square
 
 end module wavycon_surface

@@ -8,7 +8,7 @@
 program bench_paper_method
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use samples, only: clock_ms, sample_set
-   use wavycon, only: beale_solver, contact_state, cosine_series, dp, fourier_contact, qp_problem, &
+   use wavycon, only: beale_solver, contact_state, fourier_series, dp, fourier_contact, qp_problem, &
                       qp_solution, qp_status_name, symmetry_diagonal, symmetry_full
    implicit none (type, external)
 
@@ -227,7 +227,7 @@ contains
       real(dp), intent(in) :: load
       real(dp), intent(in) :: gap   !! G that the answer is compared with
 
-      type(cosine_series) :: displacement
+      type(fourier_series) :: displacement
       real(dp) :: own_gap
 
       displacement = self%fresh%displacement(self%state)

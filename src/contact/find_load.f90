@@ -1,0 +1,126 @@
+!> The load that leaves a given mean gap, or makes a given contact area.
+module wavycon_find_load
+   use wavycon_contact_solver, only: contact_solver
+   use wavycon_contact_state, only: contact_state, not_accurate
+   use wavycon_kinds, only: dp
+   implicit none (type, external)
+   private
+
+   public :: solve_for_contact_area, solve_for_mean_gap
+
+   !> The root is met to this part of the accuracy asked for, and to this part of the target and of what it lacks to one.
+   real(dp), parameter :: part_of_accuracy = 0.01_dp, part_of_target = 1e-6_dp
+   !> A solver that knows accuracies comes to its own by way of cheaper ones.
+   real(dp), parameter :: first_accuracy = 1e-2_dp, accuracy_ratio = 0.1_dp
+   integer, parameter :: most_solves = 60
+
+   !> ln P/(1-P) against the same of the contact area, or of one less the gap: nearly straight, with slopes from 2/3 to 5/2.
+   type :: root_search
+      real(dp) :: target = 0.5_dp          !! 0 < target < 1
+      logical :: of_gap = .false.
+      real(dp) :: place = 0.0_dp           !! ln P/(1-P)
+      real(dp) :: slope = 1.0_dp
+   end type root_search
+
+contains
+
+   !> Errors of the answer: its status is not_accurate if the area could not be met.
+   subroutine solve_for_contact_area(solver, contact_area_fraction, state)
+      class(contact_solver), intent(inout) :: solver
+      real(dp), intent(in) :: contact_area_fraction   !! 0 .. 1
+      type(contact_state), intent(out) :: state
+
+      call solve_for(solver, root_search(target=contact_area_fraction, of_gap=.false.), state)
+   end subroutine solve_for_contact_area
+
+   !> Likewise of the gap.
+   subroutine solve_for_mean_gap(solver, mean_gap_over_amplitude, state)
+      class(contact_solver), intent(inout) :: solver
+      real(dp), intent(in) :: mean_gap_over_amplitude   !! G, 0 .. 1
+      type(contact_state), intent(out) :: state
+
+      call solve_for(solver, root_search(target=1.0_dp - mean_gap_over_amplitude, of_gap=.true.), state)
+   end subroutine solve_for_mean_gap
+
+   subroutine solve_for(solver, search_for, state)
+      class(contact_solver), intent(inout) :: solver
+      type(root_search), intent(in) :: search_for
+      type(contact_state), intent(out) :: state
+
+      type(root_search) :: search
+      real(dp) :: accuracy
+
+      search = search_for
+      if (search%target <= 0.0_dp .or. search%target >= 1.0_dp) then
+         call solver%solve(search%target, state)
+         return
+      end if
+      search%place = logit(search%target)
+      accuracy = solver%accuracy
+      if (accuracy > 0.0_dp) solver%accuracy = max(first_accuracy, accuracy)
+      do
+         call find_root(solver, search, state)
+         if (solver%accuracy <= accuracy) exit
+         solver%accuracy = max(accuracy, accuracy_ratio*solver%accuracy)
+      end do
+      solver%accuracy = accuracy
+   end subroutine solve_for
+
+   !> The secant method, kept inside the bracket once there is one.
+   subroutine find_root(solver, search, state)
+      class(contact_solver), intent(inout) :: solver
+      type(root_search), intent(inout) :: search
+      type(contact_state), intent(out) :: state
+
+      !> Of ln P/(1-P): the largest step without a bracket, and the least that is one.
+      real(dp), parameter :: longest_step = 3.0_dp, shortest_step = 1e-13_dp
+      real(dp), parameter :: flattest = 0.2_dp, steepest = 20.0_dp
+      real(dp) :: high, last_miss, last_place, low, met, miss, next
+      integer :: i
+
+      low = -huge(low)
+      high = huge(high)
+      last_place = search%place
+      last_miss = 0.0_dp
+      do i = 1, most_solves
+         call solver%solve(1.0_dp/(1.0_dp + exp(-search%place)), state)
+         met = state%measures%contact_area_fraction
+         if (search%of_gap) met = 1.0_dp - state%measures%mean_gap_over_amplitude
+         if (abs(met - search%target) <= allowed(solver, search%target)) return
+         miss = logit(met) - logit(search%target)
+         if (i > 1 .and. abs(search%place - last_place) > 0.0_dp) &
+            search%slope = min(max((miss - last_miss)/(search%place - last_place), flattest), steepest)
+         last_place = search%place
+         last_miss = miss
+         if (miss > 0.0_dp) high = min(high, search%place)
+         if (miss < 0.0_dp) low = max(low, search%place)
+         next = search%place - min(max(miss/search%slope, -longest_step), longest_step)
+         if (next <= low .or. next >= high) next = 0.5_dp*(low + high)
+         if (abs(next - search%place) <= shortest_step*max(1.0_dp, abs(next))) exit
+         search%place = next
+      end do
+      ! The area of a grid may jump over the target as the points in contact change, by less than its own error.
+      if (abs(met - search%target) <= merge(state%measures%mean_gap_error, state%measures%contact_area_error, &
+                                            search%of_gap)) return
+      if (state%is_good()) state%status = not_accurate
+   end subroutine find_root
+
+   pure real(dp) function allowed(solver, target)
+      class(contact_solver), intent(in) :: solver
+      real(dp), intent(in) :: target
+
+      allowed = part_of_target*min(target, 1.0_dp - target)
+      if (solver%accuracy > 0.0_dp) allowed = max(allowed, min(part_of_accuracy*solver%accuracy, &
+                                                               1e-2_dp*min(target, 1.0_dp - target)))
+   end function allowed
+
+   !> ln x/(1-x), of values that a solver may give also where it is far from any contact or any gap.
+   pure real(dp) function logit(x)
+      real(dp), intent(in) :: x
+
+      real(dp), parameter :: least = 1e-15_dp
+
+      logit = log(max(x, least)/max(1.0_dp - x, least))
+   end function logit
+
+end module wavycon_find_load

@@ -1,0 +1,167 @@
+!> Periodic fields as Fourier series in two angles: surfaces, pressures and displacements.
+module wavycon_fourier_series
+   use wavycon_constants, only: pi
+   use wavycon_kinds, only: dp
+   use wavycon_lapack, only: dgemm
+   implicit none (type, external)
+   private
+
+   public :: fourier_series, cosine_table, evaluate_line, folded
+
+   !> f(X, Y) = sum_ij  c_ij cos iX cos jY + cs_ij cos iX sin jY + sc_ij sin iX cos jY + ss_ij sin iX sin jY.
+   !> Even fields, which mirror themselves in X = 0 and Y = 0, have the first sum alone. In 1-D j = 0 alone.
+   type :: fourier_series
+      real(dp), allocatable :: c(:, :)   !! shape (0:m, 0:n)
+      real(dp), allocatable :: cs(:, :), sc(:, :), ss(:, :)   !! of the same shape; not allocated for an even field
+   contains
+      procedure :: is_even
+      procedure :: at
+      procedure :: evaluate_on_grid
+      procedure :: evaluate_on_cell
+   end type fourier_series
+
+contains
+
+   pure logical function is_even(self)
+      class(fourier_series), intent(in) :: self
+
+      is_even = .not. allocated(self%ss)
+   end function is_even
+
+   !> The field at a point.
+   pure real(dp) function at(self, x, y)
+      class(fourier_series), intent(in) :: self
+      real(dp), intent(in) :: x, y   !! X, Y [rad]
+
+      real(dp), dimension(0:ubound(self%c, 1)) :: cosines, sines
+      integer :: i, j
+
+      cosines = [(cos(i*x), i=0, ubound(self%c, 1))]
+      if (.not. self%is_even()) sines = [(sin(i*x), i=0, ubound(self%c, 1))]
+      at = 0.0_dp
+      do j = 0, ubound(self%c, 2)
+         at = at + cos(j*y)*dot_product(self%c(:, j), cosines)
+         if (self%is_even()) cycle
+         at = at + sin(j*y)*(dot_product(self%cs(:, j), cosines) + dot_product(self%ss(:, j), sines)) &
+              + cos(j*y)*dot_product(self%sc(:, j), sines)
+      end do
+   end function at
+
+   !> An even field on a quarter of the cell, at X = pi k/N, Y = pi l/N, k, l = 0..N (l = 0 alone in 1-D).
+   pure subroutine evaluate_on_grid(self, intervals, values)
+      class(fourier_series), intent(in) :: self
+      integer, intent(in) :: intervals                     !! N >= 1
+      real(dp), allocatable, intent(out) :: values(:, :)   !! shape (0:N, 0:N) or (0:N, 0:0)
+
+      integer :: last
+
+      last = merge(intervals, 0, ubound(self%c, 2) > 0)
+      allocate (values(0:intervals, 0:last), source=0.0_dp)
+      call add_products(self%c, cosine_table(intervals, ubound(self%c, 1)), &
+                        cosine_table(intervals, ubound(self%c, 2)), values)
+   end subroutine evaluate_on_grid
+
+   !> Any field on the whole cell, at X = 2 pi k/N, Y = 2 pi l/N, k, l = 0..N (l = 0 alone in 1-D).
+   pure subroutine evaluate_on_cell(self, intervals, values)
+      class(fourier_series), intent(in) :: self
+      integer, intent(in) :: intervals                     !! N >= 1
+      real(dp), allocatable, intent(out) :: values(:, :)   !! shape (0:N, 0:N) or (0:N, 0:0)
+
+      real(dp), dimension(0:intervals, 0:ubound(self%c, 1)) :: cos_x, sin_x
+      real(dp), dimension(0:intervals, 0:ubound(self%c, 2)) :: cos_y, sin_y
+
+      allocate (values(0:intervals, 0:merge(intervals, 0, ubound(self%c, 2) > 0)), source=0.0_dp)
+      call tables(cos_x, sin_x)
+      call tables(cos_y, sin_y)
+      call add_products(self%c, cos_x, cos_y, values)
+      if (self%is_even()) return
+      call add_products(self%cs, cos_x, sin_y, values)
+      call add_products(self%sc, sin_x, cos_y, values)
+      call add_products(self%ss, sin_x, sin_y, values)
+
+   contains
+
+      !> cos iX and sin iX, of X = 2 pi k/N: every other angle of the table with 2N intervals on half a turn.
+      pure subroutine tables(cosines, sines)
+         real(dp), intent(out) :: cosines(0:, 0:), sines(0:, 0:)
+
+         real(dp) :: table(0:4*intervals, 0:1)
+         integer :: i, k
+
+         table = cosine_table(4*intervals, 1)
+         do i = 0, ubound(cosines, 2)
+            do k = 0, intervals
+               cosines(k, i) = table(folded(8*modulo(i*k, intervals), 4*intervals), 1)
+               sines(k, i) = table(folded(8*modulo(i*k, intervals) - 2*intervals, 4*intervals), 1)
+            end do
+         end do
+      end subroutine tables
+
+   end subroutine evaluate_on_cell
+
+   !> values(k, l) = values(k, l) + sum_ij x(k, i) c(i, j) y(l, j)
+   pure subroutine add_products(c, x, y, values)
+      real(dp), intent(in) :: c(0:, 0:), x(0:, 0:), y(0:, 0:)
+      real(dp), intent(inout) :: values(0:, 0:)
+
+      real(dp) :: half_way(size(x, 1), size(c, 2))
+
+      call dgemm('N', 'N', size(x, 1), size(c, 2), size(c, 1), 1.0_dp, x, size(x, 1), c, size(c, 1), &
+                 0.0_dp, half_way, size(x, 1))
+      call dgemm('N', 'T', size(x, 1), size(values, 2), size(c, 2), 1.0_dp, half_way, size(x, 1), &
+                 y, size(y, 1), 1.0_dp, values, size(x, 1))
+   end subroutine add_products
+
+   !> cos(i pi k/N), k = 0..N, i = 0..n. The angle is reduced in whole numbers, so that the symmetries of the cosine hold
+   !> to the last bit and high harmonics are as exact as low ones.
+   pure function cosine_table(intervals, harmonics) result(table)
+      integer, intent(in) :: intervals   !! N >= 1
+      integer, intent(in) :: harmonics   !! n >= 0
+      real(dp) :: table(0:intervals, 0:harmonics)
+
+      integer :: i, k, q
+
+      do i = 0, harmonics
+         do k = 0, intervals
+            q = mod(i*k, 2*intervals)
+            q = min(q, 2*intervals - q)
+            if (2*q == intervals) then
+               table(k, i) = 0.0_dp
+            else if (2*q < intervals) then
+               table(k, i) = cos(pi*q/intervals)
+            else
+               table(k, i) = -cos(pi*(intervals - q)/intervals)
+            end if
+         end do
+      end do
+   end function cosine_table
+
+   !> The node of 0..N, phi = pi k/N, at which an even field has the value that it has at any node of the whole line.
+   elemental integer function folded(k, intervals)
+      integer, intent(in) :: k, intervals
+
+      folded = modulo(k, 2*intervals)
+      folded = min(folded, 2*intervals - folded)
+   end function folded
+
+   !> sum_i c_i cos(i x) and its derivative.
+   pure subroutine evaluate_line(c, x, value, slope)
+      real(dp), intent(in) :: c(0:)             !! shape (0:n)
+      real(dp), intent(in) :: x                 !! [rad]
+      real(dp), intent(out) :: value, slope
+
+      complex(dp) :: turn, phase
+      integer :: i
+
+      turn = cmplx(cos(x), sin(x), dp)
+      phase = (1.0_dp, 0.0_dp)
+      value = c(0)
+      slope = 0.0_dp
+      do i = 1, ubound(c, 1)
+         phase = phase*turn
+         value = value + c(i)*real(phase)
+         slope = slope - i*c(i)*aimag(phase)
+      end do
+   end subroutine evaluate_line
+
+end module wavycon_fourier_series

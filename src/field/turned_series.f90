@@ -1,0 +1,48 @@
+!> Even fields of a square lattice in axes turned by 45 degrees.
+!>
+!> X = phi + theta, Y = phi - theta. A field that is even in both pairs of angles, and in each alike in the two, is a sum of
+!> cos iX cos jY + cos jX cos iY = cos(i+j)phi cos(i-j)theta + cos(i-j)phi cos(i+j)theta.
+module wavycon_turned_series
+   use wavycon_fourier_series, only: fourier_series
+   use wavycon_kinds, only: dp
+   implicit none (type, external)
+   private
+
+   public :: to_half_angles, to_sum_angles
+
+contains
+
+   !> From X and Y, the angles of the primitive cell, to phi and theta, those of a cell of twice its area.
+   pure type(fourier_series) function to_half_angles(series) result(turned)
+      type(fourier_series), intent(in) :: series   !! in X and Y, alike in both
+
+      turned = rearranged(series, 1, sum(ubound(series%c)))
+   end function to_half_angles
+
+   !> From phi and theta to X and Y, which takes a field that is also alike at (0, 0) and (pi, pi).
+   pure type(fourier_series) function to_sum_angles(series) result(turned)
+      type(fourier_series), intent(in) :: series   !! in phi and theta: terms of odd i + j are zero, or rounding
+
+      turned = rearranged(series, 2, sum(ubound(series%c))/2)
+   end function to_sum_angles
+
+   !> The terms (i, j) at ((i+j)/d, |i-j|/d) and the other way round.
+   pure type(fourier_series) function rearranged(series, divisor, last) result(turned)
+      type(fourier_series), intent(in) :: series
+      integer, intent(in) :: divisor, last   !! d; the highest harmonic of the result
+
+      integer :: i, j, low, high
+
+      allocate (turned%c(0:last, 0:last), source=0.0_dp)
+      do j = 0, ubound(series%c, 2)
+         do i = 0, ubound(series%c, 1)
+            if (mod(i + j, divisor) /= 0) cycle
+            high = (i + j)/divisor
+            low = abs(i - j)/divisor
+            turned%c(high, low) = turned%c(high, low) + 0.5_dp*series%c(i, j)
+            turned%c(low, high) = turned%c(low, high) + 0.5_dp*series%c(i, j)
+         end do
+      end do
+   end function rearranged
+
+end module wavycon_turned_series

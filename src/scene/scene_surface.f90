@@ -1,0 +1,82 @@
+!> The surface that a deck describes.
+module wavycon_scene_surface
+   use wavycon_deck, only: deck_type
+   use wavycon_error, only: error_type
+   use wavycon_constants, only: pi
+   use wavycon_height_map_file, only: height_map_type, read_height_map
+   use wavycon_kinds, only: dp
+   use wavycon_plain_text, only: escaped
+   use wavycon_surface, only: surface_of_points, surface_type
+   use wavycon_system, only: path_absent, path_kind
+   use wavycon_wave_surfaces, only: crossed_1d, hexagonal, wave_1d, wave_2d, wave_sum
+   implicit none (type, external)
+   private
+
+   public :: map_statistics, surface_of_deck
+
+   !> What a height map is like, for the log.
+   type :: map_statistics
+      integer :: points(2) = 0
+      character(6) :: format = ''
+      real(dp) :: lowest = 0.0_dp, highest = 0.0_dp, rms = 0.0_dp   !! of the heights over their mean [length]
+   end type map_statistics
+
+contains
+
+   !> Errors: exit_file_trouble for a height map that cannot be read, exit_bad_input for one that is none.
+   subroutine surface_of_deck(deck, surface, map, error)
+      type(deck_type), intent(in) :: deck
+      type(surface_type), intent(out) :: surface
+      type(map_statistics), allocatable, intent(out) :: map   !! allocated for a height map
+      type(error_type), allocatable, intent(out) :: error
+
+      associate (group => deck%surface)
+         select case (group%kind)
+         case ('wave_1d')
+            surface = wave_1d(group%amplitude, group%wavelength)
+         case ('wave_2d')
+            surface = wave_2d(group%amplitude, group%wavelength, group%wavelength_y)
+         case ('crossed_1d')
+            surface = crossed_1d(group%amplitude1, group%wavelength1, group%amplitude2, group%wavelength2)
+         case ('hexagonal')
+            surface = hexagonal(group%amplitude, group%wavelength)
+         case ('sum')
+            surface = wave_sum([group%length_x, group%length_y], group%amplitudes, group%waves_x, group%waves_y, &
+                               group%phases*pi/180)
+         case ('file')
+            call surface_of_file(deck, surface, map, error)
+         end select
+      end associate
+   end subroutine surface_of_deck
+
+   subroutine surface_of_file(deck, surface, statistics, error)
+      type(deck_type), intent(in) :: deck
+      type(surface_type), intent(out) :: surface
+      type(map_statistics), allocatable, intent(out) :: statistics
+      type(error_type), allocatable, intent(out) :: error
+
+      type(height_map_type) :: map
+      character(:), allocatable :: beside
+      real(dp) :: length(2)
+
+      associate (group => deck%surface, path => trim(deck%surface%file))
+         call read_height_map(path, group%file_format, map, error)
+         if (allocated(error)) then
+            beside = deck%path(:index(deck%path, '/', back=.true.))//path
+            if (path_kind(path) /= path_absent) return
+            if (path_kind(beside) /= path_absent) error%message = error%message// &
+               "; the name is relative to where the program is started: did you mean '"//escaped(beside)//"'?"
+            return
+         end if
+         length = [group%length_x, group%length_y]
+         if (all(map%step > 0.0_dp)) length = map%step*shape(map%height)
+         if (map%step(1) > 0.0_dp .and. size(map%height, 2) == 1) length = map%step(1)*size(map%height, 1)
+         map%height = group%height_scale*(map%height - sum(map%height)/size(map%height))
+         surface = surface_of_points(length, map%height)
+         allocate (statistics)
+         statistics = map_statistics(shape(map%height), map%format, minval(map%height), maxval(map%height), &
+                                     sqrt(sum(map%height**2)/size(map%height)))
+      end associate
+   end subroutine surface_of_file
+
+end module wavycon_scene_surface
