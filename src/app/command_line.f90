@@ -18,14 +18,16 @@ module wavycon_command_line
    type :: command_line_type
       type(path_type), allocatable :: decks(:)
       character(:), allocatable :: output   !! directory that replaces the decks'; not allocated if not given
+      integer :: threads = 1
       logical :: check = .false.
       logical :: quiet = .false.
       logical :: version = .false.
       logical :: help = .false.
    end type command_line_type
 
-   character(*), parameter :: options(*) = [character(9) :: '--check', '--output', '--quiet', '--version', '--help']
-   character(*), parameter :: usage = 'usage: wavycon DECK... [--check] [--output DIR] [--quiet] [--version] [--help]'
+   character(*), parameter :: options(*) = [character(9) :: '--check', '--output', '--threads', '--quiet', '--version', '--help']
+   character(*), parameter :: usage = &
+      'usage: wavycon DECK... [--check] [--output DIR] [--threads N] [--quiet] [--version] [--help]'
 
 contains
 
@@ -34,8 +36,8 @@ contains
       type(command_line_type), intent(out) :: command_line
       type(error_type), allocatable, intent(out) :: error
 
-      character(:), allocatable :: word
-      integer :: i, near
+      character(:), allocatable :: given, value, word
+      integer :: equals, i, near
       logical :: options_over
 
       allocate (command_line%decks(0))
@@ -44,17 +46,18 @@ contains
       do while (i < command_argument_count())
          i = i + 1
          word = argument(i)
-         if (.not. options_over .and. index(word, '--output=') == 1) then
-            command_line%output = word(len('--output=') + 1:)
-            call check_output(command_line%output, error)
-            if (allocated(error)) return
-            cycle
-         end if
          if (options_over .or. index(word, '-') /= 1) then
             if (word == '') call fatal_error(error, exit_bad_input, 'the name of a deck is empty'//new_line('a')//usage)
             if (allocated(error)) return
             command_line%decks = [command_line%decks, path_type(word)]
             cycle
+         end if
+         equals = index(word, '=')
+         if (equals > 0) then
+            if (any(word(:equals - 1) == [character(9) :: '--output', '--threads'])) then
+               given = word(equals + 1:)
+               word = word(:equals - 1)
+            end if
          end if
          select case (word)
          case ('--')
@@ -67,13 +70,14 @@ contains
             command_line%version = .true.
          case ('--help', '-h')
             command_line%help = .true.
-         case ('--output')
-            command_line%output = ''
-            if (i < command_argument_count()) then
-               i = i + 1
-               command_line%output = argument(i)
+         case ('--output', '--threads')
+            call take_value(value)
+            if (word == '--output') then
+               command_line%output = value
+               call check_output(command_line%output, error)
+            else
+               call read_threads(value, command_line%threads, error)
             end if
-            call check_output(command_line%output, error)
             if (allocated(error)) return
          case default
             near = nearest_name(word, options)
@@ -88,7 +92,41 @@ contains
       end do
       if (size(command_line%decks) == 0 .and. .not. (command_line%version .or. command_line%help)) &
          call fatal_error(error, exit_bad_input, 'no deck is given'//new_line('a')//usage)
+
+   contains
+
+      !> What stands behind the '=' or in the next word; nothing if there is none.
+      subroutine take_value(text)
+         character(:), allocatable, intent(out) :: text
+
+         text = ''
+         if (allocated(given)) then
+            call move_alloc(given, text)
+         else if (i < command_argument_count()) then
+            i = i + 1
+            text = argument(i)
+         end if
+      end subroutine take_value
+
    end subroutine read_command_line
+
+   !> Errors: exit_bad_input if it is no number of threads.
+   subroutine read_threads(text, threads, error)
+      character(*), intent(in) :: text
+      integer, intent(out) :: threads
+      type(error_type), allocatable, intent(out) :: error
+
+      integer, parameter :: most_threads = 1024, longest = 4
+      integer :: status
+
+      threads = 0
+      status = 1
+      if (text /= '' .and. len(text) <= longest .and. verify(text, '0123456789') == 0) &
+         read (text, *, iostat=status) threads
+      if (status /= 0 .or. threads < 1 .or. threads > most_threads) &
+         call fatal_error(error, exit_bad_input, "--threads needs a number from 1 to "//integer_text(most_threads)// &
+                          ", got '"//escaped(text)//"'"//new_line('a')//usage)
+   end subroutine read_threads
 
    !> Errors: exit_bad_input if it is no directory that a deck could name too.
    subroutine check_output(directory, error)
@@ -117,6 +155,7 @@ contains
              newline// &
              '   --check        validate the decks and stop'//newline// &
              '   --output DIR   write the results there, not where the deck says'//newline// &
+             '   --threads N    work on large grids with N threads; 1 if not given'//newline// &
              '   --quiet        say nothing but what is wrong'//newline// &
              '   --version      show the version and stop'//newline// &
              '   --help, -h     show this and stop'//newline// &

@@ -10,6 +10,7 @@ program wavycon_main
    use wavycon_run_scene, only: run_scene
    use wavycon_scene, only: make_scene, scene_type
    use wavycon_system, only: outlive_file_size_limit
+   use wavycon_threads, only: set_threads
    use wavycon_version, only: revision, version
    implicit none (type, external)
 
@@ -21,8 +22,14 @@ program wavycon_main
       end subroutine c_exit
    end interface
 
+   !> A deck that has been checked, and what it describes.
+   type :: checked_deck
+      type(deck_type) :: deck
+      type(scene_type), allocatable :: scene
+   end type checked_deck
+
    type(command_line_type) :: command_line
-   type(deck_type), allocatable :: decks(:)
+   type(checked_deck), allocatable :: decks(:)
    type(error_type), allocatable :: error
    integer :: i, status, worst
 
@@ -40,15 +47,16 @@ program wavycon_main
    call read_decks(command_line, decks)
    if (command_line%check) then
       do i = 1, size(decks)
-         if (.not. command_line%quiet) write (output_unit, '(a)') escaped(decks(i)%path)//': the deck is fine'
+         if (.not. command_line%quiet) write (output_unit, '(a)') escaped(decks(i)%deck%path)//': the deck is fine'
       end do
       call finish(exit_fine)
    end if
 
+   call set_threads(command_line%threads)
    worst = exit_fine
    do i = 1, size(decks)
       if (i > 1 .and. .not. command_line%quiet) write (output_unit, '(a)') ''
-      call run_scene(decks(i), command_line%quiet, status, error)
+      call run_scene(decks(i)%deck, decks(i)%scene, command_line%quiet, status, error)
       call stop_on(error)
       worst = max(worst, status)
    end do
@@ -59,17 +67,19 @@ contains
    !> Reads all decks before any is run; the problems of all of them are shown.
    subroutine read_decks(command_line, decks)
       type(command_line_type), intent(in) :: command_line
-      type(deck_type), allocatable, intent(out) :: decks(:)
+      type(checked_deck), allocatable, intent(out) :: decks(:)
 
       type(error_type), allocatable :: error
-      type(scene_type) :: scene
       integer :: i, j, worst
 
       allocate (decks(size(command_line%decks)))
       worst = exit_fine
       do i = 1, size(decks)
-         call read_deck(command_line%decks(i)%path, decks(i), error)
-         if (.not. allocated(error)) call make_scene(decks(i), scene, error)
+         call read_deck(command_line%decks(i)%path, decks(i)%deck, error)
+         if (.not. allocated(error)) then
+            allocate (decks(i)%scene)
+            call make_scene(decks(i)%deck, decks(i)%scene, error)
+         end if
          if (allocated(error)) then
             write (error_unit, '(a)') error%message
             worst = max(worst, error%status)
@@ -78,13 +88,13 @@ contains
       if (worst /= exit_fine) call finish(worst)
 
       do i = 1, size(decks)
-         if (allocated(command_line%output)) decks(i)%output%directory = plain_directory(command_line%output)
+         if (allocated(command_line%output)) decks(i)%deck%output%directory = plain_directory(command_line%output)
          do j = 1, i - 1
-            if (decks(i)%scene%case /= decks(j)%scene%case) cycle
-            if (decks(i)%output%directory /= decks(j)%output%directory) cycle
-            call fatal_error(error, exit_bad_input, escaped(decks(j)%path)//' and '//escaped(decks(i)%path)// &
-                             ' would write the same files: both are case '//trim(decks(i)%scene%case)//' in '// &
-                             escaped(trim(decks(i)%output%directory))//'. Give them different cases.')
+            if (decks(i)%deck%scene%case /= decks(j)%deck%scene%case) cycle
+            if (decks(i)%deck%output%directory /= decks(j)%deck%output%directory) cycle
+            call fatal_error(error, exit_bad_input, escaped(decks(j)%deck%path)//' and '//escaped(decks(i)%deck%path)// &
+                             ' would write the same files: both are case '//trim(decks(i)%deck%scene%case)//' in '// &
+                             escaped(trim(decks(i)%deck%output%directory))//'. Give them different cases.')
             call stop_on(error)
          end do
       end do

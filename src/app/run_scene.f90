@@ -19,7 +19,7 @@ module wavycon_run_scene
    use wavycon_resolved_deck, only: write_resolved_deck
    use wavycon_results, only: results_type
    use wavycon_run_log, only: log_progress, run_log
-   use wavycon_scene, only: make_scene
+   use wavycon_scene, only: scene_type
    use wavycon_summary_table, only: write_summary_table
    use wavycon_system, only: make_directories, path_kind, path_other
    use wavycon_theory_table, only: write_theory_table
@@ -39,8 +39,9 @@ module wavycon_run_scene
 contains
 
    !> Runs a deck. Errors: exit_bad_input, exit_file_trouble.
-   subroutine run_scene(deck, quiet, status, error)
+   subroutine run_scene(deck, scene, quiet, status, error)
       type(deck_type), intent(in) :: deck
+      type(scene_type), allocatable, intent(inout) :: scene   !! of the deck; it goes into the results
       logical, intent(in) :: quiet
       integer, intent(out) :: status   !! exit_fine or exit_not_converged
       type(error_type), allocatable, intent(out) :: error
@@ -53,8 +54,7 @@ contains
       call log%start(quiet)
       results%deck = deck
       results%directory = trim(deck%output%directory)
-      call make_scene(deck, results%scene, error)
-      if (allocated(error)) return
+      call move_alloc(scene, results%scene)
       call choose_solver(deck, results%scene, results%contact)
       call log%show_scene(results)
       call prepare_directory(results, error)

@@ -98,7 +98,8 @@ contains
          field = self%surface%pressure_of(self%surface%shape)
          field%c(0, 0) = state%pbar_over_pstar
       else
-         allocate (field%c(0:0, 0:0), source=0.0_dp)
+         allocate (field%c, mold=self%surface%shape%c)
+         field%c = 0.0_dp
       end if
    end function pressure
 

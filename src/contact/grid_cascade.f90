@@ -23,6 +23,8 @@ module wavycon_grid_cascade
    !> A grid of step h is solved to a residual of this times h^(3/2) of the mean gap: the gap next to the edge of contact,
    !> which places it, is of the order of h^(3/2).
    real(dp), parameter :: tolerance_factor = 1e-4_dp
+   !> A grid that is asked for is solved to this, for those who compare it with their own.
+   real(dp), parameter :: last_tolerance = 1e-11_dp
    integer, parameter :: iteration_limit = 500
    !> Of the estimates of mean gap, contact area and peak pressure. The area's change from grid to grid depends on how the
    !> edge happens to lie between the points.
@@ -62,7 +64,9 @@ contains
       call plan_grids(surface, points, grid, trusted_grid, last_grid)
       allocate (answer%state%pressure(grid(1), grid(2)), source=mean_pressure)
       do
-         call solve_level(surface, mean_pressure, answer)
+         last = all(grid == last_grid)
+         call solve_level(surface, mean_pressure, merge(last_tolerance, tolerance_factor/maxval(grid)**1.5_dp, &
+                                                        last .and. all(points > 0)), answer)
          answer%grids = answer%grids + 1
          call start_grid_edge(edge, answer%state%pressure, answer%state%gap, surface%shape%is_even())
          answer%values(:2) = [answer%state%mean_gap, grid_contact_area(edge)]
@@ -70,7 +74,6 @@ contains
          change = abs(answer%values - values)
          answer%errors = max(safety*change, 0.5_dp*safety*last_change, unresolved(surface, edge, resolved))
          answer%accurate = answer%state%converged .and. all(answer%errors <= accuracy) .and. all(grid >= trusted_grid)
-         last = all(grid == last_grid)
          if (present(progress)) call progress%grid_solved(grid*merge(2, 1, surface%shape%is_even() .and. grid > 1), &
                                                           answer%state%iterations, answer%state%residual)
          if (answer%accurate .or. last) exit
@@ -157,9 +160,9 @@ contains
       if (power >= number) easy = power
    end function easy
 
-   subroutine solve_level(surface, mean_pressure, answer)
+   subroutine solve_level(surface, mean_pressure, tolerance, answer)
       type(surface_type), intent(in) :: surface
-      real(dp), intent(in) :: mean_pressure
+      real(dp), intent(in) :: mean_pressure, tolerance
       type(cascade_answer), intent(inout) :: answer
 
       type(compliance_operator) :: half_space
@@ -172,8 +175,7 @@ contains
       call half_space%transform%sample(surface%shape, h)
       h = 1.0_dp - h
       answer%state%pressure = answer%state%pressure*(mean_pressure*size(h)/sum(answer%state%pressure))
-      call solve_on_grid(half_space, h, mean_pressure, tolerance_factor/maxval(points)**1.5_dp, iteration_limit, &
-                         answer%state)
+      call solve_on_grid(half_space, h, mean_pressure, tolerance, iteration_limit, answer%state)
       answer%iterations = answer%iterations + answer%state%iterations
       answer%transform_pairs = answer%transform_pairs/2**surface%dimension + half_space%transform_pairs
    end subroutine solve_level

@@ -28,7 +28,8 @@ contains
       call buffer%add_line('')
       call add_wrapped(buffer, 0, 'Loads are mean pressures pbar over the nominal area. p* is the mean '// &
          'pressure that just closes the gap everywhere: pi e_star amplitude/wavelength for wave_1d, '// &
-         'sqrt(2) times that for wave_2d, 2 pi e_star amplitude1/wavelength1 for crossed_1d. '// &
+         'sqrt(2) times that for wave_2d of one wavelength, pi e_star times the sum of both '// &
+         'amplitude/wavelength for crossed_1d. '// &
          'pbar_over_pstar = pbar/p* runs from 0, first touch, to 1, complete contact; above 1 the '// &
          'contact stays complete.')
       do i = 1, size(tables)
@@ -51,28 +52,33 @@ contains
       character(name_width) :: name
 
       name = key%name
-      line = name//allowed_values(key)
+      line = allowed_values(key)
       if (key%unit /= '') line = line//' ['//trim(key%unit)//']'
       if (key%default /= '') line = line//'; default '//trim(key%default)
       if (key%required) line = line//'; required'
-      call buffer%add_line('   '//line)
+      call add_wrapped(buffer, name_width + 3, line, head='   '//name)
       call add_wrapped(buffer, name_width + 3, trim(key%meaning))
    end subroutine add_key
 
    !> Adds a text as lines that begin with blanks and break between words.
-   subroutine add_wrapped(buffer, indent, text)
+   subroutine add_wrapped(buffer, indent, text, head)
       type(text_buffer_type), intent(inout) :: buffer
       integer, intent(in) :: indent
       character(*), intent(in) :: text
+      character(*), intent(in), optional :: head   !! of the first line, in place of its blanks
 
+      character(:), allocatable :: start
       integer :: first, last
 
+      start = repeat(' ', indent)
+      if (present(head)) start = head
       first = 1
       do while (first <= len(text))
          last = len(text)
          if (last - first >= widest_line - indent) &
             last = first - 1 + index(text(first:first + widest_line - indent), ' ', back=.true.)
-         call buffer%add_line(repeat(' ', indent)//trim(text(first:last)))
+         call buffer%add_line(start//trim(text(first:last)))
+         start = repeat(' ', indent)
          first = last + 1
       end do
    end subroutine add_wrapped

@@ -37,7 +37,7 @@ contains
       type(key_group_type) :: table
 
       table = key_group('method', 'how the contact is computed', [ &
-         choice_key('solver', "'beale' for its waves", &
+         choice_key('solver', "'beale', or 'auto'", &
             "'beale': the paper's truncated series by Beale's method, for its waves. 'grid': ever finer grids until "// &
             "mean gap, area and peak pressure are accurate. 'auto': the closed form for wave_1d, else 'grid'; the "// &
             'default for other surfaces.', ['beale', 'grid ', 'auto ']), &

@@ -43,7 +43,7 @@ contains
    function surface_table() result(table)
       type(key_group_type) :: table
 
-      table = key_group('surface', 'what the gap between the bodies is', [ &
+      table = key_group('surface', 'which waves the bodies carry', [ &
          choice_key('kind', '', &
             "'wave_1d': gap amplitude (1 - cos phi), phi = 2 pi x/wavelength. 'wave_2d': amplitude (1 - cos phi "// &
             "cos theta), theta = 2 pi y/wavelength_y. 'crossed_1d': a wave on each of two blocks. 'hexagonal': three "// &

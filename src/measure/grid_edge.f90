@@ -110,8 +110,13 @@ contains
 
       near = root(1)
       far = root(2)
-      way = 0.5_dp
-      if (far > near) way = min(max(1.0_dp - near/(far - near), 0.0_dp), 1.0_dp)
+      if (far >= 2*near) then
+         way = 1.0_dp
+         if (near > 0.0_dp) way = 1.0_dp - near/(far - near)
+      else
+         ! The edge of a gap two points wide, or of one: from the point in contact on to half way.
+         way = 0.25_dp*(2.0_dp - far/near)
+      end if
 
    contains
 

@@ -16,7 +16,7 @@ module wavycon_results
 
    type :: results_type
       type(deck_type) :: deck
-      type(scene_type) :: scene
+      type(scene_type), allocatable :: scene
       class(contact_solver), allocatable :: contact
       character(:), allocatable :: directory             !! that the tables go to
       type(contact_state), allocatable :: states(:)      !! in the deck's order of loads

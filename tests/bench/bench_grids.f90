@@ -3,21 +3,23 @@ program bench_grids
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use samples, only: clock_ms, sample_set
    use wavycon_grid_cascade, only: cascade_answer, solve_by_cascade
-   use wavycon_harmonic_surface, only: harmonic_surface, wave_sum
    use wavycon_kinds, only: dp
+   use wavycon_surface, only: surface_type
+   use wavycon_wave_surfaces, only: wave_2d
    implicit none (type, external)
 
    real(dp), parameter :: accuracies(*) = [1e-2_dp, 1e-3_dp, 1e-4_dp]
    !> Solves of one load at one accuracy, of which the median counts.
    integer, parameter :: repeats = 5
 
-   type(harmonic_surface) :: wave
+   type(surface_type) :: whole, wave
    real(dp), allocatable :: loads(:), references(:, :)
    logical :: all_accurate
    integer :: i, k
 
    call read_reference(loads, references)
-   wave = wave_sum([1.0_dp, 1.0_dp], [0.5_dp, 0.5_dp], [1, 0], [0, 1])
+   whole = wave_2d(1.0_dp, 1.0_dp, 1.0_dp)
+   wave = whole%smaller_cell()
    all_accurate = .true.
    write (output_unit, '(a)') '# Grids: a load of the 2-D wave to an accuracy of mean gap, area and peak pressure. Pairs of', &
       '# transforms are counted in units of one on the finest grid. Errors are true, estimates the program''s own.', &
@@ -45,7 +47,7 @@ contains
 
       do run = 1, repeats
          start = clock_ms()
-         call solve_by_cascade(wave, 2, load, accuracy, answer)
+         call solve_by_cascade(wave, load, accuracy, [0, 0], answer)
          call times%add(clock_ms() - start)
       end do
       errors(1, :) = answer%values - reference

@@ -9,7 +9,7 @@ program bench_paper_method
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use samples, only: clock_ms, sample_set
    use wavycon, only: beale_solver, contact_state, fourier_series, dp, fourier_contact, qp_problem, &
-                      qp_solution, qp_status_name, symmetry_diagonal, symmetry_full
+                      qp_solution, qp_status_name, symmetry_diagonal, symmetry_full, wave_2d
    implicit none (type, external)
 
    !> A way to solve for one load, its times at the load under test and its last answer.
@@ -96,7 +96,7 @@ contains
       real(dp) :: before, start
       integer :: i
 
-      call fresh%start(2, 9, 27, symmetry_full)
+      call fresh%start(wave_2d(1.0_dp, 1.0_dp, 1.0_dp), 9, 27, symmetry_full)
       start = clock_ms()
       do while (clock_ms() - start < budget .or. sweeps%count < least_rounds)
          contact = fresh
@@ -151,7 +151,7 @@ contains
       new%points = points
       new%symmetry = symmetry
       if (present(straight)) new%straight = straight
-      call new%fresh%start(2, harmonics, points, symmetry)
+      call new%fresh%start(wave_2d(1.0_dp, 1.0_dp, 1.0_dp), harmonics, points, symmetry)
    end function new_contender
 
    !> Solves for one load by every contender in turn until the time is spent.

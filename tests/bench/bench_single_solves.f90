@@ -9,7 +9,7 @@
 program bench_single_solves
    use, intrinsic :: iso_fortran_env, only: error_unit, input_unit, output_unit
    use samples, only: clock_ms
-   use wavycon, only: contact_state, dp, fourier_contact, symmetry_full
+   use wavycon, only: contact_state, dp, fourier_contact, symmetry_full, wave_2d
    implicit none (type, external)
 
    character(*), parameter :: numbers = '(*(es26.17e3))'
@@ -19,7 +19,7 @@ program bench_single_solves
    real(dp) :: load, before
    integer :: i, count, ios
 
-   call fresh%start(2, argument(1), argument(2), symmetry_full)
+   call fresh%start(wave_2d(1.0_dp, 1.0_dp, 1.0_dp), argument(1), argument(2), symmetry_full)
    write (output_unit, '(i0,1x,i0)') shape(fresh%problem%normals)
    do i = 1, size(fresh%problem%linear)
       write (output_unit, numbers) fresh%problem%hessian(:, i)
