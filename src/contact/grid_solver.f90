@@ -2,9 +2,9 @@
 !>
 !> Conjugate gradients on the points in contact, whose set follows the solution, in the manner of Polonsky & Keer
 !> (Wear 231 (1999) 206-219) with three changes: the residual is preconditioned by the inverse of the half-space's
-!> compliance, cut down to the contact; after a change of the set the search starts afresh from the preconditioned
-!> residual; and the contact is entered by points at pressure zero. With a start from a coarser grid some seven iterations,
-!> whatever the grid, gain six digits.
+!> compliance, cut down to the contact; the search goes on through changes of the set, with Polak & Ribiere's factor where
+!> that is positive, as starting afresh takes twice the iterations on rough surfaces; and the contact is entered by points
+!> at pressure zero. On a regular wave some seven iterations from a coarser grid's answer, whatever the grid, gain six digits.
 !>
 !> Sums are taken column by column and then over the columns, so that they do not depend on the number of threads.
 module wavycon_grid_solver
@@ -44,7 +44,7 @@ contains
       logical(c_bool), allocatable :: contact(:, :)
       real(dp), dimension(size(undeformed_gap, 2)) :: sums, more_sums
       integer :: counts(size(undeformed_gap, 2))
-      logical :: set_changed, changes(size(undeformed_gap, 2))
+      logical :: changes(size(undeformed_gap, 2))
       real(dp) :: allowed, approach, beta, curvature, descent, factor, last_descent, mean, shift, step
       integer :: j, m, n, points, threads
 
@@ -53,8 +53,9 @@ contains
       threads = threads_for(m*n)
       if (.not. allocated(state%gap)) allocate (state%gap(m, n))
       allocate (direction(m, n), image(m, n), last_residual(m, n), contact(m, n))
+      direction = 0.0_dp
+      last_residual = 0.0_dp
       last_descent = 1.0_dp
-      set_changed = .true.
       state%iterations = 0
       associate (p => state%pressure, gap => state%gap)
          contact = p > 0.0_dp
@@ -88,19 +89,21 @@ contains
             do j = 1, n
                image(:, j) = merge(image(:, j) - mean, 0.0_dp, contact(:, j))
                sums(j) = dot_product(gap(:, j), image(:, j))
-               if (.not. set_changed) more_sums(j) = dot_product(last_residual(:, j), image(:, j))
+               more_sums(j) = dot_product(last_residual(:, j), image(:, j))
             end do
             descent = sum(sums)
-            beta = 0.0_dp
-            if (.not. set_changed) beta = (descent - sum(more_sums))/max(last_descent, tiny(last_descent))
+            beta = max((descent - sum(more_sums))/max(last_descent, tiny(last_descent)), 0.0_dp)
             last_descent = descent
             !$omp parallel do num_threads(threads)
             do j = 1, n
-               if (set_changed) then
-                  direction(:, j) = image(:, j)
-               else
-                  direction(:, j) = image(:, j) + beta*direction(:, j)
-               end if
+               direction(:, j) = merge(image(:, j) + beta*direction(:, j), 0.0_dp, contact(:, j))
+               sums(j) = sum(direction(:, j))
+            end do
+            ! Of the direction before, only what lies in the contact now is left: it is to move no load again.
+            mean = sum(sums)/points
+            !$omp parallel do num_threads(threads)
+            do j = 1, n
+               direction(:, j) = merge(direction(:, j) - mean, 0.0_dp, contact(:, j))
                last_residual(:, j) = merge(gap(:, j), 0.0_dp, contact(:, j))
                image(:, j) = direction(:, j)
             end do
@@ -123,8 +126,7 @@ contains
                p(:, j) = merge(p(:, j), 0.0_dp, contact(:, j))
                sums(j) = sum(p(:, j))
             end do
-            set_changed = any(changes)
-            if (set_changed) then
+            if (any(changes)) then
                factor = mean_pressure*size(p)/sum(sums)
                p = factor*p
                call start_gap()
@@ -139,10 +141,8 @@ contains
             shift = mean_gap_in_contact() - 0.1_dp*allowed
             !$omp parallel do num_threads(threads)
             do j = 1, n
-               changes(j) = any(.not. contact(:, j) .and. gap(:, j) < shift)
                contact(:, j) = contact(:, j) .or. gap(:, j) < shift
             end do
-            set_changed = set_changed .or. any(changes)
          end do
       end associate
 

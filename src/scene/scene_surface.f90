@@ -56,27 +56,26 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(height_map_type) :: map
-      character(:), allocatable :: beside
+      character(:), allocatable :: beside, path
       real(dp) :: length(2)
 
-      associate (group => deck%surface, path => trim(deck%surface%file))
-         call read_height_map(path, group%file_format, map, error)
-         if (allocated(error)) then
-            beside = deck%path(:index(deck%path, '/', back=.true.))//path
-            if (path_kind(path) /= path_absent) return
-            if (path_kind(beside) /= path_absent) error%message = error%message// &
-               "; the name is relative to where the program is started: did you mean '"//escaped(beside)//"'?"
-            return
-         end if
-         length = [group%length_x, group%length_y]
-         if (all(map%step > 0.0_dp)) length = map%step*shape(map%height)
-         if (map%step(1) > 0.0_dp .and. size(map%height, 2) == 1) length = map%step(1)*size(map%height, 1)
-         map%height = group%height_scale*(map%height - sum(map%height)/size(map%height))
-         surface = surface_of_points(length, map%height)
-         allocate (statistics)
-         statistics = map_statistics(shape(map%height), map%format, minval(map%height), maxval(map%height), &
-                                     sqrt(sum(map%height**2)/size(map%height)))
-      end associate
+      path = trim(deck%surface%file)
+      call read_height_map(path, deck%surface%file_format, map, error)
+      if (allocated(error)) then
+         if (path_kind(path) /= path_absent) return
+         beside = deck%path(:index(deck%path, '/', back=.true.))//path
+         if (path_kind(beside) /= path_absent) error%message = error%message// &
+            "; the name is relative to where the program is started: did you mean '"//escaped(beside)//"'?"
+         return
+      end if
+      length = [deck%surface%length_x, deck%surface%length_y]
+      if (all(map%step > 0.0_dp)) length = map%step*shape(map%height)
+      if (map%step(1) > 0.0_dp .and. size(map%height, 2) == 1) length = map%step(1)*size(map%height, 1)
+      map%height = deck%surface%height_scale*(map%height - sum(map%height)/size(map%height))
+      surface = surface_of_points(length, map%height)
+      allocate (statistics)
+      statistics = map_statistics(shape(map%height), map%format, minval(map%height), maxval(map%height), &
+                                  sqrt(sum(map%height**2)/size(map%height)))
    end subroutine surface_of_file
 
 end module wavycon_scene_surface
