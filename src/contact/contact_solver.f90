@@ -16,11 +16,10 @@ module wavycon_contact_solver
    !> X, Y of the surface's cell.
    type, abstract :: contact_solver
       type(surface_type) :: surface
-      !> Of mean gap [Delta], contact area fraction and peak pressure [p*], asked of the loads to come; zero for what the
-      !> discretisation gives.
-      real(dp) :: accuracy = 0.0_dp
    contains
       procedure :: settle
+      procedure :: cheaper_levels
+      procedure :: use_level
       procedure :: pressure
       procedure :: displacement
       procedure :: edge_curves
@@ -85,6 +84,22 @@ contains
          settled = .false.
       end if
    end subroutine settle
+
+   !> How many times the loads to come may be solved more cheaply, by those who look for one of them.
+   integer function cheaper_levels(self)
+      class(contact_solver), intent(in) :: self
+
+      associate (unused => self); end associate
+      cheaper_levels = 0
+   end function cheaper_levels
+
+   !> Solves the loads to come more cheaply.
+   subroutine use_level(self, level)
+      class(contact_solver), intent(inout) :: self
+      integer, intent(in) :: level   !! 0 for as good as asked for .. `cheaper_levels`
+
+      associate (unused => self, unused_too => level); end associate
+   end subroutine use_level
 
    !> p/p* of a state.
    function pressure(self, state) result(field)

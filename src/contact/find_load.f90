@@ -8,10 +8,8 @@ module wavycon_find_load
 
    public :: solve_for_contact_area, solve_for_mean_gap
 
-   !> The root is met to this part of the accuracy asked for, and to this part of the target and of what it lacks to one.
-   real(dp), parameter :: part_of_accuracy = 0.01_dp, part_of_target = 1e-6_dp
-   !> A solver that knows accuracies comes to its own by way of cheaper ones.
-   real(dp), parameter :: first_accuracy = 1e-2_dp, accuracy_ratio = 0.1_dp
+   !> The root is met to this part of the error estimate, and to these parts of the target and of what it lacks to one.
+   real(dp), parameter :: part_of_error = 0.01_dp, least_part = 1e-6_dp, largest_part = 1e-4_dp
    integer, parameter :: most_solves = 60
 
    !> ln P/(1-P) against the same of the contact area, or of one less the gap: nearly straight, with slopes from 2/3 to 5/2.
@@ -48,7 +46,7 @@ contains
       type(contact_state), intent(out) :: state
 
       type(root_search) :: search
-      real(dp) :: accuracy
+      integer :: level
 
       search = search_for
       if (search%target <= 0.0_dp .or. search%target >= 1.0_dp) then
@@ -56,14 +54,10 @@ contains
          return
       end if
       search%place = logit(search%target)
-      accuracy = solver%accuracy
-      if (accuracy > 0.0_dp) solver%accuracy = max(first_accuracy, accuracy)
-      do
+      do level = solver%cheaper_levels(), 0, -1
+         call solver%use_level(level)
          call find_root(solver, search, state)
-         if (solver%accuracy <= accuracy) exit
-         solver%accuracy = max(accuracy, accuracy_ratio*solver%accuracy)
       end do
-      solver%accuracy = accuracy
    end subroutine solve_for
 
    !> The secant method, kept inside the bracket once there is one.
@@ -75,7 +69,7 @@ contains
       !> Of ln P/(1-P): the largest step without a bracket, and the least that is one.
       real(dp), parameter :: longest_step = 3.0_dp, shortest_step = 1e-13_dp
       real(dp), parameter :: flattest = 0.2_dp, steepest = 20.0_dp
-      real(dp) :: high, last_miss, last_place, low, met, miss, next
+      real(dp) :: error, high, last_miss, last_place, low, met, miss, next
       integer :: i
 
       low = -huge(low)
@@ -85,8 +79,12 @@ contains
       do i = 1, most_solves
          call solver%solve(1.0_dp/(1.0_dp + exp(-search%place)), state)
          met = state%measures%contact_area_fraction
-         if (search%of_gap) met = 1.0_dp - state%measures%mean_gap_over_amplitude
-         if (abs(met - search%target) <= allowed(solver, search%target)) return
+         error = state%measures%contact_area_error
+         if (search%of_gap) then
+            met = 1.0_dp - state%measures%mean_gap_over_amplitude
+            error = state%measures%mean_gap_error
+         end if
+         if (abs(met - search%target) <= allowed(error, search%target)) return
          miss = logit(met) - logit(search%target)
          if (i > 1 .and. abs(search%place - last_place) > 0.0_dp) &
             search%slope = min(max((miss - last_miss)/(search%place - last_place), flattest), steepest)
@@ -100,18 +98,17 @@ contains
          search%place = next
       end do
       ! The area of a grid may jump over the target as the points in contact change, by less than its own error.
-      if (abs(met - search%target) <= merge(state%measures%mean_gap_error, state%measures%contact_area_error, &
-                                            search%of_gap)) return
+      if (abs(met - search%target) <= error) return
       if (state%is_good()) state%status = not_accurate
    end subroutine find_root
 
-   pure real(dp) function allowed(solver, target)
-      class(contact_solver), intent(in) :: solver
+   pure real(dp) function allowed(error, target)
+      real(dp), intent(in) :: error   !! of the value met; 0 if that is not known
       real(dp), intent(in) :: target
 
-      allowed = part_of_target*min(target, 1.0_dp - target)
-      if (solver%accuracy > 0.0_dp) allowed = max(allowed, min(part_of_accuracy*solver%accuracy, &
-                                                               1e-2_dp*min(target, 1.0_dp - target)))
+      associate (scale => min(target, 1.0_dp - target))
+         allowed = min(max(part_of_error*error, least_part*scale), largest_part*scale)
+      end associate
    end function allowed
 
    !> ln x/(1-x), of values that a solver may give also where it is far from any contact or any gap.

@@ -24,11 +24,15 @@ module wavycon_grid_contact
 
    type, extends(contact_solver) :: grid_contact
       class(grid_progress), pointer :: progress => null()   !! that hears of each grid
-      integer, private :: points(2) = 0
+      real(dp), private :: accuracy = 0.0_dp                 !! asked for
+      integer, private :: points(2) = 0                      !! likewise
+      integer, private :: level = 0
       logical, private :: keep_fields = .true., turned = .false.
       type(surface_type), private :: solved                  !! the surface on the cell that is solved
    contains
       procedure :: start
+      procedure :: cheaper_levels
+      procedure :: use_level
       procedure :: solve
       procedure :: solved_pressure
       procedure :: solved_edge_curves
@@ -55,6 +59,34 @@ contains
       if (self%turned) self%solved = surface%smaller_cell()
    end subroutine start
 
+   !> One ten times less accurate, or with half the points, each.
+   integer function cheaper_levels(self) result(levels)
+      class(grid_contact), intent(in) :: self
+
+      !> What is less is no guide to the better answer.
+      real(dp), parameter :: worst_accuracy = 1e-2_dp
+      integer, parameter :: least_points = 64
+
+      levels = 0
+      if (all(self%points > 0)) then
+         do while (all(mod(self%points, 2**(levels + 2)) == 0 .or. self%points == 1) .and. &
+                   maxval(self%points)/2**(levels + 1) >= least_points)
+            levels = levels + 1
+         end do
+      else
+         do while (self%accuracy*10.0_dp**levels < worst_accuracy)
+            levels = levels + 1
+         end do
+      end if
+   end function cheaper_levels
+
+   subroutine use_level(self, level)
+      class(grid_contact), intent(inout) :: self
+      integer, intent(in) :: level
+
+      self%level = level
+   end subroutine use_level
+
    subroutine solve(self, pbar_over_pstar, state)
       class(grid_contact), intent(inout) :: self
       real(dp), intent(in) :: pbar_over_pstar     !! P
@@ -65,11 +97,13 @@ contains
 
       call self%settle(pbar_over_pstar, state, settled)
       if (settled) return
-      if (associated(self%progress)) then
-         call solve_by_cascade(self%solved, pbar_over_pstar, self%accuracy, self%points, answer, self%progress)
-      else
-         call solve_by_cascade(self%solved, pbar_over_pstar, self%accuracy, self%points, answer)
-      end if
+      associate (accuracy => self%accuracy*10.0_dp**self%level, points => self%points/2**self%level)
+         if (associated(self%progress)) then
+            call solve_by_cascade(self%solved, pbar_over_pstar, accuracy, points, answer, self%progress)
+         else
+            call solve_by_cascade(self%solved, pbar_over_pstar, accuracy, points, answer)
+         end if
+      end associate
       state%measures = contact_measures(mean_gap_over_amplitude=answer%values(1), &
                                         approach_over_amplitude=1.0_dp - answer%values(1), &
                                         contact_area_fraction=answer%values(2), &
