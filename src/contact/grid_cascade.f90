@@ -18,7 +18,7 @@ module wavycon_grid_cascade
    public :: cascade_answer, solve_by_cascade
 
    !> Points of the first grid to half of the shortest wave each way; of the last grid, of a profile and of a surface, on an
-   !> even one's quarter cell. Any other may have twice as many on its whole cell.
+   !> even one's part of the cell. Any other may have as many on each such part.
    integer, parameter :: first_points = 8, most_points(2) = [262144, 1024*1024]
    !> A grid of step h is solved to a residual of this times h^(3/2) of the mean gap: the gap next to the edge of contact,
    !> which places it, is of the order of h^(3/2).
@@ -134,7 +134,7 @@ contains
 
          integer :: most
 
-         most = most_points(surface%dimension)*merge(1, 2, surface%shape%is_even())
+         most = most_points(surface%dimension)*product(2/parts)
          finest = grid
          do while (product(finest) <= most/2**surface%dimension)
             finest = 2*finest

@@ -20,10 +20,11 @@ contains
       logical, intent(out) :: resolved     !! whether all of these points are in contact
 
       real(dp) :: values(first:last, first:last), t(2)
-      integer :: base(2), i, j, lines
+      integer :: base(2), best(2), i, j, lines
 
       lines = size(edge%pressure_or_gap, 2)
-      base = maxloc(edge%pressure_or_gap)
+      best = maxloc(edge%pressure_or_gap)
+      base = best
       base(1) = merge(base(1) - 1, base(1), at(base(1) - 1, base(2)) > at(base(1) + 1, base(2)))
       if (lines > 1) base(2) = merge(base(2) - 1, base(2), at(base(1), base(2) - 1) > at(base(1), base(2) + 1))
       do j = first, last
@@ -33,11 +34,11 @@ contains
       end do
       resolved = all(values > 0.0_dp)
       values = max(values, 0.0_dp)
-      t = [0.5_dp, merge(0.5_dp, 0.0_dp, lines > 1)]
       peak = max(maxval(values), 0.0_dp)
       if (.not. resolved) return
+      t = best - base
       call climb(values, lines > 1, t)
-      peak = polynomial(values, t, 0, 0)
+      peak = max(peak, polynomial(values, t, 0, 0))
 
    contains
 
@@ -49,23 +50,25 @@ contains
 
    end subroutine grid_peak_pressure
 
-   !> Newton's method from the middle of the step.
+   !> Newton's method, a little short of it so that it also climbs to a crest that is the same all along a line.
    pure subroutine climb(values, in_plane, t)
       real(dp), intent(in) :: values(first:last, first:last)
       logical, intent(in) :: in_plane
       real(dp), intent(inout) :: t(2)   !! 0..1, from one point to the next
 
-      integer, parameter :: most_steps = 6
+      integer, parameter :: most_steps = 10
+      real(dp), parameter :: short = 1e-3_dp
       real(dp) :: determinant, g(2), h(3), next(2)
       integer :: i
 
       do i = 1, most_steps
          g = [polynomial(values, t, 1, 0), 0.0_dp]
-         h = [polynomial(values, t, 2, 0), 0.0_dp, -1.0_dp]
+         h = [polynomial(values, t, 2, 0), 0.0_dp, 0.0_dp]
          if (in_plane) then
             g(2) = polynomial(values, t, 0, 1)
             h(2:3) = [polynomial(values, t, 1, 1), polynomial(values, t, 0, 2)]
          end if
+         h([1, 3]) = h([1, 3]) - short*maxval(abs(h))
          determinant = h(1)*h(3) - h(2)**2
          if (.not. (determinant > 0.0_dp .and. h(1) < 0.0_dp)) return
          next = t - [h(3)*g(1) - h(2)*g(2), h(1)*g(2) - h(2)*g(1)]/determinant
