@@ -195,7 +195,7 @@ contains
          if (.not. abs(xyz(fast, m + 1) - xyz(fast, 1) - m*map%step(fast)) <= tolerance*abs(map%step(fast))) exit
          m = m + 1
       end do
-      n = size(xyz, 2)/m
+      n = (size(xyz, 2) + m - 1)/m
       if (m > 1 .and. n > 1) map%step(slow) = xyz(slow, m + 1) - xyz(slow, 1)
       do k = 1, size(xyz, 2)
          i = modulo(k - 1, m)

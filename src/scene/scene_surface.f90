@@ -62,10 +62,11 @@ contains
       path = trim(deck%surface%file)
       call read_height_map(path, deck%surface%file_format, map, error)
       if (allocated(error)) then
+         error%message = error%message//' (the height map of '//escaped(deck%path)//')'
          if (path_kind(path) /= path_absent) return
          beside = deck%path(:index(deck%path, '/', back=.true.))//path
          if (path_kind(beside) /= path_absent) error%message = error%message// &
-            "; the name is relative to where the program is started: did you mean '"//escaped(beside)//"'?"
+            "; its name is relative to where the program is started: did you mean '"//escaped(beside)//"'?"
          return
       end if
       length = [deck%surface%length_x, deck%surface%length_y]
