@@ -87,6 +87,7 @@ contains
       type(results_type), intent(in) :: results
       type(error_type), allocatable, intent(out) :: error
 
+      type(deck_type) :: deck
       character(:), allocatable :: failure
       character(200) :: message
       integer :: status
@@ -105,7 +106,9 @@ contains
       end if
       call file%open(results%directory, trim(results%deck%scene%case)//'.resolved.nml')
       if (file%is_open()) then
-         call write_resolved_deck(results%deck, file%unit, status, message)
+         deck = results%deck
+         if (allocated(results%scene%map)) deck%surface%file = results%scene%map%path
+         call write_resolved_deck(deck, file%unit, status, message)
          if (status /= 0) call file%note_trouble(message)
       end if
       call file%finish(error)

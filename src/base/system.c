@@ -1,4 +1,5 @@
 /* The few calls to the operating system that Fortran has no word for. */
+#define _XOPEN_SOURCE 700
 #include <errno.h>
 #include <signal.h>
 #include <stdio.h>
@@ -55,6 +56,16 @@ int wavycon_stdout_is_terminal(void)
 void wavycon_error_text(int number, char *text, size_t length)
 {
     snprintf(text, length, "%s", strerror(number));
+}
+
+/* The full name of a file that is there; empty if it has none or it is too long. */
+void wavycon_full_path(const char *path, char *full, size_t length)
+{
+    char *found = realpath(path, NULL);
+    full[0] = '\0';
+    if (found != NULL && strlen(found) < length)
+        strcpy(full, found);
+    free(found);
 }
 
 /* The number that a text begins with. Returns how many bytes it takes, 0 if it is none. */

@@ -4,7 +4,7 @@ module wavycon_system
    implicit none (type, external)
    private
 
-   public :: path_kind, make_directories, rename_file, remove_file
+   public :: full_path, path_kind, make_directories, rename_file, remove_file
    public :: outlive_file_size_limit, parse_number, process_id, stdout_is_terminal
 
    !> What `path_kind` can answer.
@@ -49,6 +49,13 @@ module wavycon_system
          real(c_double), intent(out) :: value
       end function parse_number
 
+      subroutine c_full_path(path, full, length) bind(c, name='wavycon_full_path')
+         import :: c_char, c_size_t
+         character(kind=c_char), intent(in) :: path(*)
+         character(kind=c_char), intent(out) :: full(*)
+         integer(c_size_t), value :: length
+      end subroutine c_full_path
+
       subroutine c_error_text(number, text, length) bind(c, name='wavycon_error_text')
          import :: c_char, c_int, c_size_t
          integer(c_int), value :: number
@@ -58,6 +65,19 @@ module wavycon_system
    end interface
 
 contains
+
+   !> The name of a file from the root on; as it is if that cannot be had.
+   function full_path(path) result(full)
+      character(*), intent(in) :: path   !! of a file that is there
+      character(:), allocatable :: full
+
+      integer, parameter :: longest = 4096
+      character(longest) :: buffer
+
+      call c_full_path(path//c_null_char, buffer, int(longest, c_size_t))
+      full = buffer(:index(buffer, c_null_char) - 1)
+      if (full == '') full = path
+   end function full_path
 
    !> Whether a path names nothing, a directory or something else.
    integer function path_kind(path)

@@ -12,7 +12,7 @@ module wavycon_surface_group
    public :: surface_group_type, surface_table, read_surface_group, write_surface_group
    public :: surface_dimension, surface_is_paper_wave
 
-   integer, parameter :: longest_path = 250, most_waves = 1000, highest_wave = 128
+   integer, parameter :: longest_path = 1000, most_waves = 1000, highest_wave = 128
 
    !> What &surface says. Of each kind the keys that it has no use for keep what stands here.
    type :: surface_group_type
@@ -72,7 +72,7 @@ contains
          real_key('phases', '0', 'degree', 'Of sum: the phase of each wave.', least=-360.0_dp, most=360.0_dp, &
             most_values=most_waves), &
          text_key('file', '', &
-            'Of file: a periodic map of heights, upwards to the other body, relative to where the program is started. '// &
+            'Of file: a periodic map of heights, upwards to the other body; looked for beside the deck. '// &
             "The last row and column are the cell's last, not copies of the first.", longest_path), &
          choice_key('file_format', "'auto'", &
             "Of file: 'matrix', a row of heights for each y; 'xyz', lines of x, y, z on a regular grid; 'auto', xyz "// &

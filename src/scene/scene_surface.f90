@@ -7,7 +7,7 @@ module wavycon_scene_surface
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: escaped
    use wavycon_surface, only: surface_of_points, surface_type
-   use wavycon_system, only: path_absent, path_kind
+   use wavycon_system, only: full_path, path_absent, path_kind
    use wavycon_wave_surfaces, only: crossed_1d, hexagonal, wave_1d, wave_2d, wave_sum
    implicit none (type, external)
    private
@@ -19,6 +19,7 @@ module wavycon_scene_surface
       integer :: points(2) = 0
       character(6) :: format = ''
       real(dp) :: lowest = 0.0_dp, highest = 0.0_dp, rms = 0.0_dp   !! of the heights over their mean [length]
+      character(:), allocatable :: path   !! from the root on
    end type map_statistics
 
 contains
@@ -56,17 +57,13 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(height_map_type) :: map
-      character(:), allocatable :: beside, path
+      character(:), allocatable :: path
       real(dp) :: length(2)
 
-      path = trim(deck%surface%file)
+      path = place_of_map(deck)
       call read_height_map(path, deck%surface%file_format, map, error)
       if (allocated(error)) then
          error%message = error%message//' (the height map of '//escaped(deck%path)//')'
-         if (path_kind(path) /= path_absent) return
-         beside = deck%path(:index(deck%path, '/', back=.true.))//path
-         if (path_kind(beside) /= path_absent) error%message = error%message// &
-            "; its name is relative to where the program is started: did you mean '"//escaped(beside)//"'?"
          return
       end if
       length = [deck%surface%length_x, deck%surface%length_y]
@@ -76,7 +73,18 @@ contains
       surface = surface_of_points(length, map%height)
       allocate (statistics)
       statistics = map_statistics(shape(map%height), map%format, minval(map%height), maxval(map%height), &
-                                  sqrt(sum(map%height**2)/size(map%height)))
+                                  sqrt(sum(map%height**2)/size(map%height)), full_path(path))
    end subroutine surface_of_file
+
+   !> The file is looked for beside the deck, then from where the program was started.
+   function place_of_map(deck) result(path)
+      type(deck_type), intent(in) :: deck
+      character(:), allocatable :: path
+
+      path = deck%path(:index(deck%path, '/', back=.true.))//trim(deck%surface%file)
+      if (deck%surface%file(1:1) == '/') path = trim(deck%surface%file)
+      if (path_kind(path) /= path_absent) return
+      if (path_kind(trim(deck%surface%file)) /= path_absent) path = trim(deck%surface%file)
+   end function place_of_map
 
 end module wavycon_scene_surface

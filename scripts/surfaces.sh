@@ -1,0 +1,42 @@
+#!/bin/sh
+# Surfaces beyond the paper's: pressures and edges of contact at a fifth of the closing pressure.
+set -eu
+# shellcheck source=scripts/figure_common.sh
+. "$(dirname "$0")/figure_common.sh"
+start_figure surfaces 'contact pressures of four surfaces that are none' "$@"
+run_decks surface_rectangular surface_hexagonal surface_sum surface_rough
+draw_figure 620 170 <<'END'
+cases = 'surface_rectangular surface_hexagonal surface_sum surface_rough'
+names = '"wavelengths 1 and 2" "hexagonal" "sum of three waves" "rough, from a file"'
+
+unset key
+unset tics
+set size ratio -1
+set palette defined (0 '#ffffff', 0.05 '#e8eef5', 0.5 '#5b8db8', 1 '#14304a')
+set cbrange [0:2]
+set border lw 0.7
+set multiplot layout 1, 4 margins 0.02, 0.87, 0.08, 0.86 spacing 0.03, 0
+do for [i = 1:words(cases)] {
+   map = table(word(cases, i), 'map')
+   edges = table(word(cases, i), 'contour')
+   stats map using 2 nooutput
+   wide = STATS_max
+   stats map using 3 nooutput
+   tall = STATS_max
+   side = wide > tall ? wide : tall
+   set xrange [0:side]
+   set yrange [0:side]
+   if (i == words(cases)) {
+      set colorbox user origin 0.89, 0.15 size 0.015, 0.6
+      set cbtics 0.5 font ',11' offset -0.6, 0
+      set cblabel '{/:Italic p}/{/:Italic p}*' offset -0.8, 0
+   } else {
+      unset colorbox
+   }
+   set title word(names, i) font ',12' offset 0, -0.4
+   # The cell of the tables, drawn as often as the window holds it.
+   plot for [k = 0:1] for [l = 0:1] map using (k*wide + $2):(l*tall + $3):($5 > 0 ? $5 : 0) with image, \
+        for [k = -2:2] for [l = -2:2] edges using (k*wide + $2):(l*tall + $3) with lines lc rgb '#303338' lw 0.7
+}
+unset multiplot
+END
