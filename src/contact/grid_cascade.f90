@@ -20,9 +20,9 @@ module wavycon_grid_cascade
    !> Points of the first grid to half of the shortest wave each way; of the last grid, of a profile and of a surface, on an
    !> even one's part of the cell. Any other may have as many on each such part.
    integer, parameter :: first_points = 8, most_points(2) = [262144, 1024*1024]
-   !> A grid of step h is solved to a residual of this times h^(3/2) of the mean gap: the gap next to the edge of contact,
-   !> which places it, is of the order of h^(3/2).
-   real(dp), parameter :: tolerance_factor = 1e-4_dp
+   !> A grid of step h is solved to a residual of this times h^(3/2) P^(1/3) of the mean gap: the gap next to the edge of
+   !> contact, which places it, is of the order of h^(3/2), and the peak of a light load is that of a small part of the surface.
+   real(dp), parameter :: tolerance_factor = 1e-3_dp
    !> A grid that is asked for is solved to this, for those who compare it with their own.
    real(dp), parameter :: last_tolerance = 1e-11_dp
    integer, parameter :: iteration_limit = 500
@@ -53,7 +53,7 @@ contains
       type(cascade_answer), intent(out) :: answer
       class(grid_progress), intent(in), optional :: progress   !! that hears of each grid
 
-      real(dp) :: values(3), change(3), last_change(3)
+      real(dp) :: values(3), change(3), last_change(3), tolerance
       real(dp), allocatable :: finer(:, :)
       type(grid_edge) :: edge
       logical :: last, resolved
@@ -65,8 +65,9 @@ contains
       allocate (answer%state%pressure(grid(1), grid(2)), source=mean_pressure)
       do
          last = all(grid == last_grid)
-         call solve_level(surface, mean_pressure, merge(last_tolerance, tolerance_factor/maxval(grid)**1.5_dp, &
-                                                        last .and. all(points > 0)), answer)
+         tolerance = tolerance_factor*mean_pressure**(1.0_dp/3)/maxval(grid)**1.5_dp
+         if (last .and. all(points > 0)) tolerance = last_tolerance
+         call solve_level(surface, mean_pressure, tolerance, answer)
          answer%grids = answer%grids + 1
          call start_grid_edge(edge, answer%state%pressure, answer%state%gap, surface%shape%is_even())
          answer%values(:2) = [answer%state%mean_gap, grid_contact_area(edge)]
