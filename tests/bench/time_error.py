@@ -1,0 +1,207 @@
+#!/usr/bin/env python3
+"""Time against error of wavycon and its peers, in one run on one thread each.
+
+usage: time_error.py BENCH_DIRECTORY ENVIRONMENTS REFERENCE TABLE SECONDS ROUGH_POINTS
+
+BENCH_DIRECTORY has the built programs time_error_wave and time_error_rough, ENVIRONMENTS gets the peers. The table
+goes to TABLE, as blocks for gnuplot: all runs at one load by one solver in one, and to standard output what follows
+from it. ROUGH_POINTS: along a side of the rough surface, 0 for none.
+
+Errors are relative to the true value. The error of a run counts as the largest of its own and of all finer runs of
+the same solver: a lucky crossing of zero is no accuracy. The finest run has none to judge it.
+"""
+import math
+import os
+import subprocess
+import sys
+import tempfile
+
+from time_error_install import PEERS, python_with
+
+LOADS = '0.05', '0.2', '0.5', '0.9'
+QUANTITIES = 'gap', 'area', 'peak'
+TARGETS = [10.0**-k for k in range(2, 9)]
+RATIO_TARGETS = 1e-5, 1e-3, 1e-3  # of the three quantities, for the ratios
+OWN = 'wavycon-grid', 'wavycon-beale'
+HANG = 5  # a solver that takes so many times what it may is ended
+
+
+def references(path):
+    """Values, and half a unit of their last digits, both of all three quantities, by load."""
+    found = {}
+    with open(path, encoding='utf-8') as lines:
+        for line in lines:
+            words = line.split()
+            if words and not words[0].startswith('#'):
+                values = [float(word) for word in words[1:]]
+                halves = [0.5*10.0**-len(word.split('.')[1]) for word in words[1:]]
+                found[float(words[0])] = values, halves
+    return found
+
+
+def run(command, seconds):
+    """Lines of the standard output, up to where the time ended."""
+    environment = dict(os.environ, OMP_NUM_THREADS='1', OPENBLAS_NUM_THREADS='1', MKL_NUM_THREADS='1',
+                       NUMBA_NUM_THREADS='1')
+    try:
+        done = subprocess.run(command, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                              timeout=HANG*seconds, check=False)
+    except subprocess.TimeoutExpired as ended:
+        return (ended.stdout or b'').decode().splitlines() + [f'# ended after {HANG*seconds:.0f} s']
+    lines = done.stdout.decode().splitlines()
+    return lines if done.returncode == 0 else lines + [f'# failed with status {done.returncode}']
+
+
+def judged(rows, reference):
+    """Rows of fineness, time and true values, with their errors, and the errors that count, in place of these."""
+    worst = [0.0]*3
+    answer = []
+    for fineness, milliseconds, values in sorted(rows, reverse=True):
+        errors = [abs(value/true - 1) for value, true in zip(values, reference)]
+        worst = [max(pair) for pair in zip(worst, errors)]
+        answer.insert(0, (fineness, milliseconds, errors, worst))
+    return answer
+
+
+def time_to(runs, targets):
+    """Least time of a run whose errors that count are all small enough; targets of None are none."""
+    return min((milliseconds for _, milliseconds, _, worst in runs
+                if all(t is None or w <= t for w, t in zip(worst, targets))), default=None)
+
+
+def text(milliseconds):
+    return '-' if milliseconds is None else f'{milliseconds:.3g}'
+
+
+def measure_wave(commands, seconds):
+    """Runs by solver and load, and what the solvers had to say."""
+    found, remarks = {}, []
+    for name, command in commands:
+        for load in LOADS:
+            for line in run([*command, f'{seconds:g}', load], seconds*(2 if name == 'wavycon' else 1) + 20):
+                if line.startswith('#'):
+                    remarks.append(line if name in line else f'# {name} at P = {load}: {line[2:]}')
+                    continue
+                solver, at, fineness, milliseconds, _, *values = line.split()
+                row = int(fineness), float(milliseconds), [float(value) for value in values]
+                found.setdefault(solver, {}).setdefault(float(at), []).append(row)
+            print(f'bench: {name} at P = {load} done', file=sys.stderr)
+    return found, remarks
+
+
+def write_runs(out, results, floors):
+    for load, floor in floors.items():
+        for solver in [*OWN, *PEERS]:
+            out.write(f'# P = {load}, {solver}\n')
+            if load == list(floors)[0] and solver == OWN[0]:
+                out.write('# fineness  time[ms]   gap_error  area_error  peak_error      counts: gap        area '
+                          '       peak       floors: gap        area        peak\n')
+            runs = results.get(solver, {}).get(load, [])
+            # gnuplot counts blocks: one without runs must not vanish.
+            for fineness, milliseconds, errors, worst in runs or [(0, math.nan, [math.nan]*3, [math.nan]*3)]:
+                out.write(f'{fineness:10d}{milliseconds:12.4g}'
+                          + ''.join(f'{x:12.2e}' for x in [*errors, *worst, *floor]) + '\n')
+            out.write('\n\n')
+
+
+def write_times(results, floors):
+    print('# Times to relative errors [ms]; -: not reached in the time given; floor: the reference has fewer digits')
+    print(f'#{"solver":>17}{"P":>6}{"of":>6}' + ''.join(f'{target:9.0e}' for target in TARGETS))
+    for solver, by_load in results.items():
+        for load, runs in by_load.items():
+            for q, quantity in enumerate(QUANTITIES):
+                cells = []
+                for target in TARGETS:
+                    wanted = [target if k == q else None for k in range(3)]
+                    cells.append('floor' if target < floors[load][q] else text(time_to(runs, wanted)))
+                print(f'{solver:>18}{load:6.2f}{quantity:>6}' + ''.join(f'{cell:>9}' for cell in cells))
+
+
+def write_ratios(results, floors):
+    print('\n\n# Time of a peer over the time of wavycon-grid, to relative errors of 1e-5 in gap, 1e-3 in area, 1e-3 in '
+          'peak, and of all three\n# at once. >: the peer did not get there, its longest run took so much; '
+          '-: wavycon-grid did not get there.')
+    print(f'#{"peer":>17}{"P":>6}{"gap":>10}{"area":>10}{"peak":>10}{"all":>10}')
+    aims = [[target if k == q else None for k, target in enumerate(RATIO_TARGETS)] for q in range(3)]
+    aims.append(list(RATIO_TARGETS))
+    for peer in PEERS:
+        for load in floors:
+            theirs = results.get(peer, {}).get(load)
+            ours = results.get(OWN[0], {}).get(load, [])
+            if theirs:
+                cells = []
+                for aim in aims:
+                    mine, other = time_to(ours, aim), time_to(theirs, aim)
+                    if mine is None:
+                        cells.append('-')
+                    elif other is None:
+                        cells.append(f'>{max(row[1] for row in theirs)/mine:.3g}')
+                    else:
+                        cells.append(f'{other/mine:.3g}')
+                print(f'{peer:>18}{load:6.2f}' + ''.join(f'{cell:>10}' for cell in cells))
+
+
+def measure_rough(bench, pythons, points, seconds):
+    here = os.path.dirname(os.path.abspath(__file__))
+    with tempfile.TemporaryDirectory() as directory:
+        path = os.path.join(directory, 'rough.dat')
+        maker = next(iter(pythons.values()))
+        pressure = subprocess.run([maker, os.path.join(here, 'rough_surface.py'), str(points), path],
+                                  stdout=subprocess.PIPE, check=True).stdout.decode().strip()
+        print(f'\n\n# A rough surface, {points} x {points} points, self-affine, Hurst exponent 0.8, at p/E* = '
+              f'{pressure}, to ever smaller tolerances')
+        print(f'#{"solver":>17}{"tolerance":>11}{"time[ms]":>12}{"solves":>7}{"residual":>11}{"mean_gap":>14}'
+              f'{"area":>12}')
+        commands = [('wavycon-grid', [os.path.join(bench, 'time_error_rough'), path, pressure])]
+        commands += [(name, [python, os.path.join(here, 'time_error_peer.py'), name, 'rough', path, pressure,
+                             f'{seconds:g}']) for name, python in pythons.items()]
+        for name, command in commands:
+            for line in run(command, seconds + 120):
+                if line.startswith('#'):
+                    print(f'# {name}: {line[2:]}')
+                    continue
+                solver, tolerance, milliseconds, solves, residual, gap, area = line.split()
+                print(f'{solver:>18}{float(tolerance):11.0e}{float(milliseconds):12.4g}{solves:>7}'
+                      f'{float(residual):11.1e}{float(gap):14.8f}{float(area):12.6f}', flush=True)
+
+
+def main():
+    if len(sys.argv) != 7:
+        sys.exit(__doc__.split('\n\n')[1])
+    bench, environments, reference, table = sys.argv[1:5]
+    seconds, points = float(sys.argv[5]), int(sys.argv[6])
+    here = os.path.dirname(os.path.abspath(__file__))
+    known = references(reference)
+    floors = {float(load): [half/value for value, half in zip(*known[float(load)])] for load in LOADS}
+
+    pythons, head = {}, ['# Time against error, one thread each. P = pbar/p*. Peers solve the smaller, square cell.']
+    for peer, (requirement, _) in PEERS.items():
+        python = python_with(peer, environments)
+        if python:
+            pythons[peer] = python
+            head.append(f'# {requirement.replace("==", " ")}')
+        else:
+            head.append(f'# {requirement.replace("==", " ")}: SKIPPED, it could not be installed')
+            print(f'bench: {requirement} could not be installed and is SKIPPED', file=sys.stderr)
+
+    commands = [('wavycon', [os.path.join(bench, 'time_error_wave')])]
+    commands += [(name, [python, os.path.join(here, 'time_error_peer.py'), name, 'wave'])
+                 for name, python in pythons.items()]
+    found, remarks = measure_wave(commands, seconds)
+    results = {solver: {load: judged(rows, known[load][0]) for load, rows in by_load.items()}
+               for solver, by_load in found.items()}
+    with open(table + '.new', 'w', encoding='utf-8') as out:
+        out.write('\n'.join(head + remarks) + '\n')
+        write_runs(out, results, floors)
+    os.replace(table + '.new', table)
+    print('\n'.join(head + remarks))
+    write_times(results, floors)
+    write_ratios(results, floors)
+    if points and pythons:
+        measure_rough(bench, pythons, points, seconds)
+    if OWN[0] not in results:
+        sys.exit('time_error: wavycon gave no answer')
+
+
+if __name__ == '__main__':
+    main()

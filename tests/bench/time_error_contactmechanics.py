@@ -1,0 +1,35 @@
+"""ContactMechanics: the conjugate gradients of Polonsky & Keer in numpy, its default solver for a given force.
+
+Its other solvers, Bugnicourt's among them, take a given displacement only.
+"""
+from ContactMechanics import PeriodicFFTElasticHalfSpace
+from ContactMechanics.Systems import NonSmoothContactSystem
+from SurfaceTopography import Topography
+import numpy
+
+
+class Contact:
+    """A rigid surface of heights [length of the cell's side] on a half-space; E* is 1/pi."""
+
+    def __init__(self, heights, pressure, tolerance, iteration_limit):
+        half_space = PeriodicFFTElasticHalfSpace(heights.shape, 1/numpy.pi, (1.0, 1.0))
+        self.system = NonSmoothContactSystem(
+            half_space, Topography(heights, (1.0, 1.0), periodic=True))
+        half_space.evaluate_disp(numpy.zeros(heights.shape))  # makes the plans of the transforms
+        # The tolerance is one of length, and the program has others beside it.
+        self.arguments = {'external_force': pressure, 'maxiter': iteration_limit,
+                          'pentol': tolerance*heights.max()}
+        self.result = None
+
+    def forget(self):
+        """Nothing: each solve starts afresh."""
+
+    def solve(self):
+        """Whether it converged."""
+        self.result = self.system.minimize_proxy(**self.arguments)
+        return self.result.success
+
+    def answer(self):
+        """Pressures and gaps."""
+        gaps = self.system.compute_gap(self.result.x, self.result.offset)
+        return self.result.jac*self.result.jac.size, gaps

@@ -1,0 +1,156 @@
+!> Measures time against error for the two-dimensional wave: the grids to ever smaller accuracies, and the paper's method
+!> with ever more harmonics.
+!>
+!>    time_error_wave SECONDS LOAD...
+!>
+!> Each line of standard output is a run: solver, load, its measure of fineness (points along a side of the smallest cell, or
+!> harmonics), time [ms], solves behind that median, then mean gap, contact area and peak pressure. A ladder of runs ends
+!> before a run that would probably take longer than what is left of SECONDS.
+program time_error_wave
+   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
+   use samples, only: clock_ms, sample_set
+   use wavycon, only: contact_state, dp, fourier_contact, surface_type, symmetry_full, wave_2d
+   use wavycon_grid_cascade, only: cascade_answer, solve_by_cascade
+   implicit none (type, external)
+
+   !> The first accuracy asked of the grids; each is half of the one before.
+   real(dp), parameter :: coarsest = 0.1_dp
+   integer, parameter :: harmonics(*) = [5, 7, 9, 12, 15, 20, 25, 30]
+   !> Most solves of a run, of which the median counts, and what they may take together [ms], the first of them excepted.
+   integer, parameter :: repeats = 5
+   real(dp), parameter :: repeat_time = 1000.0_dp
+   !> What a run costs at most in units of the one before it.
+   real(dp), parameter :: growth = 6.0_dp
+
+   type(surface_type) :: whole, wave
+   real(dp) :: budget, load, end_time
+   integer :: i
+
+   budget = 1000*argument(1)
+   whole = wave_2d(1.0_dp, 1.0_dp, 1.0_dp)
+   wave = whole%smaller_cell()
+   do i = 2, command_argument_count()
+      load = argument(i)
+      end_time = clock_ms() + budget
+      call climb_grids(load, end_time)
+      end_time = clock_ms() + budget
+      call climb_harmonics(load, end_time)
+   end do
+
+contains
+
+   !> The grids. Of accuracies that the same grid gives only the first counts: the answer is the same.
+   subroutine climb_grids(load, end_time)
+      real(dp), intent(in) :: load       !! P
+      real(dp), intent(in) :: end_time   !! [ms]
+
+      type(cascade_answer) :: answer
+      type(sample_set) :: times
+      real(dp) :: accuracy
+      integer :: points
+
+      points = 0
+      accuracy = coarsest
+      do
+         times = sample_set()
+         call time_grids(load, accuracy, answer, times)
+         if (.not. answer%accurate) exit
+         ! A quarter of the cell carries the whole.
+         if (2*size(answer%state%pressure, 1) > points) then
+            points = 2*size(answer%state%pressure, 1)
+            do while (again(times))
+               call time_grids(load, accuracy, answer, times)
+            end do
+            call write_run('wavycon-grid', load, points, times, answer%values)
+         end if
+         if (ends_late(times, end_time)) exit
+         accuracy = accuracy/2
+      end do
+   end subroutine climb_grids
+
+   !> Solves on grids once more.
+   subroutine time_grids(load, accuracy, answer, times)
+      real(dp), intent(in) :: load       !! P
+      real(dp), intent(in) :: accuracy   !! of all three values
+      type(cascade_answer), intent(out) :: answer
+      type(sample_set), intent(inout) :: times
+
+      real(dp) :: start
+
+      start = clock_ms()
+      call solve_by_cascade(wave, load, accuracy, [0, 0], answer)
+      call times%add(clock_ms() - start)
+   end subroutine time_grids
+
+   !> The paper's series, with constraint points on as many intervals as there are harmonics.
+   subroutine climb_harmonics(load, end_time)
+      real(dp), intent(in) :: load       !! P
+      real(dp), intent(in) :: end_time   !! [ms]
+
+      type(fourier_contact) :: fresh, contact
+      type(contact_state) :: state
+      type(sample_set) :: times
+      real(dp) :: start
+      integer :: k
+
+      do k = 1, size(harmonics)
+         call fresh%start(whole, harmonics(k), harmonics(k) + 1, symmetry_full)
+         times = sample_set()
+         do while (again(times))
+            contact = fresh
+            start = clock_ms()
+            call contact%solve(load, state)
+            call times%add(clock_ms() - start)
+         end do
+         if (.not. state%is_good()) then
+            write (error_unit, '(a,i0,a,f5.2)') 'time_error_wave: not solved with ', harmonics(k), ' harmonics at P =', load
+            cycle
+         end if
+         associate (m => state%measures)
+            call write_run('wavycon-beale', load, harmonics(k), times, &
+                           [m%mean_gap_over_amplitude, m%contact_area_fraction, m%peak_pressure_over_pstar])
+         end associate
+         if (ends_late(times, end_time)) exit
+      end do
+   end subroutine climb_harmonics
+
+   !> Whether a run should be solved once more.
+   pure logical function again(times)
+      type(sample_set), intent(in) :: times
+
+      again = times%count == 0
+      if (.not. again) again = times%count < repeats .and. (times%count + 1)*times%least() < repeat_time
+   end function again
+
+   !> Whether the run after this one would probably end too late.
+   logical function ends_late(times, end_time)
+      type(sample_set), intent(in) :: times   !! of this one
+      real(dp), intent(in) :: end_time        !! [ms]
+
+      real(dp) :: now
+
+      now = clock_ms()
+      ends_late = now + growth*times%least() > end_time
+   end function ends_late
+
+   subroutine write_run(solver, load, fineness, times, values)
+      character(*), intent(in) :: solver
+      real(dp), intent(in) :: load, values(3)
+      integer, intent(in) :: fineness
+      type(sample_set), intent(in) :: times
+
+      write (output_unit, '(a,f6.3,i6,f12.4,i4,3es22.14)') solver, load, fineness, times%median(), times%count, values
+      flush (output_unit)
+   end subroutine write_run
+
+   !> An argument that is a number.
+   real(dp) function argument(i)
+      integer, intent(in) :: i   !! its place
+
+      character(40) :: text
+
+      call get_command_argument(i, text)
+      read (text, *) argument
+   end function argument
+
+end program time_error_wave
