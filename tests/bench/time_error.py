@@ -3,6 +3,7 @@
 
 usage: time_error.py BENCH_DIRECTORY ENVIRONMENTS REFERENCE TABLE SECONDS ROUGH_POINTS
 
+SECONDS: what a solver may take for a load, about.
 BENCH_DIRECTORY has the built programs time_error_wave and time_error_rough, ENVIRONMENTS gets the peers. The table
 goes to TABLE, as blocks for gnuplot: all runs at one load by one solver in one, and to standard output what follows
 from it. ROUGH_POINTS: along a side of the rough surface, 0 for none.
@@ -23,6 +24,7 @@ QUANTITIES = 'gap', 'area', 'peak'
 TARGETS = [10.0**-k for k in range(2, 9)]
 RATIO_TARGETS = 1e-5, 1e-3, 1e-3  # of the three quantities, for the ratios
 OWN = 'wavycon-grid', 'wavycon-beale'
+ROUGH = 12  # times the seconds of a load of the wave are for the rough surface
 HANG = 5  # a solver that takes so many times what it may is ended
 
 
@@ -141,6 +143,17 @@ def write_ratios(results, floors):
                 print(f'{peer:>18}{load:6.2f}' + ''.join(f'{cell:>10}' for cell in cells))
 
 
+def write_rough_ratios(runs):
+    """Of the rough surface, by solver: residuals and times."""
+    for residual, milliseconds in runs.get(OWN[0], []):
+        for peer in PEERS:
+            if peer in runs:
+                times = [time for other, time in runs[peer] if other <= residual]
+                longest = max(time for _, time in runs[peer])
+                ratio = f'{min(times)/milliseconds:.3g}' if times else f'>{longest/milliseconds:.3g}'
+                print(f'# {peer} over {OWN[0]}, to a residual of {residual:.1e}: {ratio}')
+
+
 def measure_rough(bench, pythons, points, seconds):
     here = os.path.dirname(os.path.abspath(__file__))
     with tempfile.TemporaryDirectory() as directory:
@@ -155,6 +168,7 @@ def measure_rough(bench, pythons, points, seconds):
         commands = [('wavycon-grid', [os.path.join(bench, 'time_error_rough'), path, pressure])]
         commands += [(name, [python, os.path.join(here, 'time_error_peer.py'), name, 'rough', path, pressure,
                              f'{seconds:g}']) for name, python in pythons.items()]
+        runs = {}
         for name, command in commands:
             for line in run(command, seconds + 120):
                 if line.startswith('#'):
@@ -163,6 +177,8 @@ def measure_rough(bench, pythons, points, seconds):
                 solver, tolerance, milliseconds, solves, residual, gap, area = line.split()
                 print(f'{solver:>18}{float(tolerance):11.0e}{float(milliseconds):12.4g}{solves:>7}'
                       f'{float(residual):11.1e}{float(gap):14.8f}{float(area):12.6f}', flush=True)
+                runs.setdefault(solver, []).append((float(residual), float(milliseconds)))
+    write_rough_ratios(runs)
 
 
 def main():
@@ -198,7 +214,7 @@ def main():
     write_times(results, floors)
     write_ratios(results, floors)
     if points and pythons:
-        measure_rough(bench, pythons, points, seconds)
+        measure_rough(bench, pythons, points, ROUGH*seconds)
     if OWN[0] not in results:
         sys.exit('time_error: wavycon gave no answer')
 
