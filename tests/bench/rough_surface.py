@@ -3,10 +3,10 @@
 
 usage: rough_surface.py POINTS FILE
 
-FILE gets a matrix of heights of 17 digits on a cell of side 1, root mean square 1. The waves have from 1/8 of the
-cell to 8 points, amplitudes as the wave number to the power -1 - Hurst exponent and random phases; the seed is
-fixed. Standard output: mean pressure over E*, by A/A0 = 2 p/(E* h'), h' the root mean square of the slope. No
-symmetry is left.
+FILE gets a matrix of heights of 17 digits on a cell of side 1, root mean square 1. The waves have from 1/8
+of the cell to 8 points, amplitudes as the wave number to the power -1 - Hurst exponent and random phases;
+the seed is fixed. Standard output: mean pressure over E*, by A/A0 = 2 p/(E* h'), h' the root mean square of
+the slope. No symmetry is left.
 """
 import sys
 

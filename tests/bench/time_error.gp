@@ -1,5 +1,6 @@
-# Draws the table of time_error.py: the error that counts against time, a row of panels for mean gap, contact area and peak
-# pressure, a column for each load. To be loaded after scripts/figure_style.gp; wants the name of the table in `runs`.
+# Draws the table of time_error.py: the error that counts against time, a row of panels for mean gap,
+# contact area and peak pressure, a column for each load. To be loaded after scripts/figure_style.gp; wants
+# the name of the table in `runs`.
 
 array load_text[4] = ['0.05', '0.2', '0.5', '0.9']
 array quantity[3] = ['mean gap', 'contact area', 'peak pressure']

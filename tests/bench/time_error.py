@@ -3,13 +3,13 @@
 
 usage: time_error.py BENCH_DIRECTORY ENVIRONMENTS REFERENCE TABLE SECONDS ROUGH_POINTS
 
-SECONDS: what a solver may take for a load, about.
-BENCH_DIRECTORY has the built programs time_error_wave and time_error_rough, ENVIRONMENTS gets the peers. The table
-goes to TABLE, as blocks for gnuplot: all runs at one load by one solver in one, and to standard output what follows
-from it. ROUGH_POINTS: along a side of the rough surface, 0 for none.
+SECONDS: what a solver may take for a load, about. BENCH_DIRECTORY has the built programs time_error_wave
+and time_error_rough, ENVIRONMENTS gets the peers. The table goes to TABLE, as blocks for gnuplot: all runs
+at one load by one solver in one, and to standard output what follows from it. ROUGH_POINTS: along a side of
+the rough surface, 0 for none.
 
-Errors are relative to the true value. The error of a run counts as the largest of its own and of all finer runs of
-the same solver: a lucky crossing of zero is no accuracy. The finest run has none to judge it.
+Errors are relative to the true value. The error of a run counts as the largest of its own and of all finer
+runs of the same solver: a lucky crossing of zero is no accuracy. The finest run has none to judge it.
 """
 import math
 import os
@@ -55,7 +55,7 @@ def run(command, seconds):
 
 
 def judged(rows, reference):
-    """Rows of fineness, time and true values, with their errors, and the errors that count, in place of these."""
+    """Rows of fineness, time and values, with errors and the errors that count in place of the values."""
     worst = [0.0]*3
     answer = []
     for fineness, milliseconds, values in sorted(rows, reverse=True):
@@ -96,8 +96,8 @@ def write_runs(out, results, floors):
         for solver in [*OWN, *PEERS]:
             out.write(f'# P = {load}, {solver}\n')
             if load == list(floors)[0] and solver == OWN[0]:
-                out.write('# fineness  time[ms]   gap_error  area_error  peak_error      counts: gap        area '
-                          '       peak       floors: gap        area        peak\n')
+                out.write('# fineness  time[ms], errors of gap, area, peak; their errors that count; '
+                          'the floors of these\n')
             runs = results.get(solver, {}).get(load, [])
             # gnuplot counts blocks: one without runs must not vanish.
             for fineness, milliseconds, errors, worst in runs or [(0, math.nan, [math.nan]*3, [math.nan]*3)]:
@@ -107,7 +107,8 @@ def write_runs(out, results, floors):
 
 
 def write_times(results, floors):
-    print('# Times to relative errors [ms]; -: not reached in the time given; floor: the reference has fewer digits')
+    print('# Times to relative errors [ms]; -: not reached in the time given; '
+          'floor: the reference has fewer digits')
     print(f'#{"solver":>17}{"P":>6}{"of":>6}' + ''.join(f'{target:9.0e}' for target in TARGETS))
     for solver, by_load in results.items():
         for load, runs in by_load.items():
@@ -120,9 +121,9 @@ def write_times(results, floors):
 
 
 def write_ratios(results, floors):
-    print('\n\n# Time of a peer over the time of wavycon-grid, to relative errors of 1e-5 in gap, 1e-3 in area, 1e-3 in '
-          'peak, and of all three\n# at once. >: the peer did not get there, its longest run took so much; '
-          '-: wavycon-grid did not get there.')
+    print('\n\n# Time of a peer over the time of wavycon-grid, to relative errors of 1e-5 in gap,\n'
+          '# 1e-3 in area, 1e-3 in peak, and of all three at once. >: the peer did not get there, and its\n'
+          '# longest run took so much; -: wavycon-grid did not get there.')
     print(f'#{"peer":>17}{"P":>6}{"gap":>10}{"area":>10}{"peak":>10}{"all":>10}')
     aims = [[target if k == q else None for k, target in enumerate(RATIO_TARGETS)] for q in range(3)]
     aims.append(list(RATIO_TARGETS))
@@ -161,8 +162,8 @@ def measure_rough(bench, pythons, points, seconds):
         maker = next(iter(pythons.values()))
         pressure = subprocess.run([maker, os.path.join(here, 'rough_surface.py'), str(points), path],
                                   stdout=subprocess.PIPE, check=True).stdout.decode().strip()
-        print(f'\n\n# A rough surface, {points} x {points} points, self-affine, Hurst exponent 0.8, at p/E* = '
-              f'{pressure}, to ever smaller tolerances')
+        print(f'\n\n# A rough surface, {points} x {points} points, self-affine, Hurst exponent 0.8, '
+              f'at p/E* = {pressure}, to ever smaller tolerances')
         print(f'#{"solver":>17}{"tolerance":>11}{"time[ms]":>12}{"solves":>7}{"residual":>11}{"mean_gap":>14}'
               f'{"area":>12}')
         commands = [('wavycon-grid', [os.path.join(bench, 'time_error_rough'), path, pressure])]
@@ -190,7 +191,8 @@ def main():
     known = references(reference)
     floors = {float(load): [half/value for value, half in zip(*known[float(load)])] for load in LOADS}
 
-    pythons, head = {}, ['# Time against error, one thread each. P = pbar/p*. Peers solve the smaller, square cell.']
+    pythons = {}
+    head = ['# Time against error, one thread each. P = pbar/p*. Peers solve the smaller, square cell.']
     for peer, (requirement, _) in PEERS.items():
         python = python_with(peer, environments)
         if python:

@@ -1,4 +1,4 @@
-"""ContactMechanics: the conjugate gradients of Polonsky & Keer in numpy, its default solver for a given force.
+"""ContactMechanics: the conjugate gradients of Polonsky & Keer in numpy, its solver for a force.
 
 Its other solvers, Bugnicourt's among them, take a given displacement only.
 """

@@ -10,8 +10,8 @@ PEERS = {
     'slippy': ('slippy==0.5.0', ['python3', 'python3.10', 'python3.9', 'python3.8']),
 }
 IMPORTS = {'tamaas': 'tamaas', 'contactmechanics': 'ContactMechanics', 'slippy': 'slippy.core'}
-PIP = ['-m', 'pip', 'install', '--disable-pip-version-check', '--no-input', '--timeout', '10', '--retries', '1',
-       '--only-binary', 'numpy,scipy,numba,llvmlite,matplotlib,h5py,muGrid,tamaas']
+PIP = ['-m', 'pip', 'install', '--disable-pip-version-check', '--no-input', '--timeout', '10',
+       '--retries', '1', '--only-binary', 'numpy,scipy,numba,llvmlite,matplotlib,h5py,muGrid,tamaas']
 PATIENCE = 600  # [s] for one installation
 
 

@@ -4,15 +4,15 @@
 usage: time_error_peer.py PEER wave SECONDS LOAD...
        time_error_peer.py PEER rough FILE PRESSURE SECONDS
 
-wave: the paper's wave on the smaller of its two cells, a square with one crest, on ever finer grids, while the
-next is expected to end within SECONDS a load. Each line is a run: name, load, points along a side, time [ms],
-solves behind that median, mean gap, contact area (points with pressure, counted), peak pressure (the largest of
-the points).
+wave: the paper's wave on the smaller of its two cells, a square with one crest, on ever finer grids, while
+the next is expected to end within SECONDS a load. Each line is a run: name, load, points along a side, time
+[ms], solves behind that median, mean gap, contact area (points with pressure, counted), peak pressure (the
+largest of the points).
 
-rough: a matrix of heights on a cell of side 1, at a mean pressure over E*, to ever smaller tolerances. Each line:
-name, tolerance, time [ms], solves, residual, mean gap over the depth of the mean plane below the peak, contact
-area. The residual is the same for all: the root mean square of the violated conditions on the gap, over its mean,
-of the pressures that the peer gives.
+rough: a matrix of heights on a cell of side 1, at a mean pressure over E*, to ever smaller tolerances. Each
+line: name, tolerance, time [ms], solves, residual, mean gap over the depth of the mean plane below the
+peak, contact area. The residual is the same for all: the root mean square of the violated conditions on the
+gap, over its mean, of the pressures that the peer gives.
 
 The time is that of the peer's solver alone: its model and the plans of its transforms are made before.
 """

@@ -2,9 +2,9 @@
 !>
 !>    time_error_rough FILE PRESSURE
 !>
-!> FILE holds a matrix of heights on a cell of side 1, PRESSURE the mean pressure over E*. The line of standard output:
-!> solver, tolerance (0: the program's own), time [ms], solves behind that median, residual, mean gap over the depth of the
-!> mean plane below the peak, and contact area.
+!> FILE holds a matrix of heights on a cell of side 1, PRESSURE the mean pressure over E*. The line of
+!> standard output: solver, tolerance (0: the program's own), time [ms], solves behind that median,
+!> residual, mean gap over the depth of the mean plane below the peak, and contact area.
 program time_error_rough
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use samples, only: clock_ms, sample_set
@@ -35,7 +35,8 @@ program time_error_rough
    surface = surface_of_points([1.0_dp, 1.0_dp], map%height)
    do i = 1, repeats
       start = clock_ms()
-      call solve_by_cascade(surface, pressure/surface%full_contact_pressure(1.0_dp), 0.0_dp, surface%points, answer)
+      call solve_by_cascade(surface, pressure/surface%full_contact_pressure(1.0_dp), 0.0_dp, surface%points, &
+                            answer)
       call times%add(clock_ms() - start)
    end do
    write (output_unit, '(a,f12.4,i4,es11.2,2es22.14)') 'wavycon-grid 0', times%median(), times%count, &

@@ -1,4 +1,4 @@
-"""slippy: the conjugate gradients of Polonsky & Keer, in numpy with FFTW; what its steps take for a given load.
+"""slippy: the conjugate gradients of Polonsky & Keer, with FFTW; what its steps take for a load.
 
 Its other solver for periodic contact, Rey's, is slower where it converges, and does not near full contact.
 """

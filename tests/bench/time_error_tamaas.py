@@ -1,7 +1,7 @@
 """tamaas: the conjugate gradients of Polonsky & Keer with Rey's changes, in compiled C++.
 
-Of its two formulations that in pressures is taken. That in gaps needs some hundred times longer for a load that
-is given, and counts the points of the open gap that hold a rounding of pressure as contact.
+Of its two formulations that in pressures is taken. That in gaps needs some hundred times longer for a load
+that is given, and counts the points of the open gap that hold a rounding of pressure as contact.
 """
 import numpy
 import tamaas

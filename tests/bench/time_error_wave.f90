@@ -1,11 +1,12 @@
-!> Measures time against error for the two-dimensional wave: the grids to ever smaller accuracies, and the paper's method
-!> with ever more harmonics.
+!> Measures time against error for the two-dimensional wave: the grids to ever smaller accuracies, and the
+!> paper's method with ever more harmonics.
 !>
 !>    time_error_wave SECONDS LOAD...
 !>
-!> Each line of standard output is a run: solver, load, its measure of fineness (points along a side of the smallest cell, or
-!> harmonics), time [ms], solves behind that median, then mean gap, contact area and peak pressure. A ladder of runs ends
-!> before a run that would probably take longer than what is left of SECONDS.
+!> Each line of standard output is a run: solver, load, its measure of fineness (points along a side of the
+!> smallest cell, or harmonics), time [ms], solves behind that median, then mean gap, contact area and peak
+!> pressure. A ladder of runs ends before a run that would probably take longer than what is left of
+!> SECONDS.
 program time_error_wave
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use samples, only: clock_ms, sample_set
@@ -16,7 +17,8 @@ program time_error_wave
    !> The first accuracy asked of the grids; each is half of the one before.
    real(dp), parameter :: coarsest = 0.1_dp
    integer, parameter :: harmonics(*) = [5, 7, 9, 12, 15, 20, 25, 30]
-   !> Most solves of a run, of which the median counts, and what they may take together [ms], the first of them excepted.
+   !> Most solves of a run, of which the median counts, and what they may take together [ms], the first of
+   !> them excepted.
    integer, parameter :: repeats = 5
    real(dp), parameter :: repeat_time = 1000.0_dp
    !> What a run costs at most in units of the one before it.
@@ -103,7 +105,8 @@ contains
             call times%add(clock_ms() - start)
          end do
          if (.not. state%is_good()) then
-            write (error_unit, '(a,i0,a,f5.2)') 'time_error_wave: not solved with ', harmonics(k), ' harmonics at P =', load
+            write (error_unit, '(a,i0,a,f5.2)') 'time_error_wave: not solved with ', harmonics(k), &
+               ' harmonics at P =', load
             cycle
          end if
          associate (m => state%measures)
@@ -139,7 +142,8 @@ contains
       integer, intent(in) :: fineness
       type(sample_set), intent(in) :: times
 
-      write (output_unit, '(a,f6.3,i6,f12.4,i4,3es22.14)') solver, load, fineness, times%median(), times%count, values
+      write (output_unit, '(a,f6.3,i6,f12.4,i4,3es22.14)') solver, load, fineness, &
+         times%median(), times%count, values
       flush (output_unit)
    end subroutine write_run
 
