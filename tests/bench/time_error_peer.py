@@ -25,6 +25,7 @@ import numpy
 
 GRIDS = 32, 64, 128, 256, 512, 1024
 TOLERANCE = 1e-8  # of the wave: far below the error of the finest grid
+FULL_LOAD, FULL_AGREEMENT = 1.2, 1e-6  # a load that closes the gap; far above the tolerance
 ROUGH_TOLERANCES = 1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-12
 ITERATION_LIMIT = 5000
 REPEATS, REPEAT_SECONDS = 5, 1.0  # most solves of a run, and what those after the first may take together
@@ -56,11 +57,26 @@ def residual_of(pressures, heights):
     return numpy.sqrt((violated**2).mean())/gaps.mean(), gaps.mean()
 
 
+def wave(n):
+    crest = numpy.cos(2*numpy.pi*numpy.arange(n)/n)/2
+    return crest[:, None] + crest
+
+
+def check_units(peer):
+    """In full contact the gap is zero and the pressure the load and the wave, p* high: equation (22)."""
+    contact = peer.Contact(wave(32), FULL_LOAD, TOLERANCE, ITERATION_LIMIT)
+    good = contact.solve()
+    pressures, gaps = contact.answer()
+    difference = max(abs(pressures - FULL_LOAD - wave(32)).max(), abs(gaps).max())
+    if not good or difference > FULL_AGREEMENT:
+        sys.exit(f'time_error_peer: differs from full contact by {difference}')
+
+
 def climb(name, peer, load, seconds):
+    check_units(peer)
     end = time.perf_counter() + seconds
     for n in GRIDS:
-        crest = numpy.cos(2*numpy.pi*numpy.arange(n)/n)/2
-        contact = peer.Contact(crest[:, None] + crest, load, TOLERANCE, ITERATION_LIMIT)
+        contact = peer.Contact(wave(n), load, TOLERANCE, ITERATION_LIMIT)
         times = time_solves(contact)
         if not times:
             print(f'# {name} does not converge at P = {load} on {n} x {n} points', flush=True)
