@@ -31,12 +31,12 @@ do for [panel = 1:4] {
 }
 
 set logscale xy
-set xrange [0.1:1e4]
-set yrange [1e-8:1]
+set xrange [0.1:3e4]
+set yrange [1e-9:1]
 set xtics 0.1, 100 format '' font small
-set ytics 100 format '' font small
-set mxtics 2
-set mytics 2
+set ytics 1e-8, 100 format '' font small
+unset mxtics
+unset mytics
 set grid xtics ytics lc rgb '#e4e4e4' lw 0.6 dt solid
 
 unset key
