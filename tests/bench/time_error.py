@@ -24,7 +24,7 @@ QUANTITIES = 'gap', 'area', 'peak'
 TARGETS = [10.0**-k for k in range(2, 9)]
 RATIO_TARGETS = 1e-5, 1e-3, 1e-3  # of the three quantities, for the ratios
 OWN = 'wavycon-grid', 'wavycon-beale'
-ROUGH = 6  # times the seconds of a load of the wave are for the rough surface
+ROUGH = 10  # times the seconds of a load of the wave are for the rough surface
 HANG = 5  # a solver that takes so many times what it may is ended
 
 

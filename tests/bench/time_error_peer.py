@@ -26,8 +26,8 @@ import numpy
 GRIDS = 32, 64, 128, 256, 512, 1024
 TOLERANCE = 1e-8  # of the wave: far below the error of the finest grid
 FULL_LOAD, FULL_AGREEMENT = 1.2, 1e-6  # a load that closes the gap; far above the tolerance
-ROUGH_TOLERANCES = 1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-12
-ITERATION_LIMIT = 5000
+ROUGH_TOLERANCES = 1e-4, 1e-8, 1e-11
+ITERATION_LIMIT = 2000
 REPEATS, REPEAT_SECONDS = 5, 1.0  # most solves of a run, and what those after the first may take together
 GROWTH = 6  # what a run costs at most in units of the one before it: four times the points, more iterations
 
