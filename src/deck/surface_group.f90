@@ -175,7 +175,7 @@ contains
          call check_count('waves_x', size(waves_x))
          if (input%has('waves_y')) call check_count('waves_y', size(waves_y))
          if (input%has('phases')) call check_count('phases', size(phases))
-         if (any_bad([character(10) :: 'amplitudes', 'waves_x', 'waves_y'])) return
+         if (input%is_bad('amplitudes') .or. input%is_bad('waves_x') .or. input%is_bad('waves_y')) return
          if (size(group%waves_x) /= size(group%waves_y) .or. size(waves_x) == 0) return
          do i = 1, size(waves_x)
             if (waves_x(i) /= 0 .or. group%waves_y(i) /= 0) cycle
@@ -191,18 +191,10 @@ contains
          character(*), intent(in) :: key
          integer, intent(in) :: number
 
-         if (.not. input%has(key) .or. any_bad([character(10) :: key, 'amplitudes'])) return
+         if (.not. input%has(key) .or. input%is_bad(key) .or. input%is_bad('amplitudes')) return
          if (number /= size(amplitudes)) call problems%add(input%place_of(key), key//' has '//integer_text(number)// &
             ' values and amplitudes '//integer_text(size(amplitudes))//': give one for each wave')
       end subroutine check_count
-
-      logical function any_bad(keys)
-         character(*), intent(in) :: keys(:)
-
-         integer :: i
-
-         any_bad = any([(input%is_bad(trim(keys(i))), i=1, size(keys))])
-      end function any_bad
 
    end subroutine read_surface_group
 
