@@ -2,13 +2,13 @@
 module wavycon_closed_form_contact
    use wavycon_constants, only: pi
    use wavycon_contact_measures, only: contact_measures
-   use wavycon_contact_solver, only: contact_solver
    use wavycon_contact_state, only: closed_form, contact_state
    use wavycon_fourier_series, only: fourier_series
    use wavycon_dundurs, only: dundurs_coefficients
    use wavycon_edge_curves, only: edge_curve, strip_ends
    use wavycon_kinds, only: dp
    use wavycon_kuznetsov, only: kuznetsov_mean_gap_over_amplitude
+   use wavycon_series_contact, only: series_contact
    use wavycon_surface, only: surface_type
    use wavycon_westergaard, only: westergaard_contact_area_fraction, westergaard_peak_pressure_over_pstar
    implicit none (type, external)
@@ -19,7 +19,7 @@ module wavycon_closed_form_contact
    !> Terms of the fields' series. The pressure's fall as the power -3/2: it is then within 1e-5 p* almost everywhere.
    integer, parameter :: field_terms = 2000
 
-   type, extends(contact_solver) :: closed_form_contact
+   type, extends(series_contact) :: closed_form_contact
    contains
       procedure :: start
       procedure :: solve

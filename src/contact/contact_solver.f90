@@ -1,16 +1,16 @@
 !> What all solvers that a user can choose have in common.
 module wavycon_contact_solver
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use wavycon_contact_fields, only: contact_fields, series_fields
    use wavycon_contact_measures, only: full_contact_measures
    use wavycon_contact_state, only: contact_state, full_contact, no_load, not_finite
    use wavycon_edge_curves, only: edge_curve
-   use wavycon_fourier_series, only: fourier_series
    use wavycon_kinds, only: dp
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
 
-   public :: contact_solver
+   public :: contact_solver, is_settled
 
    !> A solver of one surface, for loads that are best given from the highest to the lowest. Fields and edges are in the angles
    !> X, Y of the surface's cell.
@@ -20,11 +20,10 @@ module wavycon_contact_solver
       procedure :: settle
       procedure :: cheaper_levels
       procedure :: use_level
-      procedure :: pressure
-      procedure :: displacement
+      procedure :: fields
       procedure :: edge_curves
       procedure(solve_load), deferred :: solve
-      procedure(field_of_state), deferred :: solved_pressure
+      procedure(fields_of_state), deferred :: solved_fields
       procedure(edge_of_state), deferred :: solved_edge_curves
       procedure(words_of_solver), deferred :: describe
    end type contact_solver
@@ -38,13 +37,13 @@ module wavycon_contact_solver
          type(contact_state), intent(out) :: state
       end subroutine solve_load
 
-      !> p/p* of a state between no load and full contact.
-      function field_of_state(self, state) result(field)
-         import :: contact_solver, contact_state, fourier_series
+      !> Pressure and displacement of a state between no load and full contact.
+      subroutine fields_of_state(self, state, fields)
+         import :: contact_fields, contact_solver, contact_state
          class(contact_solver), intent(in) :: self
          type(contact_state), intent(in) :: state
-         type(fourier_series) :: field
-      end function field_of_state
+         class(contact_fields), allocatable, intent(out) :: fields
+      end subroutine fields_of_state
 
       !> The edge of contact of such a state: closed curves in 2-D, in 1-D the two ends of each strip.
       subroutine edge_of_state(self, state, curves)
@@ -101,31 +100,29 @@ contains
       associate (unused => self, unused_too => level); end associate
    end subroutine use_level
 
-   !> p/p* of a state.
-   function pressure(self, state) result(field)
+   !> Pressure and displacement of any state.
+   subroutine fields(self, state, answer)
       class(contact_solver), intent(in) :: self
       type(contact_state), intent(in) :: state
-      type(fourier_series) :: field
+      class(contact_fields), allocatable, intent(out) :: answer
+
+      type(series_fields), allocatable :: both
 
       if (.not. is_settled(state)) then
-         field = self%solved_pressure(state)
-      else if (state%status == full_contact) then
-         field = self%surface%pressure_of(self%surface%shape)
-         field%c(0, 0) = state%pbar_over_pstar
-      else
-         allocate (field%c, mold=self%surface%shape%c)
-         field%c = 0.0_dp
+         call self%solved_fields(state, answer)
+         return
       end if
-   end function pressure
-
-   !> (u - ubar)/Delta of a state.
-   function displacement(self, state) result(field)
-      class(contact_solver), intent(in) :: self
-      type(contact_state), intent(in) :: state
-      type(fourier_series) :: field
-
-      field = self%surface%displacement_of(self%pressure(state))
-   end function displacement
+      allocate (both)
+      if (state%status == full_contact) then
+         both%pressure = self%surface%full_contact_series(state%pbar_over_pstar)
+         both%displacement = self%surface%shape
+      else
+         allocate (both%pressure%c, both%displacement%c, mold=self%surface%shape%c)
+         both%pressure%c = 0.0_dp
+         both%displacement%c = 0.0_dp
+      end if
+      call move_alloc(both, answer)
+   end subroutine fields
 
    subroutine edge_curves(self, state, curves)
       class(contact_solver), intent(in) :: self
@@ -139,6 +136,7 @@ contains
       end if
    end subroutine edge_curves
 
+   !> Whether a state needed no solver.
    pure logical function is_settled(state)
       type(contact_state), intent(in) :: state
 

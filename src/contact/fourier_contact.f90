@@ -3,7 +3,6 @@ module wavycon_fourier_contact
    use wavycon_beale, only: beale_solver
    use wavycon_complementary_energy, only: energy_problem
    use wavycon_contact_measures, only: measure_series, measuring_intervals
-   use wavycon_contact_solver, only: contact_solver
    use wavycon_contact_state, only: contact_state, full_contact
    use wavycon_fourier_series, only: fourier_series
    use wavycon_edge_curves, only: edge_curve, strip_ends, trace_edges, turn_curves
@@ -12,6 +11,7 @@ module wavycon_fourier_contact
    use wavycon_kinds, only: dp
    use wavycon_line_zeros, only: line_zeros
    use wavycon_qp_problem, only: qp_problem, qp_solution, qp_status_name
+   use wavycon_series_contact, only: series_contact
    use wavycon_surface, only: surface_type, turned_paper_wave
    use wavycon_turned_series, only: to_sum_angles
    implicit none (type, external)
@@ -24,7 +24,7 @@ module wavycon_fourier_contact
    !> at a light load, along which neighbouring points near the troughs make nearly dependent sets.
    real(dp), parameter :: starting_load = 0.9_dp
 
-   type, extends(contact_solver) :: fourier_contact
+   type, extends(series_contact) :: fourier_contact
       type(fourier_terms) :: terms
       logical :: turned = .false.                      !! phi and theta, the series' angles, against the cell's
       type(qp_problem) :: problem                      !! at zero load

@@ -4,7 +4,6 @@
 !> square of half the area turned by 45 degrees, of which a quarter is enough, unless the points are to lie on the user's cell.
 module wavycon_grid_contact
    use wavycon_contact_measures, only: contact_measures
-   use wavycon_contact_solver, only: contact_solver
    use wavycon_contact_state, only: contact_state, converged, not_accurate
    use wavycon_edge_curves, only: edge_curve, strip_ends, trace_edges, turn_curves, whole_strips
    use wavycon_fourier_series, only: fourier_series
@@ -15,6 +14,7 @@ module wavycon_grid_contact
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: integer_text, short_number
    use wavycon_qp_problem, only: qp_iteration_limit, qp_status_name
+   use wavycon_series_contact, only: series_contact
    use wavycon_surface, only: surface_type
    use wavycon_turned_series, only: to_half_angles
    implicit none (type, external)
@@ -22,7 +22,7 @@ module wavycon_grid_contact
 
    public :: grid_contact
 
-   type, extends(contact_solver) :: grid_contact
+   type, extends(series_contact) :: grid_contact
       class(grid_progress), pointer :: progress => null()   !! that hears of each grid
       real(dp), private :: accuracy = 0.0_dp                 !! asked for
       integer, private :: points(2) = 0                      !! likewise

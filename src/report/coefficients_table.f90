@@ -5,6 +5,7 @@ module wavycon_coefficients_table
    use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
    use wavycon_results, only: results_type
+   use wavycon_series_contact, only: series_contact
    implicit none (type, external)
    private
 
@@ -18,8 +19,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(output_file) :: file
-      type(fourier_series) :: pressure, displacement
-      real(dp) :: approach
+      type(fourier_series) :: pressure
       integer :: load, i, j
 
       call results%open_table('coefficients', file)
@@ -30,7 +30,10 @@ contains
       end if
       do load = 1, size(results%states)
          call results%put_load_heading(file, load, first=load == 1)
-         call results%series(load, pressure, displacement, approach)
+         select type (contact => results%contact)
+         class is (series_contact)
+            pressure = contact%pressure(results%states(load))
+         end select
          do i = 0, ubound(pressure%c, 1)
             do j = 0, ubound(pressure%c, 2)
                if (i + j == 0) cycle

@@ -6,7 +6,7 @@
 !> load) and the pressure in the penny-shaped crack about the nearest trough and its opening (heavy load).
 module wavycon_lines_table
    use wavycon_constants, only: pi
-   use wavycon_fourier_series, only: fourier_series
+   use wavycon_contact_fields, only: contact_fields
    use wavycon_dundurs, only: dundurs_coefficients, dundurs_pressure_over_pstar
    use wavycon_error, only: error_type
    use wavycon_hertz_point, only: hertz_point_pressure_over_pstar
@@ -38,8 +38,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(output_file) :: file
-      type(fourier_series) :: pressure, displacement
-      real(dp) :: approach
+      class(contact_fields), allocatable :: fields
       integer :: load, line
 
       call results%open_table('lines', file)
@@ -52,24 +51,23 @@ contains
       end if
       do load = 1, size(results%states)
          call results%put_load_heading(file, load, first=load == 1)
-         call results%series(load, pressure, displacement, approach)
+         call results%contact%fields(results%states(load), fields)
          do line = 1, results%scene%surface%dimension
             if (line > 1) call file%put('')
-            call put_line(results, file, load, line, pressure, displacement, approach)
+            call put_line(results, file, load, line, fields)
          end do
       end do
       call file%finish(error)
    end subroutine write_lines_table
 
-   subroutine put_line(results, file, load, line, pressure, displacement, approach)
+   subroutine put_line(results, file, load, line, fields)
       type(results_type), intent(in) :: results
       type(output_file), intent(inout) :: file
       integer, intent(in) :: load, line
-      type(fourier_series), intent(in) :: pressure, displacement   !! of the load
-      real(dp), intent(in) :: approach                            !! over Delta, likewise
+      class(contact_fields), intent(inout) :: fields   !! of the load
 
       real(dp), allocatable :: beside(:)
-      real(dp) :: dundurs(results%deck%method%harmonics), start(2), way(2), angles(2), phi, theta, u, load_p
+      real(dp) :: dundurs(results%deck%method%harmonics), start(2), way(2), angles(2), phi, theta, p, u, load_p
       integer :: k, intervals
 
       load_p = results%states(load)%pbar_over_pstar
@@ -84,7 +82,7 @@ contains
          do k = 0, intervals
             angles = start + k*way
             call surface%paper_angles(angles(1), angles(2), phi, theta)
-            u = displacement%at(angles(1), angles(2))
+            call fields%at(angles(1), angles(2), p, u)
             if (.not. results%deck%output%theory) then
                beside = [real(dp) ::]
             else if (surface%dimension == 1) then
@@ -100,8 +98,8 @@ contains
             call file%add(load_p)
             call file%add(line)
             call file%add([norm2(surface%length*k*way)/(2*pi), surface%length*angles/(2*pi), &
-                           pressure%at(angles(1), angles(2)), u, &
-                           surface%undeformed_gap_over_amplitude(angles(1), angles(2)) + u - approach, beside])
+                           p, u, surface%undeformed_gap_over_amplitude(angles(1), angles(2)) + u &
+                           - results%states(load)%measures%approach_over_amplitude, beside])
             call file%end_row()
          end do
       end associate

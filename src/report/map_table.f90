@@ -1,7 +1,7 @@
 !> <case>.map.dat: the fields over one cell, a block a load, a blank line between rows (gnuplot's grid
 !> format).
 module wavycon_map_table
-   use wavycon_fourier_series, only: fourier_series
+   use wavycon_contact_fields, only: contact_fields
    use wavycon_error, only: error_type
    use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
@@ -37,16 +37,16 @@ contains
       type(output_file), intent(inout) :: file
       integer, intent(in) :: load
 
-      type(fourier_series) :: pressure, displacement
+      class(contact_fields), allocatable :: fields
       real(dp), allocatable :: p(:, :), shape(:, :), u(:, :)
       real(dp) :: approach
       integer :: k, l, n
 
       n = results%deck%output%points_per_wavelength
       associate (surface => results%scene%surface)
-         call results%series(load, pressure, displacement, approach)
-         call pressure%evaluate_on_cell(n, p)
-         call displacement%evaluate_on_cell(n, u)
+         approach = results%states(load)%measures%approach_over_amplitude
+         call results%contact%fields(results%states(load), fields)
+         call fields%on_cell(n, surface%dimension, p, u)
          call surface%shape%evaluate_on_cell(n, shape)
          do l = 0, merge(n, 0, surface%dimension == 2)
             if (l > 0) call file%put('')

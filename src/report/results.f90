@@ -2,7 +2,6 @@
 module wavycon_results
    use wavycon_contact_solver, only: contact_solver
    use wavycon_contact_state, only: contact_state
-   use wavycon_fourier_series, only: fourier_series
    use wavycon_deck, only: deck_type
    use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
@@ -23,7 +22,6 @@ module wavycon_results
    contains
       procedure :: open_table
       procedure :: put_load_heading
-      procedure :: series
       procedure :: mean_pressure
    end type results_type
 
@@ -82,18 +80,6 @@ contains
       call file%put('# load '//integer_text(load)//': pbar/p* = '//exact_number(self%states(load)%pbar_over_pstar)// &
                     ', '//trim(self%states(load)%status))
    end subroutine put_load_heading
-
-   !> p/p* and (u - ubar)/Delta at a load as series, and the approach that goes with them.
-   subroutine series(self, load, pressure, displacement, approach_over_amplitude)
-      class(results_type), intent(in) :: self
-      integer, intent(in) :: load
-      type(fourier_series), intent(out) :: pressure, displacement
-      real(dp), intent(out) :: approach_over_amplitude
-
-      pressure = self%contact%pressure(self%states(load))
-      displacement = self%scene%surface%displacement_of(pressure)
-      approach_over_amplitude = self%states(load)%measures%approach_over_amplitude
-   end subroutine series
 
    !> pbar of a load [pressure]; as given, where it was.
    pure real(dp) function mean_pressure(self, load)

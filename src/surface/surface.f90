@@ -33,6 +33,7 @@ module wavycon_surface
       procedure :: frequency
       procedure :: pressure_of
       procedure :: displacement_of
+      procedure :: full_contact_series
       procedure :: paper_wave
       procedure :: paper_wavelength
       procedure :: paper_angles
@@ -143,6 +144,15 @@ contains
       displacement = scaled(weighted(self, pressure, -1), self%stiffness)
    end function displacement_of
 
+   !> p/p* in full contact, eq. (22) of the paper's wave: that of the shape.
+   type(fourier_series) function full_contact_series(self, pbar_over_pstar) result(pressure)
+      class(surface_type), intent(in) :: self
+      real(dp), intent(in) :: pbar_over_pstar   !! P >= 1
+
+      pressure = self%pressure_of(self%shape)
+      pressure%c(0, 0) = pbar_over_pstar
+   end function full_contact_series
+
    !> A series with each term times a power of its frequency; none is left of its mean.
    type(fourier_series) function weighted(surface, series, power)
       class(surface_type), intent(in) :: surface
@@ -199,16 +209,19 @@ contains
       pure logical function is_wave(i, j)
          integer, intent(in) :: i, j
 
-         real(dp) :: rest(0:ubound(self%shape%c, 1), 0:ubound(self%shape%c, 2))
+         real(dp) :: expected
+         integer :: k, l
 
-         is_wave = .false.
-         if (max(i, j) > ubound(self%shape%c, 1)) return
-         if (self%dimension == 2 .and. i > ubound(self%shape%c, 2)) return
-         if (j > ubound(self%shape%c, 2)) return
-         rest = self%shape%c
-         rest(i, j) = rest(i, j) - 1.0_dp/merge(1, 2, i == j .or. self%dimension == 1)
-         if (i /= j .and. self%dimension == 2) rest(j, i) = rest(j, i) - 0.5_dp
-         is_wave = all(abs(rest) <= rounding)
+         is_wave = i <= ubound(self%shape%c, 1) .and. (self%dimension == 1 .or. i <= ubound(self%shape%c, 2))
+         if (.not. is_wave) return
+         do l = 0, ubound(self%shape%c, 2)
+            do k = 0, ubound(self%shape%c, 1)
+               expected = 0.0_dp
+               if (k == i .and. l == j) expected = merge(1.0_dp, 0.5_dp, i == j .or. self%dimension == 1)
+               if (k == j .and. l == i .and. i /= j) expected = 0.5_dp
+               is_wave = is_wave .and. abs(self%shape%c(k, l) - expected) <= rounding
+            end do
+         end do
       end function is_wave
 
    end function paper_wave
