@@ -12,6 +12,8 @@ module wavycon_gsl
    public :: gsl_sf_legendre_pl_array, gsl_sf_zeta, gsl_sf_hzeta
    public :: gsl_integration_workspace_alloc, gsl_integration_workspace_free
    public :: gsl_integration_qaws_table_alloc, gsl_integration_qaws_table_free, gsl_integration_qaws
+   public :: gsl_integration_fixed_jacobi, gsl_integration_fixed_alloc, gsl_integration_fixed_free
+   public :: gsl_integration_fixed_nodes, gsl_integration_fixed_weights
    public :: gsl_set_error_handler, gsl_set_error_handler_off
 
    !> A real function of one real variable, with its parameters.
@@ -19,6 +21,9 @@ module wavycon_gsl
       type(c_funptr) :: function = c_null_funptr  !! double (*)(double x, void *params)
       type(c_ptr) :: params = c_null_ptr
    end type gsl_function
+
+   !> The weight (b-x)^alpha (x-a)^beta of a fixed rule.
+   type(c_ptr), protected, bind(c, name='gsl_integration_fixed_jacobi') :: gsl_integration_fixed_jacobi
 
    interface
       !> Legendre polynomials P_0(x) .. P_lmax(x), -1 <= x <= 1; returns 0 if all is well.
@@ -77,6 +82,32 @@ module wavycon_gsl
          integer(c_size_t), value :: limit
          real(c_double), intent(out) :: result, abserr
       end function gsl_integration_qaws
+
+      !> A Gauss rule of n nodes on a..b for one of the library's weights; a null pointer if it cannot be had.
+      type(c_ptr) function gsl_integration_fixed_alloc(t, n, a, b, alpha, beta) &
+         bind(c, name='gsl_integration_fixed_alloc')
+         import :: c_double, c_ptr, c_size_t
+         type(c_ptr), value :: t
+         integer(c_size_t), value :: n
+         real(c_double), value :: a, b, alpha, beta
+      end function gsl_integration_fixed_alloc
+
+      subroutine gsl_integration_fixed_free(w) bind(c, name='gsl_integration_fixed_free')
+         import :: c_ptr
+         type(c_ptr), value :: w
+      end subroutine gsl_integration_fixed_free
+
+      !> Of a double[n] that belongs to the rule.
+      type(c_ptr) function gsl_integration_fixed_nodes(w) bind(c, name='gsl_integration_fixed_nodes')
+         import :: c_ptr
+         type(c_ptr), value :: w
+      end function gsl_integration_fixed_nodes
+
+      !> Of a double[n] that belongs to the rule.
+      type(c_ptr) function gsl_integration_fixed_weights(w) bind(c, name='gsl_integration_fixed_weights')
+         import :: c_ptr
+         type(c_ptr), value :: w
+      end function gsl_integration_fixed_weights
 
       !> Sets the handler of the library's errors; returns the one before.
       type(c_funptr) function gsl_set_error_handler(new_handler) bind(c, name='gsl_set_error_handler')

@@ -7,6 +7,7 @@ module wavycon_lapack
    public :: dgemv, dger, dsymv, dsyr, dtrsv
    public :: dgemm
    public :: dpotrf, dtrtri, dgeqp3, dormqr, dlarfg
+   public :: dgels, dgglse
 
    interface
       pure subroutine dgemv(trans, m, n, alpha, a, lda, x, incx, beta, y, incy)
@@ -97,6 +98,23 @@ module wavycon_lapack
          real(dp), intent(inout) :: alpha, x(*)
          real(dp), intent(out) :: tau
       end subroutine dlarfg
+
+      pure subroutine dgels(trans, m, n, nrhs, a, lda, b, ldb, work, lwork, info)
+         import :: dp
+         character, intent(in) :: trans
+         integer, intent(in) :: m, n, nrhs, lda, ldb, lwork
+         real(dp), intent(inout) :: a(lda, *), b(ldb, *)
+         real(dp), intent(out) :: work(*)
+         integer, intent(out) :: info
+      end subroutine dgels
+
+      pure subroutine dgglse(m, n, p, a, lda, b, ldb, c, d, x, work, lwork, info)
+         import :: dp
+         integer, intent(in) :: m, n, p, lda, ldb, lwork
+         real(dp), intent(inout) :: a(lda, *), b(ldb, *), c(*), d(*)
+         real(dp), intent(out) :: x(*), work(*)
+         integer, intent(out) :: info
+      end subroutine dgglse
    end interface
 
 end module wavycon_lapack

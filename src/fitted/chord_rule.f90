@@ -1,0 +1,179 @@
+!> The integral of f/|z - z'| over a mapped disc, exact to rounding for a target z inside or outside, however near its edge.
+!>
+!> For f = (1 - |w|^2)^power times a polynomial take the chords through the target w_t: with w = w_t + t e^(i phi),
+!>
+!>     integral of f J/|z(w) - z(w_t)| over the disc = integral over the chords, over each chord of f J/|Q| dt dphi,
+!>
+!> where Q = (z(w) - z(w_t))/t is a polynomial that does not vanish, and 1 - |w|^2 the product of the distances to the
+!> chord's ends. So a Gauss rule along the chord and, in phi, the midpoint rule over half a turn (target inside) or
+!> Gauss's between the tangents (outside) are spectral.
+module wavycon_chord_rule
+   use wavycon_constants, only: pi
+   use wavycon_disc_polynomials, only: disc_polynomials
+   use wavycon_gauss_rules, only: gauss_jacobi
+   use wavycon_kinds, only: dp
+   use wavycon_lapack, only: dgemv
+   use wavycon_shape_map, only: shape_map
+   implicit none (type, external)
+   private
+
+   public :: chord_rule, start_chord_rule
+
+   type :: chord_rule
+      real(dp) :: power = 0.5_dp                          !! of the weight
+      real(dp), allocatable :: node(:), weight(:)         !! along a chord, between -1 and 1, shape (n)
+      real(dp), allocatable :: angle(:), angle_weight(:)  !! Gauss's rule for a target outside, shape (m)
+      ! Room for the n m points of one target.
+      complex(dp), allocatable, private :: w(:), e2(:), step(:), last(:), q(:), slope(:)
+      complex(dp), allocatable, private :: quotient(:, :), power_of_w(:, :)  !! shape (n m, K)
+      real(dp), allocatable, private :: factor(:), density(:), f(:), f_slope(:)
+      real(dp), allocatable, private :: values(:, :)                         !! shape (n m, N)
+   contains
+      procedure :: rows
+      procedure, private :: place_points
+   end type chord_rule
+
+contains
+
+   !> Prepares for targets in the image of one basis and one number of shape terms.
+   subroutine start_chord_rule(rule, basis, shape_terms, angles, points)
+      type(chord_rule), intent(out) :: rule
+      type(disc_polynomials), intent(in) :: basis
+      integer, intent(in) :: shape_terms  !! K >= 1
+      integer, intent(in) :: angles       !! m, number of chords, >= 1
+      integer, intent(in) :: points       !! n, on a chord, >= 1
+
+      integer :: n
+
+      n = angles*points
+      rule%power = basis%power
+      allocate (rule%node(points), rule%weight(points), rule%angle(angles), rule%angle_weight(angles))
+      call gauss_jacobi(basis%power, basis%power, rule%node, rule%weight)
+      call gauss_jacobi(0.0_dp, 0.0_dp, rule%angle, rule%angle_weight)
+      allocate (rule%w(n), rule%e2(n), rule%step(n), rule%last(n), rule%q(n), rule%slope(n))
+      allocate (rule%quotient(n, shape_terms), rule%power_of_w(n, shape_terms))
+      allocate (rule%factor(n), rule%density(n), rule%f(n), rule%f_slope(n), rule%values(n, basis%terms))
+   end subroutine start_chord_rule
+
+   !> The integral for one target, for each polynomial of the basis, and its derivative with the shape for a sum of them.
+   !>
+   !> N.B. The derivative is taken with the target's w_t kept, so that the target moves with the shape.
+   subroutine rows(self, basis, shape, target, c, row, shape_row)
+      class(chord_rule), intent(inout) :: self
+      type(disc_polynomials), intent(in) :: basis      !! the one the rule was prepared for
+      type(shape_map), intent(in) :: shape
+      complex(dp), intent(in) :: target                !! w_t
+      real(dp), intent(in) :: c(:)                     !! coefficients of the sum, shape (N)
+      real(dp), intent(out) :: row(:)                  !! integrals of the terms, shape (N)
+      real(dp), intent(out) :: shape_row(0:)           !! d(integral of the sum)/d b_k, shape (0:K)
+
+      complex(dp) :: first, last, target_power, target_step
+      real(dp) :: b, gradient, inverse, ratio
+      integer :: i, j, k, m, n
+
+      n = size(self%w)
+      m = shape%fold
+      call self%place_points(target)
+      call basis%evaluate(n, self%w, self%values)
+      associate (w => self%w, q => self%q, slope => self%slope, step => self%step, last_power => self%last, f => self%f, &
+                 quotient => self%quotient, power_of_w => self%power_of_w, f_slope => self%f_slope, &
+                 density => self%density)
+         ! With v = w_t: (w^(j+m) - v^(j+m)) = w^m (w^j - v^j) + v^j (w^m - v^m), all over t e^(i phi), j = m k - 1.
+         target_step = target**m
+         target_power = target**(m - 1)
+         do i = 1, n
+            first = 1.0_dp
+            last = target
+            step(i) = 1.0_dp
+            do j = 2, m - 1
+               first = first*w(i) + last
+               last = last*target
+               step(i) = step(i)*w(i)
+            end do
+            power_of_w(i, 1) = (m - 1)*step(i)
+            step(i) = step(i)*w(i)**2
+            quotient(i, 1) = first
+            last_power(i) = first*w(i) + last
+         end do
+         do k = 2, ubound(shape%b, 1)
+            ratio = (m*k - 1.0_dp)/(m*(k - 1) - 1.0_dp)
+            do i = 1, n
+               quotient(i, k) = step(i)*quotient(i, k - 1) + target_power*last_power(i)
+               power_of_w(i, k) = power_of_w(i, k - 1)*step(i)*ratio
+            end do
+            target_power = target_power*target_step
+         end do
+         q = shape%b(0)
+         slope = 0.0_dp
+         do k = 1, ubound(shape%b, 1)
+            b = shape%b(k)
+            do i = 1, n
+               quotient(i, k) = quotient(i, k)*self%e2(i)
+               q(i) = q(i) + b*quotient(i, k)
+               slope(i) = slope(i) + b*power_of_w(i, k)
+            end do
+         end do
+         b = shape%b(0)
+         do i = 1, n
+            inverse = 1.0_dp/(q(i)%re**2 + q(i)%im**2)
+            f(i) = b**2 - (slope(i)%re**2 + slope(i)%im**2)
+            density(i) = self%factor(i)*sqrt(inverse)
+            f_slope(i) = f(i)*inverse
+            f(i) = f(i)*density(i)
+         end do
+         call dgemv('T', n, basis%terms, 1.0_dp, self%values, n, f, 1, 0.0_dp, row, 1)
+         call dgemv('N', n, basis%terms, 1.0_dp, self%values, n, c, 1, 0.0_dp, f, 1)
+         gradient = 0.0_dp
+         do i = 1, n
+            density(i) = density(i)*f(i)
+            gradient = gradient + density(i)*(2*b - f_slope(i)*q(i)%re)
+         end do
+         shape_row(0) = gradient
+         do k = 1, ubound(shape%b, 1)
+            gradient = 0.0_dp
+            do i = 1, n
+               gradient = gradient - density(i)*( &
+                  2*(slope(i)%re*power_of_w(i, k)%re + slope(i)%im*power_of_w(i, k)%im) &
+                  + f_slope(i)*(q(i)%re*quotient(i, k)%re + q(i)%im*quotient(i, k)%im))
+            end do
+            shape_row(k) = gradient
+         end do
+      end associate
+   end subroutine rows
+
+   !> Points on the chords, and their weights with the weight of f.
+   subroutine place_points(self, target)
+      class(chord_rule), intent(inout) :: self
+      complex(dp), intent(in) :: target          !! w_t
+
+      complex(dp) :: direction, e
+      real(dp) :: distance, half, middle, opening, scale, t
+      integer :: angles, i, j, k
+
+      angles = size(self%angle)
+      distance = abs(target)
+      k = 0
+      do i = 1, angles
+         if (distance <= 1.0_dp) then
+            e = exp(cmplx(0.0_dp, pi*(i - 0.5_dp)/angles, dp))
+            scale = pi/angles
+         else
+            opening = asin(1.0_dp/distance)
+            direction = -target/distance
+            e = direction*exp(cmplx(0.0_dp, opening*self%angle(i), dp))
+            scale = opening*self%angle_weight(i)
+         end if
+         middle = -(target%re*e%re + target%im*e%im)
+         half = sqrt(max(1.0_dp - (target%re*e%im - target%im*e%re)**2, 0.0_dp))
+         scale = scale*half**(2*self%power + 1)
+         do j = 1, size(self%node)
+            k = k + 1
+            t = middle + half*self%node(j)
+            self%w(k) = target + t*e
+            self%e2(k) = e**2
+            self%factor(k) = scale*self%weight(j)
+         end do
+      end do
+   end subroutine place_points
+
+end module wavycon_chord_rule

@@ -1,0 +1,208 @@
+!> The equations of contact of one spot below merging, or of one open island above, at points of the mapped disc.
+!>
+!> Spot: its pressure p makes u + h = delta, and bears the load P on a cell. Island, for the square lattice: its gap g makes
+!> the pressure vanish, which is P + (cos 2 pi x + cos 2 pi y)/2 in full contact, with the crest as origin, and is changed by
+!> -(1/4 pi^2) times the Laplacian of U = integral of Gp g. With the trough as origin therefore
+!>
+!>     U = pi^2 P r^2 + (cos 2 pi x + cos 2 pi y)/2 + sum over k of d_k Re(z^(fold k)).
+!>
+!> The power of 1 - |w|^2 leaves out the term that a wrong shape would bring in: only the right edge fits. So the system in
+!> the coefficients, the approach or the harmonic terms and the shape has more equations than unknowns.
+module wavycon_contact_equations
+   use wavycon_chord_rule, only: chord_rule, start_chord_rule
+   use wavycon_constants, only: pi
+   use wavycon_disc_rule, only: disc_rule, plain_disc_rule
+   use wavycon_expansion, only: expansion
+   use wavycon_image_rule, only: image_rows
+   use wavycon_kinds, only: dp
+   use wavycon_lapack, only: dgemm, dgemv
+   use wavycon_wave_lattice, only: wave_lattice
+   implicit none (type, external)
+   private
+
+   public :: contact_equations, start_equations
+
+   type :: contact_equations
+      integer :: unknowns = 0                    !! N coefficients, 1 or 1+M others, 1+K of the shape
+      type(chord_rule) :: chords
+      type(disc_rule) :: rule
+      complex(dp), allocatable :: target(:)      !! in the disc, shape (m)
+      real(dp), allocatable :: values(:, :)      !! of the basis at the rule's points, shape (n, N)
+      real(dp), allocatable :: matrix(:, :)      !! derivatives of the equations, shape (m, unknowns)
+      real(dp), allocatable :: rest(:)           !! right less left side of the equations, shape (m) [Delta]
+      real(dp), allocatable :: load_row(:)       !! derivatives of the load, shape (unknowns)
+      real(dp), allocatable :: density(:)        !! the expansion at the rule's points, shape (n)
+      real(dp), allocatable, private :: image(:, :)
+   contains
+      procedure :: linearise
+      procedure, private :: linearise_load
+      procedure :: integral
+   end type contact_equations
+
+contains
+
+   !> Chooses targets and rules for expansions like the one given.
+   subroutine start_equations(equations, like)
+      type(contact_equations), intent(out) :: equations
+      type(expansion), intent(in) :: like
+
+      integer :: angles, fold, i, j, n, radii, others
+      real(dp) :: phi
+
+      fold = like%basis%fold
+      others = 1
+      if (like%island) others = size(like%harmonic)
+      equations%unknowns = like%basis%terms + others + size(like%shape%b)
+      associate (degree => like%basis%degree)
+         call start_chord_rule(equations%chords, like%basis, ubound(like%shape%b, 1), 2*degree, degree/2 + 2)
+         call plain_disc_rule(equations%rule, like%basis%power, fold, degree/2 + 4, degree/fold + 2)
+         ! Two more than the unknowns of the round part of a function: with as many, any size would do.
+         radii = degree/2 + merge(5, 4, like%island)
+         angles = degree/fold + merge(2, 1, like%island)
+      end associate
+      allocate (equations%target(radii*angles))
+      n = 0
+      do j = 1, angles
+         phi = pi*(j - 0.5_dp)/(fold*angles)
+         do i = 1, radii
+            n = n + 1
+            equations%target(n) = sin(0.5_dp*pi*(i - 0.5_dp)/radii)*exp(cmplx(0.0_dp, phi, dp))
+         end do
+      end do
+      n = size(equations%rule%point)
+      allocate (equations%values(n, like%basis%terms), equations%density(n))
+      call like%basis%evaluate(n, equations%rule%point, equations%values)
+      allocate (equations%matrix(size(equations%target), equations%unknowns), equations%rest(size(equations%target)), &
+                equations%image(size(equations%target), n), equations%load_row(equations%unknowns))
+   end subroutine start_equations
+
+   !> Sets the matrix and the rest at an expansion.
+   subroutine linearise(self, lattice, load, now)
+      class(contact_equations), intent(inout) :: self
+      type(wave_lattice), intent(in) :: lattice
+      real(dp), intent(in) :: load            !! P
+      type(expansion), intent(in) :: now
+
+      complex(dp) :: slope, v, z
+      real(dp) :: image_slopes(0:ubound(now%shape%b, 1)), row(now%basis%terms), slopes(0:ubound(now%shape%b, 1))
+      integer :: fold, i, k, m, n, shapes, terms
+
+      terms = now%basis%terms
+      shapes = self%unknowns - size(now%shape%b)
+      fold = now%basis%fold
+      m = size(self%target)
+      n = size(self%rule%point)
+      call dgemv('N', n, terms, 1.0_dp, self%values, n, now%c, 1, 0.0_dp, self%density, 1)
+      do i = 1, m
+         call self%chords%rows(now%basis, now%shape, self%target(i), now%c, row, slopes)
+         call image_rows(lattice%kernel, now%shape, self%rule, self%target(i), self%density, self%image(i, :), image_slopes)
+         self%matrix(i, :terms) = row
+         self%matrix(i, shapes + 1:) = slopes + image_slopes
+      end do
+      call dgemm('N', 'N', m, terms, n, 1.0_dp, self%image, m, self%values, n, 1.0_dp, self%matrix, m)
+      call dgemv('N', m, terms, -1.0_dp, self%matrix, m, now%c, 1, 0.0_dp, self%rest, 1)
+      do i = 1, m
+         z = now%shape%place(self%target(i))
+         if (now%island) then
+            self%rest(i) = self%rest(i) + opening(load, z)
+            slope = -opening_slope(load, z)
+            do k = 0, ubound(now%harmonic, 1)
+               v = (z/now%scale)**(fold*k)
+               self%matrix(i, terms + 1 + k) = -v%re
+               self%rest(i) = self%rest(i) + now%harmonic(k)*v%re
+               if (k > 0) slope = slope - now%harmonic(k)*fold*k/now%scale*conjg((z/now%scale)**(fold*k - 1))
+            end do
+         else
+            self%rest(i) = self%rest(i) + now%approach - lattice%undeformed_gap(z)
+            self%matrix(i, terms + 1) = -1.0_dp
+            slope = lattice%undeformed_slope(z)
+         end if
+         v = self%target(i)
+         do k = 0, ubound(now%shape%b, 1)
+            if (k > 0) v = conjg(self%target(i))**(fold*k - 1)
+            self%matrix(i, shapes + 1 + k) = self%matrix(i, shapes + 1 + k) + slope%re*v%re + slope%im*v%im
+         end do
+      end do
+      if (.not. now%island) call self%linearise_load(now)
+   end subroutine linearise
+
+   !> Derivatives of the load that a spot bears.
+   subroutine linearise_load(self, now)
+      class(contact_equations), intent(inout) :: self
+      type(expansion), intent(in) :: now
+
+      real(dp) :: jacobian, slope(0:ubound(now%shape%b, 1))
+      integer :: i, shapes
+
+      shapes = self%unknowns - size(now%shape%b)
+      self%load_row = 0.0_dp
+      do i = 1, size(self%rule%point)
+         call now%shape%linearise_jacobian(self%rule%point(i), jacobian, slope)
+         self%load_row(:now%basis%terms) = self%load_row(:now%basis%terms) &
+            + self%rule%weight(i)*jacobian*self%values(i, :)
+         self%load_row(shapes + 1:) = self%load_row(shapes + 1:) + self%rule%weight(i)*self%density(i)*slope
+      end do
+   end subroutine linearise_load
+
+   !> Integral over the spot or island of an expansion times a function of the place: of p or g.
+   real(dp) function integral(self, now, factor)
+      class(contact_equations), intent(in) :: self
+      type(expansion), intent(in) :: now
+      real(dp), intent(in), optional :: factor(:)   !! the function at the rule's points, shape (n); 1 if absent
+
+      real(dp) :: product(size(self%rule%point))
+
+      product = self%rule%weight*now%shape%jacobian(self%rule%point)*matmul(self%values, now%c)
+      if (present(factor)) product = product*factor
+      integral = sum(product)
+   end function integral
+
+   !> pi^2 P r^2 + (cos 2 pi x + cos 2 pi y)/2 - 1, which falls as r^4 for P = 1, without loss of digits.
+   pure real(dp) function opening(load, z)
+      real(dp), intent(in) :: load
+      complex(dp), intent(in) :: z  !! from the trough
+
+      opening = -(1.0_dp - load)*pi**2*(z%re**2 + z%im**2) - bulge(pi*z%re) - bulge(pi*z%im)
+   end function opening
+
+   !> Gradient of the above, as a complex number.
+   pure complex(dp) function opening_slope(load, z)
+      real(dp), intent(in) :: load
+      complex(dp), intent(in) :: z
+
+      opening_slope = -2*(1.0_dp - load)*pi**2*z - pi*cmplx(bulge_slope(pi*z%re), bulge_slope(pi*z%im), dp)
+   end function opening_slope
+
+   !> sin^2 t - t^2, |t| <= pi/2 or a little more, by its power series.
+   pure real(dp) function bulge(t)
+      real(dp), intent(in) :: t
+
+      real(dp) :: term
+      integer :: j
+
+      term = t**2
+      bulge = 0.0_dp
+      do j = 2, 25
+         term = -term*(2*t)**2/(2*j*(2*j - 1))
+         bulge = bulge + term
+         if (abs(term) <= 0.1_dp*epsilon(term)*abs(bulge)) exit
+      end do
+   end function bulge
+
+   !> sin 2t - 2t.
+   pure real(dp) function bulge_slope(t)
+      real(dp), intent(in) :: t
+
+      real(dp) :: term
+      integer :: j
+
+      term = 2*t
+      bulge_slope = 0.0_dp
+      do j = 1, 25
+         term = -term*(2*t)**2/(2*j*(2*j + 1))
+         bulge_slope = bulge_slope + term
+         if (abs(term) <= 0.1_dp*epsilon(term)*abs(bulge_slope)) exit
+      end do
+   end function bulge_slope
+
+end module wavycon_contact_equations

@@ -1,0 +1,133 @@
+!> Polynomials on the unit disc, orthonormal with the weight (1 - |w|^2)^power, with the symmetry of a contact.
+!>
+!> Their terms are Re(w^(fold k)) P_l^(power, fold k)(2 |w|^2 - 1), fold k + 2 l <= degree, Jacobi's P: invariant when the
+!> disc is turned by 1/fold of a turn and when it is mirrored.
+module wavycon_disc_polynomials
+   use wavycon_constants, only: pi
+   use wavycon_kinds, only: dp
+   implicit none (type, external)
+   private
+
+   public :: disc_polynomials, start_disc_polynomials
+
+   type :: disc_polynomials
+      integer :: fold = 4                   !! of the symmetry, >= 1
+      integer :: degree = 0                 !! >= 0
+      integer :: terms = 0                  !! N
+      real(dp) :: power = 0.5_dp            !! of the weight, > -1
+      integer, allocatable :: angular(:)    !! fold k of each term, shape (N)
+      integer, allocatable :: radial(:)     !! l of each term, shape (N)
+      real(dp), allocatable, private :: recurrence(:, :)  !! shape (3, N)
+   contains
+      procedure :: evaluate
+   end type disc_polynomials
+
+contains
+
+   subroutine start_disc_polynomials(basis, fold, degree, power)
+      type(disc_polynomials), intent(out) :: basis
+      integer, intent(in) :: fold     !! >= 1
+      integer, intent(in) :: degree   !! >= 0
+      real(dp), intent(in) :: power   !! > -1
+
+      real(dp) :: a, b, norm, last_norm, s
+      integer :: k, l, n
+
+      basis%fold = fold
+      basis%degree = degree
+      basis%power = power
+      basis%terms = sum([((degree - k)/2 + 1, k=0, degree, fold)])
+      allocate (basis%angular(basis%terms), basis%radial(basis%terms), basis%recurrence(3, basis%terms))
+      n = 0
+      a = power
+      do k = 0, degree, fold
+         b = k
+         last_norm = 1.0_dp
+         do l = 0, (degree - k)/2
+            n = n + 1
+            basis%angular(n) = k
+            basis%radial(n) = l
+            ! The square of the norm over the disc.
+            norm = merge(pi, 0.5_dp*pi, k == 0)/(2*l + a + b + 1) &
+               *exp(log_gamma(l + a + 1) + log_gamma(l + b + 1) - log_gamma(l + 1.0_dp) - log_gamma(l + a + b + 1))
+            norm = sqrt(norm)
+            s = 2*l + a + b
+            associate (r => basis%recurrence(:, n))
+               select case (l)
+               case (0)
+                  r = [0.0_dp, 1.0_dp/norm, 0.0_dp]
+               case (1)
+                  r = [0.5_dp*(a + b + 2), 0.5_dp*(a - b), 0.0_dp]*last_norm/norm
+               case default
+                  r = [(s - 1)*s*(s - 2), (s - 1)*(a**2 - b**2), -2*(l + a - 1)*(l + b - 1)*s]/(2*l*(l + a + b)*(s - 2))
+                  r(:2) = r(:2)*last_norm/norm
+                  r(3) = r(3)/norm*basis_norm(l - 2)
+               end select
+            end associate
+            last_norm = norm
+         end do
+      end do
+
+   contains
+
+      pure real(dp) function basis_norm(l)
+         integer, intent(in) :: l
+
+         basis_norm = sqrt(merge(pi, 0.5_dp*pi, k == 0)/(2*l + a + b + 1) &
+            *exp(log_gamma(l + a + 1) + log_gamma(l + b + 1) - log_gamma(l + 1.0_dp) - log_gamma(l + a + b + 1)))
+      end function basis_norm
+
+   end subroutine start_disc_polynomials
+
+   !> All terms at n points.
+   pure subroutine evaluate(self, n, w, values)
+      class(disc_polynomials), intent(in) :: self
+      integer, intent(in) :: n
+      complex(dp), intent(in) :: w(n)                   !! in the unit disc
+      real(dp), intent(out) :: values(n, self%terms)
+
+      real(dp) :: x(n), angular_re(n), angular_im(n), step_re(n), step_im(n), old, a, b, c
+      complex(dp) :: step
+      integer :: i, k, l, t
+
+      do i = 1, n
+         x(i) = 2*(w(i)%re**2 + w(i)%im**2) - 1.0_dp
+         angular_re(i) = 1.0_dp
+         angular_im(i) = 0.0_dp
+         step = w(i)**self%fold
+         step_re(i) = step%re
+         step_im(i) = step%im
+      end do
+      t = 0
+      do k = 0, self%degree, self%fold
+         if (k > 0) then
+            do i = 1, n
+               old = angular_re(i)
+               angular_re(i) = old*step_re(i) - angular_im(i)*step_im(i)
+               angular_im(i) = old*step_im(i) + angular_im(i)*step_re(i)
+            end do
+         end if
+         do l = 0, (self%degree - k)/2
+            t = t + 1
+            a = self%recurrence(1, t)
+            b = self%recurrence(2, t)
+            c = self%recurrence(3, t)
+            select case (l)
+            case (0)
+               do i = 1, n
+                  values(i, t) = b*angular_re(i)
+               end do
+            case (1)
+               do i = 1, n
+                  values(i, t) = (a*x(i) + b)*values(i, t - 1)
+               end do
+            case default
+               do i = 1, n
+                  values(i, t) = (a*x(i) + b)*values(i, t - 1) + c*values(i, t - 2)
+               end do
+            end select
+         end do
+      end do
+   end subroutine evaluate
+
+end module wavycon_disc_polynomials

@@ -1,0 +1,290 @@
+!> The contact of a wave on its lattice by boundary-fitted expansions, to an accuracy asked for.
+module wavycon_fitted_solver
+   use wavycon_constants, only: pi
+   use wavycon_contact_equations, only: contact_equations, start_equations
+   use wavycon_expansion, only: expansion
+   use wavycon_fitted_answer, only: fitted_answer, fitted_bad_input, fitted_failed, fitted_less_exact, fitted_merged, &
+      fitted_solved, fitted_status_text
+   use wavycon_gauss_newton, only: gauss_newton_step
+   use wavycon_island_pressure, only: crest_pressure
+   use wavycon_kinds, only: dp
+   use wavycon_start_expansion, only: crack_island, hertz_spot, scaled_to_load
+   use wavycon_wave_lattice, only: hexagonal_lattice, rectangular_lattice, square_lattice, wave_lattice
+   implicit none (type, external)
+   private
+
+   public :: solve_fitted
+   public :: fitted_answer, fitted_status_text
+   public :: fitted_solved, fitted_less_exact, fitted_merged, fitted_bad_input, fitted_failed
+   public :: wave_lattice, square_lattice, rectangular_lattice, hexagonal_lattice
+
+   !> Spots of the square lattice merge at about this load; the regime tried first.
+   real(dp), parameter :: about_merging = 0.2286_dp
+   !> A start further off in load, as a ratio of P or of 1 - P, is followed in steps of this ratio.
+   real(dp), parameter :: load_ratio = 1.4_dp
+   !> The asymptotes are good enough to start from below this P, above this P.
+   real(dp), parameter :: light_load = 0.03_dp, heavy_load = 0.7_dp
+   !> Degrees of the polynomials: the first, the step, the last.
+   integer, parameter :: first_degree = 8, degree_step = 4, last_degree = 32
+   integer, parameter :: most_steps = 12
+
+   !> The three numbers whose errors are estimated: mean gap, area fraction, peak pressure.
+   integer, parameter :: measures = 3
+
+contains
+
+   !> Solves for one load.
+   !>
+   !> The accuracy is relative: to the mean gap, to the area fraction or, above merging, the open one, to the peak pressure.
+   !> The degree of the expansion is raised until the differences of two degrees meet it.
+   subroutine solve_fitted(lattice, pbar_over_pstar, accuracy, answer, start)
+      type(wave_lattice), intent(in) :: lattice
+      real(dp), intent(in) :: pbar_over_pstar        !! P, between 0 and 1
+      real(dp), intent(in) :: accuracy               !! > 0; what rounding allows is 1e-14 or so
+      type(fitted_answer), intent(out) :: answer
+      type(fitted_answer), intent(in), optional :: start
+         !! of another load of the same lattice, not the same variable as `answer`; of use where it is near
+
+      logical :: first_is_island
+
+      answer%pbar_over_pstar = pbar_over_pstar
+      answer%status = fitted_bad_input
+      if (.not. (pbar_over_pstar > 0.0_dp .and. pbar_over_pstar < 1.0_dp .and. accuracy > 0.0_dp)) return
+      first_is_island = lattice%square .and. pbar_over_pstar > about_merging
+      call solve_regime(lattice, accuracy, first_is_island, answer, start)
+      if (answer%status == fitted_merged .and. lattice%square) &
+         call solve_regime(lattice, accuracy, .not. first_is_island, answer, start)
+   end subroutine solve_fitted
+
+   !> Solves as a spot or as an island.
+   subroutine solve_regime(lattice, accuracy, island, answer, start)
+      type(wave_lattice), intent(in) :: lattice
+      real(dp), intent(in) :: accuracy
+      logical, intent(in) :: island
+      type(fitted_answer), intent(inout) :: answer   !! its load is set
+      type(fitted_answer), intent(in), optional :: start
+
+      type(contact_equations) :: equations
+      type(expansion) :: now
+      real(dp) :: error(measures), last(measures), last_difference(measures), new(measures), scale(measures)
+      integer :: degree, iterations
+      logical :: better, ok
+
+      answer%island = island
+      answer%status = fitted_failed
+      iterations = 0
+      call begin(lattice, answer, now, degree, iterations, ok, start)
+      if (.not. ok) return
+      last = huge(last)
+      last_difference = huge(last)
+      answer%mean_gap_error = huge(1.0_dp)
+      do
+         now = now%raised(degree, shape_terms(degree), degree/4 + 2)
+         call start_equations(equations, now)
+         call converge(equations, lattice, answer%pbar_over_pstar, now, 1e-7_dp, answer%residual, iterations, ok)
+         answer%reach = reach(lattice, now)
+         if (.not. ok .or. answer%reach >= 1.0_dp) exit
+         new = [mean_gap(equations, now), now%shape%area(), peak_pressure(equations, lattice, answer%pbar_over_pstar, now)]
+         if (last(1) < huge(last)) then
+            call estimate(new - last, last_difference, new, error)
+            last_difference = abs(new - last)
+            better = sum(error/abs(new)) < answer%mean_gap_error/abs(new(1)) + answer%area_error*lattice%area/new(2) &
+               + answer%peak_error/new(3)
+            if (better .or. answer%status == fitted_failed) call take_over()
+            scale = abs(new)
+            if (all(error <= accuracy*scale)) answer%status = fitted_solved
+         end if
+         last = new
+         if (answer%status == fitted_solved .or. degree >= last_degree) exit
+         degree = degree + degree_step
+      end do
+      answer%iterations = iterations
+      if (answer%status == fitted_failed .and. answer%reach >= 1.0_dp) answer%status = fitted_merged
+
+   contains
+
+      subroutine take_over()
+         answer%status = fitted_less_exact
+         answer%solution = now
+         answer%degree = degree
+         answer%mean_gap = new(1)
+         answer%area_fraction = new(2)/lattice%area
+         if (island) answer%area_fraction = 1.0_dp - answer%area_fraction
+         answer%peak_pressure = new(3)
+         answer%mean_gap_error = error(1)
+         answer%area_error = error(2)/lattice%area
+         answer%peak_error = error(3)
+         answer%perimeter = now%shape%perimeter()
+         answer%energy = energy(equations, lattice, answer%pbar_over_pstar, now)
+      end subroutine take_over
+
+   end subroutine solve_regime
+
+   !> Errors from the differences of the last two degrees and of the two before.
+   pure subroutine estimate(difference, last_difference, value, error)
+      real(dp), intent(in) :: difference(:), last_difference(:), value(:)
+      real(dp), intent(out) :: error(:)
+
+      !> Decay is never taken to be faster than this, and rounding never less than this many units.
+      real(dp), parameter :: fastest_decay = 0.1_dp, rounding = 16*epsilon(1.0_dp)
+
+      error = abs(difference)
+      ! The next difference falls as the last one did, or less: close to merging the decay is uneven.
+      where (last_difference < huge(1.0_dp)) &
+         error = error*min(max(sqrt(error/max(last_difference, tiny(1.0_dp))), fastest_decay), 1.0_dp)
+      error = max(error, rounding*abs(value))
+   end subroutine estimate
+
+   !> An expansion of low degree at the load asked for.
+   subroutine begin(lattice, answer, now, degree, iterations, ok, start)
+      type(wave_lattice), intent(in) :: lattice
+      type(fitted_answer), intent(in) :: answer      !! load and regime
+      type(expansion), intent(out) :: now
+      integer, intent(out) :: degree                 !! to go on with
+      integer, intent(inout) :: iterations
+      logical, intent(out) :: ok
+      type(fitted_answer), intent(in), optional :: start
+
+      type(contact_equations) :: equations
+      real(dp) :: load, next, residual, target
+
+      target = answer%pbar_over_pstar
+      degree = first_degree
+      load = target
+      if (present(start)) then
+         if (start%status <= fitted_less_exact .and. (start%island .eqv. answer%island)) then
+            load = start%pbar_over_pstar
+            if (steps_between(load, target, answer%island) <= 1) then
+               now = scaled_to_load(start%solution, load, target)
+               degree = max(first_degree, start%degree - degree_step)
+               ok = .true.
+               return
+            end if
+         end if
+      end if
+      if (answer%island) then
+         load = max(target, heavy_load)
+         now = crack_island(load)
+      else
+         load = min(target, light_load)
+         now = hertz_spot(lattice, load)
+      end if
+      call start_equations(equations, now)
+      do
+         call converge(equations, lattice, load, now, 1e-2_dp, residual, iterations, ok)
+         if (.not. ok .or. steps_between(load, target, answer%island) == 0) exit
+         next = target
+         if (steps_between(load, target, answer%island) > 1) then
+            next = load_ratio*load
+            if (answer%island) next = 1.0_dp - load_ratio*(1.0_dp - load)
+         end if
+         now = scaled_to_load(now, load, next)
+         load = next
+      end do
+   end subroutine begin
+
+   !> Number of steps that take one load to the other.
+   pure integer function steps_between(one, other, island) result(steps)
+      real(dp), intent(in) :: one, other
+      logical, intent(in) :: island
+
+      real(dp) :: ratio
+
+      ratio = other/one
+      if (island) ratio = (1.0_dp - other)/(1.0_dp - one)
+      steps = ceiling(abs(log(ratio))/log(load_ratio))
+   end function steps_between
+
+   !> Gauss-Newton until the shape no longer changes.
+   subroutine converge(equations, lattice, load, now, tolerance, residual, iterations, ok)
+      type(contact_equations), intent(inout) :: equations
+      type(wave_lattice), intent(in) :: lattice
+      real(dp), intent(in) :: load
+      type(expansion), intent(inout) :: now
+      real(dp), intent(in) :: tolerance     !! of the last step: the next one would be about its square
+      real(dp), intent(out) :: residual
+      integer, intent(inout) :: iterations
+      logical, intent(out) :: ok
+
+      real(dp) :: change
+      integer :: i
+
+      do i = 1, most_steps
+         call gauss_newton_step(equations, lattice, load, now, change, residual, ok)
+         iterations = iterations + 1
+         if (.not. ok) return
+         if (change <= tolerance) return
+      end do
+   end subroutine converge
+
+   !> Terms of the shape that go with a degree.
+   pure integer function shape_terms(degree)
+      integer, intent(in) :: degree
+
+      shape_terms = degree/4 + 1
+   end function shape_terms
+
+   !> How far the edge reaches, on the way to the nearest neighbours.
+   pure real(dp) function reach(lattice, now)
+      type(wave_lattice), intent(in) :: lattice
+      type(expansion), intent(in) :: now
+
+      complex(dp) :: tip
+
+      tip = now%shape%place((1.0_dp, 0.0_dp))
+      reach = abs(tip)/0.5_dp
+      if (lattice%fold == 2) then
+         tip = now%shape%place((0.0_dp, 1.0_dp))
+         reach = max(reach, abs(tip)/(0.5_dp*lattice%kernel%height))
+      end if
+   end function reach
+
+   !> G: 1 - delta of a spot, the mean of an island's gap.
+   real(dp) function mean_gap(equations, now)
+      type(contact_equations), intent(in) :: equations
+      type(expansion), intent(in) :: now
+
+      if (now%island) then
+         mean_gap = equations%integral(now)
+      else
+         mean_gap = 1.0_dp - now%approach
+      end if
+   end function mean_gap
+
+   !> Pressure at a crest.
+   real(dp) function peak_pressure(equations, lattice, load, now)
+      type(contact_equations), intent(in) :: equations
+      type(wave_lattice), intent(in) :: lattice
+      real(dp), intent(in) :: load
+      type(expansion), intent(in) :: now
+
+      if (now%island) then
+         peak_pressure = crest_pressure(lattice, equations%rule, load, now)
+      else
+         peak_pressure = now%at_centre()
+      end if
+   end function peak_pressure
+
+   !> 1/2 the integral of p u over a cell.
+   !>
+   !> In contact u = delta - h, and above merging p u = p (delta - h + g), p g = 0; the mean of p h follows from the first
+   !> Fourier coefficient of p, which is that of full contact changed by the island's.
+   real(dp) function energy(equations, lattice, load, now)
+      type(contact_equations), intent(in) :: equations
+      type(wave_lattice), intent(in) :: lattice
+      real(dp), intent(in) :: load
+      type(expansion), intent(in) :: now
+
+      complex(dp) :: z(size(equations%rule%point))
+      real(dp) :: waves(size(equations%rule%point))
+
+      z = now%shape%place(equations%rule%point)
+      if (now%island) then
+         waves = 0.5_dp*(cos(2*pi*z%re) + cos(2*pi*z%im))
+         energy = 0.5_dp*(0.25_dp - equations%integral(now, waves) - load*mean_gap(equations, now))
+      else
+         energy = 0.5_dp*(now%approach*load*lattice%area - equations%integral(now, lattice%undeformed_gap(z)))
+      end if
+   end function energy
+
+end module wavycon_fitted_solver

@@ -1,0 +1,33 @@
+!> Gauss quadrature with the weights of Jacobi's polynomials.
+module wavycon_gauss_rules
+   use, intrinsic :: iso_c_binding, only: c_associated, c_f_pointer, c_ptr, c_size_t
+   use wavycon_gsl, only: gsl_integration_fixed_alloc, gsl_integration_fixed_free, gsl_integration_fixed_jacobi, &
+      gsl_integration_fixed_nodes, gsl_integration_fixed_weights
+   use wavycon_kinds, only: dp
+   implicit none (type, external)
+   private
+
+   public :: gauss_jacobi
+
+contains
+
+   !> Nodes and weights for the weight (1 - x)^right_power (1 + x)^left_power on -1 <= x <= 1.
+   subroutine gauss_jacobi(right_power, left_power, nodes, weights)
+      real(dp), intent(in) :: right_power, left_power        !! > -1
+      real(dp), intent(out) :: nodes(:), weights(:)          !! shape (n), n >= 1
+
+      type(c_ptr) :: workspace
+      real(dp), pointer :: values(:)
+
+      workspace = gsl_integration_fixed_alloc(gsl_integration_fixed_jacobi, size(nodes, kind=c_size_t), -1.0_dp, &
+         1.0_dp, right_power, left_power)
+      ! GSL ends the program itself where memory is short, unless its handler is off.
+      if (.not. c_associated(workspace)) error stop 'gauss_jacobi: no memory'
+      call c_f_pointer(gsl_integration_fixed_nodes(workspace), values, shape(nodes))
+      nodes = values
+      call c_f_pointer(gsl_integration_fixed_weights(workspace), values, shape(weights))
+      weights = values
+      call gsl_integration_fixed_free(workspace)
+   end subroutine gauss_jacobi
+
+end module wavycon_gauss_rules

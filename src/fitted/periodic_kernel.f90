@@ -1,0 +1,274 @@
+!> Displacement of a half-space by unit loads on all the points of a lattice, less its mean.
+!>
+!> Lengths are in the lattice's shorter side s. The Fourier coefficients of the kernel Gp are 1/(A |k|), k <> 0, with
+!> A the area of a cell, and about its own lattice point it is 1/r + a smooth function. Ewald's sum gives it anywhere,
+!>
+!>     Gp(x) = sum over n of erfc(e |x-n|)/|x-n|
+!>             + (1/A) [ sum over k <> 0 of erfc(pi |k|/e)/|k| cos(2 pi k.x) - 2 sqrt(pi)/e ],   e = sqrt(pi/A),
+!>
+!> but slowly. So the sum is taken once per lattice: on the rectangle |x| <= 1/2, |y| <= height/2 about the origin, Gp
+!> less 1/r of a handful of lattice points near by is a polynomial in x^2 and y^2 to rounding.
+!>
+!> N.B. The lattice is even in x and in y: rectangular or, with every other row moved by half a side, rhombic.
+module wavycon_periodic_kernel
+   use wavycon_constants, only: pi
+   use wavycon_kinds, only: dp
+   implicit none (type, external)
+   private
+
+   public :: periodic_kernel, start_periodic_kernel, ewald_sum
+
+   type :: periodic_kernel
+      real(dp) :: height = 1.0_dp                !! distance of two rows [s], >= 1/2
+      real(dp) :: row_shift = 0.0_dp             !! of the next row along x [s]: 0 or 1/2
+      real(dp), allocatable :: image(:, :)       !! lattice points taken out, but the origin, shape (2, m)
+      real(dp), allocatable :: coefficient(:, :) !! of the powers of u and v, shape (0:., 0:.)
+      integer, allocatable :: degree(:)          !! in u for each power of v
+      real(dp), allocatable :: bending(:, :)     !! coefficients of the Laplacian [1/s^2], as `coefficient`
+   contains
+      procedure :: smooth_part
+      procedure :: laplacian
+      procedure :: reduced
+   end type periodic_kernel
+
+   !> The fit's degree in either variable before what is below rounding is cut off.
+   integer, parameter :: highest_degree = 12
+   !> Coefficients below it are rounding of Ewald's sum, whose terms are of order ten.
+   real(dp), parameter :: noise = 32*epsilon(1.0_dp)
+   !> erfc of it is 1e-19.
+   real(dp), parameter :: cut_off = 6.4_dp
+   !> Where |x| of a point and of its reduced place are the same, their 1/|x| must be the same finite number.
+   real(dp), parameter :: least_square = 1e-200_dp
+
+contains
+
+   !> Fits the smooth part.
+   subroutine start_periodic_kernel(kernel, height, row_shift)
+      type(periodic_kernel), intent(out) :: kernel
+      real(dp), intent(in) :: height     !! distance of two rows [s], >= 1/2
+      real(dp), intent(in) :: row_shift  !! of the next row along x [s]: 0 or 1/2
+
+      integer, parameter :: n = highest_degree
+      real(dp) :: cosine(0:n, 0:n), to_powers(0:n, 0:n), values(0:n, 0:n), reach, x, y
+      integer :: degree(0:n), i, j, k
+
+      kernel%height = height
+      kernel%row_shift = row_shift
+      ! Lattice points left in are at least 1.35 sides from the rectangle, more from a long one.
+      reach = 0.75_dp + 0.6_dp*max(height, 1.0_dp)
+      allocate (kernel%image(2, 0))
+      do j = -4, 4
+         do i = -6, 6
+            x = i + row_shift*j
+            y = height*j
+            if (i == 0 .and. j == 0) cycle
+            if (hypot(max(abs(x) - 0.5_dp, 0.0_dp), max(abs(y) - 0.5_dp*height, 0.0_dp)) > reach) cycle
+            kernel%image = reshape([kernel%image, x, y], [2, size(kernel%image, 2) + 1])
+         end do
+      end do
+
+      do j = 0, n
+         do i = 0, n
+            cosine(i, j) = cos(pi*i*(j + 0.5_dp)/(n + 1))
+         end do
+      end do
+      do j = 0, n
+         do i = 0, n
+            x = 0.5_dp*sqrt(0.5_dp*(1.0_dp + cosine(1, i)))
+            y = 0.5_dp*height*sqrt(0.5_dp*(1.0_dp + cosine(1, j)))
+            values(i, j) = ewald_sum(height, row_shift, x, y, without_origin=.true.)
+            do k = 1, size(kernel%image, 2)
+               values(i, j) = values(i, j) - 1.0_dp/hypot(x - kernel%image(1, k), y - kernel%image(2, k))
+            end do
+         end do
+      end do
+      values = matmul(cosine, matmul(values, transpose(cosine)))*(2.0_dp/(n + 1))**2
+      values(0, :) = 0.5_dp*values(0, :)
+      values(:, 0) = 0.5_dp*values(:, 0)
+      do j = 0, n
+         degree(j) = findloc(abs(values(:, j)) > noise, .true., dim=1, back=.true.) - 1
+         values(degree(j) + 1:, j) = 0.0_dp
+      end do
+      k = findloc(degree >= 0, .true., dim=1, back=.true.) - 1
+      ! Powers of one variable bring in lower powers of the same: a degree must not grow with the other power.
+      do j = k - 1, 0, -1
+         degree(j) = max(degree(j), degree(j + 1))
+      end do
+      ! Chebyshev's polynomials in powers; the coefficients fall much faster than these grow.
+      to_powers = 0.0_dp
+      to_powers(0, 0) = 1.0_dp
+      to_powers(1, 1) = 1.0_dp
+      do j = 2, n
+         to_powers(1:, j) = 2*to_powers(:n - 1, j - 1)
+         to_powers(:, j) = to_powers(:, j) - to_powers(:, j - 2)
+      end do
+      values = matmul(to_powers, matmul(values, transpose(to_powers)))
+      allocate (kernel%degree(0:k), kernel%coefficient(0:degree(0), 0:k))
+      kernel%degree(:) = degree(:k)
+      kernel%coefficient(:, :) = values(:degree(0), :k)
+      ! With u = 8 x^2 - 1 the second derivative of f(u) is 16 f' + 32 (u + 1) f''.
+      allocate (kernel%bending(0:degree(0), 0:k), source=0.0_dp)
+      associate (a => kernel%coefficient, l => kernel%bending)
+         do j = 0, k
+            do i = 0, degree(j)
+               if (i > 0) l(i - 1, j) = l(i - 1, j) + 16*i*(2*i - 1)*a(i, j)
+               if (i > 1) l(i - 2, j) = l(i - 2, j) + 32*i*(i - 1)*a(i, j)
+               if (j > 0) l(i, j - 1) = l(i, j - 1) + 16*j*(2*j - 1)*a(i, j)/height**2
+               if (j > 1) l(i, j - 2) = l(i, j - 2) + 32*j*(j - 1)*a(i, j)/height**2
+            end do
+         end do
+      end associate
+   end subroutine start_periodic_kernel
+
+   !> Gp - 1/r and its gradient at n places, |x| <= 3/2, |y| <= 3 height/2.
+   pure subroutine smooth_part(self, n, x, y, value, slope_x, slope_y)
+      class(periodic_kernel), intent(in) :: self
+      integer, intent(in) :: n
+      real(dp), intent(in) :: x(n), y(n)                          !! [s]
+      real(dp), intent(out) :: value(n), slope_x(n), slope_y(n)   !! Gp - 1/r [1/s], its derivatives [1/s^2]
+
+      real(dp), dimension(n) :: xr, yr, u, v, q, dq, dv
+      real(dp) :: a, b, far, near, row, one
+      integer :: i, j, k
+
+      do i = 1, n
+         row = merge(1.0_dp, 0.0_dp, y(i) > 0.5_dp*self%height) - merge(1.0_dp, 0.0_dp, y(i) < -0.5_dp*self%height)
+         yr(i) = y(i) - row*self%height
+         xr(i) = x(i) - row*self%row_shift
+         one = merge(1.0_dp, 0.0_dp, xr(i) > 0.5_dp) - merge(1.0_dp, 0.0_dp, xr(i) < -0.5_dp)
+         xr(i) = xr(i) - one
+         u(i) = 8*xr(i)**2 - 1.0_dp
+         v(i) = 8*(yr(i)/self%height)**2 - 1.0_dp
+      end do
+      value = 0.0_dp
+      slope_x = 0.0_dp
+      dv = 0.0_dp
+      do k = ubound(self%degree, 1), 0, -1
+         q = self%coefficient(self%degree(k), k)
+         dq = 0.0_dp
+         do j = self%degree(k) - 1, 0, -1
+            a = self%coefficient(j, k)
+            do i = 1, n
+               dq(i) = dq(i)*u(i) + q(i)
+               q(i) = q(i)*u(i) + a
+            end do
+         end do
+         do i = 1, n
+            dv(i) = dv(i)*v(i) + value(i)
+            value(i) = value(i)*v(i) + q(i)
+            slope_x(i) = slope_x(i)*v(i) + dq(i)
+         end do
+      end do
+      do i = 1, n
+         slope_x(i) = 16*xr(i)*slope_x(i)
+         slope_y(i) = 16*yr(i)/self%height**2*dv(i)
+      end do
+      do k = 1, size(self%image, 2)
+         a = self%image(1, k)
+         b = self%image(2, k)
+         do i = 1, n
+            near = 1.0_dp/((xr(i) - a)**2 + (yr(i) - b)**2)
+            far = sqrt(near)
+            value(i) = value(i) + far
+            far = far*near
+            slope_x(i) = slope_x(i) - (xr(i) - a)*far
+            slope_y(i) = slope_y(i) - (yr(i) - b)*far
+         end do
+      end do
+      ! The origin's own 1/r is left out at x, not at the reduced place: for most points the same.
+      do i = 1, n
+         near = 1.0_dp/max(xr(i)**2 + yr(i)**2, least_square)
+         far = 1.0_dp/max(x(i)**2 + y(i)**2, least_square)
+         value(i) = value(i) + (sqrt(near) - sqrt(far))
+         slope_x(i) = slope_x(i) - (xr(i)*(near*sqrt(near)) - x(i)*(far*sqrt(far)))
+         slope_y(i) = slope_y(i) - (yr(i)*(near*sqrt(near)) - y(i)*(far*sqrt(far)))
+      end do
+   end subroutine smooth_part
+
+   !> The Laplacian of Gp at n places, |x| <= 3/2, |y| <= 3 height/2: the sum of 1/|x - n|^3 over the lattice.
+   pure subroutine laplacian(self, n, x, y, value)
+      class(periodic_kernel), intent(in) :: self
+      integer, intent(in) :: n
+      real(dp), intent(in) :: x(n), y(n)      !! [s]
+      real(dp), intent(out) :: value(n)       !! [1/s^3]
+
+      complex(dp) :: z
+      real(dp) :: q, u, v
+      integer :: i, j, k
+
+      do i = 1, n
+         z = self%reduced(cmplx(x(i), y(i), dp))
+         u = 8*z%re**2 - 1.0_dp
+         v = 8*(z%im/self%height)**2 - 1.0_dp
+         value(i) = 0.0_dp
+         do k = ubound(self%degree, 1), 0, -1
+            q = 0.0_dp
+            do j = self%degree(k), 0, -1
+               q = q*u + self%bending(j, k)
+            end do
+            value(i) = value(i)*v + q
+         end do
+         value(i) = value(i) + 1.0_dp/abs(z)**3
+         do k = 1, size(self%image, 2)
+            value(i) = value(i) + 1.0_dp/abs(z - cmplx(self%image(1, k), self%image(2, k), dp))**3
+         end do
+      end do
+   end subroutine laplacian
+
+   !> The same place in the rectangle about the origin.
+   pure complex(dp) function reduced(self, z)
+      class(periodic_kernel), intent(in) :: self
+      complex(dp), intent(in) :: z  !! x + i y [s]
+
+      real(dp) :: row, x
+
+      row = anint(z%im/self%height)
+      x = z%re - row*self%row_shift
+      reduced = cmplx(x - anint(x), z%im - row*self%height, dp)
+   end function reduced
+
+   !> Gp by Ewald's sum.
+   pure real(dp) function ewald_sum(height, row_shift, x, y, without_origin) result(value)
+      real(dp), intent(in) :: height            !! distance of two rows [s]
+      real(dp), intent(in) :: row_shift         !! of the next row along x [s]
+      real(dp), intent(in) :: x, y              !! [s], in the rectangle about the origin
+      logical, intent(in) :: without_origin     !! the value is Gp - 1/r
+
+      real(dp) :: e, k_x, k_y, r, reach
+      integer :: i, j, rows, columns
+
+      e = sqrt(pi/height)
+      value = -2*sqrt(pi)/(e*height)
+      reach = cut_off/e
+      rows = ceiling(reach/height + 0.5_dp)
+      columns = ceiling(reach + 1.0_dp + 0.5_dp*rows)
+      do j = -rows, rows
+         do i = -columns, columns
+            r = hypot(x - i - row_shift*j, y - height*j)
+            if (i == 0 .and. j == 0 .and. without_origin) then
+               if (e*r > 1e-8_dp) then
+                  value = value - erf(e*r)/r
+               else
+                  value = value - 2*e/sqrt(pi)
+               end if
+            else if (r < reach) then
+               value = value + erfc(e*r)/r
+            end if
+         end do
+      end do
+      ! The reciprocal lattice: (i, (j - i shift)/height).
+      reach = cut_off*e/pi
+      columns = ceiling(reach)
+      rows = ceiling(reach*height + 0.5_dp*columns)
+      do j = -rows, rows
+         do i = -columns, columns
+            k_x = i
+            k_y = (j - i*row_shift)/height
+            r = hypot(k_x, k_y)
+            if (r < reach .and. (i /= 0 .or. j /= 0)) &
+               value = value + erfc(pi*r/e)/(r*height)*cos(2*pi*(k_x*x + k_y*y))
+         end do
+      end do
+   end function ewald_sum
+
+end module wavycon_periodic_kernel

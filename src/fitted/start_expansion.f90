@@ -1,0 +1,90 @@
+!> Where Gauss-Newton starts from: the asymptotes of light load and of nearly full contact.
+module wavycon_start_expansion
+   use wavycon_constants, only: pi
+   use wavycon_disc_polynomials, only: start_disc_polynomials
+   use wavycon_expansion, only: expansion
+   use wavycon_kinds, only: dp
+   use wavycon_wave_lattice, only: wave_lattice
+   implicit none (type, external)
+   private
+
+   public :: hertz_spot, crack_island, scaled_to_load
+
+   !> Of the polynomials of a start: enough to follow the load with.
+   integer, parameter :: low_degree = 6
+
+contains
+
+   !> A Hertzian spot, elliptical where the curvatures of the crest differ.
+   function hertz_spot(lattice, load) result(spot)
+      type(wave_lattice), intent(in) :: lattice
+      real(dp), intent(in) :: load   !! P > 0
+      type(expansion) :: spot
+
+      !> Semi-axes of an elliptical contact go roughly as this power of the curvatures, inversely.
+      real(dp), parameter :: ellipticity_power = 0.6_dp
+      real(dp) :: curvature(2), radius, ratio
+      integer :: i
+
+      spot%island = .false.
+      call start_disc_polynomials(spot%basis, lattice%fold, low_degree, 0.5_dp)
+      do i = 1, 2
+         curvature(i) = 4*pi**2*sum(lattice%wave(i, :)**2*lattice%amplitude)
+      end do
+      radius = (3*pi*load*lattice%area/(4*sqrt(product(curvature))))**(1.0_dp/3)
+      spot%shape%fold = lattice%fold
+      allocate (spot%shape%b(0:1))
+      spot%shape%b(:) = [radius, 0.0_dp]
+      if (lattice%fold == 2) then
+         ratio = (curvature(1)/curvature(2))**ellipticity_power
+         spot%shape%b(1) = radius*(1.0_dp - ratio)/(1.0_dp + ratio)
+      end if
+      allocate (spot%c(spot%basis%terms), source=0.0_dp)
+      ! The first polynomial is constant, and (1 - rho^2)^(1/2) has the integral 2 pi/3.
+      spot%c(1) = load*lattice%area/spot%shape%area()/sqrt(2*pi/3)*pi
+      spot%approach = sqrt(product(curvature))*radius**2
+   end function hertz_spot
+
+   !> A penny-shaped crack in the square lattice.
+   function crack_island(load) result(island)
+      real(dp), intent(in) :: load  !! P < 1
+      type(expansion) :: island
+
+      real(dp) :: radius
+
+      island%island = .true.
+      call start_disc_polynomials(island%basis, 4, low_degree, 1.5_dp)
+      radius = sqrt(1.5_dp*(1.0_dp - load))/pi
+      island%shape%fold = 4
+      allocate (island%shape%b(0:1))
+      island%shape%b(:) = [radius, 0.0_dp]
+      island%scale = radius
+      allocate (island%harmonic(0:2), source=0.0_dp)
+      allocate (island%c(island%basis%terms), source=0.0_dp)
+      ! The opening is g_0 (1 - rho^2)^(3/2), g_0 = (8/3)(1 - P) b.
+      island%c(1) = 8*(1.0_dp - load)*radius/3*sqrt(0.4_dp*pi)
+   end function crack_island
+
+   !> A guess for another load: sizes go as the asymptotes.
+   function scaled_to_load(from, old_load, new_load) result(guess)
+      type(expansion), intent(in) :: from
+      real(dp), intent(in) :: old_load, new_load  !! P
+      type(expansion) :: guess
+
+      real(dp) :: factor
+
+      guess = from
+      if (from%island) then
+         factor = sqrt((1.0_dp - new_load)/(1.0_dp - old_load))
+         guess%scale = from%scale*factor
+         guess%c = from%c*factor**3
+         guess%harmonic = from%harmonic*factor**2
+      else
+         factor = (new_load/old_load)**(1.0_dp/3)
+         guess%c = from%c*factor
+         guess%approach = from%approach*factor**2
+      end if
+      guess%shape%b = from%shape%b*factor
+   end function scaled_to_load
+
+end module wavycon_start_expansion
