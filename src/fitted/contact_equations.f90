@@ -42,11 +42,13 @@ module wavycon_contact_equations
 contains
 
    !> Chooses targets and rules for expansions like the one given.
-   subroutine start_equations(equations, like)
+   subroutine start_equations(equations, like, reach)
       type(contact_equations), intent(out) :: equations
       type(expansion), intent(in) :: like
+      real(dp), intent(in) :: reach   !! of the edge towards its neighbours; 1 touches
 
-      integer :: angles, fold, i, j, n, radii, others
+      real(dp), parameter :: sharp_reach = 0.7_dp, near_reach = 0.85_dp
+      integer :: angles, finer, fold, i, j, n, others, radii
       real(dp) :: phi
 
       fold = like%basis%fold
@@ -54,8 +56,17 @@ contains
       if (like%island) others = size(like%harmonic)
       equations%unknowns = like%basis%terms + others + size(like%shape%b)
       associate (degree => like%basis%degree)
-         call start_chord_rule(equations%chords, like%basis, ubound(like%shape%b, 1), 2*degree, degree/2 + 2)
-         call plain_disc_rule(equations%rule, like%basis%power, fold, degree/2 + 4, degree/fold + 2)
+         ! Sharp tips make the quotient on the chords less smooth, near neighbours the kernel.
+         angles = 3*degree/2 + 4
+         if (reach > sharp_reach) angles = 2*degree + 20
+         ! On an ellipse the quotient itself falls as a power of b_1/b_0 in the angle.
+         if (fold == 2) angles = angles + ceiling(-log(epsilon(1.0_dp)) &
+            /log(like%shape%b(0)/max(abs(like%shape%b(1)), epsilon(1.0_dp))))
+         call start_chord_rule(equations%chords, like%basis, ubound(like%shape%b, 1), angles, degree/2 + 2)
+         finer = 0
+         if (reach > sharp_reach) finer = 1
+         if (reach > near_reach) finer = 6
+         call plain_disc_rule(equations%rule, like%basis%power, fold, degree/2 + 2 + finer, degree/fold + 1 + finer)
          ! Two more than the unknowns of the round part of a function: with as many, any size would do.
          radii = degree/2 + merge(5, 4, like%island)
          angles = degree/fold + merge(2, 1, like%island)

@@ -21,11 +21,11 @@ module wavycon_fitted_solver
    !> Spots of the square lattice merge at about this load; the regime tried first.
    real(dp), parameter :: about_merging = 0.2286_dp
    !> A start further off in load, as a ratio of P or of 1 - P, is followed in steps of this ratio.
-   real(dp), parameter :: load_ratio = 1.4_dp
+   real(dp), parameter :: load_ratio = 2.0_dp
    !> The asymptotes are good enough to start from below this P, above this P.
    real(dp), parameter :: light_load = 0.03_dp, heavy_load = 0.7_dp
    !> Degrees of the polynomials: the first, the step, the last.
-   integer, parameter :: first_degree = 8, degree_step = 4, last_degree = 32
+   integer, parameter :: first_degree = 6, degree_step = 4, last_degree = 32
    integer, parameter :: most_steps = 12
 
    !> The three numbers whose errors are estimated: mean gap, area fraction, peak pressure.
@@ -64,15 +64,18 @@ contains
       type(fitted_answer), intent(inout) :: answer   !! its load is set
       type(fitted_answer), intent(in), optional :: start
 
+      real(dp), parameter :: finest = 1e-7_dp
       type(contact_equations) :: equations
       type(expansion) :: now
-      real(dp) :: error(measures), last(measures), last_difference(measures), new(measures), scale(measures)
+      real(dp) :: error(measures), last(measures), last_difference(measures), new(measures), scale(measures), tolerance
       integer :: degree, iterations
       logical :: better, ok
 
       answer%island = island
       answer%status = fitted_failed
       iterations = 0
+      ! A step of this size leaves about its square; close to merging more.
+      tolerance = min(max(0.1_dp*sqrt(accuracy), finest), 1e-5_dp)
       call begin(lattice, answer, now, degree, iterations, ok, start)
       if (.not. ok) return
       last = huge(last)
@@ -80,8 +83,9 @@ contains
       answer%mean_gap_error = huge(1.0_dp)
       do
          now = now%raised(degree, shape_terms(degree), degree/4 + 2)
-         call start_equations(equations, now)
-         call converge(equations, lattice, answer%pbar_over_pstar, now, 1e-7_dp, answer%residual, iterations, ok)
+         call start_equations(equations, now, reach(lattice, now))
+         if (reach(lattice, now) > 0.7_dp) tolerance = finest
+         call converge(equations, lattice, answer%pbar_over_pstar, now, tolerance, answer%residual, iterations, ok)
          answer%reach = reach(lattice, now)
          if (.not. ok .or. answer%reach >= 1.0_dp) exit
          new = [mean_gap(equations, now), now%shape%area(), peak_pressure(equations, lattice, answer%pbar_over_pstar, now)]
@@ -96,7 +100,7 @@ contains
          end if
          last = new
          if (answer%status == fitted_solved .or. degree >= last_degree) exit
-         degree = degree + degree_step
+         degree = degree + merge(degree_step/2, degree_step, degree == first_degree .or. degree == 8 .and. answer%reach < 0.6_dp)
       end do
       answer%iterations = iterations
       if (answer%status == fitted_failed .and. answer%reach >= 1.0_dp) answer%status = fitted_merged
@@ -120,18 +124,21 @@ contains
 
    end subroutine solve_regime
 
-   !> Errors from the differences of the last two degrees and of the two before.
+   !> Errors from the last difference of two degrees and the one before.
    pure subroutine estimate(difference, last_difference, value, error)
       real(dp), intent(in) :: difference(:), last_difference(:), value(:)
       real(dp), intent(out) :: error(:)
 
-      !> Decay is never taken to be faster than this, and rounding never less than this many units.
-      real(dp), parameter :: fastest_decay = 0.1_dp, rounding = 16*epsilon(1.0_dp)
+      !> The next difference is never taken to fall by more than this. A difference that is small by chance, which happens
+      !> where the terms that a degree adds hardly matter, is known by the one before.
+      real(dp), parameter :: fastest_decay = 0.5_dp, least_of_last = 0.1_dp
+      !> In units of the last place.
+      real(dp), parameter :: rounding = 64*epsilon(1.0_dp)
 
       error = abs(difference)
-      ! The next difference falls as the last one did, or less: close to merging the decay is uneven.
       where (last_difference < huge(1.0_dp)) &
-         error = error*min(max(sqrt(error/max(last_difference, tiny(1.0_dp))), fastest_decay), 1.0_dp)
+         error = max(error*min(max(sqrt(error/max(last_difference, tiny(1.0_dp))), fastest_decay), 1.0_dp), &
+                     least_of_last*last_difference)
       error = max(error, rounding*abs(value))
    end subroutine estimate
 
@@ -169,7 +176,7 @@ contains
          load = min(target, light_load)
          now = hertz_spot(lattice, load)
       end if
-      call start_equations(equations, now)
+      call start_equations(equations, now, 0.0_dp)
       do
          call converge(equations, lattice, load, now, 1e-2_dp, residual, iterations, ok)
          if (.not. ok .or. steps_between(load, target, answer%island) == 0) exit
@@ -221,7 +228,7 @@ contains
    pure integer function shape_terms(degree)
       integer, intent(in) :: degree
 
-      shape_terms = degree/4 + 1
+      shape_terms = degree/3 + 1
    end function shape_terms
 
    !> How far the edge reaches, on the way to the nearest neighbours.

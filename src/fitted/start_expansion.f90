@@ -11,7 +11,7 @@ module wavycon_start_expansion
    public :: hertz_spot, crack_island, scaled_to_load
 
    !> Of the polynomials of a start: enough to follow the load with.
-   integer, parameter :: low_degree = 6
+   integer, parameter :: low_degree = 4
 
 contains
 
