@@ -1,12 +1,14 @@
-!> The integral of f/|z - z'| over a mapped disc, exact to rounding for a target z inside or outside, however near its edge.
+!> The integral of f/|z - z'| over a mapped disc, exact to rounding for a target z inside or outside, however
+!> near its edge.
 !>
-!> For f = (1 - |w|^2)^power times a polynomial take the chords through the target w_t: with w = w_t + t e^(i phi),
+!> For f = (1 - |w|^2)^power times a polynomial take the chords through the target w_t: with w = w_t + t e^(i
+!> phi),
 !>
-!>     integral of f J/|z(w) - z(w_t)| over the disc = integral over the chords, over each chord of f J/|Q| dt dphi,
+!>     integral of f J/|z(w) - z(w_t)| over the disc = integral of f J/|Q| over all chords, dt dphi,
 !>
-!> where Q = (z(w) - z(w_t))/t is a polynomial that does not vanish, and 1 - |w|^2 the product of the distances to the
-!> chord's ends. So a Gauss rule along the chord and, in phi, the midpoint rule over half a turn (target inside) or
-!> Gauss's between the tangents (outside) are spectral.
+!> where Q = (z(w) - z(w_t))/t is a polynomial that does not vanish, and 1 - |w|^2 the product of the
+!> distances to the chord's ends. So a Gauss rule along the chord and, in phi, the midpoint rule over half a
+!> turn (target inside) or Gauss's between the tangents (outside) are spectral.
 module wavycon_chord_rule
    use wavycon_constants, only: pi
    use wavycon_disc_polynomials, only: disc_polynomials
@@ -30,6 +32,7 @@ module wavycon_chord_rule
       real(dp), allocatable, private :: values(:, :)                         !! shape (n m, N)
    contains
       procedure :: rows
+      procedure, nopass :: cube_integral
       procedure, private :: place_points
    end type chord_rule
 
@@ -55,7 +58,8 @@ contains
       allocate (rule%factor(n), rule%density(n), rule%f(n), rule%f_slope(n), rule%values(n, basis%terms))
    end subroutine start_chord_rule
 
-   !> The integral for one target, for each polynomial of the basis, and its derivative with the shape for a sum of them.
+   !> The integral for one target, for each polynomial of the basis, and its derivative with the shape for a
+   !> sum of them.
    !>
    !> N.B. The derivative is taken with the target's w_t kept, so that the target moves with the shape.
    subroutine rows(self, basis, shape, target, c, row, shape_row)
@@ -75,10 +79,11 @@ contains
       m = shape%fold
       call self%place_points(target)
       call basis%evaluate(n, self%w, self%values)
-      associate (w => self%w, q => self%q, slope => self%slope, step => self%step, last_power => self%last, f => self%f, &
-                 quotient => self%quotient, power_of_w => self%power_of_w, f_slope => self%f_slope, &
-                 density => self%density)
-         ! With v = w_t: (w^(j+m) - v^(j+m)) = w^m (w^j - v^j) + v^j (w^m - v^m), all over t e^(i phi), j = m k - 1.
+      associate (w => self%w, q => self%q, slope => self%slope, step => self%step, last_power => self%last, &
+                 quotient => self%quotient, power_of_w => self%power_of_w, &
+                 f => self%f, f_slope => self%f_slope, density => self%density)
+         ! With v = w_t: (w^(j+m) - v^(j+m)) = w^m (w^j - v^j) + v^j (w^m - v^m), all over t e^(i phi), j = m
+         ! k - 1.
          target_step = target**m
          target_power = target**(m - 1)
          do i = 1, n
@@ -175,5 +180,46 @@ contains
          end do
       end do
    end subroutine place_points
+
+   !> The integral of f/|z - z'|^3 for a target outside: Gauss's rule along the chords has to resolve a pole
+   !> beyond their nearer end.
+   real(dp) function cube_integral(basis, shape, target, c) result(integral)
+      type(disc_polynomials), intent(in) :: basis
+      type(shape_map), intent(in) :: shape
+      complex(dp), intent(in) :: target      !! w_t, |w_t| > 1
+      real(dp), intent(in) :: c(:)           !! coefficients of f, shape (N)
+
+      !> Points on a chord and chords, for rounding where the pole is far and for a target next to the edge.
+      integer, parameter :: most_points = 400, chords = 96
+      real(dp), allocatable :: angle(:), angle_weight(:), node(:), values(:, :), weight(:)
+      complex(dp), allocatable :: w(:)
+      complex(dp) :: direction, e, z_target
+      real(dp) :: distance, half, middle, opening, sum_of_chord
+      integer :: i, j, points
+
+      distance = abs(target)
+      points = min(most_points, basis%degree + ceiling(-0.5_dp*log(epsilon(1.0_dp))/acosh(distance)))
+      allocate (angle(chords), angle_weight(chords), node(points), weight(points), w(points), &
+                values(points, basis%terms))
+      call gauss_jacobi(basis%power, basis%power, node, weight)
+      call gauss_jacobi(0.0_dp, 0.0_dp, angle, angle_weight)
+      opening = asin(1.0_dp/distance)
+      direction = -target/distance
+      z_target = shape%place(target)
+      integral = 0.0_dp
+      do i = 1, chords
+         e = direction*exp(cmplx(0.0_dp, opening*angle(i), dp))
+         middle = -(target%re*e%re + target%im*e%im)
+         half = sqrt(max(1.0_dp - (target%re*e%im - target%im*e%re)**2, 0.0_dp))
+         w = target + (middle + half*node)*e
+         call basis%evaluate(points, w, values)
+         sum_of_chord = 0.0_dp
+         do j = 1, points
+            sum_of_chord = sum_of_chord + weight(j)*dot_product(values(j, :), c)*shape%jacobian(w(j)) &
+               *(middle + half*node(j))/abs(shape%place(w(j)) - z_target)**3
+         end do
+         integral = integral + opening*angle_weight(i)*half**(2*basis%power + 1)*sum_of_chord
+      end do
+   end function cube_integral
 
 end module wavycon_chord_rule

@@ -1,13 +1,16 @@
-!> The equations of contact of one spot below merging, or of one open island above, at points of the mapped disc.
+!> The equations of contact of one spot below merging, or of one open island above, at points of the mapped
+!> disc.
 !>
-!> Spot: its pressure p makes u + h = delta, and bears the load P on a cell. Island, for the square lattice: its gap g makes
-!> the pressure vanish, which is P + (cos 2 pi x + cos 2 pi y)/2 in full contact, with the crest as origin, and is changed by
-!> -(1/4 pi^2) times the Laplacian of U = integral of Gp g. With the trough as origin therefore
+!> Spot: its pressure p makes u + h = delta, and bears the load P on a cell. Island, for the square lattice:
+!> its gap g makes the pressure vanish, which is P + (cos 2 pi x + cos 2 pi y)/2 in full contact, with the
+!> crest as origin, and is changed by -(1/4 pi^2) times the Laplacian of U = integral of Gp g. With the trough
+!> as origin therefore
 !>
 !>     U = pi^2 P r^2 + (cos 2 pi x + cos 2 pi y)/2 + sum over k of d_k Re(z^(fold k)).
 !>
-!> The power of 1 - |w|^2 leaves out the term that a wrong shape would bring in: only the right edge fits. So the system in
-!> the coefficients, the approach or the harmonic terms and the shape has more equations than unknowns.
+!> The power of 1 - |w|^2 leaves out the term that a wrong shape would bring in: only the right edge fits. So
+!> the system in the coefficients, the approach or the harmonic terms and the shape has more equations than
+!> unknowns.
 module wavycon_contact_equations
    use wavycon_chord_rule, only: chord_rule, start_chord_rule
    use wavycon_constants, only: pi
@@ -66,7 +69,8 @@ contains
          finer = 0
          if (reach > sharp_reach) finer = 1
          if (reach > near_reach) finer = 6
-         call plain_disc_rule(equations%rule, like%basis%power, fold, degree/2 + 2 + finer, degree/fold + 1 + finer)
+         call plain_disc_rule(equations%rule, like%basis%power, fold, &
+                              degree/2 + 2 + finer, degree/fold + 1 + finer)
          ! Two more than the unknowns of the round part of a function: with as many, any size would do.
          radii = degree/2 + merge(5, 4, like%island)
          angles = degree/fold + merge(2, 1, like%island)
@@ -83,8 +87,10 @@ contains
       n = size(equations%rule%point)
       allocate (equations%values(n, like%basis%terms), equations%density(n))
       call like%basis%evaluate(n, equations%rule%point, equations%values)
-      allocate (equations%matrix(size(equations%target), equations%unknowns), equations%rest(size(equations%target)), &
-                equations%image(size(equations%target), n), equations%load_row(equations%unknowns))
+      associate (m => size(equations%target))
+         allocate (equations%matrix(m, equations%unknowns), equations%rest(m), equations%image(m, n), &
+                   equations%load_row(equations%unknowns))
+      end associate
    end subroutine start_equations
 
    !> Sets the matrix and the rest at an expansion.
@@ -95,7 +101,8 @@ contains
       type(expansion), intent(in) :: now
 
       complex(dp) :: slope, v, z
-      real(dp) :: image_slopes(0:ubound(now%shape%b, 1)), row(now%basis%terms), slopes(0:ubound(now%shape%b, 1))
+      real(dp), dimension(0:ubound(now%shape%b, 1)) :: image_slopes, slopes
+      real(dp) :: row(now%basis%terms)
       integer :: fold, i, k, m, n, shapes, terms
 
       terms = now%basis%terms
@@ -106,7 +113,8 @@ contains
       call dgemv('N', n, terms, 1.0_dp, self%values, n, now%c, 1, 0.0_dp, self%density, 1)
       do i = 1, m
          call self%chords%rows(now%basis, now%shape, self%target(i), now%c, row, slopes)
-         call image_rows(lattice%kernel, now%shape, self%rule, self%target(i), self%density, self%image(i, :), image_slopes)
+         call image_rows(lattice%kernel, now%shape, self%rule, self%target(i), self%density, &
+                         self%image(i, :), image_slopes)
          self%matrix(i, :terms) = row
          self%matrix(i, shapes + 1:) = slopes + image_slopes
       end do
@@ -159,7 +167,7 @@ contains
    real(dp) function integral(self, now, factor)
       class(contact_equations), intent(in) :: self
       type(expansion), intent(in) :: now
-      real(dp), intent(in), optional :: factor(:)   !! the function at the rule's points, shape (n); 1 if absent
+      real(dp), intent(in), optional :: factor(:)   !! the function at the rule's points, shape (n)
 
       real(dp) :: product(size(self%rule%point))
 

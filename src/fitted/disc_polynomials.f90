@@ -1,7 +1,8 @@
-!> Polynomials on the unit disc, orthonormal with the weight (1 - |w|^2)^power, with the symmetry of a contact.
+!> Polynomials on the unit disc, orthonormal with the weight (1 - |w|^2)^power, with the symmetry of a
+!> contact.
 !>
-!> Their terms are Re(w^(fold k)) P_l^(power, fold k)(2 |w|^2 - 1), fold k + 2 l <= degree, Jacobi's P: invariant when the
-!> disc is turned by 1/fold of a turn and when it is mirrored.
+!> Their terms are Re(w^(fold k)) P_l^(power, fold k)(2 |w|^2 - 1), fold k + 2 l <= degree, Jacobi's P:
+!> invariant when the disc is turned by 1/fold of a turn and when it is mirrored.
 module wavycon_disc_polynomials
    use wavycon_constants, only: pi
    use wavycon_kinds, only: dp
@@ -47,10 +48,7 @@ contains
             n = n + 1
             basis%angular(n) = k
             basis%radial(n) = l
-            ! The square of the norm over the disc.
-            norm = merge(pi, 0.5_dp*pi, k == 0)/(2*l + a + b + 1) &
-               *exp(log_gamma(l + a + 1) + log_gamma(l + b + 1) - log_gamma(l + 1.0_dp) - log_gamma(l + a + b + 1))
-            norm = sqrt(norm)
+            norm = norm_over_disc(k, l, a)
             s = 2*l + a + b
             associate (r => basis%recurrence(:, n))
                select case (l)
@@ -59,25 +57,27 @@ contains
                case (1)
                   r = [0.5_dp*(a + b + 2), 0.5_dp*(a - b), 0.0_dp]*last_norm/norm
                case default
-                  r = [(s - 1)*s*(s - 2), (s - 1)*(a**2 - b**2), -2*(l + a - 1)*(l + b - 1)*s]/(2*l*(l + a + b)*(s - 2))
+                  r = [(s - 1)*s*(s - 2), (s - 1)*(a**2 - b**2), -2*(l + a - 1)*(l + b - 1)*s] &
+                     /(2*l*(l + a + b)*(s - 2))
                   r(:2) = r(:2)*last_norm/norm
-                  r(3) = r(3)/norm*basis_norm(l - 2)
+                  r(3) = r(3)*norm_over_disc(k, l - 2, a)/norm
                end select
             end associate
             last_norm = norm
          end do
       end do
-
-   contains
-
-      pure real(dp) function basis_norm(l)
-         integer, intent(in) :: l
-
-         basis_norm = sqrt(merge(pi, 0.5_dp*pi, k == 0)/(2*l + a + b + 1) &
-            *exp(log_gamma(l + a + 1) + log_gamma(l + b + 1) - log_gamma(l + 1.0_dp) - log_gamma(l + a + b + 1)))
-      end function basis_norm
-
    end subroutine start_disc_polynomials
+
+   !> Root of the integral of a term's square, and the weight, over the disc.
+   pure real(dp) function norm_over_disc(k, l, a) result(norm)
+      integer, intent(in) :: k     !! fold k of the term
+      integer, intent(in) :: l
+      real(dp), intent(in) :: a    !! power of the weight
+
+      norm = log_gamma(l + a + 1) + log_gamma(l + k + 1.0_dp) &
+         - log_gamma(l + 1.0_dp) - log_gamma(l + a + k + 1)
+      norm = sqrt(merge(pi, 0.5_dp*pi, k == 0)*exp(norm)/(2*l + a + k + 1))
+   end function norm_over_disc
 
    !> All terms at n points.
    pure subroutine evaluate(self, n, w, values)

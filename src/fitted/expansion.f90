@@ -1,8 +1,8 @@
 !> A contact spot or an open island as sums over the unit disc, and what integrates over it.
 !>
-!> Below merging the pressure on one spot about a crest, above it the gap over one island about a trough: (1 - |w|^2)^power,
-!> power 1/2 or 3/2, times disc polynomials, the disc mapped by a shape. Lengths in s, pressures in pi E* Delta/s, gaps in
-!> Delta; places from the centre of the spot or island.
+!> Below merging the pressure on one spot about a crest, above it the gap over one island about a trough: (1 -
+!> |w|^2)^power, power 1/2 or 3/2, times disc polynomials, the disc mapped by a shape. Lengths in s, pressures
+!> in pi E* Delta/s, gaps in Delta; places from the centre of the spot or island.
 module wavycon_expansion
    use wavycon_disc_polynomials, only: disc_polynomials, start_disc_polynomials
    use wavycon_kinds, only: dp
@@ -22,12 +22,14 @@ module wavycon_expansion
       real(dp) :: scale = 1.0_dp
    contains
       procedure :: raised
+      procedure :: at
       procedure :: at_centre
    end type expansion
 
 contains
 
-   !> The same function in a basis of another degree, with another number of shape terms; what does not fit is dropped.
+   !> The same function in a basis of another degree, with another number of shape terms; what does not fit is
+   !> dropped.
    function raised(self, degree, shape_terms, harmonics) result(copy)
       class(expansion), intent(in) :: self
       integer, intent(in) :: degree       !! of the new basis
@@ -41,8 +43,9 @@ contains
       call start_disc_polynomials(copy%basis, self%basis%fold, degree, self%basis%power)
       allocate (copy%c(copy%basis%terms), source=0.0_dp)
       do i = 1, copy%basis%terms
-         n = findloc(self%basis%angular == copy%basis%angular(i) .and. self%basis%radial == copy%basis%radial(i), &
-                     .true., dim=1)
+         associate (angular => copy%basis%angular(i), radial => copy%basis%radial(i))
+            n = findloc(self%basis%angular == angular .and. self%basis%radial == radial, .true., dim=1)
+         end associate
          if (n > 0) copy%c(i) = self%c(n)
       end do
       copy%shape%fold = self%shape%fold
@@ -67,5 +70,17 @@ contains
       call self%basis%evaluate(1, [(0.0_dp, 0.0_dp)], values)
       at_centre = dot_product(values(1, :), self%c)
    end function at_centre
+
+   !> The value at a point of the disc, with its weight; 0 outside.
+   real(dp) function at(self, w)
+      class(expansion), intent(in) :: self
+      complex(dp), intent(in) :: w
+
+      real(dp) :: values(1, self%basis%terms)
+
+      call self%basis%evaluate(1, [w], values)
+      at = dot_product(values(1, :), self%c) &
+         *max((1.0_dp - abs(w))*(1.0_dp + abs(w)), 0.0_dp)**self%basis%power
+   end function at
 
 end module wavycon_expansion

@@ -9,9 +9,9 @@ module wavycon_fitted_answer
 
    !> Statuses of a solution.
    integer, parameter, public :: fitted_solved = 0        !! to the accuracy asked for
-   integer, parameter, public :: fitted_less_exact = 1    !! all is set, but the error estimates say less than asked for
-   integer, parameter, public :: fitted_merged = 2        !! spots have merged, and not on the square lattice: nothing is set
-   integer, parameter, public :: fitted_bad_input = 3     !! a load not between 0 and 1, or an accuracy not > 0
+   integer, parameter, public :: fitted_less_exact = 1    !! all is set; by its estimates less exact
+   integer, parameter, public :: fitted_merged = 2        !! nothing is set; the square lattice alone goes on
+   integer, parameter, public :: fitted_bad_input = 3     !! load not between 0 and 1, or accuracy not > 0
    integer, parameter, public :: fitted_failed = 4        !! no solution was found: nothing is set
 
    !> Lengths in the cell's shorter side s, pressures in p* = pi E* Delta/s, gaps and displacements in Delta.
@@ -21,16 +21,16 @@ module wavycon_fitted_answer
       real(dp) :: mean_gap = 0.0_dp             !! G
       real(dp) :: area_fraction = 0.0_dp        !! A_real/A_0
       real(dp) :: peak_pressure = 0.0_dp        !! at a crest
-      real(dp) :: energy = 0.0_dp               !! 1/2 integral of p u over a cell [p* Delta s^2], u without its mean
+      real(dp) :: energy = 0.0_dp               !! 1/2 integral of p u, per cell [p* Delta s^2]
       real(dp) :: perimeter = 0.0_dp            !! of a spot or an island
       real(dp) :: mean_gap_error = huge(1.0_dp)       !! estimates of the errors of the above
       real(dp) :: area_error = huge(1.0_dp)
       real(dp) :: peak_error = huge(1.0_dp)
       real(dp) :: residual = huge(1.0_dp)       !! largest violation of the equations of contact
-      real(dp) :: reach = 0.0_dp                !! half way to the next spot or island left by the edge: 1 is merged
+      real(dp) :: reach = 0.0_dp                !! of the edge, in half ways to the next spot or island
       integer :: degree = 0                     !! of the polynomials
       integer :: iterations = 0                 !! Gauss-Newton steps of all degrees
-      logical :: island = .false.               !! above merging: the expansion is an island's gap, else a spot's pressure
+      logical :: island = .false.               !! above merging: the expansion is an island's gap
       type(expansion) :: solution
    end type fitted_answer
 

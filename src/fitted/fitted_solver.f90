@@ -3,8 +3,8 @@ module wavycon_fitted_solver
    use wavycon_constants, only: pi
    use wavycon_contact_equations, only: contact_equations, start_equations
    use wavycon_expansion, only: expansion
-   use wavycon_fitted_answer, only: fitted_answer, fitted_bad_input, fitted_failed, fitted_less_exact, fitted_merged, &
-      fitted_solved, fitted_status_text
+   use wavycon_fitted_answer, only: fitted_answer, fitted_bad_input, fitted_failed, fitted_less_exact, &
+      fitted_merged, fitted_solved, fitted_status_text
    use wavycon_gauss_newton, only: gauss_newton_step
    use wavycon_island_pressure, only: crest_pressure
    use wavycon_kinds, only: dp
@@ -26,6 +26,8 @@ module wavycon_fitted_solver
    real(dp), parameter :: light_load = 0.03_dp, heavy_load = 0.7_dp
    !> Degrees of the polynomials: the first, the step, the last.
    integer, parameter :: first_degree = 6, degree_step = 4, last_degree = 32
+   !> A start has had its own accuracy: as many degrees are gone back, so that a sweep can come down again.
+   integer, parameter :: degrees_back = 3
    integer, parameter :: most_steps = 12
 
    !> The three numbers whose errors are estimated: mean gap, area fraction, peak pressure.
@@ -35,8 +37,8 @@ contains
 
    !> Solves for one load.
    !>
-   !> The accuracy is relative: to the mean gap, to the area fraction or, above merging, the open one, to the peak pressure.
-   !> The degree of the expansion is raised until the differences of two degrees meet it.
+   !> The accuracy is relative: to the mean gap, to the area fraction or, above merging, the open one, to the
+   !> peak pressure. The degree of the expansion is raised until the differences of two degrees meet it.
    subroutine solve_fitted(lattice, pbar_over_pstar, accuracy, answer, start)
       type(wave_lattice), intent(in) :: lattice
       real(dp), intent(in) :: pbar_over_pstar        !! P, between 0 and 1
@@ -67,9 +69,10 @@ contains
       real(dp), parameter :: finest = 1e-7_dp
       type(contact_equations) :: equations
       type(expansion) :: now
-      real(dp) :: error(measures), last(measures), last_difference(measures), new(measures), scale(measures), tolerance
+      real(dp), dimension(measures) :: best, error, last, last_difference, new
+      real(dp) :: residual, tolerance
       integer :: degree, iterations
-      logical :: better, ok
+      logical :: better, merged, ok
 
       answer%island = island
       answer%status = fitted_failed
@@ -78,32 +81,34 @@ contains
       tolerance = min(max(0.1_dp*sqrt(accuracy), finest), 1e-5_dp)
       call begin(lattice, answer, now, degree, iterations, ok, start)
       if (.not. ok) return
+      merged = .false.
       last = huge(last)
       last_difference = huge(last)
-      answer%mean_gap_error = huge(1.0_dp)
       do
          now = now%raised(degree, shape_terms(degree), degree/4 + 2)
          call start_equations(equations, now, reach(lattice, now))
          if (reach(lattice, now) > 0.7_dp) tolerance = finest
-         call converge(equations, lattice, answer%pbar_over_pstar, now, tolerance, answer%residual, iterations, ok)
-         answer%reach = reach(lattice, now)
-         if (.not. ok .or. answer%reach >= 1.0_dp) exit
-         new = [mean_gap(equations, now), now%shape%area(), peak_pressure(equations, lattice, answer%pbar_over_pstar, now)]
+         call converge(equations, lattice, answer%pbar_over_pstar, now, tolerance, residual, iterations, ok)
+         merged = reach(lattice, now) >= 1.0_dp
+         if (.not. ok .or. merged) exit
+         new = [mean_gap(equations, now), now%shape%area(), &
+                peak_pressure(equations, lattice, answer%pbar_over_pstar, now)]
+         if (.not. all(new > 0.0_dp)) exit
          if (last(1) < huge(last)) then
             call estimate(new - last, last_difference, new, error)
             last_difference = abs(new - last)
-            better = sum(error/abs(new)) < answer%mean_gap_error/abs(new(1)) + answer%area_error*lattice%area/new(2) &
-               + answer%peak_error/new(3)
-            if (better .or. answer%status == fitted_failed) call take_over()
-            scale = abs(new)
-            if (all(error <= accuracy*scale)) answer%status = fitted_solved
+            ! Close to merging a higher degree may be worse.
+            better = answer%status == fitted_failed
+            if (.not. better) better = sum(error/new) < sum(best/new)
+            if (better) call take_over()
+            if (all(error <= accuracy*abs(new))) answer%status = fitted_solved
          end if
          last = new
          if (answer%status == fitted_solved .or. degree >= last_degree) exit
-         degree = degree + merge(degree_step/2, degree_step, degree == first_degree .or. degree == 8 .and. answer%reach < 0.6_dp)
+         degree = next_degree(degree, reach(lattice, now))
       end do
       answer%iterations = iterations
-      if (answer%status == fitted_failed .and. answer%reach >= 1.0_dp) answer%status = fitted_merged
+      if (answer%status == fitted_failed .and. merged) answer%status = fitted_merged
 
    contains
 
@@ -111,10 +116,13 @@ contains
          answer%status = fitted_less_exact
          answer%solution = now
          answer%degree = degree
+         answer%residual = residual
+         answer%reach = reach(lattice, now)
          answer%mean_gap = new(1)
          answer%area_fraction = new(2)/lattice%area
          if (island) answer%area_fraction = 1.0_dp - answer%area_fraction
          answer%peak_pressure = new(3)
+         best = error
          answer%mean_gap_error = error(1)
          answer%area_error = error(2)/lattice%area
          answer%peak_error = error(3)
@@ -129,8 +137,8 @@ contains
       real(dp), intent(in) :: difference(:), last_difference(:), value(:)
       real(dp), intent(out) :: error(:)
 
-      !> The next difference is never taken to fall by more than this. A difference that is small by chance, which happens
-      !> where the terms that a degree adds hardly matter, is known by the one before.
+      !> The next difference is never taken to fall by more than this. A difference that is small by chance,
+      !> which happens where the terms that a degree adds hardly matter, is known by the one before.
       real(dp), parameter :: fastest_decay = 0.5_dp, least_of_last = 0.1_dp
       !> In units of the last place.
       real(dp), parameter :: rounding = 64*epsilon(1.0_dp)
@@ -163,7 +171,7 @@ contains
             load = start%pbar_over_pstar
             if (steps_between(load, target, answer%island) <= 1) then
                now = scaled_to_load(start%solution, load, target)
-               degree = max(first_degree, start%degree - degree_step)
+               degree = max(first_degree, start%degree - degrees_back*degree_step)
                ok = .true.
                return
             end if
@@ -224,6 +232,20 @@ contains
       end do
    end subroutine converge
 
+   !> Half a step at first, another where the shape is round: terms that turn with the angle matter less
+   !> there.
+   pure integer function next_degree(degree, edge_reach)
+      integer, intent(in) :: degree
+      real(dp), intent(in) :: edge_reach
+
+      real(dp), parameter :: round_reach = 0.6_dp
+
+      next_degree = degree + degree_step
+      if (degree == first_degree) next_degree = degree + degree_step/2
+      if (degree == first_degree + degree_step/2 .and. edge_reach < round_reach) &
+         next_degree = degree + degree_step/2
+   end function next_degree
+
    !> Terms of the shape that go with a degree.
    pure integer function shape_terms(degree)
       integer, intent(in) :: degree
@@ -274,8 +296,8 @@ contains
 
    !> 1/2 the integral of p u over a cell.
    !>
-   !> In contact u = delta - h, and above merging p u = p (delta - h + g), p g = 0; the mean of p h follows from the first
-   !> Fourier coefficient of p, which is that of full contact changed by the island's.
+   !> In contact u = delta - h, and above merging p u = p (delta - h + g), p g = 0; the mean of p h follows
+   !> from the first Fourier coefficient of p, which is that of full contact changed by the island's.
    real(dp) function energy(equations, lattice, load, now)
       type(contact_equations), intent(in) :: equations
       type(wave_lattice), intent(in) :: lattice

@@ -20,7 +20,7 @@ contains
       type(expansion), intent(inout) :: now
       real(dp), intent(out) :: change                      !! largest change of the shape over its size
       real(dp), intent(out) :: residual                    !! largest of the equations before the step [Delta]
-      logical, intent(out) :: ok                           !! the step is finite and its shape one to go on from
+      logical, intent(out) :: ok                           !! the step is finite and its shape has a size
 
       !> Longer steps are cut: the shape stays one, and Gauss-Newton is not reliable beyond.
       real(dp), parameter :: longest_change = 0.3_dp
@@ -45,7 +45,8 @@ contains
       else
          constraint(1, :) = equations%load_row
          missing = load*lattice%area - equations%integral(now)
-         call dgglse(m, n, 1, equations%matrix, m, constraint, 1, equations%rest, missing, step, work, size(work), info)
+         call dgglse(m, n, 1, equations%matrix, m, constraint, 1, equations%rest, missing, step, work, &
+                     size(work), info)
       end if
       if (info /= 0 .or. .not. maxval(abs(step)) < huge(residual)) return
       change = maxval(abs(step(shapes + 1:)))/now%shape%b(0)

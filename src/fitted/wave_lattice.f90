@@ -1,8 +1,8 @@
 !> The wavy surfaces that the boundary-fitted solver knows: one crest a cell, at the lattice's points.
 !>
-!> h/Delta = 1 - sum over i of a_i cos(2 pi k_i.x), the a_i sum to 1 so that a crest touches: Delta is the mean undeformed
-!> gap. Lengths are in the cell's shorter side s, pressures in pi E* Delta/s, which for the square cell is p* and which
-!> makes u_k = p_k/|k| for each wave vector k in waves per s.
+!> h/Delta = 1 - sum over i of a_i cos(2 pi k_i.x), the a_i sum to 1 so that a crest touches: Delta is the
+!> mean undeformed gap. Lengths are in the cell's shorter side s, pressures in pi E* Delta/s, which for the
+!> square cell is p* and which makes u_k = p_k/|k| for each wave vector k in waves per s.
 module wavycon_wave_lattice
    use wavycon_constants, only: pi
    use wavycon_kinds, only: dp

@@ -1,0 +1,206 @@
+!> Pressure, displacement and gap anywhere on the surface, from an expansion and without a grid.
+!>
+!> Places are from a crest, in s. Inside the spot or the island the fields are the expansion and the condition
+!> of contact. Elsewhere they are integrals over it and over all its images; those of the images that are near
+!> have chords through the place where the map, continued, has it, which the rule of chords takes as well
+!> outside the disc as inside.
+module wavycon_fitted_fields
+   use wavycon_chord_rule, only: chord_rule, start_chord_rule
+   use wavycon_constants, only: pi
+   use wavycon_disc_rule, only: disc_rule, plain_disc_rule
+   use wavycon_expansion, only: expansion
+   use wavycon_fitted_answer, only: fitted_answer
+   use wavycon_kinds, only: dp
+   use wavycon_wave_lattice, only: wave_lattice
+   implicit none (type, external)
+   private
+
+   public :: fitted_fields, start_fitted_fields, fitted_separations
+
+   type :: fitted_fields
+      type(wave_lattice) :: lattice
+      type(fitted_answer) :: answer
+      complex(dp) :: centre = 0.0_dp              !! of the spot or the island [s]
+      type(chord_rule) :: chords
+      type(disc_rule) :: rule
+      complex(dp), allocatable :: source(:)       !! the rule's points, all around, shape (n) [s]
+      real(dp), allocatable :: strength(:)        !! of the expansion there, with area and weight, shape (n)
+   contains
+      procedure :: at
+      procedure :: edge
+      procedure, private :: displacement
+      procedure, private :: tension
+   end type fitted_fields
+
+   !> Sizes of the plain rule for what is not near, per turn and per radius, and how much finer it is when
+   !> tips are so sharp that the continued map does not get far beyond them.
+   integer, parameter :: around = 96, along = 40, finer = 3
+   real(dp), parameter :: sharp_reach = 0.8_dp
+   !> A place is near if the continued map has it within this radius: beyond, the plain rule is exact.
+   real(dp), parameter :: near = 1.6_dp
+
+contains
+
+   !> Prepares to evaluate an answer.
+   subroutine start_fitted_fields(fields, lattice, answer)
+      type(fitted_fields), intent(out) :: fields
+      type(wave_lattice), intent(in) :: lattice    !! the answer's
+      type(fitted_answer), intent(in) :: answer    !! solved, status <= fitted_less_exact
+
+      real(dp), allocatable :: density(:), values(:, :)
+      complex(dp) :: turn
+      integer :: factor, g, m, n
+
+      factor = merge(finer, 1, answer%reach > sharp_reach)
+      fields%lattice = lattice
+      fields%answer = answer
+      if (answer%island) fields%centre = lattice%trough
+      associate (solution => fields%answer%solution)
+         m = solution%basis%fold
+         call start_chord_rule(fields%chords, solution%basis, ubound(solution%shape%b, 1), 96, 48)
+         call plain_disc_rule(fields%rule, solution%basis%power, m, factor*along, factor*around/(2*m))
+         n = size(fields%rule%point)
+         allocate (values(n, solution%basis%terms), density(n))
+         call solution%basis%evaluate(n, fields%rule%point, values)
+         density = matmul(values, solution%c)*fields%rule%weight/(2*m) &
+            *solution%shape%jacobian(fields%rule%point)
+         allocate (fields%source(2*m*n), fields%strength(2*m*n))
+         do g = 0, m - 1
+            turn = exp(cmplx(0.0_dp, 2*pi*g/m, dp))
+            fields%source(2*g*n + 1:(2*g + 1)*n) = solution%shape%place(turn*fields%rule%point)
+            fields%source((2*g + 1)*n + 1:(2*g + 2)*n) = solution%shape%place(turn*conjg(fields%rule%point))
+            fields%strength(2*g*n + 1:(2*g + 1)*n) = density
+            fields%strength((2*g + 1)*n + 1:(2*g + 2)*n) = density
+         end do
+      end associate
+   end subroutine start_fitted_fields
+
+   !> The fields at a place.
+   subroutine at(self, place, pressure, displacement, gap)
+      class(fitted_fields), intent(inout) :: self
+      complex(dp), intent(in) :: place             !! x + i y from a crest [s]
+      real(dp), intent(out) :: pressure            !! [p*], 0 where the gap is open
+      real(dp), intent(out) :: displacement        !! u less its mean [Delta]
+      real(dp), intent(out) :: gap                 !! [Delta], 0 in contact
+
+      complex(dp) :: w, z
+      real(dp) :: approach, h, value
+      logical :: found
+
+      z = self%lattice%kernel%reduced(place - self%centre)
+      h = self%lattice%undeformed_gap(place)
+      approach = 1.0_dp - self%answer%mean_gap
+      associate (solution => self%answer%solution)
+         call solution%shape%find(z, w, found)
+         pressure = 0.0_dp
+         gap = 0.0_dp
+         if (found .and. abs(w) <= 1.0_dp) then
+            value = solution%at(w)
+            if (self%answer%island) then
+               gap = value
+            else
+               pressure = value
+            end if
+            displacement = gap + approach - h
+         else if (self%answer%island) then
+            pressure = self%answer%pbar_over_pstar + 1.0_dp - h - self%tension(z)/(4*pi**2)
+            displacement = approach - h
+         else
+            displacement = self%displacement(z)
+            gap = displacement + h - approach
+         end if
+      end associate
+   end subroutine at
+
+   !> Gaps at the trough and at the saddle, where neighbouring spots meet first, and the saddle's pressure.
+   subroutine fitted_separations(lattice, answer, trough_gap, saddle_gap, saddle_pressure)
+      type(wave_lattice), intent(in) :: lattice    !! the answer's
+      type(fitted_answer), intent(in) :: answer    !! solved, status <= fitted_less_exact
+      real(dp), intent(out) :: trough_gap          !! [Delta]
+      real(dp), intent(out) :: saddle_gap          !! 0 above merging [Delta]
+      real(dp), intent(out) :: saddle_pressure     !! 0 below merging [p*]
+
+      type(fitted_fields) :: fields
+      real(dp) :: displacement, pressure
+
+      call start_fitted_fields(fields, lattice, answer)
+      call fields%at(lattice%trough, pressure, displacement, trough_gap)
+      call fields%at(lattice%saddle, saddle_pressure, displacement, saddle_gap)
+   end subroutine fitted_separations
+
+   !> Points of the edge, once around the spot or island.
+   function edge(self, points) result(z)
+      class(fitted_fields), intent(in) :: self
+      integer, intent(in) :: points
+      complex(dp) :: z(points)       !! x + i y from a crest, shape (points) [s]
+
+      integer :: i
+
+      do i = 1, points
+         z(i) = self%centre + self%answer%solution%shape%place(exp(cmplx(0.0_dp, 2*pi*(i - 1)/points, dp)))
+      end do
+   end function edge
+
+   !> Integral of Gp p at a place outside.
+   real(dp) function displacement(self, z) result(u)
+      class(fitted_fields), intent(inout) :: self
+      complex(dp), intent(in) :: z      !! from the centre, reduced
+
+      real(dp), dimension(size(self%source)) :: slope_x, slope_y, value, x, y
+      real(dp) :: row(size(self%answer%solution%c)), shape_row(0:ubound(self%answer%solution%shape%b, 1))
+      complex(dp) :: image, w
+      integer :: k, n
+      logical :: found
+
+      n = size(self%source)
+      x = z%re - self%source%re
+      y = z%im - self%source%im
+      call self%lattice%kernel%smooth_part(n, x, y, value, slope_x, slope_y)
+      u = 0.0_dp
+      associate (solution => self%answer%solution, images => self%lattice%kernel%image)
+         do k = 0, size(images, 2)
+            image = 0.0_dp
+            if (k > 0) image = cmplx(images(1, k), images(2, k), dp)
+            call solution%shape%find(z - image, w, found)
+            found = found .and. abs(w) < near
+            if (found) then
+               call self%chords%rows(solution%basis, solution%shape, w, solution%c, row, shape_row)
+               u = u + dot_product(row, solution%c)
+            end if
+            ! The smooth part has all images but the one at the origin.
+            if (found .and. k > 0) value = value - 1.0_dp/hypot(x - image%re, y - image%im)
+            if (.not. found .and. k == 0) value = value + 1.0_dp/hypot(x, y)
+         end do
+      end associate
+      u = u + dot_product(self%strength, value)
+   end function displacement
+
+   !> Integral of the Laplacian of Gp times g at a place outside.
+   real(dp) function tension(self, z)
+      class(fitted_fields), intent(inout) :: self
+      complex(dp), intent(in) :: z      !! from the centre, reduced
+
+      real(dp), dimension(size(self%source)) :: value, x, y
+      complex(dp) :: image, w
+      integer :: k, n
+      logical :: found
+
+      n = size(self%source)
+      x = z%re - self%source%re
+      y = z%im - self%source%im
+      call self%lattice%kernel%laplacian(n, x, y, value)
+      tension = 0.0_dp
+      associate (solution => self%answer%solution, images => self%lattice%kernel%image)
+         do k = 0, size(images, 2)
+            image = 0.0_dp
+            if (k > 0) image = cmplx(images(1, k), images(2, k), dp)
+            call solution%shape%find(z - image, w, found)
+            if (.not. found .or. abs(w) >= near) cycle
+            tension = tension + self%chords%cube_integral(solution%basis, solution%shape, w, solution%c)
+            value = value - 1.0_dp/hypot(x - image%re, y - image%im)**3
+         end do
+      end associate
+      tension = tension + dot_product(self%strength, value)
+   end function tension
+
+end module wavycon_fitted_fields
