@@ -181,28 +181,29 @@ contains
       end do
    end subroutine place_points
 
-   !> The integral of f/|z - z'|^3 for a target outside: Gauss's rule along the chords has to resolve a pole
-   !> beyond their nearer end.
+   !> The integral of f/|z - z'|^3 for a target outside.
+   !>
+   !> On a chord this has a pole beyond the nearer end, s = -1, of -1 <= s <= 1, as close as the target is to
+   !> the edge. With 1 + s = x^2, x = root sinh(y), root^2 the distance of the pole, the nearer half is smooth
+   !> in y; the farther one is smooth in s.
    real(dp) function cube_integral(basis, shape, target, c) result(integral)
       type(disc_polynomials), intent(in) :: basis
       type(shape_map), intent(in) :: shape
       complex(dp), intent(in) :: target      !! w_t, |w_t| > 1
       real(dp), intent(in) :: c(:)           !! coefficients of f, shape (N)
 
-      !> Points on a chord and chords, for rounding where the pole is far and for a target next to the edge.
-      integer, parameter :: most_points = 400, chords = 96
-      real(dp), allocatable :: angle(:), angle_weight(:), node(:), values(:, :), weight(:)
-      complex(dp), allocatable :: w(:)
-      complex(dp) :: direction, e, z_target
-      real(dp) :: distance, half, middle, opening, sum_of_chord
-      integer :: i, j, points
+      integer, parameter :: chords = 64, half_points = 40, points = 2*half_points
+      real(dp) :: angle(chords), angle_weight(chords), values(points, basis%terms)
+      real(dp), dimension(half_points) :: far_node, far_weight, node, node_weight, x, y
+      real(dp), dimension(points) :: t, weight
+      complex(dp) :: direction, e, w(points), z_target
+      real(dp) :: distance, half, middle, nearer_end, opening, root, sum_of_chord, top
+      integer :: i, j
 
       distance = abs(target)
-      points = min(most_points, basis%degree + ceiling(-0.5_dp*log(epsilon(1.0_dp))/acosh(distance)))
-      allocate (angle(chords), angle_weight(chords), node(points), weight(points), w(points), &
-                values(points, basis%terms))
-      call gauss_jacobi(basis%power, basis%power, node, weight)
       call gauss_jacobi(0.0_dp, 0.0_dp, angle, angle_weight)
+      call gauss_jacobi(0.0_dp, 0.0_dp, node, node_weight)
+      call gauss_jacobi(basis%power, 0.0_dp, far_node, far_weight)
       opening = asin(1.0_dp/distance)
       direction = -target/distance
       z_target = shape%place(target)
@@ -210,13 +211,25 @@ contains
       do i = 1, chords
          e = direction*exp(cmplx(0.0_dp, opening*angle(i), dp))
          middle = -(target%re*e%re + target%im*e%im)
-         half = sqrt(max(1.0_dp - (target%re*e%im - target%im*e%re)**2, 0.0_dp))
-         w = target + (middle + half*node)*e
+         half = sqrt(max(1.0_dp - (target%re*e%im - target%im*e%re)**2, tiny(1.0_dp)))
+         nearer_end = (distance - 1.0_dp)*(distance + 1.0_dp)/(middle + half)
+         root = sqrt(nearer_end/half)
+         top = asinh(1.0_dp/root)
+         y = 0.5_dp*top*(1.0_dp + node)
+         x = root*sinh(y)
+         t(:half_points) = nearer_end + half*x**2
+         weight(:half_points) = top*node_weight*root*cosh(y)*x**(2*basis%power + 1) &
+            *(2.0_dp - x**2)**basis%power
+         ! From s = 0 to 1.
+         t(half_points + 1:) = nearer_end + half*(1.5_dp + 0.5_dp*far_node)
+         weight(half_points + 1:) = far_weight*0.5_dp**(basis%power + 1) &
+            *(1.5_dp + 0.5_dp*far_node)**basis%power
+         w = target + t*e
          call basis%evaluate(points, w, values)
          sum_of_chord = 0.0_dp
          do j = 1, points
             sum_of_chord = sum_of_chord + weight(j)*dot_product(values(j, :), c)*shape%jacobian(w(j)) &
-               *(middle + half*node(j))/abs(shape%place(w(j)) - z_target)**3
+               *t(j)/abs(shape%place(w(j)) - z_target)**3
          end do
          integral = integral + opening*angle_weight(i)*half**(2*basis%power + 1)*sum_of_chord
       end do

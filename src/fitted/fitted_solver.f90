@@ -140,13 +140,17 @@ contains
       !> The next difference is never taken to fall by more than this. A difference that is small by chance,
       !> which happens where the terms that a degree adds hardly matter, is known by the one before.
       real(dp), parameter :: fastest_decay = 0.5_dp, least_of_last = 0.1_dp
+      !> The first difference is of half a step.
+      real(dp), parameter :: first_difference = 2.0_dp
       !> In units of the last place.
       real(dp), parameter :: rounding = 64*epsilon(1.0_dp)
 
-      error = abs(difference)
-      where (last_difference < huge(1.0_dp)) &
-         error = max(error*min(max(sqrt(error/max(last_difference, tiny(1.0_dp))), fastest_decay), 1.0_dp), &
-                     least_of_last*last_difference)
+      where (last_difference < huge(1.0_dp))
+         error = max(abs(difference)*min(max(sqrt(abs(difference)/max(last_difference, tiny(1.0_dp))), &
+                                             fastest_decay), 1.0_dp), least_of_last*last_difference)
+      elsewhere
+         error = first_difference*abs(difference)
+      end where
       error = max(error, rounding*abs(value))
    end subroutine estimate
 
