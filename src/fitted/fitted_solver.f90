@@ -1,5 +1,6 @@
 !> The contact of a wave on its lattice by boundary-fitted expansions, to an accuracy asked for.
 module wavycon_fitted_solver
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_constants, only: pi
    use wavycon_contact_equations, only: contact_equations, start_equations
    use wavycon_expansion, only: expansion
@@ -51,6 +52,7 @@ contains
 
       answer%pbar_over_pstar = pbar_over_pstar
       answer%status = fitted_bad_input
+      if (ieee_is_nan(pbar_over_pstar) .or. ieee_is_nan(accuracy)) return
       if (.not. (pbar_over_pstar > 0.0_dp .and. pbar_over_pstar < 1.0_dp .and. accuracy > 0.0_dp)) return
       first_is_island = lattice%square .and. pbar_over_pstar > about_merging
       call solve_regime(lattice, accuracy, first_is_island, answer, start)
@@ -243,10 +245,10 @@ contains
       real(dp), intent(in) :: edge_reach
 
       real(dp), parameter :: round_reach = 0.6_dp
+      integer, parameter :: fine_degree = 12
 
       next_degree = degree + degree_step
-      if (degree == first_degree) next_degree = degree + degree_step/2
-      if (degree == first_degree + degree_step/2 .and. edge_reach < round_reach) &
+      if (degree == first_degree .or. (degree < fine_degree .and. edge_reach < round_reach)) &
          next_degree = degree + degree_step/2
    end function next_degree
 
