@@ -9,6 +9,7 @@ module wavycon
    use wavycon_deck, only: deck_type
    use wavycon_dundurs, only: dundurs_coefficients, dundurs_pressure_over_pstar
    use wavycon_error, only: error_type
+   use wavycon_fitted_contact, only: fitted_contact
    use wavycon_find_load, only: solve_for_contact_area, solve_for_mean_gap
    use wavycon_fourier_contact, only: fourier_contact
    use wavycon_fourier_terms, only: symmetry_diagonal, symmetry_full, symmetry_none

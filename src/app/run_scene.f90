@@ -8,6 +8,7 @@ module wavycon_run_scene
    use wavycon_deck, only: deck_type
    use wavycon_error, only: error_type, exit_file_trouble, exit_fine, exit_not_converged, fatal_error
    use wavycon_find_load, only: solve_for_contact_area, solve_for_mean_gap
+   use wavycon_fitted_contact, only: fitted_contact
    use wavycon_grid_contact, only: grid_contact
    use wavycon_gsl, only: gsl_sort_index
    use wavycon_kinds, only: dp
@@ -130,6 +131,8 @@ contains
          select type (solver => results%contact)
          type is (grid_contact)
             solver%progress => progress
+         type is (fitted_contact)
+            if (allocated(solver%grids)) solver%grids%progress => progress
          end select
          do i = 1, size(order)
             load = order(i)
@@ -147,6 +150,8 @@ contains
          select type (solver => results%contact)
          type is (grid_contact)
             nullify (solver%progress)
+         type is (fitted_contact)
+            if (allocated(solver%grids)) nullify (solver%grids%progress)
          end select
       end associate
    end subroutine solve_loads

@@ -2,7 +2,7 @@
 module wavycon_closed_form_contact
    use wavycon_constants, only: pi
    use wavycon_contact_measures, only: contact_measures
-   use wavycon_contact_state, only: closed_form, contact_state
+   use wavycon_contact_state, only: by_closed_form, closed_form, contact_state
    use wavycon_fourier_series, only: fourier_series
    use wavycon_dundurs, only: dundurs_coefficients
    use wavycon_edge_curves, only: edge_curve, strip_ends
@@ -47,6 +47,7 @@ contains
       call self%settle(pbar_over_pstar, state, settled)
       if (settled) return
       state%status = closed_form
+      state%solver = by_closed_form
       state%measures = contact_measures( &
                        mean_gap_over_amplitude=kuznetsov_mean_gap_over_amplitude(pbar_over_pstar), &
                        approach_over_amplitude=1.0_dp - kuznetsov_mean_gap_over_amplitude(pbar_over_pstar), &

@@ -3,7 +3,7 @@ module wavycon_fourier_contact
    use wavycon_beale, only: beale_solver
    use wavycon_complementary_energy, only: energy_problem
    use wavycon_contact_measures, only: measure_series, measuring_intervals
-   use wavycon_contact_state, only: contact_state, full_contact
+   use wavycon_contact_state, only: by_beale, contact_state, full_contact
    use wavycon_fourier_series, only: fourier_series
    use wavycon_edge_curves, only: edge_curve, strip_ends, trace_edges, turn_curves
    use wavycon_fourier_terms, only: choose_terms, fourier_terms
@@ -101,6 +101,7 @@ contains
       end if
 
       state%status = qp_status_name(solution%status)
+      state%solver = by_beale
       state%kkt_residual = solution%kkt_residual
       if (.not. allocated(solution%x)) return
       state%x = solution%x

@@ -3,8 +3,9 @@
 !> Surfaces that mirror themselves are solved on a quarter of their cell. The wave (21), and any like it, repeats itself on a
 !> square of half the area turned by 45 degrees, of which a quarter is enough, unless the points are to lie on the user's cell.
 module wavycon_grid_contact
+   use wavycon_constants, only: pi
    use wavycon_contact_measures, only: contact_measures
-   use wavycon_contact_state, only: contact_state, converged, not_accurate
+   use wavycon_contact_state, only: by_grid, contact_state, converged, not_accurate
    use wavycon_edge_curves, only: edge_curve, strip_ends, trace_edges, turn_curves, whole_strips
    use wavycon_fourier_series, only: fourier_series
    use wavycon_grid_cascade, only: cascade_answer, solve_by_cascade
@@ -113,6 +114,7 @@ contains
                                         peak_pressure_error=answer%errors(3))
       state%active_constraints = count(answer%state%pressure <= 0.0_dp)
       state%pivots = answer%iterations
+      state%solver = by_grid
       state%kkt_residual = answer%state%residual
       if (.not. answer%state%converged) then
          state%status = qp_status_name(qp_iteration_limit)
@@ -151,7 +153,7 @@ contains
 
       if (self%solved%dimension == 2) then
          call trace_edges(state%edge, curves)
-         if (self%turned) call turn_curves(curves, factor=0.5_dp)
+         if (self%turned) call fill_whole_cell(curves)
          return
       end if
       call grid_strip_edges(state%edge, edges)
@@ -161,6 +163,20 @@ contains
          call whole_strips(edges, state%edge%in_contact(1, 1), curves)
       end if
    end subroutine solved_edge_curves
+
+   !> From the smaller cell to the surface's own, of which it is half: the other half is like it, half a cell away.
+   subroutine fill_whole_cell(curves)
+      type(edge_curve), allocatable, intent(inout) :: curves(:)
+
+      integer :: i
+
+      call turn_curves(curves, factor=0.5_dp)
+      curves = [curves, curves]
+      do i = size(curves)/2 + 1, size(curves)
+         curves(i)%phi = curves(i)%phi + pi
+         curves(i)%theta = curves(i)%theta + pi
+      end do
+   end subroutine fill_whole_cell
 
    pure function describe(self) result(words)
       class(grid_contact), intent(in) :: self

@@ -13,7 +13,7 @@ module wavycon_method_group
 
    !> What &method says. The two counts are 0 until the surface's dimension settles their defaults.
    type :: method_group_type
-      character(12) :: solver = ''         !! 'beale', 'grid' or 'auto'
+      character(12) :: solver = ''         !! 'beale', 'grid', 'fitted' or 'auto'
       integer :: harmonics = 0             !! n, highest harmonic of the pressure, in each direction
       integer :: constraint_points = 0     !! points on 0..pi, ends included, in each direction
       character(12) :: symmetry = 'full'   !! 'full', 'diagonal' or 'none'; of no meaning in 1-D
@@ -39,10 +39,11 @@ contains
       table = key_group('method', 'how the contact is computed', [ &
          choice_key('solver', "'beale', or 'auto'", &
             "'beale': the paper's truncated series by Beale's method, for its waves. 'grid': ever finer grids until "// &
-            "mean gap, area and peak pressure are accurate. 'auto': the closed form for wave_1d, else 'grid'; the "// &
-            'default for other surfaces.', ['beale', 'grid ', 'auto ']), &
+            "mean gap, area and peak pressure are accurate. 'fitted': expansions fitted to the edge of contact. 'auto': "// &
+            "the closed form for wave_1d, else 'fitted' and, where that cannot, 'grid'.", &
+            [character(6) :: 'beale', 'grid', 'fitted', 'auto']), &
          real_key('accuracy', '1e-3', '-', &
-            "Of 'grid' and 'auto': largest error allowed of mean gap [amplitude], contact area fraction and peak "// &
+            "Not of 'beale': largest error allowed of mean gap [amplitude], contact area fraction and peak "// &
             'pressure [p*]. A load that cannot be had so accurately says so.', least=1.0e-12_dp, most=0.1_dp), &
          integer_key('grid_points', '', &
             "Of 'grid' and 'auto', in place of accuracy: points of the cell along x and y of the one grid to solve; one "// &
@@ -118,12 +119,14 @@ contains
                "solver = 'beale' is for the waves of the paper: wave_1d, wave_2d with one wavelength, crossed_1d with "// &
                "equal waves. Give 'grid' or 'auto'")
             if (input%has('accuracy')) call problems%add(input%place_of('accuracy'), &
-               "accuracy is a key of solver = 'grid' and 'auto': the series of 'beale' has no error estimate")
+               "accuracy is a key of solver = 'grid', 'fitted' and 'auto': the series of 'beale' has no error estimate")
             if (input%has('grid_points')) call problems%add(input%place_of('grid_points'), &
                "grid_points is a key of solver = 'grid' and 'auto'; 'beale' has harmonics and constraint_points")
             return
          end if
          call input%forbid(problems, 'accuracy', 'grid_points', 'give the one or the other')
+         if (solver == 'fitted' .and. input%has('grid_points')) call problems%add(input%place_of('grid_points'), &
+            "grid_points is a key of solver = 'grid' and 'auto': 'fitted' has no grid")
          if (any(mod(grid_points, 2) /= 0)) call problems%add(input%place_of('grid_points'), &
             'grid_points must be even: of surfaces that mirror themselves half of them are solved each way')
          do i = 1, size(of_beale)

@@ -12,9 +12,9 @@ module wavycon_summary_table
       'pbar_over_pstar[-]', 'mean_pressure[pressure]', 'mean_gap_over_amplitude[-]', 'approach_over_amplitude[-]', &
       'contact_area_fraction[-]', 'peak_pressure_over_pstar[-]', 'min_pressure_over_pstar[-]', 'active_constraints[-]', &
       'pivots[-]', 'kkt_residual[-]']
-   !> Estimated errors, of the solvers that have them; the truncated series of 'beale' knows none.
+   !> Estimated errors, of the solvers that have them, and which solver it was; the truncated series of 'beale' knows none.
    character(40), parameter :: error_columns(*) = [character(40) :: &
-      'mean_gap_error[-]', 'contact_area_error[-]', 'peak_pressure_error[-]']
+      'mean_gap_error[-]', 'contact_area_error[-]', 'peak_pressure_error[-]', 'solver[-]']
 
 contains
 
@@ -29,7 +29,8 @@ contains
 
       call results%open_table('summary', file)
       with_errors = results%deck%method%solver /= 'beale'
-      call file%put_columns([character(40) :: columns, pack(error_columns, spread(with_errors, 1, 3)), 'status[-]'])
+      call file%put_columns([character(40) :: columns, error_columns(:merge(size(error_columns), 0, with_errors)), &
+                             'status[-]'])
       do i = 1, size(results%states)
          associate (state => results%states(i), measures => results%states(i)%measures)
             call file%add([state%pbar_over_pstar, results%mean_pressure(i), &
@@ -39,8 +40,10 @@ contains
             call file%add(state%active_constraints)
             call file%add(state%pivots)
             call file%add(state%kkt_residual)
-            if (with_errors) call file%add([measures%mean_gap_error, measures%contact_area_error, &
-                                            measures%peak_pressure_error])
+            if (with_errors) then
+               call file%add([measures%mean_gap_error, measures%contact_area_error, measures%peak_pressure_error])
+               call file%add(trim(state%solver))
+            end if
             call file%add(trim(state%status))
             call file%end_row()
          end associate

@@ -3,6 +3,8 @@ module wavycon_choose_solver
    use wavycon_closed_form_contact, only: closed_form_contact
    use wavycon_contact_solver, only: contact_solver
    use wavycon_deck, only: deck_type
+   use wavycon_fitted_contact, only: fitted_contact
+   use wavycon_fitted_frame, only: find_frame, fitted_frame
    use wavycon_fourier_contact, only: fourier_contact
    use wavycon_grid_contact, only: grid_contact
    use wavycon_kinds, only: dp
@@ -15,18 +17,26 @@ module wavycon_choose_solver
 
 contains
 
-   !> 'auto' takes the closed form where there is one. The truncated series of 'beale' is never the cheapest way to an
-   !> accuracy, as it does not know its own.
+   !> 'auto' takes the closed form where there is one, then fitted expansions where they know the lattice, with grids for
+   !> what these leave. The truncated series of 'beale' is never the cheapest way to an accuracy, as it does not know its own.
    subroutine choose_solver(deck, scene, solver)
       type(deck_type), intent(in) :: deck
       type(scene_type), intent(in) :: scene
       class(contact_solver), allocatable, intent(out) :: solver
 
+      type(fitted_frame) :: frame
+      logical :: auto, keep_fields
+
+      auto = deck%method%solver == 'auto'
+      keep_fields = deck%output%lines .or. deck%output%map .or. deck%output%contours
       associate (method => deck%method, surface => scene%surface)
+         if (deck%method%solver == 'fitted' .or. auto) call find_frame(surface, frame)
          if (method%solver == 'beale') then
             allocate (fourier_contact :: solver)
-         else if (method%solver == 'auto' .and. surface%dimension == 1 .and. surface%paper_wave() /= no_paper_wave) then
+         else if (auto .and. surface%dimension == 1 .and. surface%paper_wave() /= no_paper_wave) then
             allocate (closed_form_contact :: solver)
+         else if (frame%covered .and. all(method%grid_points == 0)) then
+            allocate (fitted_contact :: solver)
          else
             allocate (grid_contact :: solver)
          end if
@@ -37,9 +47,9 @@ contains
          type is (closed_form_contact)
             call solver%start(surface)
          type is (grid_contact)
-            call solver%start(surface, method%accuracy, &
-                              keep_fields=deck%output%lines .or. deck%output%map .or. deck%output%contours, &
-                              points=grid_asked_for())
+            call solver%start(surface, method%accuracy, keep_fields, points=grid_asked_for())
+         type is (fitted_contact)
+            call solver%start(surface, method%accuracy, with_grids=auto, keep_fields=keep_fields)
          end select
       end associate
 

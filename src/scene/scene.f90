@@ -4,6 +4,7 @@ module wavycon_scene
    use wavycon_constraint_points, only: choose_points
    use wavycon_deck, only: deck_type
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
+   use wavycon_fitted_frame, only: find_frame, fitted_frame
    use wavycon_fourier_terms, only: choose_terms, fourier_terms, symmetry_diagonal, symmetry_full, symmetry_none
    use wavycon_kinds, only: dp
    use wavycon_load_group, only: by_contact_area, by_mean_gap, by_pressure, largest_pbar_over_pstar
@@ -45,7 +46,7 @@ contains
       case ('diagonal')
          scene%symmetry = symmetry_diagonal
       end select
-      call check_size(deck, scene, error)
+      call check_method(deck, scene, error)
       if (allocated(error)) return
       call take_loads(deck, scene, error)
    end subroutine make_scene
@@ -111,8 +112,9 @@ contains
       end select
    end function target_words
 
-   !> Refuses a series whose constraint matrix would fill the memory. Errors: exit_bad_input.
-   subroutine check_size(deck, scene, error)
+   !> Refuses a series whose constraint matrix would fill the memory, and fitted expansions of a surface that they do not
+   !> know. Errors: exit_bad_input.
+   subroutine check_method(deck, scene, error)
       type(deck_type), intent(in) :: deck
       type(scene_type), intent(in) :: scene
       type(error_type), allocatable, intent(out) :: error
@@ -120,8 +122,15 @@ contains
       !> Elements of the matrix, of which a handful of copies are held: 160 MB each.
       real(dp), parameter :: most_elements = 2.0e7_dp
       type(fourier_terms) :: terms
+      type(fitted_frame) :: frame
       integer, allocatable :: k(:), l(:)
 
+      if (deck%method%solver == 'fitted' .and. scene%surface%amplitude > 0.0_dp) then
+         call find_frame(scene%surface, frame)
+         if (.not. frame%covered) call fatal_error(error, exit_bad_input, escaped(deck%path)//": solver = 'fitted' knows "// &
+            'wave_2d with one wavelength, crossed_1d with wavelengths up to 3:1 and hexagonal, not this '// &
+            trim(deck%surface%kind)//". Give 'auto' or 'grid'.")
+      end if
       if (deck%method%solver /= 'beale') return
       terms = choose_terms(scene%surface%dimension, deck%method%harmonics, scene%symmetry)
       call choose_points(scene%surface%dimension, deck%method%constraint_points, scene%symmetry, k, l)
@@ -131,7 +140,7 @@ contains
                           integer_text(deck%method%constraint_points)//' make '//integer_text(terms%count())// &
                           ' unknowns and '//integer_text(size(k))//' constraints: too many for the memory. '// &
                           'Give fewer constraint_points (harmonics + 1 serve well), or a symmetry.')
-   end subroutine check_size
+   end subroutine check_method
 
    !> A mean pressure over p*. On a flat surface p* = 0 and any pressure is full contact: none at all is p* itself.
    elemental real(dp) function in_p_star(mean_pressure, p_star)
