@@ -2,7 +2,7 @@
 module wavycon_kkt
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgemv, dsymv
-   use wavycon_qp_problem, only: qp_problem, qp_solution, qp_converged, qp_inaccurate
+   use wavycon_qp_problem, only: gradient_terms, qp_problem, qp_solution, qp_converged, qp_inaccurate
    use wavycon_working_set, only: working_set
    implicit none (type, external)
    private
@@ -44,15 +44,15 @@ contains
       integer, intent(in) :: active(:)        !! constraints with a multiplier, each named once
       real(dp), intent(in) :: multipliers(:)  !! y of the active constraints, shape (size(active))
 
-      real(dp) :: gradient(size(x)), term(size(x)), slack(size(problem%bounds))
-      real(dp) :: gradient_scale, slack_scale, force(size(active))
+      real(dp) :: gradient(size(x)), term(size(x)), slack(size(problem%bounds)), slack_scale(size(problem%bounds))
+      real(dp) :: gradient_scale, force(size(active)), x_size
       integer :: i, n, m
 
       n = size(x)
       m = size(problem%bounds)
 
       call dsymv('U', n, 1.0_dp, problem%hessian, n, x, 1, 0.0_dp, gradient, 1)
-      gradient_scale = max(maxval(abs(gradient)), maxval(abs(problem%linear)))
+      gradient_scale = gradient_terms(problem, x)
       gradient = gradient - problem%linear
       do i = 1, size(active)
          term = multipliers(i)*problem%normals(:, active(i))
@@ -62,17 +62,23 @@ contains
       residual = ratio(maxval(abs(gradient)), gradient_scale)
       if (m == 0) return
 
-      ! Cx is a sum of n terms of both signs: its scale is what they add up to without the signs.
+      ! Each constraint has its own scale, so that one of large units does not hide that another is violated.
       slack = -problem%bounds
       call dgemv('T', n, m, 1.0_dp, problem%normals, n, x, 1, 1.0_dp, slack, 1)
-      slack_scale = maxval(abs(problem%bounds)) + maxval(abs(x))*maxval(abs(problem%normals))
-      residual = max(residual, ratio(max(0.0_dp, -minval(slack)), slack_scale))
+      x_size = maxval(abs(x))
+      slack_scale = abs(problem%bounds)
+      do i = 1, m
+         slack_scale(i) = slack_scale(i) + x_size*maxval(abs(problem%normals(:, i)))
+         if (slack(i) < 0.0_dp) residual = max(residual, ratio(-slack(i), slack_scale(i)))
+      end do
       if (size(active) == 0) return
 
       ! A multiplier counts by the force that it puts on the gradient.
       force = multipliers*maxval(abs(problem%normals(:, active)), dim=1)
       residual = max(residual, ratio(max(0.0_dp, -minval(force)), gradient_scale))
-      residual = max(residual, ratio(maxval(abs(force*slack(active))), gradient_scale*slack_scale))
+      do i = 1, size(active)
+         residual = max(residual, ratio(abs(force(i)*slack(active(i))), gradient_scale*slack_scale(active(i))))
+      end do
    end function kkt_residual
 
    !> a/b where 0/0 is no violation.

@@ -4,7 +4,7 @@ module wavycon_qp_problem
    implicit none (type, external)
    private
 
-   public :: qp_problem, qp_solution, qp_status_name
+   public :: qp_problem, qp_solution, qp_status_name, gradient_terms
 
    !> How a solver ended.
    integer, parameter, public :: qp_converged = 0
@@ -59,5 +59,21 @@ contains
          name = 'unknown'
       end select
    end function qp_status_name
+
+   !> The size of the terms of the gradient Dx - c, which cancel where it vanishes; those of Dx among themselves too where D is
+   !> ill-conditioned.
+   pure real(dp) function gradient_terms(problem, x) result(largest)
+      type(qp_problem), intent(in) :: problem
+      real(dp), intent(in) :: x(:)   !! shape (n)
+
+      real(dp) :: terms(size(x))
+      integer :: j
+
+      terms = 0.0_dp
+      do j = 1, size(x)
+         terms = terms + abs(problem%hessian(:, j)*x(j))
+      end do
+      largest = max(maxval(terms), maxval(abs(problem%linear)))
+   end function gradient_terms
 
 end module wavycon_qp_problem
