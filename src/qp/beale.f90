@@ -13,6 +13,9 @@
 !> finds the set of active constraints: the answer is then solved for from the problem's own data, its
 !> Karush-Kuhn-Tucker conditions are checked, and where the table has drifted or Beale's way is long it is made afresh
 !> from that set and the dual pass ends the work.
+!>
+!> Inside every constraint is multiplied by a power of two that brings its normal to order one: slacks are compared with
+!> each other, and what is rounding of a large one would hide that a small one is violated.
 module wavycon_beale
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use wavycon_beale_table, only: table_type
@@ -41,7 +44,8 @@ module wavycon_beale
    !> A solver that keeps its table, so that the next problem, which differs in the bounds alone, starts from it.
    type :: beale_solver
       private
-      type(qp_problem) :: problem
+      type(qp_problem) :: problem               !! its constraints scaled
+      integer, allocatable :: row_powers(:)     !! they were multiplied by two to these, shape (m)
       type(working_set) :: set
       type(table_type) :: table
    contains
@@ -80,8 +84,9 @@ contains
          return
       end if
       self%problem = problem
+      call scale_constraints(self%problem, self%row_powers)
 
-      call self%table%start(problem, self%set)
+      call self%table%start(self%problem, self%set)
       call descend(self%table, min(limit, own_pivots*n), solution%pivots, optimal)
       if (optimal) then
          status = qp_converged
@@ -89,6 +94,7 @@ contains
          status = qp_iteration_limit
       end if
       call settle(self, limit, status, solution)
+      call unscale_multipliers(self%row_powers, solution)
    end subroutine solve
 
    !> Solves the last problem with other bounds, starting from its answer.
@@ -97,13 +103,42 @@ contains
       real(dp), intent(in) :: bounds(:)               !! b, shape (m)
       type(qp_solution), intent(out) :: solution
 
+      real(dp) :: scaled(size(bounds))
       integer :: status
 
-      call self%table%move_bounds(bounds - self%problem%bounds)
-      self%problem%bounds = bounds
+      scaled = scale(bounds, self%row_powers)
+      call self%table%move_bounds(scaled - self%problem%bounds)
+      self%problem%bounds = scaled
       call restore_optimum(self%table, default_limit(self%problem), solution%pivots, status)
       call settle(self, default_limit(self%problem), status, solution)
+      call unscale_multipliers(self%row_powers, solution)
    end subroutine pass_to
+
+   !> Brings the largest component of each normal to between 1/2 and 1.
+   pure subroutine scale_constraints(problem, powers)
+      type(qp_problem), intent(inout) :: problem
+      integer, allocatable, intent(out) :: powers(:)  !! of two, that the constraints are multiplied by, shape (m)
+
+      integer, parameter :: most_power = maxexponent(1.0_dp)/2   ! bounds of whatever size up to that stay finite
+      real(dp) :: largest
+      integer :: i
+
+      allocate (powers(size(problem%bounds)), source=0)
+      do i = 1, size(powers)
+         largest = maxval(abs(problem%normals(:, i)))
+         if (largest > 0.0_dp) powers(i) = min(most_power, -exponent(largest))
+         problem%normals(:, i) = scale(problem%normals(:, i), powers(i))
+         problem%bounds(i) = scale(problem%bounds(i), powers(i))
+      end do
+   end subroutine scale_constraints
+
+   !> From the multipliers of the scaled constraints to those of the constraints as they were given.
+   pure subroutine unscale_multipliers(powers, solution)
+      integer, intent(in) :: powers(:)
+      type(qp_solution), intent(inout) :: solution
+
+      solution%multipliers = scale(solution%multipliers, powers(solution%active))
+   end subroutine unscale_multipliers
 
    !> Takes the answer from the table's active constraints. Where it does not hold good the table is made afresh from
    !> them and mended, as long as that changes anything.
