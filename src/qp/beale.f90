@@ -23,7 +23,7 @@ module wavycon_beale
    use wavycon_kinds, only: dp
    use wavycon_kkt, only: finish_on_active_set
    use wavycon_qp_problem, only: qp_problem, qp_solution, qp_converged, qp_infeasible, qp_infeasible_start, &
-                                 qp_iteration_limit, qp_not_convex, qp_not_finite
+                                 qp_inaccurate, qp_iteration_limit, qp_not_convex, qp_not_finite
    use wavycon_working_set, only: working_set
    implicit none (type, external)
    private
@@ -173,8 +173,36 @@ contains
          call restore_optimum(self%table, limit, solution%pivots, last_status)
          if (solution%pivots == pivots_before .or. last_status == qp_infeasible) exit
       end do
-      if (last_status /= qp_converged) solution%status = last_status
+      if (last_status == qp_infeasible) then
+         solution%status = qp_inaccurate
+         if (is_excluded(self%problem, self%table, solution%x)) solution%status = qp_infeasible
+      else if (last_status /= qp_converged) then
+         solution%status = last_status
+      end if
    end subroutine settle
+
+   !> Whether a constraint is excluded by the active ones, by the problem's own data and not by the table's word: with
+   !> weights w >= 0 every allowed x satisfies  (C_i + sum_j w_j C_j) x >= b_i + sum_j w_j b_j,  on the left of which next
+   !> to nothing is left (Farkas' lemma). Only an x that is larger by far than the problem's could then satisfy it.
+   pure logical function is_excluded(problem, table, x)
+      type(qp_problem), intent(in) :: problem
+      type(table_type), intent(in) :: table
+      real(dp), intent(in) :: x(:)   !! the minimiser on the active constraints, for its size
+
+      real(dp), parameter :: by_far = 1000.0_dp
+      real(dp) :: normal(size(x)), bound, bound_terms
+      integer :: j
+
+      normal = problem%normals(:, table%excluded)
+      bound = problem%bounds(table%excluded)
+      bound_terms = abs(bound)
+      do j = 1, table%active_count
+         normal = normal + table%weights(j)*problem%normals(:, table%active(j))
+         bound = bound + table%weights(j)*problem%bounds(table%active(j))
+         bound_terms = bound_terms + abs(table%weights(j)*problem%bounds(table%active(j)))
+      end do
+      is_excluded = bound > by_far*max(sum(abs(normal))*maxval(abs(x)), epsilon(1.0_dp)*bound_terms)
+   end function is_excluded
 
    pure integer function default_limit(problem)
       type(qp_problem), intent(in) :: problem

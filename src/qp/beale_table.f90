@@ -38,6 +38,8 @@ module wavycon_beale_table
       real(dp), allocatable :: values(:)      !! a, values(1:basic_count)
       real(dp), allocatable :: rows(:, :)     !! (A, B), shape (m, n): row i of basic slack i, columns as `gradient`
       real(dp) :: zero_descent = 0.0_dp       !! |dF/dz|/sqrt(d2F/dz2) below this is rounding
+      integer :: excluded = 0                 !! constraint that the active ones seem to exclude, where there is one
+      real(dp), allocatable :: weights(:)     !! of the active constraints, whose sum is then the opposite of its normal
       logical :: drifted = .false.            !! digits of H were lost by cancellation: the table is to be made afresh
       logical :: may_drift = .false.          !! lost digits are put up with, as long as H stays positive
    contains

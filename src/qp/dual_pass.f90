@@ -94,7 +94,11 @@ contains
             end if
          end do
          status = qp_infeasible
-         if (step >= huge(step)) return
+         if (step >= huge(step)) then
+            table%excluded = constraint
+            table%weights = max(-row(:k), 0.0_dp)
+            return
+         end if
 
          multiplier = multiplier + step
          table%gradient(k + 1:) = table%gradient(k + 1:) + step*row(k + 1:)
