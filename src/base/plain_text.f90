@@ -134,6 +134,8 @@ contains
       character(*), intent(in) :: text
       integer, intent(in) :: place
 
+      !> The least code of a character of so many bytes: a smaller one in as many is no UTF-8.
+      integer, parameter :: least(*) = [0, 128, 2048, 65536]
       integer :: code, i
 
       length = 0
@@ -144,10 +146,13 @@ contains
          return
       case (194:223)
          length = 2
+         code = code - 192
       case (224:239)
          length = 3
+         code = code - 224
       case (240:244)
          length = 4
+         code = code - 240
       case default
          return
       end select
@@ -160,12 +165,27 @@ contains
             length = 0
             return
          end if
+         code = 64*code + iachar(text(i:i)) - 128
       end do
-      ! U+0080 to U+009F are control characters, U+00A0 is a blank that is not one.
-      if (code == 194) then
-         if (iachar(text(place + 1:place + 1)) <= 160) length = 0
-      end if
+      if (code < least(length) .or. .not. is_visible(code)) length = 0
    end function printable_length
+
+   !> Whether a character beyond ASCII leaves a terminal as it is and shows: no control character, no mark that turns the
+   !> direction of writing or begins a line, no blank that is not one, nothing that Unicode leaves out.
+   pure logical function is_visible(code)
+      integer, intent(in) :: code   !! >= 128
+
+      integer, parameter :: plane = 65536
+
+      select case (code)
+      case (128:160, int(z'AD'), int(z'61C'), int(z'180E'), int(z'200B'), int(z'200E'):int(z'200F'), &
+            int(z'2028'):int(z'202E'), int(z'2060'):int(z'206F'), int(z'D800'):int(z'DFFF'), int(z'FEFF'), &
+            int(z'FFF9'):int(z'FFFB'), int(z'E0000'):int(z'E0FFF'), int(z'110000'):)
+         is_visible = .false.
+      case default
+         is_visible = modulo(code, plane) < plane - 2
+      end select
+   end function is_visible
 
    !> Whether a byte goes on with a UTF-8 character that an earlier one began.
    elemental logical function is_continuation(byte)
