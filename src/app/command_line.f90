@@ -49,7 +49,7 @@ contains
          if (options_over .or. index(word, '-') /= 1) then
             if (word == '') call fatal_error(error, exit_bad_input, 'the name of a deck is empty'//new_line('a')//usage)
             if (allocated(error)) return
-            command_line%decks = [command_line%decks, path_type(word)]
+            call add_deck(command_line%decks, word)
             cycle
          end if
          equals = index(word, '=')
@@ -127,6 +127,24 @@ contains
          call fatal_error(error, exit_bad_input, "--threads needs a number from 1 to "//integer_text(most_threads)// &
                           ", got '"//escaped(text)//"'"//new_line('a')//usage)
    end subroutine read_threads
+
+   !> Adds the name of a deck.
+   !>
+   !> N.B. decks = [decks, path_type(word)] would lose the memory of the names: gfortran 12 does not free the copy's.
+   pure subroutine add_deck(decks, path)
+      type(path_type), allocatable, intent(inout) :: decks(:)
+      character(*), intent(in) :: path
+
+      type(path_type), allocatable :: longer(:)
+      integer :: i
+
+      allocate (longer(size(decks) + 1))
+      do i = 1, size(decks)
+         call move_alloc(decks(i)%path, longer(i)%path)
+      end do
+      longer(size(longer))%path = path
+      call move_alloc(longer, decks)
+   end subroutine add_deck
 
    !> Errors: exit_bad_input if it is no directory that a deck could name too.
    subroutine check_output(directory, error)
