@@ -26,14 +26,60 @@ int wavycon_make_directory(const char *path)
     return errno;
 }
 
+/* The file that an interruption removes; empty if there is none. */
+static char unfinished[4096];
+
+static void remove_unfinished(int number)
+{
+    if (unfinished[0] != '\0')
+        unlink(unfinished);
+    signal(number, SIG_DFL);
+    raise(number);
+}
+
+/* Takes note of a file, or of none, without being interrupted half way. */
+static void note_unfinished(const char *path)
+{
+    sigset_t all, before;
+    sigfillset(&all);
+    sigprocmask(SIG_BLOCK, &all, &before);
+    unfinished[0] = '\0';
+    if (strlen(path) < sizeof unfinished)
+        strcpy(unfinished, path);
+    sigprocmask(SIG_SETMASK, &before, NULL);
+}
+
+/* Removes a file should the program be interrupted, until it is renamed or removed: one file at a time. What is
+   ignored (nohup) stays so. */
+void wavycon_remove_when_interrupted(const char *path)
+{
+    static const int numbers[] = {SIGHUP, SIGINT, SIGTERM};
+    note_unfinished(path);
+    for (size_t i = 0; i < sizeof numbers/sizeof numbers[0]; i++) {
+        struct sigaction action;
+        if (sigaction(numbers[i], NULL, &action) != 0 || action.sa_handler != SIG_DFL)
+            continue;
+        action.sa_handler = remove_unfinished;
+        sigaction(numbers[i], &action, NULL);
+    }
+}
+
 int wavycon_rename(const char *from, const char *to)
 {
-    return rename(from, to) == 0 ? 0 : errno;
+    if (rename(from, to) != 0)
+        return errno;
+    if (strcmp(from, unfinished) == 0)
+        note_unfinished("");
+    return 0;
 }
 
 int wavycon_remove(const char *path)
 {
-    return unlink(path) == 0 ? 0 : errno;
+    if (unlink(path) != 0)
+        return errno;
+    if (strcmp(path, unfinished) == 0)
+        note_unfinished("");
+    return 0;
 }
 
 /* A file that grows beyond the limit set for it is then an error of the write, as on a full disk, not the end. */

@@ -4,7 +4,7 @@ module wavycon_system
    implicit none (type, external)
    private
 
-   public :: full_path, path_kind, make_directories, rename_file, remove_file
+   public :: full_path, path_kind, make_directories, rename_file, remove_file, remove_when_interrupted
    public :: outlive_file_size_limit, parse_number, process_id, stdout_is_terminal
 
    !> What `path_kind` can answer.
@@ -30,6 +30,11 @@ module wavycon_system
          import :: c_char, c_int
          character(kind=c_char), intent(in) :: path(*)
       end function c_remove
+
+      subroutine c_remove_when_interrupted(path) bind(c, name='wavycon_remove_when_interrupted')
+         import :: c_char
+         character(kind=c_char), intent(in) :: path(*)
+      end subroutine c_remove_when_interrupted
 
       subroutine c_outlive_file_size_limit() bind(c, name='wavycon_outlive_file_size_limit')
       end subroutine c_outlive_file_size_limit
@@ -124,6 +129,14 @@ contains
 
       ignored = int(c_remove(path//c_null_char))
    end subroutine remove_file
+
+   !> Removes a file should the program be interrupted (SIGINT, SIGTERM, SIGHUP) before it is renamed or removed. Of one file
+   !> at a time: a second call forgets the first.
+   subroutine remove_when_interrupted(path)
+      character(*), intent(in) :: path
+
+      call c_remove_when_interrupted(path//c_null_char)
+   end subroutine remove_when_interrupted
 
    !> Makes a write beyond the limit of a file's size (ulimit -f) an error of that write, as on a full disk, not the end of
    !> the program.
