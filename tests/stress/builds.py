@@ -1,0 +1,126 @@
+"""The program compiled in other ways: the same numbers without optimisation and for the very machine; no word from the
+sanitizers."""
+import os
+import pathlib
+import shutil
+import subprocess
+
+import fuzz_decks
+from common import Part, complaints_about, files_below, run
+
+SECONDS = 120.0  # a deck without optimisation takes no longer
+SANITIZERS = "-fsanitize=address,undefined -fno-omit-frame-pointer"
+LEVELS = {"O0": "-O0", "O3": "-O3", "native": "-O3 -march=native"}
+# Of each number of a table against its column's largest. A series solves for the same active set in any order of
+# rounding: sums of some thousand terms. A grid ends its iteration where little is left to gain.
+TOLERANCES = {"series": 1e-11, "grid": 1e-9}
+DECKS = {
+    "wave_1d": ("series", "&surface kind = 'wave_1d' /\n&load sweep_from = 0.05, sweep_to = 0.95, sweep_steps = 19 /\n"
+                "&output lines = t, coefficients = t, theory = t /\n"),
+    "wave_2d": ("series", "&surface kind = 'wave_2d' /\n&load sweep_from = 0.05, sweep_to = 0.95, sweep_steps = 10 /\n"
+                "&output lines = t, map = t, coefficients = t, theory = t, points_per_wavelength = 32 /\n"),
+    "closed_form": ("series", "&surface kind = 'wave_1d' /\n&load pbar_over_pstar = 1e-9, 0.3, 0.999 /\n"
+                    "&method solver = 'auto' /\n&output lines = t, theory = t /\n"),
+    "grid": ("grid", "&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0.05, 0.5, 0.9 /\n"
+             "&method solver = 'grid', accuracy = 1e-2 /\n&output lines = t, points_per_wavelength = 32 /\n"),
+}
+
+
+def build(source, folder, build_type, flags, c_flags=""):
+    """Builds the program; its path, or what went wrong."""
+    configure = ["cmake", "-S", source, "-B", folder, "-D", f"CMAKE_BUILD_TYPE={build_type}", "-D", "WAVYCON_TESTS=OFF",
+                 "-D", f"CMAKE_Fortran_FLAGS={flags}", "-D", f"CMAKE_C_FLAGS={c_flags}"]
+    if shutil.which("ninja") and not folder.exists():
+        configure += ["-G", "Ninja"]
+    for command in (configure, ["cmake", "--build", folder, "--target", "wavycon", "--parallel", str(os.cpu_count())]):
+        result = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False)
+        if result.returncode:
+            return None, (result.stdout + result.stderr)[-2000:]
+    return folder/"wavycon", ""
+
+
+def numbers(path):
+    """The columns of numbers of a table; words count as they are."""
+    return [line.split() for line in path.read_text().splitlines() if line.strip() and not line.startswith("#")]
+
+
+def compare(one, other):
+    """The largest difference of two tables, of a column's largest number; words and shapes that differ as infinity.
+
+    What is no result but an account of the way there is left out: the residual, of the order of rounding, and pivots."""
+    header = [line for line in one.read_text().splitlines() if line.startswith("#")][-1].lstrip("#").split()
+    rows, others = numbers(one), numbers(other)
+    if len(rows) != len(others) or [len(row) for row in rows] != [len(row) for row in others]:
+        return float("inf")
+    worst = 0.0
+    for column in range(max(len(row) for row in rows)):
+        if column < len(header) and header[column].split("[")[0] in ("pivots", "kkt_residual", "residual"):
+            continue
+        pairs = [(row[column], another[column]) for row, another in zip(rows, others) if column < len(row)]
+        try:
+            values = [(float(a), float(b)) for a, b in pairs]
+        except ValueError:
+            if any(a != b for a, b in pairs):
+                return float("inf")
+            continue
+        size = max(max(abs(a), abs(b)) for a, b in values)
+        if size > 0.0:
+            worst = max([worst] + [abs(a - b)/size for a, b in values])
+    return worst
+
+
+def levels(source, builds, work):
+    part = Part("optimisation levels")
+    worst = {"series": 0.0, "grid": 0.0}
+    for level, flags in LEVELS.items():
+        # A type without flags of its own: the level is the only one.
+        program, words = build(source, builds/f"stress-{level}", "None", flags)
+        if not program:
+            part.count(f"build {level}", [words])
+            continue
+        for name, (kind, text) in DECKS.items():
+            folder = work/level/name
+            folder.mkdir(parents=True)
+            (folder/"deck.nml").write_text(text)
+            outcome = run([program, "deck.nml", "--output", "results"], folder, patience=SECONDS)
+            complaints = complaints_about(outcome, (0,), seconds=SECONDS)
+            first = work/next(iter(LEVELS))/name/"results"
+            for table in sorted(files_below(first)):
+                if not table.endswith(".dat") or not (folder/"results"/table).exists():
+                    continue
+                difference = compare(first/table, folder/"results"/table)
+                worst[kind] = max(worst[kind], difference)
+                if difference > TOLERANCES[kind]:
+                    complaints.append(f"{table} differs by {difference:.1e} from -O0")
+            if files_below(first) != files_below(folder/"results"):
+                complaints.append("other tables than with -O0")
+            part.count(f"{name}, {flags}", complaints)
+    part.worst = ", ".join(f"{kind} {difference:.1e} (allowed {TOLERANCES[kind]:.0e})"
+                           for kind, difference in worst.items())
+    return part
+
+
+def sanitizers(source, builds, seed, quick, work, failures):
+    """Decks through the program with -fcheck=all, traps and sanitizers."""
+    program, words = build(source, builds/"stress-sanitize", "Debug", SANITIZERS, SANITIZERS)
+    part = Part("sanitizers")
+    if not program:
+        part.count("build", [words])
+        return part
+    suppressions = pathlib.Path(__file__).resolve().parent/"libgfortran.supp"
+    os.environ.update(LSAN_OPTIONS=f"suppressions={suppressions}:print_suppressions=0",
+                      UBSAN_OPTIONS="halt_on_error=1:print_stacktrace=1")
+    for fuzz, amount in ((fuzz_decks.fuzz_checks, 50 if quick else 500), (fuzz_decks.fuzz_runs, 10 if quick else 60)):
+        folder = work/fuzz.__name__
+        folder.mkdir()
+        fuzzed = fuzz(program, seed, amount, folder, failures)
+        part.tried += fuzzed.tried
+        part.passed += fuzzed.passed
+        part.failures += fuzzed.failures
+    for name, (_, text) in DECKS.items():
+        folder = work/"sanitized"/name
+        folder.mkdir(parents=True)
+        (folder/"deck.nml").write_text(text)
+        outcome = run([program, "deck.nml", "--output", "results"], folder, patience=SECONDS)
+        part.count(name, complaints_about(outcome, (0,), seconds=SECONDS))
+    return part

@@ -1,0 +1,123 @@
+#!/usr/bin/env python3
+"""The stress campaign: tries what nobody should, and tables what held.
+
+usage: campaign.py --program WAVYCON --programs FOLDER --results FOLDER [--quick] [--seed N] [--only PART ...]
+
+scripts/stress builds the programs and calls it; scripts/stress --help says what the parts are.
+
+Exit status: 0 if every case passed, else 1.
+"""
+import argparse
+import contextlib
+import pathlib
+import shutil
+import sys
+import tempfile
+import time
+
+import builds as other_builds
+import extremes
+import faults as machine_faults
+import fuzz_decks
+import names
+import quadratic_programmes
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+MOST_SHOWN = 20  # failures of a part
+PARTS = ("qp", "loads", "decks", "faults", "builds")
+
+
+def qp(settings, results):
+    part, table = quadratic_programmes.campaign(settings.programs, settings.seed, 400 if settings.quick else 10000,
+                                                30 if settings.quick else 300, results)
+    part.notes = table
+    yield part
+
+
+def loads(settings, results):
+    yield quadratic_programmes.loads(settings.programs, settings.quick, results)
+    with work_folder() as work:
+        yield extremes.campaign(settings.program, settings.quick, work, results)
+
+
+def decks(settings, results):
+    for fuzz, amount in ((fuzz_decks.fuzz_checks, 150 if settings.quick else 5000),
+                         (fuzz_decks.fuzz_monsters, 100000 if settings.quick else 10000000),
+                         (fuzz_decks.fuzz_runs, 30 if settings.quick else 500)):
+        with work_folder() as work:
+            yield fuzz(settings.program, settings.seed, amount, work, results)
+    with work_folder() as work:
+        yield names.campaign(settings.program, ROOT/"scripts", settings.quick, work, results)
+
+
+def faults(settings, results):
+    with work_folder() as work:
+        yield machine_faults.campaign(settings.program, settings.seed, settings.quick, work, results)
+
+
+def builds(settings, results):
+    with work_folder() as work:
+        yield other_builds.levels(ROOT, ROOT/"build", work)
+    with work_folder() as work:
+        yield other_builds.sanitizers(ROOT, ROOT/"build", settings.seed, settings.quick, work, results)
+
+
+@contextlib.contextmanager
+def work_folder():
+    """A new folder for what a part does; removed afterwards."""
+    # Not called after the program: a blank, because folders of users have them.
+    folder = pathlib.Path(tempfile.mkdtemp(prefix="a stress case ")).resolve()
+    try:
+        # Faults are tried as another user too.
+        folder.chmod(0o755)
+        yield folder
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+def show(part, seconds):
+    """A line of the table, and what belongs to it."""
+    print(f"{part.name:32}{part.tried:8d}{part.passed:8d}{len(part.failures):8d}{seconds:9.0f}  {part.worst}")
+    for line in part.notes:
+        print(f"   {line}")
+    for case, words in part.failures[:MOST_SHOWN]:
+        print(f"   FAILED {case}: {words}")
+    if len(part.failures) > MOST_SHOWN:
+        print(f"   and {len(part.failures) - MOST_SHOWN} more")
+    sys.stdout.flush()
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--program", type=pathlib.Path, required=True)
+    parser.add_argument("--programs", type=pathlib.Path, required=True)
+    parser.add_argument("--results", type=pathlib.Path, required=True)
+    parser.add_argument("--quick", action="store_true")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--only", nargs="+", choices=PARTS, default=PARTS)
+    settings = parser.parse_args()
+    settings.program = settings.program.resolve()
+    settings.programs = settings.programs.resolve()
+
+    print(f"seed {settings.seed}{', the short form' if settings.quick else ''}")
+    print(f'{"":32}{"tried":>8}{"passed":>8}{"failed":>8}{"seconds":>9}  worst', flush=True)
+    failed = 0
+    for name in PARTS:
+        if name not in settings.only:
+            continue
+        results = settings.results.resolve()/name
+        shutil.rmtree(results, ignore_errors=True)
+        found = 0
+        begun = time.monotonic()
+        for part in globals()[name](settings, results):
+            show(part, time.monotonic() - begun)
+            found += len(part.failures)
+            begun = time.monotonic()
+        if found:
+            print(f"   cases that failed: {results}", flush=True)
+        failed += found
+    sys.exit(1 if failed else 0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,136 @@
+"""What the parts of the campaign share: running the program under watch, what must hold of every run, and the table."""
+import os
+import pathlib
+import re
+import resource
+import signal
+import subprocess
+import time
+
+SECONDS = 2.0  # a deck that asks for no more work than these do is answered in this time
+PATIENCE = 10.0  # after this a run is killed and counts as hanging
+
+# What the compiler's run-time library, a sanitizer or the C library says when something is out of hand.
+RUNTIME_WORDS = re.compile(
+    rb"Fortran runtime error|At line \d+ of file|Backtrace for|Error termination|Program received signal"
+    rb"|AddressSanitizer|LeakSanitizer|runtime error:|double free|corrupted|Segmentation|IEEE_|STOP|ERROR STOP")
+
+# What changes a terminal or hides: control characters, marks of the direction of writing, line ends, blanks of no width.
+UNFIT = re.compile("[\x00-\x09\x0b-\x1f\x7f-\xa0\xad\u061c\u180e\u200b\u200e\u200f\u2028-\u202e\u2060-\u206f"
+                   "\ud800-\udfff\ufeff\ufff9-\ufffb\ufffe\uffff\U000e0000-\U000e0fff\U0010fffe\U0010ffff]")
+
+NOT_A_NUMBER = re.compile(r"(?<![\w./-])[+-]?(nan|inf|infinity)(?![\w./-])|\*{3,}", re.IGNORECASE)
+
+
+class Part:
+    """A line of the table."""
+
+    def __init__(self, name):
+        self.name = name
+        self.tried = self.passed = 0
+        self.worst = ""  # the worst figure, in words
+        self.failures = []  # (name of the case, what is wrong)
+        self.notes = []
+
+    def count(self, name, complaints):
+        """Takes a case into account. Returns whether it passed."""
+        self.tried += 1
+        if complaints:
+            self.failures.append((name, "; ".join(complaints)))
+        else:
+            self.passed += 1
+        return not complaints
+
+
+class Outcome:
+    """How a run ended."""
+
+    def __init__(self, status, stdout, stderr, seconds, hung):
+        self.status, self.stdout, self.stderr = status, stdout, stderr
+        self.seconds, self.hung = seconds, hung
+
+
+def run(arguments, folder, patience=PATIENCE, limits=(), environment=None, **options):
+    """Runs a program to its end. `limits` are (resource, amount) pairs for it."""
+
+    def set_limits():
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+        for name, amount in limits:
+            resource.setrlimit(name, (amount, amount))
+
+    variables = dict(os.environ, OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1")
+    if environment is not None:
+        variables = environment
+    begun = time.monotonic()
+    with subprocess.Popen([str(word) for word in arguments], cwd=folder, env=variables, stdin=subprocess.DEVNULL,
+                          stdout=options.get("stdout", subprocess.PIPE), stderr=options.get("stderr", subprocess.PIPE),
+                          preexec_fn=set_limits) as process:
+        hung = False
+        try:
+            stdout, stderr = process.communicate(timeout=patience)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            stdout, stderr = process.communicate()
+            hung = True
+    return Outcome(process.returncode, stdout or b"", stderr or b"", time.monotonic() - begun, hung)
+
+
+def complaints_about(outcome, statuses=(0, 1, 2, 3), seconds=SECONDS):
+    """What no run may do, whatever its input."""
+    words = []
+    if outcome.hung:
+        return [f"hangs: killed after {outcome.seconds:.0f} s"]
+    if outcome.status < 0:
+        words.append(f"killed by signal {signal.Signals(-outcome.status).name}")
+    elif outcome.status not in statuses:
+        words.append(f"exit status {outcome.status}")
+    if outcome.seconds > seconds:
+        words.append(f"takes {outcome.seconds:.1f} s")
+    for stream, text in (("stdout", outcome.stdout), ("stderr", outcome.stderr)):
+        match = RUNTIME_WORDS.search(text)
+        if match:
+            words.append(f"{stream} says '{match.group().decode()}'")
+        try:
+            clean = text.decode()
+        except UnicodeDecodeError:
+            words.append(f"{stream} is not UTF-8")
+            continue
+        match = UNFIT.search(clean)
+        if match:
+            words.append(f"{stream} holds the character {match.group()!a}")
+    if outcome.status in (1, 3) and not outcome.stderr:
+        words.append("fails without a word")
+    if outcome.status == 0 and outcome.stderr:
+        words.append("succeeds with words on stderr")
+    return words
+
+
+def files_below(folder):
+    """The files and links below a folder, relative to it."""
+    return {str(path.relative_to(folder)) for path in pathlib.Path(folder).rglob("*")
+            if path.is_symlink() or not path.is_dir()}
+
+
+def result_complaints(folder, names):
+    """What no result file may hold: half a table, no numbers, or what is not a number."""
+    words = []
+    for name in sorted(names):
+        if name.endswith(".part"):
+            words.append(f"{name} is left behind")
+        if not name.endswith(".dat"):
+            continue
+        text = (pathlib.Path(folder)/name).read_text(errors="replace")
+        if not text.endswith("\n"):
+            words.append(f"{name} does not end with a line")
+        for line in text.splitlines():
+            match = None if line.startswith("#") else NOT_A_NUMBER.search(line)
+            if match:
+                words.append(f"{name} holds '{match.group()}'")
+                break
+    return words
+
+
+def save(folder, name, content):
+    """Keeps the input of a failing case."""
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder/name).write_bytes(content)

@@ -1,0 +1,338 @@
+"""Decks that nobody would write: mutated bytes, words, groups and sizes. Every one ends with a status and clean words."""
+import random
+import re
+import resource
+import sys
+
+from common import SECONDS, Part, complaints_about, files_below, result_complaints, run, save
+
+MEGABYTE = 1000000
+ADDRESS_SPACE = 4000*MEGABYTE  # of a run [byte]: a deck of 10 MB that takes more is out of hand
+
+# Small work, and every group and kind of value. `run` cases start from these.
+SMALL = [
+    "&scene title = 'a title', case = 'deck' /\n&material e1 = 210e9, nu1 = 0.3, e2 = 70e9, nu2 = 0.33 /\n"
+    "&surface kind = 'wave_2d', amplitude = 1e-6, wavelength = 1e-3 /\n&load pbar_over_pstar = 0.05, 2*0.2, 0.9 /\n"
+    "&method solver = 'beale', harmonics = 4, constraint_points = 9, symmetry = 'diagonal', edge_level = 0.05 /\n"
+    "&output directory = 'results', lines = t, map = .true., contours = T, coefficients = .t., theory = true,\n"
+    "   points_per_wavelength = 8 /\n",
+    "&surface kind = 'wave_1d' / ! remark\n&load\n   sweep_from = 1.0 ! down\n   sweep_to = 1e-3\n   sweep_steps = 5\n/\n"
+    "&method\n   solver = 'auto'\n/\n&output lines = .true., points_per_wavelength = 16 /\n",
+    "&surface kind = 'crossed_1d', amplitude1 = 1, wavelength1 = 2.0d0, amplitude2 = 1, wavelength2 = 2 /\n"
+    "&load mean_pressure = 0, 0.5, 3 /\n&material e_star = 2.64 /\n&method solver = 'beale' /\n",
+    "&SURFACE KIND = \"wave_2d\" /\n&LOAD PBAR_OVER_PSTAR = 1.0 1.5 0 /\n&Output Contours = F, Theory = .TRUE. /\n",
+    "&surface kind = 'wave_1d', amplitude = 0 /\n&load pbar_over_pstar = 3*0.5 /\n&output map = .true. /\n",
+]
+# All that a deck can say, for --check.
+LARGE = SMALL + [
+    "&surface kind = 'sum', length_x = 2, length_y = 3, amplitudes = 1, 0.5, -0.25, waves_x = 1, 2, 0,\n"
+    "   waves_y = 0, 1, -2, phases = 0, 90, -45 /\n&load contact_area_fraction = 0.1, 0.5 /\n"
+    "&method solver = 'grid', grid_points = 32, 16 /\n",
+    "&surface kind = 'hexagonal', amplitude = 1, wavelength = 1 /\n&load mean_gap_over_amplitude = 0.5, 0.1 /\n"
+    "&method solver = 'grid', accuracy = 1e-2 /\n",
+    "&surface kind = 'file', file = 'heights.dat', file_format = 'matrix', height_scale = 1e-9, length_x = 1e-3 /\n"
+    "&load mean_gap = 1e-10 /\n&method grid_points = 8 /\n",
+]
+HEIGHTS = "".join(" ".join(str((3*i*i + 5*j + i*j) % 7) for i in range(8)) + "\n" for j in range(8))
+
+NUMBERS = ["0", "-0", "1", "-1", "+1", "1e-12", "1e12", "1e90", "1e91", "1e-90", "1e-91", "1e308", "1e309", "1e-400",
+           "1e999", "-1e999", "nan", "NaN", "inf", "-Infinity", "1d0", "1.d-3", ".5", "5.", ".", "1e", "1e+", "1+3", "0x10", "1_8",
+           "1,5", "1.0.0", "--1", "2147483647", "2147483648", "-2147483649", "9223372036854775808", "1e2147483648", "3*",
+           "*3", "3*0.5", "0*1", "9999999*0.5", "99999999999*1", "1000000*1", "(1,2)", "1/2", "1e-320", "4.9e-324",
+           "0." + "9"*80, "9"*101, "0."+"0"*300+"1", "1.0000000000000002", "0.99999999999999999", "½", "１"]
+TEXTS = ["''", '""', "'", '"', "' '", "'wave_2d'", '"wave_1d"', "'it''s'", '"a""b"', "'a\"b'", "'x' 'y'", "'x''", "''x''",
+         "'/'", "'&load'", "'!'", "'; touch CANARY'", "'$(touch CANARY)'", "'`touch CANARY`'", "'| touch CANARY'",
+         "'a\nb'", "'a\tb'", "'a\x00b'", "'a\x1b[31mb'", "'../up'", "'/../up'", "'./.'", "'~'", "'a b'", "'-rf'", "'--help'",
+         "'ä€𝄞'", "'\u202eabc'", "'\u00a0'", "'\x7f'", "'" + "x"*300 + "'", "'" + "é"*100 + "'", "'%s%n%d'", "'\\n'",
+         "wave_2d", "'Grid'", "'auto '", "' auto'", "'auto'", "'none'", "'heights.dat'", "'.'", "'..'", "'/dev/full'", "'/dev/null'"]
+LOGICALS = [".true.", ".false.", "t", "f", ".T.", "true", "1", "yes", ".true", ".tru e.", "'t'"]
+# What a run must not be asked for more of: it would be legitimate work without end.
+COSTLY = re.compile(r"harmonics|constraint_points|accuracy|sweep_steps|points_per_wavelength|grid_points|solver"
+                    r"|\d{3,}\s*\*|symmetry", re.IGNORECASE)
+
+
+def tokens_of(text):
+    """Words, signs and what is between them."""
+    return re.findall(r"'[^'\n]*'|\"[^\"\n]*\"|&?\w[\w.+-]*|\s+|.", text, re.DOTALL)
+
+
+def is_blank(token):
+    return not token.strip()
+
+
+def mutate_value(stream, text):
+    """Another value in the place of one."""
+    tokens = tokens_of(text)
+    places = [i for i, token in enumerate(tokens) if re.match(r"['\"\d.+-]", token) and not is_blank(token)]
+    if places:
+        tokens[stream.choice(places)] = stream.choice(stream.choice((NUMBERS, NUMBERS, TEXTS, LOGICALS)))
+    return "".join(tokens)
+
+
+def mutate_key(stream, text):
+    """Another key, a misspelt one, or one more."""
+    keys = sorted(set(re.findall(r"(\w+)\s*=", "".join(LARGE))))
+    places = list(re.finditer(r"(\w+)(\s*=)", text))
+    if not places:
+        return text
+    place = stream.choice(places)
+    key = place.group(1)
+    new = stream.choice([stream.choice(keys), key.upper(), key[:-1], key + key, key + "(2)", key + "%x", "é" + key, "",
+                         key[::-1], key + " = 1, " + stream.choice(keys)])
+    return text[:place.start()] + new + place.group(2) + text[place.end():]
+
+
+def mutate_tokens(stream, text):
+    """Words left out, doubled, swapped, or signs put in."""
+    tokens = tokens_of(text)
+    for _ in range(stream.randint(1, 4)):
+        i, j = stream.randrange(len(tokens)), stream.randrange(len(tokens))
+        action = stream.randrange(4)
+        if action == 0:
+            tokens[i] = ""
+        elif action == 1:
+            tokens[i] += tokens[i]
+        elif action == 2:
+            tokens[i], tokens[j] = tokens[j], tokens[i]
+        else:
+            tokens.insert(i, stream.choice(["/", "&", "=", ",", "'", '"', "!", "&end", "$load", "*", "(", ")", "%", ";", "\n",
+                                            "\r", "\t", "\x00", "\ufeff", "&load", "//", "& load", ",,", "= =", "!&load"]))
+    return "".join(tokens)
+
+
+def mutate_structure(stream, text):
+    """Groups doubled, turned round, left out, nested, cut short."""
+    groups = re.split(r"(?=&)", text)
+    action = stream.randrange(7)
+    if action == 0:
+        groups.append(stream.choice(groups))
+    elif action == 1:
+        stream.shuffle(groups)
+    elif action == 2:
+        del groups[stream.randrange(len(groups))]
+    elif action == 3:
+        groups = groups*stream.randint(2, 50)
+    elif action == 4:
+        return text.replace("/", "", stream.randint(1, 3))
+    elif action == 5:
+        return text[:stream.randrange(len(text))]
+    else:
+        return stream.choice(LARGE) + text
+    return "".join(groups)
+
+
+def mutate_nesting(stream, text):
+    """Quotes in quotes in comments."""
+    depth = stream.randint(1, 400)
+    nest = "".join(stream.choice(["'", '"', "!", "''", '""', "\n", "&", "/", "a"]) for _ in range(depth))
+    place = stream.randrange(len(text) + 1)
+    return text[:place] + nest + text[place:]
+
+
+def mutate_characters(stream, text):
+    """Characters from all of Unicode."""
+    for _ in range(stream.randint(1, 5)):
+        place = stream.randrange(len(text) + 1)
+        code = stream.choice([stream.randrange(32), stream.randrange(0x80, 0x250), stream.randrange(0x2000, 0x2070),
+                              stream.randrange(0x1F600, 0x1F650), 0xFEFF, 0xFFFD, 0x10FFFF])
+        text = text[:place] + chr(code) + text[place:]
+    return text
+
+
+def mutate_bytes(stream, content):
+    """Bytes changed, put in, left out, cut, repeated."""
+    content = bytearray(content)
+    for _ in range(stream.choice((1, 1, 2, 5, 30))):
+        place = stream.randrange(len(content) + 1)
+        action = stream.randrange(5)
+        if action == 0 and place < len(content):
+            content[place] = stream.randrange(256)
+        elif action == 1:
+            content[place:place] = bytes([stream.randrange(256)])
+        elif action == 2:
+            del content[place:place + stream.randint(1, 8)]
+        elif action == 3:
+            content[place:place] = content[place:place + stream.randint(1, 40)]*stream.randint(1, 20)
+        elif place < len(content):
+            content[place] ^= 1 << stream.randrange(8)
+    return bytes(content)
+
+
+MUTATIONS = (mutate_value, mutate_value, mutate_value, mutate_key, mutate_tokens, mutate_tokens, mutate_structure,
+             mutate_nesting, mutate_characters)
+
+
+def mutated(stream, decks):
+    """A deck after one mutation or a few."""
+    text = stream.choice(decks)
+    for _ in range(stream.choice((1, 1, 1, 2, 3, 6))):
+        text = stream.choice(MUTATIONS)(stream, text)
+        if not text:
+            text = "\n"
+    content = text.encode("utf-8", "surrogatepass")
+    if stream.random() < 0.25:
+        content = mutate_bytes(stream, content)
+    if stream.random() < 0.1:
+        content = content.replace(b"\n", stream.choice((b"\r\n", b"\r", b"\n\n", b"")))
+    if stream.random() < 0.05:
+        content = b"\xef\xbb\xbf" + content
+    return content
+
+
+def gently_mutated(stream):
+    """A deck of which most are still fine."""
+    text = stream.choice(SMALL)
+    values = re.findall(r"[=\s,]((?:\d+\*)?\d[\d.ed+-]*|\.?[tTfF]\w*\.?)(?=[\s,])", text)
+    for _ in range(stream.randint(1, 3)):
+        value = stream.choice(values)
+        if value[0] in ".tTfF":
+            new = stream.choice([".true.", ".false.", "T", "f"])
+        else:
+            new = stream.choice(["0", "1", "0.5", "2*0.3", "1e-12", "1e-9", "1e-5", "0.999999", "0.999999999999",
+                                 "1.0000001", "1e6", "1e12", "1e-90", "1e90", f"{stream.random():.17g}", f"{10**stream.uniform(-12, 12):.6e}"])
+        text = re.sub(r"(?<=[=\s,])" + re.escape(value) + r"(?=[\s,])", new, text, count=1)
+    if stream.random() < 0.5:
+        text = stream.choice((mutate_value, mutate_tokens, mutate_structure, mutate_characters))(stream, text)
+    return (text or "\n").encode("utf-8", "surrogatepass")
+
+
+def monsters(stream, size):
+    """Decks of some size, each large in another way."""
+    good = LARGE[0].encode()
+    load = b"&surface kind = 'wave_2d' /\n&load pbar_over_pstar = "
+    yield "comment", good + b"!" + b"x"*size
+    yield "comments", b"! remark\n"*(size//9) + good
+    yield "blanks", b" "*size + good
+    yield "lines", b"\n"*size + good
+    yield "carriage returns", b"\r"*size + good
+    yield "ampersands", b"&"*size
+    yield "slashes", b"/"*size
+    yield "equals", b"="*size
+    yield "commas", load + b","*size + b" /"
+    yield "single quotes", b"'"*size
+    yield "double quotes", b'"'*size
+    yield "quotes in turns", b"'\""*(size//2)
+    yield "doubled quotes", b"&scene title = '" + b"''"*(size//2) + b"' /\n" + good
+    yield "long text", b"&scene title = '" + b"x"*size + b"' /"
+    yield "long key", b"&scene " + b"k"*size + b" = 1 /"
+    yield "long group", b"&" + b"g"*size + b" /"
+    yield "long number", load + b"1"*size + b" /"
+    yield "long exponent", load + b"1e" + b"9"*size + b" /"
+    yield "many keys", b"&scene" + b" k = 1"*(size//6) + b" /"
+    yield "same key", b"&scene" + b" title = 'x'"*(size//12) + b" /"
+    yield "many groups", b"&load /\n"*(size//8)
+    yield "unknown groups", b"".join(b"&g%d /\n" % i for i in range(size//10))
+    yield "many loads", load + b"0.5 "*100000 + b" /"
+    yield "too many loads", load + b"0.5 "*(size//4) + b" /"
+    yield "repeated loads", load + b"100000*0.5 /"
+    yield "repeats of repeats", load + b"9999999*0.5 "*(size//12) + b" /"
+    yield "bad loads", load + b"x "*(size//2) + b" /"
+    yield "open quotes", b"&scene title = 'x\n"*(size//18)
+    yield "nulls", b"\x00"*size
+    yield "noise", bytes(stream.randrange(256) for _ in range(min(size, MEGABYTE)))*max(1, size//MEGABYTE)
+    yield "program", open(sys.executable, "rb").read(size)
+    yield "unicode", "𝄞é€".encode()*(size//9)
+
+
+def fuzz_checks(program, seed, count, work, failures):
+    """Mutated decks with --check."""
+    part = Part("mutated decks, --check")
+    slowest = 0.0
+    accepted = 0
+    (work/"heights.dat").write_text(HEIGHTS)
+    for i in range(count):
+        content = mutated(random.Random(f"{seed} check {i}"), LARGE)
+        (work/"deck.nml").write_bytes(content)
+        outcome = run([program, "--check", "deck.nml"], work)
+        complaints = complaints_about(outcome, (0, 1, 3)) + message_complaints(outcome)
+        made = files_below(work) - {"deck.nml", "heights.dat"}
+        if made:
+            complaints.append(f"--check makes {sorted(made)[0]}")
+        slowest = max(slowest, outcome.seconds)
+        accepted += outcome.status == 0
+        if not part.count(f"check-{i}.nml", complaints):
+            save(failures, f"check-{i}.nml", content)
+    part.worst = f"{accepted} accepted, {slowest:.2f} s"
+    return part
+
+
+def message_complaints(outcome):
+    """A deck that is refused is named, with a line and a column where the trouble has one."""
+    if outcome.status not in (1, 3) or not outcome.stderr:
+        return []
+    first = outcome.stderr.decode(errors="replace").splitlines()[0]
+    if re.match(r"deck\.nml(:\d+:\d+)?: error 1 of (at least )?\d+: \S", first):
+        return []
+    if re.match(r"(wavycon: )?(deck\.nml|[^:]+)(:\d+)?: \S", first):
+        return []
+    return [f"no file is named: {first[:80]}"]
+
+
+def fuzz_monsters(program, seed, size, work, failures):
+    """Large decks with --check, in bounded memory and time."""
+    part = Part(f"decks of {size/MEGABYTE:g} MB, --check")
+    slowest = ("", 0.0)
+    for name, content in monsters(random.Random(f"{seed} monsters"), size):
+        (work/"deck.nml").write_bytes(content)
+        outcome = run([program, "--check", "deck.nml"], work, limits=[(resource.RLIMIT_AS, ADDRESS_SPACE)])
+        complaints = complaints_about(outcome, (0, 1, 3)) + message_complaints(outcome)
+        if len(outcome.stderr) > MEGABYTE:
+            complaints.append(f"says {len(outcome.stderr)} bytes")
+        slowest = max(slowest, (name, outcome.seconds), key=lambda pair: pair[1])
+        if not part.count(name, complaints):
+            save(failures, f"monster-{name.replace(' ', '-')}.nml", content)
+    part.worst = f"{slowest[1]:.2f} s ({slowest[0]})"
+    return part
+
+
+def fuzz_runs(program, seed, count, work, failures):
+    """Mutated decks that are fine and ask for little, run; what they write is looked at."""
+    part = Part("mutated decks, run")
+    slowest = 0.0
+    unsolved = 0
+    i = 0
+    while part.tried < count:
+        i += 1
+        stream = random.Random(f"{seed} run {i}")
+        content = gently_mutated(stream)
+        costly = [sorted(COSTLY.findall(text)) for text in (content.decode(errors="replace"), *SMALL)]
+        if costly[0] not in costly[1:] and costly[0]:
+            continue
+        folder = work/"outer"/"inner"
+        folder.mkdir(parents=True)
+        (folder/"deck.nml").write_bytes(content)
+        checked = run([program, "--check", "deck.nml"], folder)
+        if checked.status != 0 and stream.random() < 0.9:
+            empty(work)
+            continue
+        before = files_below(work)
+        outcome = run([program, "deck.nml"], folder)
+        complaints = complaints_about(outcome)
+        made = files_below(work) - before
+        if checked.status == 0 and outcome.status == 1:
+            complaints.append("--check found the deck fine, the run does not")
+        if outcome.status == 1 and made:
+            complaints.append(f"bad input, but makes {sorted(made)[0]}")
+        match = re.search(rb"^results: (.*)/[^/]*$", outcome.stdout, re.MULTILINE)
+        if match:
+            place = (folder/match.group(1).decode()).resolve()
+            strangers = [name for name in made if (work/name).resolve().parent != place]
+            if strangers:
+                complaints.append(f"makes {strangers[0]}, which is not in its output directory")
+        complaints += result_complaints(work, made)
+        unsolved += outcome.status == 2
+        slowest = max(slowest, outcome.seconds)
+        if not part.count(f"run-{i}.nml", complaints):
+            save(failures, f"run-{i}.nml", content)
+        empty(work)
+    part.worst = f"{unsolved} with status 2, {slowest:.2f} s"
+    return part
+
+
+def empty(folder):
+    """Removes what is in a folder."""
+    for path in sorted(folder.rglob("*"), reverse=True):
+        if path.is_dir() and not path.is_symlink():
+            path.rmdir()
+        else:
+            path.unlink()

@@ -1,0 +1,84 @@
+!> Random numbers that are the same on every machine, each case with a stream of its own.
+module stress_random_numbers
+   use, intrinsic :: iso_fortran_env, only: int64
+   use wavycon_kinds, only: dp
+   implicit none (type, external)
+   private
+
+   public :: random_stream
+
+   !> A generator by shifts (Marsaglia, J. Stat. Softw. 8 (2003) 14: the triple 13, 7, 17).
+   type :: random_stream
+      integer(int64), private :: state = 1   !! never 0
+   contains
+      procedure :: start
+      procedure :: uniform
+      procedure :: whole
+      procedure :: chance
+      procedure :: shuffled
+   end type random_stream
+
+contains
+
+   !> Starts the stream of a case: any case can be made again without those before it.
+   subroutine start(self, seed, case)
+      class(random_stream), intent(inout) :: self
+      integer, intent(in) :: seed   !! of the campaign, >= 0
+      integer, intent(in) :: case   !! number of the case, >= 0
+
+      real(dp) :: ignored
+      integer :: i
+
+      self%state = ieor(ishft(int(seed, int64) + 1, 32), int(case, int64))
+      ! The first numbers of neighbouring states are alike.
+      do i = 1, 50
+         ignored = self%uniform()
+      end do
+   end subroutine start
+
+   !> The next number, 0 <= number < 1.
+   real(dp) function uniform(self)
+      class(random_stream), intent(inout) :: self
+
+      integer, parameter :: bits = 52
+
+      self%state = ieor(self%state, ishft(self%state, 13))
+      self%state = ieor(self%state, ishft(self%state, -7))
+      self%state = ieor(self%state, ishft(self%state, 17))
+      uniform = scale(real(ishft(self%state, bits - 64), dp), -bits)
+   end function uniform
+
+   !> An integer between two others, both included.
+   integer function whole(self, least, greatest)
+      class(random_stream), intent(inout) :: self
+      integer, intent(in) :: least, greatest
+
+      whole = least + int((greatest - least + 1)*self%uniform())
+   end function whole
+
+   !> Whether something of a probability happens.
+   logical function chance(self, probability)
+      class(random_stream), intent(inout) :: self
+      real(dp), intent(in) :: probability
+
+      chance = self%uniform() < probability
+   end function chance
+
+   !> The numbers 1 to n in random order.
+   function shuffled(self, n) result(order)
+      class(random_stream), intent(inout) :: self
+      integer, intent(in) :: n
+      integer :: order(n)
+
+      integer :: i, j, kept
+
+      order = [(i, i=1, n)]
+      do i = n, 2, -1
+         j = self%whole(1, i)
+         kept = order(i)
+         order(i) = order(j)
+         order(j) = kept
+      end do
+   end function shuffled
+
+end module stress_random_numbers

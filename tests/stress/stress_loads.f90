@@ -1,0 +1,99 @@
+!> Solves the paper's quadratic programmes from full contact down to next to no load, as the solver 'beale' does, and checks
+!> every answer in quadruple precision. A line a load.
+!>
+!> usage: stress_loads DIMENSION HARMONICS POINTS SYMMETRY FOLDER   answers that fail are saved in FOLDER
+program stress_loads
+   use, intrinsic :: iso_fortran_env, only: int64
+   use stress_kkt_in_quad, only: check_in_quad, kkt_type
+   use stress_problem_file, only: write_problem
+   use wavycon_beale, only: beale_solver
+   use wavycon_complementary_energy, only: energy_problem
+   use wavycon_fourier_terms, only: choose_terms, fourier_terms, symmetry_diagonal, symmetry_full, symmetry_none
+   use wavycon_kinds, only: dp
+   use wavycon_qp_problem, only: qp_problem, qp_solution, qp_converged, qp_status_name
+   implicit none (type, external)
+
+   !> What the library promises of an answer that it calls converged (kkt_tolerance).
+   real(dp), parameter :: promised_residual = 1e-12_dp
+   !> Next to full contact, between, and next to none.
+   real(dp), parameter :: loads(*) = [ &
+      1 - 1e-12_dp, 1 - 1e-9_dp, 1 - 1e-6_dp, 1 - 1e-3_dp, 0.99_dp, 0.9_dp, 0.7_dp, 0.5_dp, 0.3_dp, 0.2_dp, 0.1_dp, &
+      1e-2_dp, 1e-3_dp, 1e-4_dp, 1e-6_dp, 1e-8_dp, 1e-10_dp, 1e-12_dp]
+
+   type(beale_solver) :: solver
+   type(fourier_terms) :: terms
+   type(kkt_type) :: kkt
+   type(qp_problem) :: problem
+   type(qp_solution) :: solution
+   character(:), allocatable :: verdict
+   character(40) :: name
+   integer :: dimension, harmonics, i, points, symmetry
+   integer(int64) :: begun, ended, rate
+   real(dp) :: seconds
+
+   if (command_argument_count() /= 5) error stop 'usage: stress_loads DIMENSION HARMONICS POINTS SYMMETRY FOLDER'
+   dimension = number(1)
+   harmonics = number(2)
+   points = number(3)
+   select case (word(4))
+   case ('full')
+      symmetry = symmetry_full
+   case ('diagonal')
+      symmetry = symmetry_diagonal
+   case ('none')
+      symmetry = symmetry_none
+   case default
+      error stop 'stress_loads: SYMMETRY is full, diagonal or none'
+   end select
+
+   terms = choose_terms(dimension, harmonics, symmetry)
+   problem = energy_problem(terms, points, symmetry)
+   do i = 1, size(loads)
+      problem%bounds = -loads(i)
+      call system_clock(begun, rate)
+      if (i == 1) then
+         call solver%solve(problem, solution)
+      else
+         call solver%pass_to(problem%bounds, solution)
+      end if
+      call system_clock(ended)
+      seconds = real(ended - begun, dp)/real(rate, dp)
+      kkt = check_in_quad(problem, solution)
+      verdict = 'passed'
+      if (solution%status /= qp_converged) then
+         verdict = 'refused'
+      else if (kkt%worst() > promised_residual) then
+         verdict = 'wrong'
+      end if
+      if (verdict /= 'passed') then
+         write (name, '(3(i0, "-"), i0, ".qp")') dimension, harmonics, points, i
+         call write_problem(word(5)//'/case-'//word(4)//'-'//trim(name), problem, problem%bounds)
+      end if
+      write (*, '(es24.16, 4("|", i0), 2("|", a), 5("|", es10.2e3), "|", i0, "|", f0.3)') loads(i), dimension, harmonics, &
+         size(problem%linear), size(problem%bounds), qp_status_name(solution%status), verdict, kkt%stationarity, &
+         kkt%feasibility, kkt%sign, kkt%complementarity, solution%kkt_residual, solution%pivots, seconds
+   end do
+
+contains
+
+   function word(i)
+      integer, intent(in) :: i
+      character(:), allocatable :: word
+
+      integer :: length
+
+      call get_command_argument(i, length=length)
+      allocate (character(length) :: word)
+      call get_command_argument(i, word)
+   end function word
+
+   integer function number(i)
+      integer, intent(in) :: i
+
+      character(:), allocatable :: text
+
+      text = word(i)
+      read (text, *) number
+   end function number
+
+end program stress_loads
