@@ -153,11 +153,17 @@ contains
 
       last_status = status
       active_before = .false.
+      self%set%careful = .false.
       do
          pivots_before = solution%pivots
          call finish_on_active_set(self%problem, self%set, self%table%active(:self%table%active_count), solution)
          if (solution%status == qp_converged) return
          if (solution%pivots >= limit) exit
+         ! What is left to do may hang on the last digits of the slacks.
+         if (.not. self%set%careful) then
+            self%set%careful = .true.
+            cycle
+         end if
          ! Of nearly dependent constraints only those that push are kept: the dual pass needs multipliers >= 0, and a table
          ! of the others loses its digits when they are exchanged.
          do while (any(solution%multipliers < 0.0_dp))

@@ -18,6 +18,8 @@ module wavycon_working_set
    !> A gradient whose part outside the span of the other active ones is less than this fraction of it counts as
    !> dependent on them: beyond it that part is rounding.
    real(dp), parameter :: dependence = 1e-13_dp
+   !> For residuals in more digits, where the compiler has them.
+   integer, parameter :: long = merge(selected_real_kind(30), dp, selected_real_kind(30) > 0)
    !> Residuals this small are the rounding of the residuals.
    real(dp), parameter :: fine_residual = 4*epsilon(1.0_dp)
    !> Each refinement that is worth its while at least halves the residuals; it ends with the digits there are.
@@ -28,6 +30,7 @@ module wavycon_working_set
       real(dp), allocatable :: directions(:, :)      !! J, shape (n, n)
       real(dp), allocatable :: triangle(:, :)        !! R, zero below its diagonal, shape (k, k)
       real(dp), allocatable :: free_directions(:, :) !! J of the empty set, D^-1 = JJ'
+      logical :: careful = .false.                   !! whether `solve` takes residuals in more digits than its own
    contains
       procedure :: start
       procedure :: assign_active
@@ -104,6 +107,10 @@ contains
       integer :: round
 
       call solve_equations(self, problem%linear, problem%bounds(self%active), x, multipliers)
+      if (self%careful) then
+         call refine_carefully(self, problem, x, multipliers)
+         return
+      end if
       call find_residuals(self, problem, x, multipliers, forces, gaps, largest)
       do round = 1, most_refinements
          if (largest <= fine_residual) exit
@@ -120,6 +127,38 @@ contains
          exit
       end do
    end subroutine solve
+
+   !> Brings x and the multipliers to all the digits that they can hold, while the steps get shorter: with residuals in more
+   !> digits the answer, too, loses none to the condition number.
+   subroutine refine_carefully(self, problem, x, multipliers)
+      class(working_set), intent(in) :: self
+      type(qp_problem), intent(in) :: problem
+      real(dp), intent(inout) :: x(:), multipliers(:)
+
+      real(long) :: forces(size(x)), gap(size(multipliers))
+      real(dp) :: x_change(size(x)), change(size(multipliers)), step, step_before
+      integer :: i, j, round
+
+      step_before = huge(step_before)
+      do round = 1, most_refinements
+         forces = problem%linear
+         do j = 1, size(x)
+            forces = forces - real(x(j), long)*problem%hessian(:, j)
+         end do
+         do i = 1, size(multipliers)
+            associate (normal => problem%normals(:, self%active(i)))
+               forces = forces + real(multipliers(i), long)*normal
+               gap(i) = problem%bounds(self%active(i)) - sum(real(x, long)*normal)
+            end associate
+         end do
+         call solve_equations(self, real(forces, dp), real(gap, dp), x_change, change)
+         step = maxval(abs(x_change))
+         if (step > step_before/2) exit
+         x = x + x_change
+         multipliers = multipliers + change
+         step_before = step
+      end do
+   end subroutine refine_carefully
 
    !> What is missing in  Dx - C_W'y = c,  C_W x = b_W.
    subroutine find_residuals(self, problem, x, multipliers, forces, gaps, largest)
