@@ -14,8 +14,8 @@
 !> Karush-Kuhn-Tucker conditions are checked, and where the table has drifted or Beale's way is long it is made afresh
 !> from that set and the dual pass ends the work.
 !>
-!> Inside every constraint is multiplied by a power of two that brings its normal to order one: slacks are compared with
-!> each other, and what is rounding of a large one would hide that a small one is violated.
+!> Inside, constraints of unlike units are multiplied by powers of two that bring their normals to order one: slacks are
+!> compared with each other, and what is rounding of a large one would hide that a small one is violated.
 module wavycon_beale
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use wavycon_beale_table, only: table_type
@@ -114,20 +114,25 @@ contains
       call unscale_multipliers(self%row_powers, solution)
    end subroutine pass_to
 
-   !> Brings the largest component of each normal to between 1/2 and 1.
+   !> Brings the largest component of each normal to between 1/2 and 1, unless they are all of about one size as they are.
    pure subroutine scale_constraints(problem, powers)
       type(qp_problem), intent(inout) :: problem
       integer, allocatable, intent(out) :: powers(:)  !! of two, that the constraints are multiplied by, shape (m)
 
       integer, parameter :: most_power = maxexponent(1.0_dp)/2   ! bounds of whatever size up to that stay finite
-      real(dp) :: largest
+      integer, parameter :: alike = 10   ! of sizes within 2^10 only rounding is hidden, and the way is shorter without
+      real(dp) :: largest(size(problem%bounds))
       integer :: i
 
-      allocate (powers(size(problem%bounds)), source=0)
-      do i = 1, size(powers)
-         largest = maxval(abs(problem%normals(:, i)))
-         if (largest > 0.0_dp) powers(i) = min(most_power, -exponent(largest))
-         problem%normals(:, i) = scale(problem%normals(:, i), powers(i))
+      allocate (powers(size(largest)), source=0)
+      do i = 1, size(largest)
+         largest(i) = maxval(abs(problem%normals(:, i)))
+      end do
+      if (.not. any(largest > 0.0_dp)) return
+      if (maxval(largest) <= scale(minval(largest, mask=largest > 0.0_dp), alike)) return
+      where (largest > 0.0_dp) powers = min(most_power, -exponent(largest))
+      do i = 1, size(largest)
+         problem%normals(:, i) = scale(1.0_dp, powers(i))*problem%normals(:, i)
          problem%bounds(i) = scale(problem%bounds(i), powers(i))
       end do
    end subroutine scale_constraints

@@ -44,7 +44,7 @@ contains
       integer, intent(in) :: active(:)        !! constraints with a multiplier, each named once
       real(dp), intent(in) :: multipliers(:)  !! y of the active constraints, shape (size(active))
 
-      real(dp) :: gradient(size(x)), term(size(x)), slack(size(problem%bounds)), slack_scale(size(problem%bounds))
+      real(dp) :: gradient(size(x)), term(size(x)), slack(size(problem%bounds))
       real(dp) :: gradient_scale, force(size(active)), x_size
       integer :: i, n, m
 
@@ -66,9 +66,7 @@ contains
       slack = -problem%bounds
       call dgemv('T', n, m, 1.0_dp, problem%normals, n, x, 1, 1.0_dp, slack, 1)
       x_size = maxval(abs(x))
-      slack_scale = abs(problem%bounds)
       do i = 1, m
-         slack_scale(i) = slack_scale(i) + x_size*maxval(abs(problem%normals(:, i)))
          if (slack(i) < 0.0_dp) residual = max(residual, ratio(-slack(i), slack_scale(i)))
       end do
       if (size(active) == 0) return
@@ -79,6 +77,16 @@ contains
       do i = 1, size(active)
          residual = max(residual, ratio(abs(force(i)*slack(active(i))), gradient_scale*slack_scale(active(i))))
       end do
+
+   contains
+
+      !> The largest of the terms that cancel in the slack of constraint i.
+      pure real(dp) function slack_scale(i)
+         integer, intent(in) :: i
+
+         slack_scale = abs(problem%bounds(i)) + x_size*maxval(abs(problem%normals(:, i)))
+      end function slack_scale
+
    end function kkt_residual
 
    !> a/b where 0/0 is no violation.

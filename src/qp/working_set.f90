@@ -8,8 +8,8 @@
 !> where J_1 holds the first columns of J, as many as there are active constraints.
 module wavycon_working_set
    use wavycon_kinds, only: dp
-   use wavycon_lapack, only: dgemm, dgemv, dgeqp3, dormqr, dpotrf, dsymv, dtrsv, dtrtri
-   use wavycon_qp_problem, only: gradient_terms, qp_problem
+   use wavycon_lapack, only: dgemm, dgemv, dgeqp3, dormqr, dpotrf, dtrsv, dtrtri
+   use wavycon_qp_problem, only: qp_problem
    implicit none (type, external)
    private
 
@@ -20,9 +20,7 @@ module wavycon_working_set
    real(dp), parameter :: dependence = 1e-13_dp
    !> For residuals in more digits, where the compiler has them.
    integer, parameter :: long = merge(selected_real_kind(30), dp, selected_real_kind(30) > 0)
-   !> Residuals this small are the rounding of the residuals.
-   real(dp), parameter :: fine_residual = 4*epsilon(1.0_dp)
-   !> Each refinement that is worth its while at least halves the residuals; it ends with the digits there are.
+   !> Each refinement that is worth its while at least halves the step; it ends with the digits there are.
    integer, parameter :: most_refinements = 10
 
    type :: working_set
@@ -93,44 +91,22 @@ contains
 
    !> The minimiser on the active constraints and their multipliers.
    !>
-   !> N.B. The factors know D by its inverse square root: alone they leave errors of the square root of its condition number.
-   !> So the equations' residuals are taken from the problem itself and solved for too (iterative refinement: Higham,
-   !> Accuracy and Stability of Numerical Algorithms, 2nd ed., chapter 12).
+   !> N.B. The factors know D by its inverse square root: alone they leave errors of the square root of its condition
+   !> number. Whoever needs more asks for `careful`.
    subroutine solve(self, problem, x, multipliers)
       class(working_set), intent(in) :: self
       type(qp_problem), intent(in) :: problem
       real(dp), intent(out) :: x(:)            !! shape (n)
       real(dp), intent(out) :: multipliers(:)  !! of the active constraints in the order of `active`, shape (k)
 
-      real(dp) :: forces(size(x)), gaps(size(multipliers)), x_change(size(x)), change(size(multipliers))
-      real(dp) :: largest, largest_before
-      integer :: round
-
       call solve_equations(self, problem%linear, problem%bounds(self%active), x, multipliers)
-      if (self%careful) then
-         call refine_carefully(self, problem, x, multipliers)
-         return
-      end if
-      call find_residuals(self, problem, x, multipliers, forces, gaps, largest)
-      do round = 1, most_refinements
-         if (largest <= fine_residual) exit
-         call solve_equations(self, forces, gaps, x_change, change)
-         x = x + x_change
-         multipliers = multipliers + change
-         largest_before = largest
-         call find_residuals(self, problem, x, multipliers, forces, gaps, largest)
-         if (largest < largest_before/2) cycle
-         if (largest > largest_before) then
-            x = x - x_change
-            multipliers = multipliers - change
-         end if
-         exit
-      end do
+      if (self%careful) call refine(self, problem, x, multipliers)
    end subroutine solve
 
-   !> Brings x and the multipliers to all the digits that they can hold, while the steps get shorter: with residuals in more
-   !> digits the answer, too, loses none to the condition number.
-   subroutine refine_carefully(self, problem, x, multipliers)
+   !> Brings x and the multipliers to all the digits that they can hold, while the steps get shorter: the equations'
+   !> residuals are taken from the problem itself, in more digits, and solved for too (iterative refinement: Higham,
+   !> Accuracy and Stability of Numerical Algorithms, 2nd ed., chapter 12).
+   subroutine refine(self, problem, x, multipliers)
       class(working_set), intent(in) :: self
       type(qp_problem), intent(in) :: problem
       real(dp), intent(inout) :: x(:), multipliers(:)
@@ -158,36 +134,7 @@ contains
          multipliers = multipliers + change
          step_before = step
       end do
-   end subroutine refine_carefully
-
-   !> What is missing in  Dx - C_W'y = c,  C_W x = b_W.
-   subroutine find_residuals(self, problem, x, multipliers, forces, gaps, largest)
-      type(working_set), intent(in) :: self
-      type(qp_problem), intent(in) :: problem
-      real(dp), intent(in) :: x(:), multipliers(:)
-      real(dp), intent(out) :: forces(:)   !! c - Dx + C_W'y
-      real(dp), intent(out) :: gaps(:)     !! b_W - C_W x
-      real(dp), intent(out) :: largest     !! of them all, over the terms that should cancel
-
-      real(dp) :: image(size(x)), scale_of_forces, x_size
-      integer :: i, n
-
-      n = size(x)
-      call dsymv('U', n, 1.0_dp, problem%hessian, n, x, 1, 0.0_dp, image, 1)
-      forces = problem%linear - image
-      scale_of_forces = gradient_terms(problem, x)
-      x_size = maxval(abs(x))
-      largest = 0.0_dp
-      do i = 1, size(self%active)
-         associate (normal => problem%normals(:, self%active(i)), bound => problem%bounds(self%active(i)))
-            forces = forces + multipliers(i)*normal
-            scale_of_forces = max(scale_of_forces, abs(multipliers(i))*maxval(abs(normal)))
-            gaps(i) = bound - dot_product(normal, x)
-            largest = max(largest, abs(gaps(i))/max(abs(bound) + x_size*maxval(abs(normal)), tiny(1.0_dp)))
-         end associate
-      end do
-      largest = max(largest, maxval(abs(forces))/max(scale_of_forces, tiny(1.0_dp)))
-   end subroutine find_residuals
+   end subroutine refine
 
    !> Solves  Dx - C_W'y = c,  C_W x = b_W  by the factors.
    subroutine solve_equations(self, linear, bounds, x, multipliers)
