@@ -3,7 +3,7 @@ module wavycon_contact_solver
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_contact_fields, only: contact_fields, series_fields
    use wavycon_contact_measures, only: full_contact_measures
-   use wavycon_contact_state, only: contact_state, full_contact, no_load, not_finite
+   use wavycon_contact_state, only: contact_state, full_contact, no_load, no_memory, not_finite, not_found
    use wavycon_edge_curves, only: edge_curve
    use wavycon_kinds, only: dp
    use wavycon_surface, only: surface_type
@@ -136,11 +136,12 @@ contains
       end if
    end subroutine edge_curves
 
-   !> Whether a state needed no solver.
+   !> Whether a state needed no solver, or has nothing from it.
    pure logical function is_settled(state)
       type(contact_state), intent(in) :: state
 
-      is_settled = state%status == full_contact .or. state%status == no_load .or. state%status == not_finite
+      is_settled = state%status == full_contact .or. state%status == no_load .or. state%status == not_finite .or. &
+                   state%status == not_found .or. (state%status == no_memory .and. .not. allocated(state%edge))
    end function is_settled
 
 end module wavycon_contact_solver

@@ -16,6 +16,9 @@ module wavycon_contact_state
    !> expansions where spots of a lattice have merged.
    character(*), parameter, public :: not_finite = 'not_finite', not_accurate = 'not_accurate', not_found = 'not_found'
 
+   !> There is not the memory for a grid as fine as was asked for; the numbers, if any, are those of a coarser one.
+   character(*), parameter, public :: no_memory = 'no_memory'
+
    !> Which solver an answer is from.
    character(*), parameter, public :: by_beale = 'beale', by_closed_form = 'closed_form', by_fitted = 'fitted', by_grid = 'grid'
 

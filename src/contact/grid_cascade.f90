@@ -38,6 +38,7 @@ module wavycon_grid_cascade
       real(dp) :: values(3) = 0.0_dp       !! mean gap [Delta], contact area fraction, peak pressure [p*]
       real(dp) :: errors(3) = huge(1.0_dp) !! estimated, in the same units
       logical :: accurate = .false.        !! whether all errors are as small as asked for
+      logical :: out_of_memory = .false.   !! whether a finer grid would have been needed, but not its memory
       integer :: grids = 0
       integer :: iterations = 0            !! on all grids
       real(dp) :: transform_pairs = 0.0_dp !! in units of one on the finest grid
@@ -62,6 +63,8 @@ contains
       last_change = unknown
       values = unknown
       call plan_grids(surface, points, grid, trusted_grid, last_grid)
+      answer%out_of_memory = .not. fits_memory(grid)
+      if (answer%out_of_memory) return
       allocate (answer%state%pressure(grid(1), grid(2)), source=mean_pressure)
       do
          last = all(grid == last_grid)
@@ -77,15 +80,33 @@ contains
          answer%accurate = answer%state%converged .and. all(answer%errors <= accuracy) .and. all(grid >= trusted_grid)
          if (present(progress)) call progress%grid_solved(grid*merge(2, 1, surface%shape%is_even() .and. grid > 1), &
                                                           answer%state%iterations, answer%state%residual)
-         if (answer%accurate .or. last) exit
+         ! A grid that cannot be solved starts no finer one.
+         if (answer%accurate .or. last .or. .not. answer%state%converged) exit
          values = answer%values
          last_change = change
+         grid = merge(2*grid, 1, grid > 1)
+         if (.not. fits_memory(grid)) then
+            answer%out_of_memory = .true.
+            exit
+         end if
          call refine(answer%state%pressure, surface%shape%is_even(), finer)
          call move_alloc(finer, answer%state%pressure)
          deallocate (answer%state%gap)
-         grid = shape(answer%state%pressure)
       end do
    end subroutine solve_by_cascade
+
+   !> Whether there is memory for the solution on a grid: it is asked for all at once, and given back.
+   logical function fits_memory(grid)
+      integer, intent(in) :: grid(2)
+
+      !> Numbers a point: pressure, gap, undeformed gap, four of the search, spectrum, the refined start, the edge.
+      integer, parameter :: numbers = 10
+      real(dp), allocatable :: probe(:, :, :)
+      integer :: status
+
+      allocate (probe(grid(1), grid(2), numbers), stat=status)
+      fits_memory = status == 0
+   end function fits_memory
 
    !> The first grid, the first whose changes tell of all waves of the surface, and the last.
    pure subroutine plan_grids(surface, points, first, trusted, last)

@@ -5,7 +5,7 @@
 module wavycon_grid_contact
    use wavycon_constants, only: pi
    use wavycon_contact_measures, only: contact_measures
-   use wavycon_contact_state, only: by_grid, contact_state, converged, not_accurate
+   use wavycon_contact_state, only: by_grid, contact_state, converged, no_memory, not_accurate
    use wavycon_edge_curves, only: edge_curve, strip_ends, trace_edges, turn_curves, whole_strips
    use wavycon_fourier_series, only: fourier_series
    use wavycon_grid_cascade, only: cascade_answer, solve_by_cascade
@@ -105,6 +105,9 @@ contains
             call solve_by_cascade(self%solved, pbar_over_pstar, accuracy, points, answer)
          end if
       end associate
+      state%status = no_memory
+      state%solver = by_grid
+      if (.not. allocated(answer%state%gap)) return
       state%measures = contact_measures(mean_gap_over_amplitude=answer%values(1), &
                                         approach_over_amplitude=1.0_dp - answer%values(1), &
                                         contact_area_fraction=answer%values(2), &
@@ -114,12 +117,13 @@ contains
                                         peak_pressure_error=answer%errors(3))
       state%active_constraints = count(answer%state%pressure <= 0.0_dp)
       state%pivots = answer%iterations
-      state%solver = by_grid
       state%kkt_residual = answer%state%residual
       if (.not. answer%state%converged) then
          state%status = qp_status_name(qp_iteration_limit)
-      else if (answer%accurate .or. all(self%points > 0)) then
+      else if (answer%accurate .or. (all(self%points > 0) .and. .not. answer%out_of_memory)) then
          state%status = converged
+      else if (answer%out_of_memory) then
+         state%status = no_memory
       else
          state%status = not_accurate
       end if

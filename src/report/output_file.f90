@@ -6,7 +6,7 @@ module wavycon_output_file
    use wavycon_error, only: error_type, exit_file_trouble, fatal_error
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: escaped, system_words
-   use wavycon_system, only: process_id, remove_file, rename_file
+   use wavycon_system, only: process_id, remove_file, remove_when_interrupted, rename_file
    implicit none (type, external)
    private
 
@@ -58,6 +58,7 @@ contains
       write (process, '(i0)') process_id()
       self%name = directory//'/'//name
       self%working_name = directory//'/.'//name//'.'//trim(process)//'.part'
+      call remove_when_interrupted(self%working_name)
       ! As a stream, so that `finish` can ask how far it was written.
       open (newunit=self%unit, file=self%working_name, access='stream', form='formatted', status='replace', &
             action='write', iostat=status, iomsg=message)

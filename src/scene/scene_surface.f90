@@ -72,8 +72,12 @@ contains
       map%height = deck%surface%height_scale*(map%height - sum(map%height)/size(map%height))
       surface = surface_of_points(length, map%height)
       allocate (statistics)
-      statistics = map_statistics(shape(map%height), map%format, minval(map%height), maxval(map%height), &
-                                  sqrt(sum(map%height**2)/size(map%height)), full_path(path))
+      statistics%points = shape(map%height)
+      statistics%format = map%format
+      statistics%lowest = minval(map%height)
+      statistics%highest = maxval(map%height)
+      statistics%rms = sqrt(sum(map%height**2)/size(map%height))
+      statistics%path = full_path(path)
    end subroutine surface_of_file
 
    !> The file is looked for beside the deck, then from where the program was started.
