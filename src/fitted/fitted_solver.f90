@@ -6,6 +6,7 @@ module wavycon_fitted_solver
    use wavycon_expansion, only: expansion
    use wavycon_fitted_answer, only: fitted_answer, fitted_bad_input, fitted_failed, fitted_less_exact, &
       fitted_merged, fitted_solved, fitted_status_text
+   use wavycon_fitted_fields, only: fitted_fields, fitted_separations, start_fitted_fields
    use wavycon_gauss_newton, only: gauss_newton_step
    use wavycon_island_pressure, only: crest_pressure
    use wavycon_kinds, only: dp
@@ -16,6 +17,7 @@ module wavycon_fitted_solver
 
    public :: solve_fitted
    public :: fitted_answer, fitted_status_text
+   public :: fitted_fields, start_fitted_fields, fitted_separations
    public :: fitted_solved, fitted_less_exact, fitted_merged, fitted_bad_input, fitted_failed
    public :: wave_lattice, square_lattice, rectangular_lattice, hexagonal_lattice
 
