@@ -98,7 +98,7 @@ contains
       class(contact_equations), intent(inout) :: self
       type(wave_lattice), intent(in) :: lattice
       real(dp), intent(in) :: load            !! P
-      type(expansion), intent(in) :: now
+      type(expansion), intent(in) :: now      !! like the one the equations were started for
 
       complex(dp) :: slope, v, z
       real(dp), dimension(0:ubound(now%shape%b, 1)) :: image_slopes, slopes

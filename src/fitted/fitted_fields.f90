@@ -112,7 +112,7 @@ contains
       end associate
    end subroutine at
 
-   !> Gaps at the trough and at the saddle, where neighbouring spots meet first, and the saddle's pressure.
+   !> Gaps at the trough and at the lattice's saddle, and the saddle's pressure.
    subroutine fitted_separations(lattice, answer, trough_gap, saddle_gap, saddle_pressure)
       type(wave_lattice), intent(in) :: lattice    !! the answer's
       type(fitted_answer), intent(in) :: answer    !! solved, status <= fitted_less_exact

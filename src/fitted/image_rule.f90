@@ -17,11 +17,11 @@ contains
    !> for one f.
    pure subroutine image_rows(kernel, shape, rule, target, density, row, shape_row)
       type(periodic_kernel), intent(in) :: kernel
-      type(shape_map), intent(in) :: shape
-      type(disc_rule), intent(in) :: rule
+      type(shape_map), intent(in) :: shape           !! of the symmetry of the lattice, or less
+      type(disc_rule), intent(in) :: rule            !! with the weight of f
       complex(dp), intent(in) :: target              !! w_t, |w_t| <= 1
       real(dp), intent(in) :: density(:)             !! f less its weight at the rule's points, shape (n)
-      real(dp), intent(out) :: row(:)                !! shape (n)
+      real(dp), intent(out) :: row(:)                !! weights of f less its weight, shape (n)
       real(dp), intent(out) :: shape_row(0:)         !! d(integral)/d b_k, shape (0:K)
 
       real(dp), dimension(2*shape%fold*size(rule%point)) :: x, y, value, slope_x, slope_y

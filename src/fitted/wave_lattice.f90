@@ -17,7 +17,7 @@ module wavycon_wave_lattice
       real(dp) :: area = 1.0_dp                  !! of a cell [s^2]
       real(dp), allocatable :: wave(:, :)        !! k_i [1/s], shape (2, n)
       real(dp), allocatable :: amplitude(:)      !! a_i > 0 [Delta], shape (n)
-      complex(dp) :: saddle = 0.5_dp             !! where neighbouring spots meet first, x + i y [s]
+      complex(dp) :: saddle = 0.5_dp             !! the lowest between neighbouring crests, x + i y [s]
       complex(dp) :: trough = (0.5_dp, 0.5_dp)   !! x + i y [s]
       type(periodic_kernel) :: kernel
       logical :: square = .true.                 !! the lattice whose troughs are as its crests
@@ -50,6 +50,8 @@ contains
       allocate (lattice%wave(2, 2), lattice%amplitude(2))
       lattice%wave(:, :) = reshape([1.0_dp, 0.0_dp, 0.0_dp, 1.0_dp/side_ratio], [2, 2])
       lattice%amplitude(:) = [amplitude_x, 1.0_dp - amplitude_x]
+      ! Of two as low, the one on the longer side: spots stretch that way.
+      if (amplitude_x >= 0.5_dp) lattice%saddle = cmplx(0.0_dp, 0.5_dp*side_ratio, dp)
       lattice%trough = cmplx(0.5_dp, 0.5_dp*side_ratio, dp)
       call start_periodic_kernel(lattice%kernel, side_ratio, 0.0_dp)
    end function rectangular_lattice
