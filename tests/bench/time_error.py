@@ -8,9 +8,11 @@ and time_error_rough, ENVIRONMENTS gets the peers. The table goes to TABLE, as b
 at one load by one solver in one, and to standard output what follows from it. ROUGH_POINTS: along a side of
 the rough surface, 0 for none.
 
-Errors are relative to the true value. The error of a run counts as the largest of its own and of all finer
+Errors are relative to the values of the boundary-fitted expansions to some 1e-13, which must agree with those of
+REFERENCE, which are none of wavycon's own, to all of its digits. The error of a run counts as the largest of its own and of all finer
 runs of the same solver: a lucky crossing of zero is no accuracy. The finest run has none to judge it.
 """
+import itertools
 import math
 import os
 import subprocess
@@ -23,7 +25,8 @@ LOADS = '0.05', '0.2', '0.5', '0.9'
 QUANTITIES = 'gap', 'area', 'peak'
 TARGETS = [10.0**-k for k in range(2, 9)]
 RATIO_TARGETS = 1e-5, 1e-3, 1e-3  # of the three quantities, for the ratios
-OWN = 'wavycon-grid', 'wavycon-beale'
+OWN = 'wavycon-grid', 'wavycon-fitted', 'wavycon-beale'
+RATED = 'wavycon-grid', 'wavycon-fitted'  # for the ratios
 ROUGH = 10  # times the seconds of a load of the wave are for the rough surface
 HANG = 5  # a solver that takes so many times what it may is ended
 
@@ -76,19 +79,32 @@ def text(milliseconds):
 
 
 def measure_wave(commands, seconds):
-    """Runs by solver and load, and what the solvers had to say."""
-    found, remarks = {}, []
+    """Runs by solver and load, reference values and their errors by load, and what the solvers had to say."""
+    found, exact, remarks = {}, {}, []
     for name, command in commands:
         for load in LOADS:
             for line in run([*command, f'{seconds:g}', load], seconds*(2 if name == 'wavycon' else 1) + 20):
                 if line.startswith('#'):
                     remarks.append(line if name in line else f'# {name} at P = {load}: {line[2:]}')
                     continue
+                if line.startswith('reference'):
+                    at, *numbers = [float(word) for word in line.split()[1:]]
+                    exact[at] = numbers[:3], numbers[3:]
+                    continue
                 solver, at, fineness, milliseconds, _, *values = line.split()
                 row = int(fineness), float(milliseconds), [float(value) for value in values]
                 found.setdefault(solver, {}).setdefault(float(at), []).append(row)
             print(f'bench: {name} at P = {load} done', file=sys.stderr)
-    return found, remarks
+    return found, exact, remarks
+
+
+def check_references(exact, independent):
+    for load, (values, errors) in exact.items():
+        others, halves = independent[load]
+        for quantity, value, error, other, half in zip(QUANTITIES, values, errors, others, halves):
+            # The last digit given may itself be off by one.
+            if abs(value - other) > error + 3*half:
+                sys.exit(f'time_error: {quantity} at P = {load} is {value}, and {other} in the independent reference')
 
 
 def write_runs(out, results, floors):
@@ -121,27 +137,26 @@ def write_times(results, floors):
 
 
 def write_ratios(results, floors):
-    print('\n\n# Time of a peer over the time of wavycon-grid, to relative errors of 1e-5 in gap,\n'
+    print('\n\n# Time of a peer over the time of a solver of wavycon, to relative errors of 1e-5 in gap,\n'
           '# 1e-3 in area, 1e-3 in peak, and of all three at once. >: the peer did not get there, and its\n'
-          '# longest run took so much; -: wavycon-grid did not get there.')
-    print(f'#{"peer":>17}{"P":>6}{"gap":>10}{"area":>10}{"peak":>10}{"all":>10}')
+          '# longest run took so much; -: the solver of wavycon did not get there.')
+    print(f'#{"peer":>17}{"over":>16}{"P":>6}{"gap":>10}{"area":>10}{"peak":>10}{"all":>10}')
     aims = [[target if k == q else None for k, target in enumerate(RATIO_TARGETS)] for q in range(3)]
     aims.append(list(RATIO_TARGETS))
-    for peer in PEERS:
-        for load in floors:
-            theirs = results.get(peer, {}).get(load)
-            ours = results.get(OWN[0], {}).get(load, [])
-            if theirs:
-                cells = []
-                for aim in aims:
-                    mine, other = time_to(ours, aim), time_to(theirs, aim)
-                    if mine is None:
-                        cells.append('-')
-                    elif other is None:
-                        cells.append(f'>{max(row[1] for row in theirs)/mine:.3g}')
-                    else:
-                        cells.append(f'{other/mine:.3g}')
-                print(f'{peer:>18}{load:6.2f}' + ''.join(f'{cell:>10}' for cell in cells))
+    for peer, own, load in itertools.product(PEERS, RATED, floors):
+        theirs = results.get(peer, {}).get(load)
+        ours = results.get(own, {}).get(load, [])
+        if theirs:
+            cells = []
+            for aim in aims:
+                mine, other = time_to(ours, aim), time_to(theirs, aim)
+                if mine is None:
+                    cells.append('-')
+                elif other is None:
+                    cells.append(f'>{max(row[1] for row in theirs)/mine:.3g}')
+                else:
+                    cells.append(f'{other/mine:.3g}')
+            print(f'{peer:>18}{own:>16}{load:6.2f}' + ''.join(f'{cell:>10}' for cell in cells))
 
 
 def write_rough_ratios(runs):
@@ -189,7 +204,6 @@ def main():
     seconds, points = float(sys.argv[5]), int(sys.argv[6])
     here = os.path.dirname(os.path.abspath(__file__))
     known = references(reference)
-    floors = {float(load): [half/value for value, half in zip(*known[float(load)])] for load in LOADS}
 
     pythons = {}
     head = ['# Time against error, one thread each. P = pbar/p*. Peers solve the smaller, square cell.']
@@ -205,8 +219,12 @@ def main():
     commands = [('wavycon', [os.path.join(bench, 'time_error_wave')])]
     commands += [(name, [python, os.path.join(here, 'time_error_peer.py'), name, 'wave'])
                  for name, python in pythons.items()]
-    found, remarks = measure_wave(commands, seconds)
-    results = {solver: {load: judged(rows, known[load][0]) for load, rows in by_load.items()}
+    found, exact, remarks = measure_wave(commands, seconds)
+    if not exact:
+        sys.exit('time_error: wavycon gave no answer')
+    check_references(exact, known)
+    floors = {load: [error/value for value, error in zip(*numbers)] for load, numbers in exact.items()}
+    results = {solver: {load: judged(rows, exact[load][0]) for load, rows in by_load.items()}
                for solver, by_load in found.items()}
     with open(table + '.new', 'w', encoding='utf-8') as out:
         out.write('\n'.join(head + remarks) + '\n')
@@ -217,8 +235,6 @@ def main():
     write_ratios(results, floors)
     if points and pythons:
         measure_rough(bench, pythons, points, ROUGH*seconds)
-    if OWN[0] not in results:
-        sys.exit('time_error: wavycon gave no answer')
 
 
 if __name__ == '__main__':

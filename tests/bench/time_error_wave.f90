@@ -1,16 +1,18 @@
-!> Measures time against error for the two-dimensional wave: the grids to ever smaller accuracies, and the
-!> paper's method with ever more harmonics.
+!> Measures time against error for the two-dimensional wave: the grids and the boundary-fitted expansions to ever
+!> smaller accuracies, and the paper's method with ever more harmonics.
 !>
 !>    time_error_wave SECONDS LOAD...
 !>
 !> Each line of standard output is a run: solver, load, its measure of fineness (points along a side of the
-!> smallest cell, or harmonics), time [ms], solves behind that median, then mean gap, contact area and peak
-!> pressure. A ladder of runs ends before a run that would probably take longer than what is left of
+!> smallest cell, degree of the polynomials, or harmonics), time [ms], solves behind that median, then mean gap,
+!> contact area and peak pressure. The first line of a load, 'reference', has these as exactly as the expansions give
+!> them, and their error estimates. A ladder of runs ends before a run that would probably take longer than what is left of
 !> SECONDS.
 program time_error_wave
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use samples, only: clock_ms, sample_set
    use wavycon, only: contact_state, dp, fourier_contact, surface_type, symmetry_full, wave_2d
+   use wavycon_fitted_solver, only: fitted_answer, solve_fitted, square_lattice, wave_lattice
    use wavycon_grid_cascade, only: cascade_answer, solve_by_cascade
    implicit none (type, external)
 
@@ -24,17 +26,24 @@ program time_error_wave
    !> What a run costs at most in units of the one before it.
    real(dp), parameter :: growth = 6.0_dp
 
+   !> Asked of the reference; what the expansions give at best.
+   real(dp), parameter :: finest = 1e-13_dp
+
    type(surface_type) :: whole, wave
+   type(wave_lattice) :: lattice
    real(dp) :: budget, load, end_time
    integer :: i
 
    budget = 1000*argument(1)
    whole = wave_2d(1.0_dp, 1.0_dp, 1.0_dp)
    wave = whole%smaller_cell()
+   lattice = square_lattice()
    do i = 2, command_argument_count()
       load = argument(i)
+      call write_reference(load)
       end_time = clock_ms() + budget
       call climb_grids(load, end_time)
+      call climb_degrees(load)
       end_time = clock_ms() + budget
       call climb_harmonics(load, end_time)
    end do
@@ -83,6 +92,46 @@ contains
       call solve_by_cascade(wave, load, accuracy, [0, 0], answer)
       call times%add(clock_ms() - start)
    end subroutine time_grids
+
+   !> The expansions. Of accuracies that the same degree gives only the first counts.
+   subroutine climb_degrees(load)
+      real(dp), intent(in) :: load       !! P
+
+      integer, parameter :: last_power = 12
+      type(fitted_answer) :: answer
+      type(sample_set) :: times
+      real(dp) :: start
+      integer :: degree, power
+
+      degree = 0
+      do power = 2, last_power
+         times = sample_set()
+         do while (again(times))
+            start = clock_ms()
+            call solve_fitted(lattice, load, 10.0_dp**(-power), answer)
+            call times%add(clock_ms() - start)
+         end do
+         if (answer%degree > degree) call write_run('wavycon-fitted', load, answer%degree, times, values_of(answer))
+         degree = answer%degree
+      end do
+   end subroutine climb_degrees
+
+   subroutine write_reference(load)
+      real(dp), intent(in) :: load       !! P
+
+      type(fitted_answer) :: answer
+
+      call solve_fitted(lattice, load, finest, answer)
+      write (output_unit, '(a,f6.3,6es22.14)') 'reference', load, values_of(answer), answer%mean_gap_error, &
+         answer%area_error, answer%peak_error
+   end subroutine write_reference
+
+   pure function values_of(answer) result(values)
+      type(fitted_answer), intent(in) :: answer
+      real(dp) :: values(3)
+
+      values = [answer%mean_gap, answer%area_fraction, answer%peak_pressure]
+   end function values_of
 
    !> The paper's series, with constraint points on as many intervals as there are harmonics.
    subroutine climb_harmonics(load, end_time)
