@@ -1,11 +1,15 @@
-!> Measures the grids: time, cost and true error of the two-dimensional wave at a number of accuracies.
+!> Measures the grids: time, cost and true error of the two-dimensional wave at a number of accuracies, and how the errors
+!> of the one- and the two-dimensional wave fall with the step of the grid.
 program bench_grids
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use samples, only: clock_ms, sample_set
+   use wavycon_fitted_solver, only: fitted_answer, solve_fitted, square_lattice
    use wavycon_grid_cascade, only: cascade_answer, solve_by_cascade
    use wavycon_kinds, only: dp
+   use wavycon_kuznetsov, only: kuznetsov_mean_gap_over_amplitude
    use wavycon_surface, only: surface_type
-   use wavycon_wave_surfaces, only: wave_2d
+   use wavycon_wave_surfaces, only: wave_1d, wave_2d
+   use wavycon_westergaard, only: westergaard_contact_area_fraction, westergaard_peak_pressure_over_pstar
    implicit none (type, external)
 
    real(dp), parameter :: accuracies(*) = [1e-2_dp, 1e-3_dp, 1e-4_dp]
@@ -30,6 +34,8 @@ program bench_grids
          call measure(loads(i), references(:, i), accuracies(k))
       end do
    end do
+   call measure_orders(1)
+   call measure_orders(2)
    if (.not. all_accurate) then
       write (error_unit, '(a)') 'bench: a load is not as accurate as asked for'
       stop 1, quiet=.true.
@@ -57,6 +63,58 @@ contains
          size(answer%state%pressure, 1), answer%grids, answer%iterations, answer%transform_pairs, times%median(), &
          times%least(), errors
    end subroutine measure
+
+   !> Root mean square errors over nine loads, against Westergaard's solution and boundary-fitted expansions, on grids of ever
+   !> more points; and the slopes of straight lines through their logarithms.
+   subroutine measure_orders(dimension)
+      integer, intent(in) :: dimension   !! 1 or 2
+
+      integer, parameter :: many = 9, grids = 5
+      integer, parameter :: first_points(2) = [64, 16]
+      type(cascade_answer) :: answer
+      type(surface_type) :: surface
+      real(dp) :: errors(3, grids), load, slopes(3), steps(grids), truth(3, many)
+      integer :: i, k, points
+
+      do i = 1, many
+         call solve_exactly(dimension, 0.1_dp*i, truth(:, i))
+      end do
+      surface = wave
+      if (dimension == 1) surface = wave_1d(1.0_dp, 1.0_dp)
+      errors = 0.0_dp
+      write (output_unit, '(/, /, a, i0, a, /, a)') '# Grids: errors of the ', dimension, '-D wave, root mean squares over '// &
+         'nine loads P = 0.1 .. 0.9, and their orders', '# points a side   mean_gap       area       peak'
+      do k = 1, grids
+         points = 2*first_points(dimension)*2**(k - 1)
+         do i = 1, many
+            load = 0.1_dp*i
+            call solve_by_cascade(surface, load, 0.0_dp, [points, points], answer)
+            errors(:, k) = errors(:, k) + (answer%values - truth(:, i))**2/many
+         end do
+         errors(:, k) = sqrt(errors(:, k))
+         steps(k) = -log(real(points, dp))
+         write (output_unit, '(i12, 3es11.1)') points, errors(:, k)
+      end do
+      steps = steps - sum(steps)/grids
+      slopes = matmul(log(errors), steps)/sum(steps**2)
+      write (output_unit, '(a, 3f11.1)') '#    order:  ', slopes
+   end subroutine measure_orders
+
+   subroutine solve_exactly(dimension, load, values)
+      integer, intent(in) :: dimension
+      real(dp), intent(in) :: load
+      real(dp), intent(out) :: values(3)   !! mean gap, contact area and peak pressure
+
+      type(fitted_answer) :: answer
+
+      if (dimension == 1) then
+         values = [kuznetsov_mean_gap_over_amplitude(load), westergaard_contact_area_fraction(load), &
+                   westergaard_peak_pressure_over_pstar(load)]
+      else
+         call solve_fitted(square_lattice(), load, 1e-9_dp, answer)
+         values = [answer%mean_gap, answer%area_fraction, answer%peak_pressure]
+      end if
+   end subroutine solve_exactly
 
    !> The loads of the reference table and their mean gap, contact area and peak pressure, shape (3, loads).
    subroutine read_reference(loads, values)
