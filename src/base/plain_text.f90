@@ -170,8 +170,8 @@ contains
       if (code < least(length) .or. .not. is_visible(code)) length = 0
    end function printable_length
 
-   !> Whether a character beyond ASCII leaves a terminal as it is and shows: no control character, no mark that turns the
-   !> direction of writing or begins a line, no blank that is not one, nothing that Unicode leaves out.
+   !> Whether a character beyond ASCII leaves a terminal as it is and shows: no control character, no mark that
+   !> turns the direction of writing or begins a line, no blank that is not one, nothing that Unicode leaves out.
    pure logical function is_visible(code)
       integer, intent(in) :: code   !! >= 128
 

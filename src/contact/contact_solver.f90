@@ -12,8 +12,8 @@ module wavycon_contact_solver
 
    public :: contact_solver, is_settled
 
-   !> A solver of one surface, for loads that are best given from the highest to the lowest. Fields and edges are in the angles
-   !> X, Y of the surface's cell.
+   !> A solver of one surface, for loads that are best given from the highest to the lowest. Fields and edges are in
+   !> the angles X, Y of the surface's cell.
    type, abstract :: contact_solver
       type(surface_type) :: surface
    contains

@@ -12,15 +12,16 @@ module wavycon_contact_state
    !> The statuses of good answers: of an optimiser, and those that need none.
    character(*), parameter, public :: converged = 'converged', full_contact = 'full_contact', no_load = 'no_load', &
                                       closed_form = 'closed_form'
-   !> The load is no number; the error estimate is larger than was asked for; the solver has no answer, as that of fitted
-   !> expansions where spots of a lattice have merged.
+   !> The load is no number; the error estimate is larger than was asked for; the solver has no answer, as that of
+   !> fitted expansions where spots of a lattice have merged.
    character(*), parameter, public :: not_finite = 'not_finite', not_accurate = 'not_accurate', not_found = 'not_found'
 
    !> There is not the memory for a grid as fine as was asked for; the numbers, if any, are those of a coarser one.
    character(*), parameter, public :: no_memory = 'no_memory'
 
    !> Which solver an answer is from.
-   character(*), parameter, public :: by_beale = 'beale', by_closed_form = 'closed_form', by_fitted = 'fitted', by_grid = 'grid'
+   character(*), parameter, public :: by_beale = 'beale', by_closed_form = 'closed_form', by_fitted = 'fitted', &
+                                      by_grid = 'grid'
 
    type :: contact_state
       real(dp) :: pbar_over_pstar = 0.0_dp    !! P >= 0, the mean pressure over p*

@@ -8,11 +8,13 @@ module wavycon_find_load
 
    public :: solve_for_contact_area, solve_for_mean_gap
 
-   !> The root is met to this part of the error estimate, and to these parts of the target and of what it lacks to one.
+   !> The root is met to this part of the error estimate, and to these parts of the target and of what it lacks to
+   !> one.
    real(dp), parameter :: part_of_error = 0.01_dp, least_part = 1e-12_dp, largest_part = 1e-4_dp
    integer, parameter :: most_solves = 60
 
-   !> ln P/(1-P) against the same of the contact area, or of one less the gap: nearly straight, with slopes from 2/3 to 5/2.
+   !> ln P/(1-P) against the same of the contact area, or of one less the gap: nearly straight, with slopes from 2/3
+   !> to 5/2.
    type :: root_search
       real(dp) :: target = 0.5_dp          !! 0 < target < 1
       logical :: of_gap = .false.

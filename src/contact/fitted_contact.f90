@@ -1,5 +1,5 @@
-!> Contact by boundary-fitted expansions, whose digits are limited by rounding and not by a grid. On request grids take over
-!> where spots are about to merge and the expansions are not as accurate as asked for.
+!> Contact by boundary-fitted expansions, whose digits are limited by rounding and not by a grid. On request grids
+!> take over where spots are about to merge and the expansions are not as accurate as asked for.
 module wavycon_fitted_contact
    use wavycon_constants, only: pi
    use wavycon_contact_fields, only: contact_fields

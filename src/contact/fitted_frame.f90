@@ -9,7 +9,8 @@ module wavycon_fitted_frame
 
    public :: fitted_frame, find_frame
 
-   !> A place of the lattice is (x + i y) turn/side, x and y from a crest. All are proper turns: what is left stays left.
+   !> A place of the lattice is (x + i y) turn/side, x and y from a crest. All are proper turns: what is left stays
+   !> left.
    type :: fitted_frame
       logical :: covered = .false.             !! whether there is a lattice for the surface
       real(dp) :: side = 1.0_dp                !! s [length]
@@ -28,7 +29,8 @@ module wavycon_fitted_frame
 
 contains
 
-   !> The frame of a surface. Covered are the wave (21), two crossed waves with sides up to 3:1, and the hexagonal wave.
+   !> The frame of a surface. Covered are the wave (21), two crossed waves with sides up to 3:1, and the hexagonal
+   !> wave.
    subroutine find_frame(surface, frame)
       type(surface_type), intent(in) :: surface
       type(fitted_frame), intent(out) :: frame

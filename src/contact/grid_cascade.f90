@@ -1,8 +1,8 @@
 !> Grids, each twice as fine as the one before, until the answer is as accurate as asked for.
 !>
-!> A coarse answer starts the next finer one and tells its error: of each number the error estimate is the larger of its
-!> last change and half of the change before, so that a change that is small by chance does not pass for accuracy,
-!> with a factor of safety that the irregular convergence of the area needs.
+!> A coarse answer starts the next finer one and tells its error: of each number the error estimate is the larger of
+!> its last change and half of the change before, so that a change that is small by chance does not pass for
+!> accuracy, with a factor of safety that the irregular convergence of the area needs.
 module wavycon_grid_cascade
    use wavycon_compliance_operator, only: compliance_operator
    use wavycon_constants, only: pi
@@ -17,17 +17,18 @@ module wavycon_grid_cascade
 
    public :: cascade_answer, solve_by_cascade
 
-   !> Points of the first grid to half of the shortest wave each way; of the last grid, of a profile and of a surface, on an
-   !> even one's part of the cell. Any other may have as many on each such part.
+   !> Points of the first grid to half of the shortest wave each way; of the last grid, of a profile and of a
+   !> surface, on an even one's part of the cell. Any other may have as many on each such part.
    integer, parameter :: first_points = 8, most_points(2) = [262144, 1024*1024]
-   !> A grid of step h is solved to a residual of this times h^(3/2) P^(1/3) of the mean gap: the gap next to the edge of
-   !> contact, which places it, is of the order of h^(3/2), and the peak of a light load is that of a small part of the surface.
+   !> A grid of step h is solved to a residual of this times h^(3/2) P^(1/3) of the mean gap: the gap next to the
+   !> edge of contact, which places it, is of the order of h^(3/2), and the peak of a light load is that of a small
+   !> part of the surface.
    real(dp), parameter :: tolerance_factor = 1e-3_dp
    !> A grid that is asked for is solved to this, for those who compare it with their own.
    real(dp), parameter :: last_tolerance = 1e-11_dp
    integer, parameter :: iteration_limit = 500
-   !> Of the estimates of mean gap, contact area and peak pressure. The area's change from grid to grid depends on how the
-   !> edge happens to lie between the points.
+   !> Of the estimates of mean gap, contact area and peak pressure. The area's change from grid to grid depends on
+   !> how the edge happens to lie between the points.
    real(dp), parameter :: safety(3) = [1.25_dp, 2.0_dp, 1.25_dp]
 
    !> In place of a number that no grid has given yet; so large that no change from it passes for small.
@@ -202,9 +203,9 @@ contains
       answer%transform_pairs = answer%transform_pairs/2**surface%dimension + half_space%transform_pairs
    end subroutine solve_level
 
-   !> Errors that no change tells of: the edge's place between the points, where two grids may err alike; while the grid is too
-   !> coarse for it, the last open gap, between points that are all in contact; a peak made of fewer points than its
-   !> polynomial.
+   !> Errors that no change tells of: the edge's place between the points, where two grids may err alike; while the
+   !> grid is too coarse for it, the last open gap, between points that are all in contact; a peak made of fewer
+   !> points than its polynomial.
    pure function unresolved(surface, edge, peak_resolved) result(errors)
       type(surface_type), intent(in) :: surface
       type(grid_edge), intent(in) :: edge
@@ -226,7 +227,8 @@ contains
                  + count((field(:, :n - 1) > 0.0_dp) .neqv. (field(:, 2:) > 0.0_dp))
          errors = [0.0_dp, edge_uncertainty*edges/size(field), 0.0_dp]
          if (all(field > 0.0_dp)) then
-            ! With this part of the surface the mean gap falls as the power 5/2 or faster, and with it the change of the peak.
+            ! With this part of the surface the mean gap falls as the power 5/2 or faster, and with it the change of
+            ! the peak.
             open_part = max(1, hidden_openings(edge))/real(size(field), dp)
             errors = [open_part**2, open_part, open_part**2]
          else if (.not. peak_resolved) then

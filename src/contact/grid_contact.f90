@@ -1,7 +1,8 @@
 !> Contact on grids, to an accuracy asked for or on a grid of so many points.
 !>
-!> Surfaces that mirror themselves are solved on a quarter of their cell. The wave (21), and any like it, repeats itself on a
-!> square of half the area turned by 45 degrees, of which a quarter is enough, unless the points are to lie on the user's cell.
+!> Surfaces that mirror themselves are solved on a quarter of their cell. The wave (21), and any like it, repeats
+!> itself on a square of half the area turned by 45 degrees, of which a quarter is enough, unless the points are to
+!> lie on the user's cell.
 module wavycon_grid_contact
    use wavycon_constants, only: pi
    use wavycon_contact_measures, only: contact_measures
@@ -47,8 +48,8 @@ contains
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: accuracy      !! of mean gap [Delta], contact area fraction and peak pressure [p*]
       logical, intent(in) :: keep_fields    !! whether `pressure`, `displacement` and `edge_curves` will be asked for
-      !> Of the whole cell; if present and above zero the grid to be solved, whatever the accuracy. Even numbers for a surface
-      !> that mirrors itself.
+      !> Of the whole cell; if present and above zero the grid to be solved, whatever the accuracy. Even numbers for
+      !> a surface that mirrors itself.
       integer, intent(in), optional :: points(2)
 
       self%surface = surface

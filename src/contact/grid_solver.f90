@@ -2,9 +2,10 @@
 !>
 !> Conjugate gradients on the points in contact, whose set follows the solution, in the manner of Polonsky & Keer
 !> (Wear 231 (1999) 206-219) with three changes: the residual is preconditioned by the inverse of the half-space's
-!> compliance, cut down to the contact; the search goes on through changes of the set, with Polak & Ribiere's factor where
-!> that is positive, as starting afresh takes twice the iterations on rough surfaces; and the contact is entered by points
-!> at pressure zero. On a regular wave some seven iterations from a coarser grid's answer, whatever the grid, gain six digits.
+!> compliance, cut down to the contact; the search goes on through changes of the set, with Polak & Ribiere's factor
+!> where that is positive, as starting afresh takes twice the iterations on rough surfaces; and the contact is
+!> entered by points at pressure zero. On a regular wave some seven iterations from a coarser grid's answer,
+!> whatever the grid, gain six digits.
 !>
 !> Sums are taken column by column and then over the columns, so that they do not depend on the number of threads.
 module wavycon_grid_solver

@@ -216,7 +216,8 @@ contains
       else
          map%height = transpose(reshape(xyz(3, :), [m, n]))
       end if
-      ! The cell runs on in the same direction as the points, so that a falling coordinate mirrors nothing but the origin.
+      ! The cell runs on in the same direction as the points, so that a falling coordinate mirrors nothing but the
+      ! origin.
       map%step = abs(map%step)
 
    contains

@@ -112,8 +112,8 @@ contains
                  y, size(y, 1), 1.0_dp, values, size(x, 1))
    end subroutine add_products
 
-   !> cos(i pi k/N), k = 0..N, i = 0..n. The angle is reduced in whole numbers, so that the symmetries of the cosine hold
-   !> to the last bit and high harmonics are as exact as low ones.
+   !> cos(i pi k/N), k = 0..N, i = 0..n. The angle is reduced in whole numbers, so that the symmetries of the cosine
+   !> hold to the last bit and high harmonics are as exact as low ones.
    pure function cosine_table(intervals, harmonics) result(table)
       integer, intent(in) :: intervals   !! N >= 1
       integer, intent(in) :: harmonics   !! n >= 0

@@ -1,8 +1,8 @@
 !> Fields on the points of a grid and their waves, by FFTW.
 !>
-!> An even field, which mirrors itself in X = 0 and Y = 0, is known by a quarter of its cell: M x N points at
-!> X = pi (i - 1/2)/M, Y = pi (j - 1/2)/N and a sum of cosines (DCT-II and III). Any other has M x N points on its whole cell,
-!> at X = 2 pi (i - 1)/M, Y = 2 pi (j - 1)/N. N = 1 is a field in one dimension.
+!> An even field, which mirrors itself in X = 0 and Y = 0, is known by a quarter of its cell: M x N points at X = pi
+!> (i - 1/2)/M, Y = pi (j - 1/2)/N and a sum of cosines (DCT-II and III). Any other has M x N points on its whole
+!> cell, at X = 2 pi (i - 1)/M, Y = 2 pi (j - 1)/N. N = 1 is a field in one dimension.
 module wavycon_grid_transform
    use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_double_complex, c_int, c_null_ptr, c_ptr
    use wavycon_constants, only: pi

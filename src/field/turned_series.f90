@@ -1,7 +1,7 @@
 !> Even fields of a square lattice in axes turned by 45 degrees.
 !>
-!> X = phi + theta, Y = phi - theta. A field that is even in both pairs of angles, and in each alike in the two, is a sum of
-!> cos iX cos jY + cos jX cos iY = cos(i+j)phi cos(i-j)theta + cos(i-j)phi cos(i+j)theta.
+!> X = phi + theta, Y = phi - theta. A field that is even in both pairs of angles, and in each alike in the two, is
+!> a sum of cos iX cos jY + cos jX cos iY = cos(i+j)phi cos(i-j)theta + cos(i-j)phi cos(i+j)theta.
 module wavycon_turned_series
    use wavycon_fourier_series, only: fourier_series
    use wavycon_kinds, only: dp

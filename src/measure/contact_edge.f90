@@ -1,7 +1,7 @@
 !> The edge of contact on a grid of points, of which some are in contact and some not.
 !>
-!> Where it crosses a line between two neighbouring points, and how it runs there, is for the extensions to say: an isobar of
-!> a series, or the edge that a solution on the grid itself has.
+!> Where it crosses a line between two neighbouring points, and how it runs there, is for the extensions to say: an
+!> isobar of a series, or the edge that a solution on the grid itself has.
 module wavycon_contact_edge
    use wavycon_kinds, only: dp
    implicit none (type, external)
@@ -16,8 +16,8 @@ module wavycon_contact_edge
       real(dp) :: p_phi = 0.0_dp, p_theta = 0.0_dp   !! across the edge into the contact; zero where that is not known
    end type edge_point
 
-   !> Points (k, l) of the whole plane; a cell has the name of its lower left point. Its sides are numbered against the
-   !> clock: 1 from (k, l) to (k+1, l), 2 up, 3 back, 4 down.
+   !> Points (k, l) of the whole plane; a cell has the name of its lower left point. Its sides are numbered against
+   !> the clock: 1 from (k, l) to (k+1, l), 2 up, 3 back, 4 down.
    type, abstract :: contact_edge
       integer :: period(2) = 1   !! points to a period of phi and theta
    contains
@@ -58,8 +58,8 @@ module wavycon_contact_edge
 contains
 
    !> The area of a cell in contact [rad^2]. Between two points of the edge it is taken as the cubic curve with the
-   !> directions there, or straight where they are not known. In a cell that the edge enters twice the parts in contact are
-   !> taken as joined.
+   !> directions there, or straight where they are not known. In a cell that the edge enters twice the parts in
+   !> contact are taken as joined.
    pure real(dp) function cell_area(self, k, l) result(area)
       class(contact_edge), intent(in) :: self
       integer, intent(in) :: k, l
@@ -102,8 +102,8 @@ contains
       end do
    end function cell_area
 
-   !> Area between the chord from one point of the edge to the next and the cubic curve, on the side of the contact (to the
-   !> left).
+   !> Area between the chord from one point of the edge to the next and the cubic curve, on the side of the contact
+   !> (to the left).
    pure real(dp) function lens(from, to)
       type(edge_point), intent(in) :: from, to
 

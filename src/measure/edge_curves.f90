@@ -38,8 +38,8 @@ contains
       end do
    end subroutine trace_edges
 
-   !> The strips of a 1-D contact that lie between some edges in 0..pi, as curves of two points each. Where the crest is in
-   !> contact the first edge and its mirror image bound the strip about it.
+   !> The strips of a 1-D contact that lie between some edges in 0..pi, as curves of two points each. Where the
+   !> crest is in contact the first edge and its mirror image bound the strip about it.
    pure subroutine strip_ends(edges, crest_in_contact, curves)
       real(dp), intent(in) :: edges(:)             !! ascending [rad]
       logical, intent(in) :: crest_in_contact
@@ -136,8 +136,8 @@ contains
       allocate (curve%theta, source=theta(:count))
    end subroutine trace
 
-   !> Whether the contact is left along a side of a cell, followed against the clock: a curve with the contact on its left
-   !> enters the cell there.
+   !> Whether the contact is left along a side of a cell, followed against the clock: a curve with the contact on
+   !> its left enters the cell there.
    pure logical function leaves_contact(edge, k, l, number)
       class(contact_edge), intent(in) :: edge
       integer, intent(in) :: k, l, number

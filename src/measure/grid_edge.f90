@@ -1,8 +1,8 @@
 !> The edge of contact of a solution on the points of a grid, placed better than between two points.
 !>
-!> The points are those of wavycon_grid_transform: M x N of a quarter of the cell, whose mirror images fill the plane, or of
-!> the whole cell, which repeats itself. Outside the contact the gap grows as the power 3/2 of the distance d from the edge, so
-!> that gap^(2/3) over two points outside leads back to d = 0.
+!> The points are those of wavycon_grid_transform: M x N of a quarter of the cell, whose mirror images fill the
+!> plane, or of the whole cell, which repeats itself. Outside the contact the gap grows as the power 3/2 of the
+!> distance d from the edge, so that gap^(2/3) over two points outside leads back to d = 0.
 module wavycon_grid_edge
    use wavycon_constants, only: pi
    use wavycon_contact_edge, only: contact_edge, corner_k, corner_l, edge_point
@@ -169,8 +169,8 @@ contains
       end if
    end function grid_contact_area
 
-   !> The edges of contact of one dimension, ascending: between 0 and pi of an even one, else within a period from the first
-   !> point [rad].
+   !> The edges of contact of one dimension, ascending: between 0 and pi of an even one, else within a period from
+   !> the first point [rad].
    pure subroutine grid_strip_edges(edge, edges)
       type(grid_edge), intent(in) :: edge
       real(dp), allocatable, intent(out) :: edges(:)

@@ -12,8 +12,8 @@ module wavycon_grid_peak
 
 contains
 
-   !> By the polynomial through the points about the largest pressure. At a crest of symmetry that lies midway between points
-   !> it is even.
+   !> By the polynomial through the points about the largest pressure. At a crest of symmetry that lies midway
+   !> between points it is even.
    pure subroutine grid_peak_pressure(edge, peak, resolved)
       type(grid_edge), intent(in) :: edge
       real(dp), intent(out) :: peak        !! in the unit of the edge's pressure

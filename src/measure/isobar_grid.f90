@@ -1,8 +1,8 @@
 !> The isobar p = level of a pressure series as the edge of contact.
 !>
-!> The grid has N intervals on [0, pi] in phi and theta; the series is even and periodic, so that any cell of the plane
-!> is the image of one of these. Where the isobar crosses a grid line the point is solved for exactly, with the
-!> gradient of the pressure there. Between two crossings the curve is taken as the cubic through both with its
+!> The grid has N intervals on [0, pi] in phi and theta; the series is even and periodic, so that any cell of the
+!> plane is the image of one of these. Where the isobar crosses a grid line the point is solved for exactly, with
+!> the gradient of the pressure there. Between two crossings the curve is taken as the cubic through both with its
 !> tangents: areas are then good to the fourth power of the grid's step, not the second as for a polygon.
 module wavycon_isobar_grid
    use wavycon_constants, only: pi

@@ -1,4 +1,5 @@
-!> <case>.coefficients.dat: the Fourier coefficients of the pressure, A_i of eq. (12) or A_ij of eq. (25), a block a load.
+!> <case>.coefficients.dat: the Fourier coefficients of the pressure, A_i of eq. (12) or A_ij of eq. (25), a block a
+!> load.
 module wavycon_coefficients_table
    use wavycon_fourier_series, only: fourier_series
    use wavycon_error, only: error_type

@@ -1,9 +1,10 @@
 !> <case>.lines.dat: pressure, displacement and gap along lines, a block a load.
 !>
-!> Line 1 goes from a crest along x, in 2-D line 2 from the same crest along the diagonal of the cell; a blank line parts the
-!> two. They end half a cell away if the surface mirrors itself there, else after a whole one. With `theory` the closed forms stand beside the numbers: in 1-D Westergaard's
-!> solution and the Dundurs-Tsai-Keer series of as many terms, in 2-D the Hertz pressure about the nearest crest (light
-!> load) and the pressure in the penny-shaped crack about the nearest trough and its opening (heavy load).
+!> Line 1 goes from a crest along x, in 2-D line 2 from the same crest along the diagonal of the cell; a blank line
+!> parts the two. They end half a cell away if the surface mirrors itself there, else after a whole one. With
+!> `theory` the closed forms stand beside the numbers: in 1-D Westergaard's solution and the Dundurs-Tsai-Keer
+!> series of as many terms, in 2-D the Hertz pressure about the nearest crest (light load) and the pressure in the
+!> penny-shaped crack about the nearest trough and its opening (heavy load).
 module wavycon_lines_table
    use wavycon_constants, only: pi
    use wavycon_contact_fields, only: contact_fields

@@ -12,7 +12,8 @@ module wavycon_summary_table
       'pbar_over_pstar[-]', 'mean_pressure[pressure]', 'mean_gap_over_amplitude[-]', 'approach_over_amplitude[-]', &
       'contact_area_fraction[-]', 'peak_pressure_over_pstar[-]', 'min_pressure_over_pstar[-]', 'active_constraints[-]', &
       'pivots[-]', 'kkt_residual[-]']
-   !> Estimated errors, of the solvers that have them, and which solver it was; the truncated series of 'beale' knows none.
+   !> Estimated errors, of the solvers that have them, and which solver it was; the truncated series of 'beale'
+   !> knows none.
    character(40), parameter :: error_columns(*) = [character(40) :: &
       'mean_gap_error[-]', 'contact_area_error[-]', 'peak_pressure_error[-]', 'solver[-]']
 

@@ -1,7 +1,8 @@
 !> <case>.theory.dat: the closed forms at the loads of the scene, a line a load.
 !>
-!> 1-D: the exact solution (eqs. 4, 7, 20) and its limits (8), (11). 2-D: the asymptotes of the paper (23), (24), (29), (30),
-!> (29) with the coefficient of the whole lattice, the longer asymptotes, and the radii of the two limits.
+!> 1-D: the exact solution (eqs. 4, 7, 20) and its limits (8), (11). 2-D: the asymptotes of the paper (23), (24),
+!> (29), (30), (29) with the coefficient of the whole lattice, the longer asymptotes, and the radii of the two
+!> limits.
 module wavycon_theory_table
    use wavycon_error, only: error_type
    use wavycon_hertz_line, only: hertz_line_contact_area_fraction

@@ -17,8 +17,9 @@ module wavycon_choose_solver
 
 contains
 
-   !> 'auto' takes the closed form where there is one, then fitted expansions where they know the lattice, with grids for
-   !> what these leave. The truncated series of 'beale' is never the cheapest way to an accuracy, as it does not know its own.
+   !> 'auto' takes the closed form where there is one, then fitted expansions where they know the lattice, with
+   !> grids for what these leave. The truncated series of 'beale' is never the cheapest way to an accuracy, as it
+   !> does not know its own.
    subroutine choose_solver(deck, scene, solver)
       type(deck_type), intent(in) :: deck
       type(scene_type), intent(in) :: scene

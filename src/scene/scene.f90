@@ -29,8 +29,8 @@ module wavycon_scene
 
 contains
 
-   !> Makes the scene of a deck. Errors: exit_bad_input for loads that the surface cannot have and for a bad height map,
-   !> exit_file_trouble for one that cannot be read.
+   !> Makes the scene of a deck. Errors: exit_bad_input for loads that the surface cannot have and for a bad height
+   !> map, exit_file_trouble for one that cannot be read.
    subroutine make_scene(deck, scene, error)
       type(deck_type), intent(in) :: deck
       type(scene_type), intent(out) :: scene
@@ -112,8 +112,8 @@ contains
       end select
    end function target_words
 
-   !> Refuses a series whose constraint matrix would fill the memory, and fitted expansions of a surface that they do not
-   !> know. Errors: exit_bad_input.
+   !> Refuses a series whose constraint matrix would fill the memory, and fitted expansions of a surface that they
+   !> do not know. Errors: exit_bad_input.
    subroutine check_method(deck, scene, error)
       type(deck_type), intent(in) :: deck
       type(scene_type), intent(in) :: scene

@@ -11,12 +11,13 @@ module wavycon_surface
 
    public :: surface_type, surface_of_series, surface_of_points
 
-   !> How the cell lies to the wave of Johnson, Greenwood & Higginson (1985), where the surface is that: eq. (3) or (21) in
-   !> phi = X, theta = Y, or (21) in phi = (X + Y)/2, theta = (X - Y)/2.
+   !> How the cell lies to the wave of Johnson, Greenwood & Higginson (1985), where the surface is that: eq. (3) or
+   !> (21) in phi = X, theta = Y, or (21) in phi = (X + Y)/2, theta = (X - Y)/2.
    integer, parameter, public :: no_paper_wave = 0, straight_paper_wave = 1, turned_paper_wave = 2
 
-   !> h/Delta = 1 - shape(X, Y),  X = 2 pi x/L_x,  Y = 2 pi y/L_y, with a `shape` of mean zero and peak one: the surfaces
-   !> touch first at its peaks, and Delta is the mean gap before load, for the waves of the paper their amplitude.
+   !> h/Delta = 1 - shape(X, Y),  X = 2 pi x/L_x,  Y = 2 pi y/L_y, with a `shape` of mean zero and peak one: the
+   !> surfaces touch first at its peaks, and Delta is the mean gap before load, for the waves of the paper their
+   !> amplitude.
    type :: surface_type
       integer :: dimension = 2
       real(dp) :: length(2) = 1.0_dp            !! L_x, L_y, sides of the periodic cell [length]
@@ -70,8 +71,8 @@ contains
       call find_peak(weighted(surface, surface%shape, 2), surface%crest_curvature, unused)
    end function surface_of_series
 
-   !> The surface that takes given heights on a grid of its whole cell, between whose points it is as smooth as they allow.
-   !> Its peaks are looked for on the points alone.
+   !> The surface that takes given heights on a grid of its whole cell, between whose points it is as smooth as they
+   !> allow. Its peaks are looked for on the points alone.
    type(surface_type) function surface_of_points(length, height) result(surface)
       real(dp), intent(in) :: length(2)                      !! L_x, L_y [length], > 0
       real(dp), intent(inout), contiguous :: height(:, :)    !! [length], shape (M, N), N = 1 for a profile; kept
@@ -103,8 +104,8 @@ contains
       surface%crest_curvature = maxval(values)
    end function surface_of_points
 
-   !> p*, the mean pressure that just closes the gap everywhere: pi E* Delta/lambda in 1-D (eq. 7), sqrt2 times that in 2-D
-   !> (eq. 22); for any surface the depth of its deepest full-contact pressure.
+   !> p*, the mean pressure that just closes the gap everywhere: pi E* Delta/lambda in 1-D (eq. 7), sqrt2 times that
+   !> in 2-D (eq. 22); for any surface the depth of its deepest full-contact pressure.
    elemental real(dp) function full_contact_pressure(self, e_star)
       class(surface_type), intent(in) :: self
       real(dp), intent(in) :: e_star   !! plane-strain modulus E* [pressure]
@@ -248,8 +249,8 @@ contains
       end if
    end subroutine paper_angles
 
-   !> Whether the surface repeats itself on a square of half the area, turned by 45 degrees, in which it is even and alike in
-   !> both directions.
+   !> Whether the surface repeats itself on a square of half the area, turned by 45 degrees, in which it is even and
+   !> alike in both directions.
    pure logical function has_smaller_cell(self)
       class(surface_type), intent(in) :: self
 

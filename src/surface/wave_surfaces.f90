@@ -38,8 +38,8 @@ contains
       surface = wave_sum([wavelength1, wavelength2], [amplitude1, amplitude2], [1, 0], [0, 1], [0.0_dp, 0.0_dp])
    end function crossed_1d
 
-   !> Three equal waves at 60 degrees to each other: h = Delta [1 - (cos k1.r + cos k2.r + cos k3.r)/3]. The crests form
-   !> rows along x, 2 lambda/sqrt3 apart in each; the rectangular cell holds two of them.
+   !> Three equal waves at 60 degrees to each other: h = Delta [1 - (cos k1.r + cos k2.r + cos k3.r)/3]. The crests
+   !> form rows along x, 2 lambda/sqrt3 apart in each; the rectangular cell holds two of them.
    type(surface_type) function hexagonal(amplitude, wavelength) result(surface)
       real(dp), intent(in) :: amplitude    !! Delta [length], >= 0
       real(dp), intent(in) :: wavelength   !! of each wave [length], > 0

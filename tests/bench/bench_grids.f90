@@ -1,5 +1,5 @@
-!> Measures the grids: time, cost and true error of the two-dimensional wave at a number of accuracies, and how the errors
-!> of the one- and the two-dimensional wave fall with the step of the grid.
+!> Measures the grids: time, cost and true error of the two-dimensional wave at a number of accuracies, and how the
+!> errors of the one- and the two-dimensional wave fall with the step of the grid.
 program bench_grids
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use samples, only: clock_ms, sample_set
@@ -64,8 +64,8 @@ contains
          times%least(), errors
    end subroutine measure
 
-   !> Root mean square errors over nine loads, against Westergaard's solution and boundary-fitted expansions, on grids of ever
-   !> more points; and the slopes of straight lines through their logarithms.
+   !> Root mean square errors over nine loads, against Westergaard's solution and boundary-fitted expansions, on
+   !> grids of ever more points; and the slopes of straight lines through their logarithms.
    subroutine measure_orders(dimension)
       integer, intent(in) :: dimension   !! 1 or 2
 

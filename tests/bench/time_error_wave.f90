@@ -3,10 +3,10 @@
 !>
 !>    time_error_wave SECONDS LOAD...
 !>
-!> Each line of standard output is a run: solver, load, its measure of fineness (points along a side of the
-!> smallest cell, degree of the polynomials, or harmonics), time [ms], solves behind that median, then mean gap,
-!> contact area and peak pressure. The first line of a load, 'reference', has these as exactly as the expansions give
-!> them, and their error estimates. A ladder of runs ends before a run that would probably take longer than what is left of
+!> Each line of standard output is a run: solver, load, its measure of fineness (points along a side of the smallest
+!> cell, degree of the polynomials, or harmonics), time [ms], solves behind that median, then mean gap, contact area
+!> and peak pressure. The first line of a load, 'reference', has these as exactly as the expansions give them, and
+!> their error estimates. A ladder of runs ends before a run that would probably take longer than what is left of
 !> SECONDS.
 program time_error_wave
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
