@@ -1,6 +1,7 @@
 /* The few calls to the operating system that Fortran has no word for. */
 #define _XOPEN_SOURCE 700
 #include <errno.h>
+#include <fenv.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -118,6 +119,10 @@ void wavycon_full_path(const char *path, char *full, size_t length)
 size_t wavycon_parse_number(const char *text, double *value)
 {
     char *end;
+    fenv_t environment;
+    /* A number too large is an infinity and no exception, in builds that trap those. */
+    feholdexcept(&environment);
     *value = strtod(text, &end);
+    fesetenv(&environment);
     return (size_t)(end - text);
 }
