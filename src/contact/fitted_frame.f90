@@ -22,20 +22,21 @@ module wavycon_fitted_frame
       procedure :: place
    end type fitted_frame
 
-   !> The longest cell that is covered, over its width.
-   real(dp), parameter :: longest = 3.0_dp
+   !> The longest cell that is covered, over its width; and the most unlike curvatures of a crest: a spot of any length
+   !> would take polynomials of any degree.
+   real(dp), parameter :: longest = 3.0_dp, most_unlike = 50.0_dp
    !> Of coefficients and lengths that are to be equal.
    real(dp), parameter :: rounding = 1e-13_dp
 
 contains
 
-   !> The frame of a surface. Covered are the wave (21), two crossed waves with sides up to 3:1, and the hexagonal
+   !> The frame of a surface. Covered are the wave (21), two crossed waves that are not too unlike, and the hexagonal
    !> wave.
    subroutine find_frame(surface, frame)
       type(surface_type), intent(in) :: surface
       type(fitted_frame), intent(out) :: frame
 
-      real(dp) :: amplitude_x
+      real(dp) :: amplitude_x, curvature(2)
 
       if (surface%dimension == 1 .or. .not. surface%shape%is_even() .or. surface%amplitude <= 0.0_dp) return
       associate (c => surface%shape%c, length => surface%length)
@@ -49,6 +50,8 @@ contains
             end if
          else if (has_only([1, 0], [0, 1])) then
             if (maxval(length) > longest*minval(length)*(1.0_dp + rounding)) return
+            curvature = [c(1, 0), c(0, 1)]/length**2
+            if (maxval(curvature) > most_unlike*minval(curvature)) return
             frame%side = minval(length)
             amplitude_x = c(1, 0)
             if (length(1) > length(2)) then
