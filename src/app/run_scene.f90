@@ -6,6 +6,7 @@ module wavycon_run_scene
    use wavycon_contact_state, only: converged
    use wavycon_contour_table, only: write_contour_table
    use wavycon_deck, only: deck_type
+   use wavycon_details_table, only: write_details_table
    use wavycon_error, only: error_type, exit_file_trouble, exit_fine, exit_not_converged, fatal_error
    use wavycon_find_load, only: solve_for_contact_area, solve_for_mean_gap
    use wavycon_fitted_contact, only: fitted_contact
@@ -169,6 +170,7 @@ contains
       call write_if(results%deck%output%contours, write_contour_table)
       call write_if(results%deck%output%coefficients, write_coefficients_table)
       call write_if(results%deck%output%theory, write_theory_table)
+      call write_if(results%deck%output%details, write_details_table)
 
    contains
 

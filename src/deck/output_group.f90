@@ -20,6 +20,7 @@ module wavycon_output_group
       logical :: contours = .false.                    !! the edge of contact as closed curves
       logical :: coefficients = .false.                !! the Fourier coefficients of the pressure
       logical :: theory = .false.                      !! the closed forms beside the numbers
+      logical :: details = .false.                     !! all numbers of the boundary-fitted expansions
       integer :: points_per_wavelength = 128           !! of lines and maps
    end type output_group_type
 
@@ -37,6 +38,8 @@ contains
          logical_key('contours', '.false.', 'The edge of contact as closed curves.'), &
          logical_key('coefficients', '.false.', 'The Fourier coefficients of the pressure.'), &
          logical_key('theory', '.false.', 'The closed forms beside the numbers.'), &
+         logical_key('details', '.false.', "Of solver = 'fitted': gaps at trough and saddle, energy, perimeter and the "// &
+            "summary's numbers, each with its error estimate."), &
          integer_key('points_per_wavelength', '128', 'Points of lines and maps along a side of the cell.', 8, 4096)])
    end function output_table
 
@@ -50,10 +53,10 @@ contains
       type(problem_list_type), intent(inout) :: problems
 
       character(len(group%directory)) :: directory
-      logical :: coefficients, contours, lines, map, theory
+      logical :: coefficients, contours, details, lines, map, theory
       integer :: points_per_wavelength, status
       character(200) :: message
-      namelist /output/ directory, lines, map, contours, coefficients, theory, points_per_wavelength
+      namelist /output/ directory, lines, map, contours, coefficients, theory, details, points_per_wavelength
 
       directory = 'outputs/'//case
       lines = group%lines
@@ -61,13 +64,16 @@ contains
       contours = group%contours
       coefficients = group%coefficients
       theory = group%theory
+      details = group%details
       points_per_wavelength = group%points_per_wavelength
       read (input%record, nml=output, iostat=status, iomsg=message)
       if (status /= 0) call problems%add(input%place, trim(message))
       group = output_group_type(plain_directory(directory), lines, map, contours, coefficients, theory, &
-         points_per_wavelength)
+         details, points_per_wavelength)
       if (group%coefficients .and. solver /= 'beale') call problems%add(input%place_of('coefficients'), &
          "coefficients are those of the series of solver = 'beale'; '"//solver//"' has none")
+      if (group%details .and. solver /= 'fitted') call problems%add(input%place_of('details'), &
+         "details are those of the expansions of solver = 'fitted'; '"//solver//"' has none for every load")
       if (group%theory .and. .not. paper_wave) call problems%add(input%place_of('theory'), &
          'theory is known of the waves of the paper alone: wave_1d, wave_2d with one wavelength, crossed_1d with equal '// &
          'waves')
@@ -84,6 +90,7 @@ contains
       call writer%put('contours', group%contours)
       call writer%put('coefficients', group%coefficients)
       call writer%put('theory', group%theory)
+      call writer%put('details', group%details)
       call writer%put('points_per_wavelength', group%points_per_wavelength)
       call writer%close_group()
    end subroutine write_output_group

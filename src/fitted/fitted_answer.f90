@@ -14,6 +14,8 @@ module wavycon_fitted_answer
    integer, parameter, public :: fitted_bad_input = 3     !! load not between 0 and 1, or accuracy not > 0
    integer, parameter, public :: fitted_failed = 4        !! no solution was found: nothing is set
 
+   integer, parameter, public :: expansions_before = 3
+
    !> Lengths in the cell's shorter side s, pressures in p* = pi E* Delta/s, gaps and displacements in Delta.
    type :: fitted_answer
       integer :: status = fitted_failed
@@ -26,12 +28,16 @@ module wavycon_fitted_answer
       real(dp) :: mean_gap_error = huge(1.0_dp)       !! estimates of the errors of the above
       real(dp) :: area_error = huge(1.0_dp)
       real(dp) :: peak_error = huge(1.0_dp)
+      real(dp) :: energy_error = huge(1.0_dp)
+      real(dp) :: perimeter_error = huge(1.0_dp)
       real(dp) :: residual = huge(1.0_dp)       !! largest violation of the equations of contact
       real(dp) :: reach = 0.0_dp                !! of the edge, in half ways to the next spot or island
       integer :: degree = 0                     !! of the polynomials
       integer :: iterations = 0                 !! Gauss-Newton steps of all degrees
       logical :: island = .false.               !! above merging: the expansion is an island's gap
       type(expansion) :: solution
+      !> Of the degrees before that the estimates are from, the last one first, shape (1..expansions_before).
+      type(expansion), allocatable :: before(:)
    end type fitted_answer
 
 contains

@@ -42,22 +42,25 @@ module wavycon_fitted_fields
 contains
 
    !> Prepares to evaluate an answer.
-   subroutine start_fitted_fields(fields, lattice, answer)
+   subroutine start_fitted_fields(fields, lattice, answer, fineness)
       type(fitted_fields), intent(out) :: fields
       type(wave_lattice), intent(in) :: lattice    !! the answer's
       type(fitted_answer), intent(in) :: answer    !! solved, status <= fitted_less_exact
+      integer, intent(in), optional :: fineness    !! of the rules, >= 1, which is enough for pictures and tables
 
       real(dp), allocatable :: density(:), values(:, :)
       complex(dp) :: turn
-      integer :: factor, g, m, n
+      integer :: factor, g, m, n, own
 
-      factor = merge(finer, 1, answer%reach > sharp_reach)
+      own = 1
+      if (present(fineness)) own = fineness
+      factor = own*merge(finer, 1, answer%reach > sharp_reach)
       fields%lattice = lattice
       fields%answer = answer
       if (answer%island) fields%centre = lattice%trough
       associate (solution => fields%answer%solution)
          m = solution%basis%fold
-         call start_chord_rule(fields%chords, solution%basis, ubound(solution%shape%b, 1), 96, 48)
+         call start_chord_rule(fields%chords, solution%basis, ubound(solution%shape%b, 1), own*96, own*48)
          call plain_disc_rule(fields%rule, solution%basis%power, m, factor*along, factor*around/(2*m))
          n = size(fields%rule%point)
          allocate (values(n, solution%basis%terms), density(n))
@@ -113,17 +116,18 @@ contains
    end subroutine at
 
    !> Gaps at the trough and at the lattice's saddle, and the saddle's pressure.
-   subroutine fitted_separations(lattice, answer, trough_gap, saddle_gap, saddle_pressure)
+   subroutine fitted_separations(lattice, answer, trough_gap, saddle_gap, saddle_pressure, fineness)
       type(wave_lattice), intent(in) :: lattice    !! the answer's
       type(fitted_answer), intent(in) :: answer    !! solved, status <= fitted_less_exact
       real(dp), intent(out) :: trough_gap          !! [Delta]
       real(dp), intent(out) :: saddle_gap          !! 0 above merging [Delta]
       real(dp), intent(out) :: saddle_pressure     !! 0 below merging [p*]
+      integer, intent(in), optional :: fineness    !! as of start_fitted_fields
 
       type(fitted_fields) :: fields
       real(dp) :: displacement, pressure
 
-      call start_fitted_fields(fields, lattice, answer)
+      call start_fitted_fields(fields, lattice, answer, fineness)
       call fields%at(lattice%trough, pressure, displacement, trough_gap)
       call fields%at(lattice%saddle, saddle_pressure, displacement, saddle_gap)
    end subroutine fitted_separations

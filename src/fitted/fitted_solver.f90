@@ -3,8 +3,9 @@ module wavycon_fitted_solver
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_constants, only: pi
    use wavycon_contact_equations, only: contact_equations, start_equations
+   use wavycon_error_estimate, only: error_estimate, round_reach
    use wavycon_expansion, only: expansion
-   use wavycon_fitted_answer, only: fitted_answer, fitted_bad_input, fitted_failed, fitted_less_exact, &
+   use wavycon_fitted_answer, only: expansions_before, fitted_answer, fitted_bad_input, fitted_failed, fitted_less_exact, &
       fitted_merged, fitted_solved, fitted_status_text
    use wavycon_fitted_fields, only: fitted_fields, fitted_separations, start_fitted_fields
    use wavycon_gauss_newton, only: gauss_newton_step
@@ -33,12 +34,11 @@ module wavycon_fitted_solver
    integer, parameter :: full_degree = 8, fine_degree = 12
    !> A start has had its own accuracy: as many degrees are gone back, so that a sweep can come down again.
    integer, parameter :: degrees_back = 3
-   !> Below this reach shapes are round and the terms that turn with the angle matter less.
-   real(dp), parameter :: round_reach = 0.6_dp
    integer, parameter :: most_steps = 12
 
-   !> The three numbers whose errors are estimated: mean gap, area fraction, peak pressure.
-   integer, parameter :: measures = 3
+   !> The three numbers that the accuracy is of: mean gap, area fraction, peak pressure. Energy and perimeter come
+   !> after them: their errors are estimated as well.
+   integer, parameter :: measures = 3, all_measures = 5
 
 contains
 
@@ -77,10 +77,10 @@ contains
       !> Steps to stop at for the tightest accuracy, and what is no convergence at all.
       real(dp), parameter :: finest = 1e-7_dp, largest_change = 1e-4_dp
       type(contact_equations) :: equations
-      type(expansion) :: now
-      real(dp), dimension(measures) :: best, decay, error, last, last_difference, new
+      type(expansion) :: now, past(expansions_before)
+      real(dp), dimension(all_measures) :: best, decay, error, last, last_difference, new
       real(dp) :: change, residual, tolerance
-      integer :: degree, iterations
+      integer :: compared, degree, iterations
       logical :: better, merged, ok, trusted
 
       answer%island = island
@@ -98,6 +98,7 @@ contains
       last_difference = huge(last)
       decay = 1.0_dp
       trusted = .false.
+      compared = 0
       do
          now = now%raised(degree, shape_terms(degree), degree/4 + 2)
          call start_equations(equations, now, reach(lattice, now))
@@ -122,24 +123,34 @@ contains
       !> Compares with the degree before.
       subroutine judge()
          new = [mean_gap(equations, now), now%shape%area(), &
-                peak_pressure(equations, lattice, answer%pbar_over_pstar, now)]
-         ok = all(new > 0.0_dp)
+                peak_pressure(equations, lattice, answer%pbar_over_pstar, now), &
+                energy(equations, lattice, answer%pbar_over_pstar, now), now%shape%perimeter()]
+         ok = all(new(:measures) > 0.0_dp)
          if (.not. ok) return
          if (last(1) < huge(last)) then
-            call estimate(abs(new - last), last_difference, decay, new, error)
+            associate (difference => abs(new - last), m => measures)
+               call error_estimate(difference(:m), last_difference(:m), decay(:m), new(:m), error(:m))
+               call error_estimate(difference(m + 1:), last_difference(m + 1:), decay(m + 1:), new(m + 1:), &
+                                   error(m + 1:))
+            end associate
             ! Close to merging a higher degree may be worse.
             better = answer%status == fitted_failed .or. .not. trusted
-            if (.not. better) better = sum(error/new) < sum(best/new)
+            if (.not. better) better = sum(error(:measures)/new(:measures)) &
+               < sum(best(:measures)/new(:measures))
             ! One difference may be small by chance.
             trusted = trusted .or. last_difference(1) < huge(last)
             if (better) call take_over()
-            if (trusted .and. all(best <= accuracy*new)) answer%status = fitted_solved
+            if (trusted .and. all(best(:measures) <= accuracy*new(:measures))) answer%status = fitted_solved
             decay = 1.0_dp
             if (reach(lattice, now) < round_reach) &
                decay = min(abs(new - last)/max(last_difference, tiny(new)), 1.0_dp)
             last_difference = abs(new - last)
          end if
          last = new
+         past(3) = past(2)
+         past(2) = past(1)
+         past(1) = now
+         compared = min(compared + 1, expansions_before)
       end subroutine judge
 
       subroutine take_over()
@@ -156,43 +167,14 @@ contains
          answer%mean_gap_error = error(1)
          answer%area_error = error(2)/lattice%area
          answer%peak_error = error(3)
-         answer%perimeter = now%shape%perimeter()
-         answer%energy = energy(equations, lattice, answer%pbar_over_pstar, now)
+         answer%energy = new(4)
+         answer%perimeter = new(5)
+         answer%energy_error = error(4)
+         answer%perimeter_error = error(5)
+         answer%before = past(:compared)
       end subroutine take_over
 
    end subroutine solve_regime
-
-   !> Errors from the last difference of two degrees and the ones before.
-   pure subroutine estimate(difference, last_difference, last_decay, value, error)
-      real(dp), intent(in) :: difference(:)       !! >= 0
-      real(dp), intent(in) :: last_difference(:)  !! the one before; huge if there is none
-      real(dp), intent(in) :: last_decay(:)       !! of that one over the one before it; 1 if no guide
-      real(dp), intent(in) :: value(:)
-      real(dp), intent(out) :: error(:)
-
-      !> The next difference is never taken to fall by more than this.
-      real(dp), parameter :: fastest_decay = 0.5_dp
-      !> A difference that is small by chance, which happens where the terms that a degree adds hardly matter,
-      !> is known by the one before, which has to go on falling.
-      real(dp), parameter :: most_of_last = 0.1_dp
-      !> On everything: with it the estimates hold on the square and the hexagonal lattice; on rectangles
-      !> errors of up to three times the estimate are seen now and then.
-      real(dp), parameter :: safety = 3.0_dp
-      !> The mean gap converges faster than the rest, but not by much more than this.
-      real(dp), parameter :: least_of_others = 0.02_dp
-      !> In units of the last place.
-      real(dp), parameter :: rounding = 64*epsilon(1.0_dp)
-
-      where (last_difference < huge(1.0_dp))
-         error = min(max(sqrt(difference/max(last_difference, tiny(1.0_dp))), fastest_decay), 1.0_dp) &
-            *difference
-         error = max(error, min(most_of_last, sqrt(last_decay))*last_difference)
-      elsewhere
-         error = difference
-      end where
-      error = max(safety*error, rounding*value)
-      error = max(error, least_of_others*value*maxval(error/value))
-   end subroutine estimate
 
    !> An expansion of low degree at the load asked for.
    subroutine begin(lattice, answer, now, degree, iterations, ok, start)
