@@ -38,8 +38,8 @@ contains
          logical_key('contours', '.false.', 'The edge of contact as closed curves.'), &
          logical_key('coefficients', '.false.', 'The Fourier coefficients of the pressure.'), &
          logical_key('theory', '.false.', 'The closed forms beside the numbers.'), &
-         logical_key('details', '.false.', "Of solver = 'fitted': gaps at trough and saddle, energy, perimeter and the "// &
-            "summary's numbers, each with its error estimate."), &
+         logical_key('details', '.false.', "Of solver = 'fitted': gaps at trough and saddle, energy, perimeter "// &
+            "and the summary's numbers, each with its error estimate."), &
          integer_key('points_per_wavelength', '128', 'Points of lines and maps along a side of the cell.', 8, 4096)])
    end function output_table
 

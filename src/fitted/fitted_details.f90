@@ -1,7 +1,7 @@
 !> The gaps and the pressure at trough and saddle, with estimates of their errors.
 !>
-!> What the expansions of the degrees before give at the same places tells how far they have converged; a second
-!> evaluation by finer rules, how exactly the integrals over near images are done.
+!> What the expansions of the degrees before give at the same places tells how far they have converged; a
+!> second evaluation by finer rules, how exactly the integrals over near images are done.
 module wavycon_fitted_details
    use wavycon_error_estimate, only: error_estimate, round_reach
    use wavycon_fitted_answer, only: expansions_before, fitted_answer

@@ -46,7 +46,7 @@ contains
       type(fitted_fields), intent(out) :: fields
       type(wave_lattice), intent(in) :: lattice    !! the answer's
       type(fitted_answer), intent(in) :: answer    !! solved, status <= fitted_less_exact
-      integer, intent(in), optional :: fineness    !! of the rules, >= 1, which is enough for pictures and tables
+      integer, intent(in), optional :: fineness    !! of the rules, >= 1; 1 if it is not there
 
       real(dp), allocatable :: density(:), values(:, :)
       complex(dp) :: turn

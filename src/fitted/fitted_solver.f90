@@ -5,8 +5,8 @@ module wavycon_fitted_solver
    use wavycon_contact_equations, only: contact_equations, start_equations
    use wavycon_error_estimate, only: error_estimate, round_reach
    use wavycon_expansion, only: expansion
-   use wavycon_fitted_answer, only: expansions_before, fitted_answer, fitted_bad_input, fitted_failed, fitted_less_exact, &
-      fitted_merged, fitted_solved, fitted_status_text
+   use wavycon_fitted_answer, only: expansions_before, fitted_answer, fitted_bad_input, fitted_failed, &
+      fitted_less_exact, fitted_merged, fitted_solved, fitted_status_text
    use wavycon_fitted_fields, only: fitted_fields, fitted_separations, start_fitted_fields
    use wavycon_gauss_newton, only: gauss_newton_step
    use wavycon_island_pressure, only: crest_pressure
@@ -36,8 +36,8 @@ module wavycon_fitted_solver
    integer, parameter :: degrees_back = 3
    integer, parameter :: most_steps = 12
 
-   !> The three numbers that the accuracy is of: mean gap, area fraction, peak pressure. Energy and perimeter come
-   !> after them: their errors are estimated as well.
+   !> The three numbers that the accuracy is of: mean gap, area fraction, peak pressure. Energy and perimeter
+   !> come after them: their errors are estimated as well.
    integer, parameter :: measures = 3, all_measures = 5
 
 contains
