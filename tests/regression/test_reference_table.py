@@ -1,0 +1,128 @@
+#!/usr/bin/env python3
+"""The published reference values: recomputed, against grids and other methods, and against one another."""
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.dont_write_bytecode = True
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE))
+from tables import Table  # noqa: E402
+
+ROOT = HERE.parent.parent
+REFERENCE = ROOT / "outputs" / "reference" / "wave_2d.dat"
+OTHER_METHODS = ROOT / "inputs" / "reference_2d.dat"
+DECK = """\
+&surface kind = 'wave_2d' /
+&load pbar_over_pstar = {} /
+&method solver = '{}', accuracy = {} /
+{}
+"""
+# The order of the published values; each has its error beside it.
+VALUES = ("mean_gap", "contact_area", "peak_pressure", "trough_gap", "saddle_gap", "saddle_pressure",
+          "energy", "perimeter")
+MERGING = 0.2286
+
+
+def published():
+    """{P: [(value, error) of each of VALUES]}."""
+    rows = {}
+    for row in Table(REFERENCE).rows():
+        numbers = [float(word) for word in row]
+        rows[numbers[0]] = list(zip(numbers[1::2], numbers[2::2]))
+    return rows
+
+
+class ReferenceTable(unittest.TestCase):
+    program = ""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.table = published()
+
+    def solve(self, loads, solver, accuracy, output, kind):
+        """{column: words} of a table of the program, loads in the order given."""
+        with tempfile.TemporaryDirectory() as scratch:
+            deck = pathlib.Path(scratch) / "case.nml"
+            deck.write_text(DECK.format(", ".join(map(repr, loads)), solver, accuracy, output))
+            # 2: a load is less exact than asked for, and its error estimate says so.
+            command = [self.program, deck, "--quiet", "--output", scratch]
+            status = subprocess.run(command, check=False).returncode
+            self.assertIn(status, (0, 2))
+            table = Table(pathlib.Path(scratch) / f"case.{kind}.dat")
+        rows = table.rows()
+        self.assertEqual(len(loads), len(rows))
+        return {name.split("[")[0]: [row[place] for row in rows] for place, name in enumerate(table.columns)}
+
+    def check(self, load, name, value, error):
+        expected, bound = self.table[load][VALUES.index(name)]
+        self.assertLessEqual(abs(value - expected), error + bound,
+                             f"{name} at {load}: {value}, published {expected}")
+
+    def test_loads_and_bounds(self):
+        loads = {i/100 for i in range(1, 100)} | {0.001, 0.002, 0.005, 0.995, 0.998, 0.999}
+        self.assertGreaterEqual(set(self.table), loads)
+        for load, row in self.table.items():
+            self.assertEqual(len(VALUES), len(row))
+            for name, (value, error) in zip(VALUES, row):
+                exactly_zero = name == ("saddle_gap" if load > MERGING else "saddle_pressure")
+                with self.subTest(load=load, name=name):
+                    if exactly_zero:
+                        self.assertEqual((0.0, 0.0), (value, error))
+                    else:
+                        self.assertGreater(value, 0.0)
+                        self.assertGreater(error, 0.0)
+                        # The worst are the saddle's, about to close.
+                        self.assertLess(error, 0.15*value)
+
+    def test_recomputed(self):
+        # At another accuracy, hence by other degrees; about merging, in both regimes, too.
+        loads = [0.001, 0.05, 0.2, 0.226, 0.236, 0.3, 0.5, 0.8, 0.999]
+        new = self.solve(loads, "fitted", 1e-7, "&output details = t /", "details")
+        names = list(new)[1:17]
+        for place, load in enumerate(loads):
+            for name, value, error in zip(VALUES, names[::2], names[1::2]):
+                self.check(load, name, float(new[value][place]), float(new[error][place]))
+
+    def test_grids(self):
+        # Of the loads the heavier and lighter ones cost least; 0.23 is just above merging.
+        for accuracy, loads in ((1e-3, [0.05, 0.2, 0.23, 0.4, 0.7]), (1e-4, [0.01, 0.1, 0.5, 0.95])):
+            new = self.solve(loads, "grid", accuracy, "", "summary")
+            self.assertEqual({"grid"}, set(new["solver"]))
+            self.assertEqual({"converged"}, set(new["status"]))
+            for place, load in enumerate(loads):
+                for name, value, error in (("mean_gap", "mean_gap_over_amplitude", "mean_gap_error"),
+                                           ("contact_area", "contact_area_fraction", "contact_area_error"),
+                                           ("peak_pressure", "peak_pressure_over_pstar", "peak_pressure_error")):
+                    self.check(load, name, float(new[value][place]), float(new[error][place]))
+
+    def test_other_methods(self):
+        for load, *words in Table(OTHER_METHODS).rows():
+            for name, word in zip(VALUES, words):
+                # Half a unit of the last digit for rounding, one for the grids that gave the shorter values.
+                self.check(float(load), name, float(word), 1.5*10.0**-len(word.partition(".")[2]))
+
+    def test_work_of_the_load_is_the_energy(self):
+        # While P grows the load works on the approach, dE = -P dG: E + P G gains the integral of G.
+        step = 0.01
+        for first, last in ((8, 20), (40, 60), (60, 96)):
+            rows = [self.table[i/100] for i in range(first, last + 1)]
+            gaps = [row[0][0] for row in rows]
+            gained = [row[6][0] + load*step*row[0][0] for load, row in ((first, rows[0]), (last, rows[-1]))]
+            work = simpson(gaps, step)
+            # Simpson's rule at twice the step errs some 16 times as much; 4 is on the safe side.
+            allowed = abs(work - simpson(gaps[::2], 2*step))/4
+            self.assertLess(allowed, 1e-7)
+            self.assertAlmostEqual(work, gained[1] - gained[0], delta=allowed)
+
+
+def simpson(values, step):
+    return step/3*(values[0] + values[-1] + 4*sum(values[1:-1:2]) + 2*sum(values[2:-1:2]))
+
+
+if __name__ == "__main__":
+    ReferenceTable.program = str(pathlib.Path(sys.argv.pop(sys.argv.index("--program") + 1)).resolve())
+    sys.argv.remove("--program")
+    unittest.main()
