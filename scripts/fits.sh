@@ -21,7 +21,7 @@ gap_fit(p) = (1 - sqrt(p))**2.5
 error(formula, exact) = abs(formula/exact - 1)
 
 # Where a curve dips the error changes its sign. The asymptotes at light load mean nothing near closure.
-set multiplot layout 1, 2 margins 0.095, 0.975, 0.17, 0.89 spacing 0.125, 0
+set multiplot layout 1, 2 margins 0.11, 0.975, 0.17, 0.89 spacing 0.12, 0
 set xlabel load
 set xrange [0:1]
 set xtics 0.2 format '%.1f'
@@ -30,7 +30,7 @@ set logscale y
 set yrange [1e-6:1]
 set ytics 10 format '10^{%T}'
 set key bottom center samplen 2.5 spacing 1.0 font ',10'
-set ylabel 'relative error' offset 1.2, 0
+set ylabel 'relative error' offset 0.4, 0
 set title 'contact area {/:Italic A}_{real}' offset 0, -0.5
 plot joined using 1:(error($17, $5)) with lines ls 2 title '(23)', \
      '' using 1:(error($22, $5)) with lines lc rgb blue lw 1.1 dt (7, 4) title '(23), longer', \
