@@ -21,13 +21,15 @@ module wavycon_command_line
       integer :: threads = 1
       logical :: check = .false.
       logical :: quiet = .false.
+      logical :: resume = .false.
       logical :: version = .false.
       logical :: help = .false.
    end type command_line_type
 
-   character(*), parameter :: options(*) = [character(9) :: '--check', '--output', '--threads', '--quiet', '--version', '--help']
+   character(*), parameter :: options(*) = [character(9) :: '--check', '--output', '--resume', '--threads', &
+      '--quiet', '--version', '--help']
    character(*), parameter :: usage = &
-      'usage: wavycon DECK... [--check] [--output DIR] [--threads N] [--quiet] [--version] [--help]'
+      'usage: wavycon DECK... [--check] [--output DIR] [--resume] [--threads N] [--quiet] [--version] [--help]'
 
 contains
 
@@ -66,6 +68,8 @@ contains
             command_line%check = .true.
          case ('--quiet')
             command_line%quiet = .true.
+         case ('--resume')
+            command_line%resume = .true.
          case ('--version')
             command_line%version = .true.
          case ('--help', '-h')
@@ -173,6 +177,10 @@ contains
              newline// &
              '   --check        validate the decks and stop'//newline// &
              '   --output DIR   write the results there, not where the deck says'//newline// &
+             '   --resume       go on from the finished loads of an interrupted run, to the same'//newline// &
+             '                  tables; <case>.checkpoint holds them until the tables are written.'//newline// &
+             '                  What was solved on grids is not solved again; loads of series and of'//newline// &
+             '                  expansions, which start from the one before, are, for the same digits'//newline// &
              '   --threads N    work on large grids with N threads; 1 if not given'//newline// &
              '   --quiet        say nothing but what is wrong'//newline// &
              '   --version      show the version and stop'//newline// &

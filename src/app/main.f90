@@ -56,7 +56,7 @@ program wavycon_main
    worst = exit_fine
    do i = 1, size(decks)
       if (i > 1 .and. .not. command_line%quiet) write (output_unit, '(a)') ''
-      call run_scene(decks(i)%deck, decks(i)%scene, command_line%quiet, status, error)
+      call run_scene(decks(i)%deck, decks(i)%scene, command_line%quiet, command_line%resume, status, error)
       call stop_on(error)
       worst = max(worst, status)
    end do

@@ -1,6 +1,6 @@
 !> A deck from beginning to end: scene, answers, measures, tables.
 module wavycon_run_scene
-   use, intrinsic :: iso_c_binding, only: c_size_t
+   use wavycon_checkpoint, only: checkpoint_file, checkpoint_name, read_checkpoint
    use wavycon_choose_solver, only: choose_solver
    use wavycon_coefficients_table, only: write_coefficients_table
    use wavycon_contact_state, only: converged
@@ -8,20 +8,16 @@ module wavycon_run_scene
    use wavycon_deck, only: deck_type
    use wavycon_details_table, only: write_details_table
    use wavycon_error, only: error_type, exit_file_trouble, exit_fine, exit_not_converged, fatal_error
-   use wavycon_find_load, only: solve_for_contact_area, solve_for_mean_gap
-   use wavycon_fitted_contact, only: fitted_contact
-   use wavycon_grid_contact, only: grid_contact
-   use wavycon_gsl, only: gsl_sort_index
    use wavycon_kinds, only: dp
    use wavycon_lines_table, only: write_lines_table
-   use wavycon_load_group, only: by_contact_area, by_mean_gap
    use wavycon_map_table, only: write_map_table
    use wavycon_output_file, only: output_file
    use wavycon_plain_text, only: escaped, integer_text, short_number
    use wavycon_resolved_deck, only: write_resolved_deck
    use wavycon_results, only: results_type
-   use wavycon_run_log, only: log_progress, run_log
+   use wavycon_run_log, only: run_log
    use wavycon_scene, only: scene_type
+   use wavycon_solve_loads, only: solve_loads
    use wavycon_summary_table, only: write_summary_table
    use wavycon_system, only: make_directories, path_kind, path_other
    use wavycon_theory_table, only: write_theory_table
@@ -41,15 +37,18 @@ module wavycon_run_scene
 contains
 
    !> Runs a deck. Errors: exit_bad_input, exit_file_trouble.
-   subroutine run_scene(deck, scene, quiet, status, error)
+   subroutine run_scene(deck, scene, quiet, resume, status, error)
       type(deck_type), intent(in) :: deck
       type(scene_type), allocatable, intent(inout) :: scene   !! of the deck; it goes into the results
       logical, intent(in) :: quiet
+      logical, intent(in) :: resume    !! go on from the checkpoint of an interrupted run
       integer, intent(out) :: status   !! exit_fine or exit_not_converged
       type(error_type), allocatable, intent(out) :: error
 
       type(results_type) :: results
       type(run_log), target :: log
+      type(checkpoint_file) :: checkpoint
+      logical, allocatable :: known(:)
       integer :: bad, hidden
 
       status = exit_fine
@@ -59,10 +58,16 @@ contains
       call move_alloc(scene, results%scene)
       call choose_solver(deck, results%scene, results%contact)
       call log%show_scene(results)
-      call prepare_directory(results, error)
+      allocate (results%states(size(results%scene%target)))
+      allocate (known(size(results%states)), source=.false.)
+      if (resume) call take_checkpoint(results, known, log, error)
+      if (.not. allocated(error)) call prepare_directory(results, error)
       if (allocated(error)) return
 
-      call solve_loads(results, log)
+      call checkpoint%begin(results, known)
+      call solve_loads(results, known, checkpoint, log)
+      if (.not. checkpoint%is_kept()) call log%say('note: not all loads could be written to '// &
+                                                   escaped(checkpoint_name(results))//', to resume from')
       call log%say_timed('solved and measured')
       call log%show_loads(results)
       hidden = count(results%states%status == converged .and. results%states%measures%contact_area_fraction <= 0.0_dp)
@@ -71,6 +76,7 @@ contains
 
       call write_tables(results, error)
       if (allocated(error)) return
+      call checkpoint%remove()
       bad = count(.not. results%states%is_good())
       if (bad > 0) status = exit_not_converged
       if (results%scene%p_star <= 0.0_dp) call log%say('the surface is flat: there is only a summary')
@@ -83,6 +89,25 @@ contains
                       ' loads NOT solved as asked, see the status column')
       end if
    end subroutine run_scene
+
+   !> Takes the loads that are finished. Errors: exit_bad_input, exit_file_trouble.
+   subroutine take_checkpoint(results, known, log, error)
+      type(results_type), intent(inout) :: results
+      logical, intent(inout) :: known(:)          !! which loads those are
+      type(run_log), intent(inout) :: log
+      type(error_type), allocatable, intent(out) :: error
+
+      logical :: found
+
+      call read_checkpoint(results, known, found, error)
+      if (allocated(error)) return
+      if (found) then
+         call log%say('resumed   '//integer_text(count(known))//' of '//integer_text(size(known))//' loads are in '// &
+                      escaped(checkpoint_name(results)))
+      else
+         call log%say('note: there is no '//escaped(checkpoint_name(results))//' to resume from: all loads are solved')
+      end if
+   end subroutine take_checkpoint
 
    !> Makes the output directory and writes the resolved deck into it, so that file trouble shows before the work.
    subroutine prepare_directory(results, error)
@@ -116,47 +141,6 @@ contains
       call file%finish(error)
    end subroutine prepare_directory
 
-   !> Solves and measures all loads, from the highest to the lowest so that each starts from the one before.
-   subroutine solve_loads(results, log)
-      type(results_type), intent(inout) :: results
-      type(run_log), intent(inout), target :: log
-
-      integer :: i, load, order(size(results%scene%target))
-      type(log_progress), target :: progress
-
-      associate (target => results%scene%target, loads_by => results%scene%loads_by)
-         order = descending(merge(-target, target, loads_by == by_mean_gap))
-         allocate (results%states(size(order)))
-         progress%log => log
-         progress%loads = size(order)
-         select type (solver => results%contact)
-         type is (grid_contact)
-            solver%progress => progress
-         type is (fitted_contact)
-            if (allocated(solver%grids)) solver%grids%progress => progress
-         end select
-         do i = 1, size(order)
-            load = order(i)
-            progress%load = i
-            select case (loads_by)
-            case (by_mean_gap)
-               call solve_for_mean_gap(results%contact, target(load), results%states(load))
-            case (by_contact_area)
-               call solve_for_contact_area(results%contact, target(load), results%states(load))
-            case default
-               call results%contact%solve(target(load), results%states(load))
-            end select
-            call log%show_progress(i, size(order))
-         end do
-         select type (solver => results%contact)
-         type is (grid_contact)
-            nullify (solver%progress)
-         type is (fitted_contact)
-            if (allocated(solver%grids)) nullify (solver%grids%progress)
-         end select
-      end associate
-   end subroutine solve_loads
-
    !> Writes the tables that the deck asks for. Of a flat surface only the summary: its fields are to be shown in p* and
    !> Delta, which are zero.
    subroutine write_tables(results, error)
@@ -182,16 +166,5 @@ contains
       end subroutine write_if
 
    end subroutine write_tables
-
-   !> The order of some numbers from the largest to the smallest.
-   function descending(values) result(order)
-      real(dp), intent(in) :: values(:)
-      integer :: order(size(values))
-
-      integer(c_size_t) :: places(size(values))
-
-      call gsl_sort_index(places, -values, 1_c_size_t, size(values, kind=c_size_t))
-      order = int(places) + 1
-   end function descending
 
 end module wavycon_run_scene
