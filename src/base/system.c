@@ -19,6 +19,13 @@ int wavycon_path_kind(const char *path)
     return S_ISDIR(info.st_mode) ? 1 : 2;
 }
 
+/* Bytes of a file, as the system sees it; -1 if there is none. */
+long long wavycon_file_size(const char *path)
+{
+    struct stat info;
+    return stat(path, &info) == 0 ? (long long)info.st_size : -1;
+}
+
 /* Makes one directory; one that is there already is fine. Returns errno, 0 if all is well. */
 int wavycon_make_directory(const char *path)
 {

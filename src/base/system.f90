@@ -1,10 +1,11 @@
 !> Directories, renaming and the terminal: thin wrappers of the C calls in system.c.
 module wavycon_system
-   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int, c_null_char, c_size_t
+   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int, c_long_long, c_null_char, c_size_t
+   use, intrinsic :: iso_fortran_env, only: int64
    implicit none (type, external)
    private
 
-   public :: full_path, path_kind, make_directories, rename_file, remove_file, remove_when_interrupted
+   public :: file_size, full_path, path_kind, make_directories, rename_file, remove_file, remove_when_interrupted
    public :: outlive_file_size_limit, parse_number, process_id, stdout_is_terminal
 
    !> What `path_kind` can answer.
@@ -15,6 +16,11 @@ module wavycon_system
          import :: c_char, c_int
          character(kind=c_char), intent(in) :: path(*)
       end function c_path_kind
+
+      integer(c_long_long) function c_file_size(path) bind(c, name='wavycon_file_size')
+         import :: c_char, c_long_long
+         character(kind=c_char), intent(in) :: path(*)
+      end function c_file_size
 
       integer(c_int) function c_make_directory(path) bind(c, name='wavycon_make_directory')
          import :: c_char, c_int
@@ -90,6 +96,15 @@ contains
 
       path_kind = int(c_path_kind(path//c_null_char))
    end function path_kind
+
+   !> Bytes of a file that are there; -1 if there is no file.
+   !>
+   !> N.B. gfortran 12 answers an `inquire` of a file that it has open with what it means to write.
+   integer(int64) function file_size(path)
+      character(*), intent(in) :: path
+
+      file_size = int(c_file_size(path//c_null_char), int64)
+   end function file_size
 
    !> Makes a directory and those above it.
    subroutine make_directories(path, failure)

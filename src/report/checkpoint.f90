@@ -17,7 +17,7 @@ module wavycon_checkpoint
    use wavycon_plain_text, only: escaped, excerpt, integer_text, newline, system_words
    use wavycon_resolved_deck, only: write_resolved_deck
    use wavycon_results, only: results_type
-   use wavycon_system, only: path_absent, path_kind, process_id, remove_file, remove_when_interrupted, rename_file
+   use wavycon_system, only: file_size, path_absent, path_kind, process_id, remove_file, remove_when_interrupted, rename_file
    use wavycon_version, only: revision, version
    implicit none (type, external)
    private
@@ -32,8 +32,9 @@ module wavycon_checkpoint
       private
       integer :: unit = -1
       logical :: opened = .false.
-      integer(int64) :: run(3) = 0            !! that it is of
-      character(:), allocatable :: name
+      integer(int64) :: run(3) = 0             !! that it is of
+      character(:), allocatable :: name        !! final name
+      character(:), allocatable :: name_now
    contains
       procedure :: begin
       procedure :: is_kept
@@ -51,12 +52,13 @@ contains
       name = results%directory//'/'//trim(results%deck%scene%case)//'.checkpoint'
    end function checkpoint_name
 
-   !> The name of a file that this process alone uses, until it is renamed.
-   function working_name(results) result(name)
+   !> The name of a file that this process alone uses, until it is renamed or removed.
+   function working_name(results, kind) result(name)
       type(results_type), intent(in) :: results
+      character(*), intent(in) :: kind
       character(:), allocatable :: name
 
-      name = results%directory//'/.'//trim(results%deck%scene%case)//'.checkpoint.'//integer_text(process_id())//'.part'
+      name = results%directory//'/.'//trim(results%deck%scene%case)//'.'//kind//'.'//integer_text(process_id())//'.part'
    end function working_name
 
    !> Begins a checkpoint with the loads that are known already; one that is there is replaced. A checkpoint that cannot be
@@ -64,17 +66,19 @@ contains
    subroutine begin(self, results, known)
       class(checkpoint_file), intent(out) :: self
       type(results_type), intent(in) :: results   !! in a directory that is there
-      logical, intent(in) :: known(:)             !! the loads whose states are known, in the deck's order
+      logical, intent(in) :: known(:)             !! loads whose states are known, in the deck's order
 
       character(:), allocatable :: description, failure, working
       integer :: clock(8), load, status
 
-      working = working_name(results)
+      working = working_name(results, 'checkpoint')
       self%name = checkpoint_name(results)
       call describe(results, description)
+      if (description == '') return
       call date_and_time(values=clock)
       call system_clock(self%run(3))
       self%run(:2) = [int(process_id(), int64), checksum(int(clock, int64))]
+      self%name_now = working
       call remove_when_interrupted(working)
       open (newunit=self%unit, file=working, access='stream', form='unformatted', status='replace', action='write', &
             iostat=status)
@@ -86,6 +90,7 @@ contains
          if (known(load)) call self%add(load, results%states(load))
       end do
       if (self%opened) call rename_file(working, self%name, failure)
+      self%name_now = self%name
       if (self%opened .and. .not. allocated(failure)) return
       call give_up(self)
       call remove_file(working)
@@ -134,12 +139,13 @@ contains
       self%opened = .false.
    end subroutine give_up
 
-   !> Writes a frame, and sees that it is there: on a full disk gfortran 12 reports nothing.
+   !> Writes a frame, and sees that it is there: on a full disk gfortran 12 reports nothing. Nor is more written when another
+   !> run's checkpoint has taken the place.
    subroutine put(self, words)
       type(checkpoint_file), intent(inout) :: self
       integer(int64), intent(in) :: words(:)
 
-      integer(int64) :: bytes_there, count_of, next_byte
+      integer(int64) :: count_of, next_byte
       integer :: status
 
       if (.not. self%opened) return
@@ -147,8 +153,8 @@ contains
       write (self%unit, iostat=status) count_of, not(count_of), words, checksum(words)
       if (status == 0) flush (self%unit, iostat=status)
       if (status == 0) then
-         inquire (unit=self%unit, pos=next_byte, size=bytes_there)
-         if (bytes_there /= next_byte - 1) status = 1
+         inquire (unit=self%unit, pos=next_byte)
+         if (file_size(self%name_now) /= next_byte - 1) status = 1
       end if
       if (status /= 0) call give_up(self)
    end subroutine put
@@ -219,7 +225,11 @@ contains
          call damaged()
       else
          call describe(results, description)
-         call compare(name, text_of_words(words), description, error)
+         if (description == '') then
+            call fatal_error(error, exit_file_trouble, escaped(name)//': nothing can be written beside it')
+         else
+            call compare(name, text_of_words(words), description, error)
+         end if
       end if
       do while (.not. allocated(error))
          call next()
@@ -263,7 +273,7 @@ contains
       integer :: status, unit
 
       text = ''
-      working = working_name(results)
+      working = working_name(results, 'description')
       call remove_when_interrupted(working)
       open (newunit=unit, file=working, status='replace', action='write', iostat=status)
       if (status /= 0) return
@@ -292,12 +302,12 @@ contains
       text_before = deck_text_type(name, trim(before))
       text_now = deck_text_type(name, trim(now))
       if (text_before%content == text_now%content) return
-      i = 1
-      do
+      line_before = ''
+      line_now = ''
+      do i = 1, max(size(text_before%line_start), size(text_now%line_start))
          line_before = line(text_before, i)
          line_now = line(text_now, i)
          if (line_before /= line_now) exit
-         i = i + 1
       end do
       select case (i)
       case (1)

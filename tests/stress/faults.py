@@ -15,6 +15,16 @@ DECK = ("&surface kind = 'wave_2d' /\n&load sweep_from = 0.05, sweep_to = 0.95, 
         "&output lines = t, map = t, contours = t, theory = t, coefficients = t, points_per_wavelength = 64 /\n")
 # Half a second of work, half of it writing.
 LONG_DECK = DECK.replace("sweep_steps = 19", "sweep_steps = 150").replace("map = t", "map = f")
+# To be resumed: answers that stand alone and such that start from the one before, with fields and without.
+TO_RESUME = {
+    "series": LONG_DECK,
+    "grids": DECK.replace("theory = t, coefficients = t, points_per_wavelength = 64", "points_per_wavelength = 16")
+    + "&method solver = 'grid', accuracy = 1e-3 /\n",
+    "expansions": "&surface kind = 'wave_2d' /\n&load sweep_from = 0.05, sweep_to = 0.95, sweep_steps = 91 /\n"
+                  "&method solver = 'auto', accuracy = 1e-3 /\n",
+    "areas": "&surface kind = 'hexagonal' /\n&load contact_area_fraction = 0.1, 0.3, 0.5, 0.7, 0.9 /\n"
+             "&method solver = 'grid', accuracy = 1e-2 /\n&output contours = t /\n",
+}
 LEAST_MEGABYTES = 250  # of memory that the program may ask for
 TABLES = ("summary", "lines", "map", "contour", "theory", "coefficients")
 
@@ -108,6 +118,11 @@ class Faults:
             script = 'ln -s /dev/full "results/.deck.$1.$$.part"; exec "$0" deck.nml --output results'
             outcome = run(["sh", "-c", script, self.program, table], folder)
             self.judge(f"/dev/full for {table}", outcome, folder, (3,))
+        # What nobody has asked for is no reason to end.
+        folder = self.folder()
+        (folder/"results").mkdir()
+        outcome = run(["sh", "-c", script, self.program, "checkpoint"], folder)
+        self.judge("/dev/full for the checkpoint", outcome, folder, (0,))
 
     def directories(self):
         for name, spoil in (("gone", lambda folder: shutil.rmtree(folder/"results")),
@@ -204,6 +219,44 @@ class Faults:
                     words += [f"{name} is left behind" for name in leftovers(folder)]
                 self.part.count(f"{sent.name} after {delay:.2f} of {length:.2f} s", words)
 
+    def resumed(self):
+        """Sweeps that are interrupted, some twice or thrice, and resumed, to the same tables byte by byte."""
+        found = 0
+        times = 4 if self.quick else 40
+        for name, text in TO_RESUME.items():
+            undisturbed = self.folder(text)
+            process = self.start(undisturbed)
+            self.part.count(f"{name}, to be resumed", complaints_about(self.outcome(process), (0,), seconds=60))
+            length = time.monotonic() - process.begun
+            for _ in range(times):
+                folder = self.folder(text)
+                words, more, delays = [], (), []
+                for _ in range(self.stream.randrange(1, 4)):
+                    process = self.start(folder, *more)
+                    delays.append(self.stream.uniform(0, length))
+                    time.sleep(delays[-1])
+                    sent = self.stream.choice((signal.SIGINT, signal.SIGTERM, signal.SIGKILL))
+                    process.send_signal(sent)
+                    outcome = self.outcome(process)
+                    if outcome.status not in (0, -sent):
+                        words.append(f"exit status {outcome.status} when interrupted")
+                    more = ("--resume",)
+                outcome = self.outcome(self.start(folder, *more))
+                match = re.search(rb"^resumed +(\d+) of", outcome.stdout, re.MULTILINE)
+                found += bool(match and int(match.group(1)))
+                words += complaints_about(outcome, (0,), seconds=60)
+                for path in (undisturbed/"results").iterdir():
+                    other = folder/"results"/path.name
+                    if not other.exists():
+                        words.append(f"{path.name} is missing")
+                    elif other.read_bytes() != path.read_bytes():
+                        words.append(f"{path.name} is not that of an undisturbed run")
+                if (folder/"results"/"deck.checkpoint").exists():
+                    words.append("the checkpoint is left behind")
+                places = ", ".join(f"{delay:.2f}" for delay in delays)
+                self.part.count(f"{name} interrupted after {places} of {length:.2f} s and resumed", words)
+        self.notes.append(f"{found} of {times*len(TO_RESUME)} resumed runs found finished loads")
+
     def two_runs(self):
         for _ in range(2 if self.quick else 10):
             folder = self.folder()
@@ -212,7 +265,8 @@ class Faults:
             for process in processes:
                 words += complaints_about(self.outcome(process), (0,), seconds=60)
             self.part.count("three runs into one directory", words + whole(folder, self.reference) +
-                            ([] if (folder/"results"/"deck.map.dat").exists() else ["a table is missing"]))
+                            ([] if (folder/"results"/"deck.map.dat").exists() else ["a table is missing"]) +
+                            (["a checkpoint is left"] if (folder/"results"/"deck.checkpoint").exists() else []))
 
     def memory(self):
         megabyte = 1000000
@@ -285,6 +339,7 @@ def campaign(program, seed, quick, work, _failures):
     faults.full_disk()
     faults.directories()
     faults.signals()
+    faults.resumed()
     faults.two_runs()
     faults.memory()
     faults.environments()
