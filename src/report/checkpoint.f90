@@ -109,7 +109,15 @@ contains
       integer, intent(in) :: load             !! its place in the deck
       type(contact_state), intent(in) :: state
 
-      if (self%opened) call put(self, words_of_state(load, state))
+      integer(int64), allocatable :: words(:)
+
+      if (.not. self%opened) return
+      call words_of_state(load, state, words)
+      if (allocated(words)) then
+         call put(self, words)
+      else
+         call give_up(self)
+      end if
    end subroutine add
 
    !> Ends the checkpoint: the tables hold all. That of another run is left to it.
@@ -123,7 +131,6 @@ contains
       call give_up(self)
       open (newunit=unit, file=self%name, access='stream', form='unformatted', status='old', action='read', iostat=status)
       if (status /= 0) return
-      read (unit, iostat=status, pos=len(mark) + 1)
       call get(unit, len(mark) + 1_int64, run, whole)
       close (unit)
       if (.not. whole .or. size(run) /= size(self%run)) return

@@ -87,18 +87,19 @@ contains
    end function text_of_words
 
    !> All of a state but the answers of the solvers whose loads are solved again: a series' and an expansion's.
-   pure function words_of_state(load, state) result(words)
+   pure subroutine words_of_state(load, state, words)
       integer, intent(in) :: load
       type(contact_state), intent(in) :: state
-      integer(int64), allocatable :: words(:)
+      integer(int64), allocatable, intent(out) :: words(:)   !! not allocated if there is not the memory
 
-      integer :: i, j, points(2)
+      integer :: i, j, points(2), status
       character(text_bytes) :: texts(2)
 
       points = 0
       if (allocated(state%edge)) points = shape(state%edge%pressure_or_gap)
       texts = [character(text_bytes) :: state%solver, state%status]
-      allocate (words(fixed_words + product(points)))
+      allocate (words(fixed_words + product(points)), stat=status)
+      if (status /= 0) return
       associate (measures => state%measures)
          words(:fixed_words) = [ &
             int(load, int64), transfer([state%pbar_over_pstar, &
@@ -115,7 +116,7 @@ contains
             words(fixed_words + (j - 1)*points(1) + i) = transfer(state%edge%pressure_or_gap(i, j), 0_int64)
          end do
       end do
-   end function words_of_state
+   end subroutine words_of_state
 
    !> The state again.
    pure subroutine state_of_words(words, load, state, understood)

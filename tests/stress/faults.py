@@ -222,7 +222,7 @@ class Faults:
     def resumed(self):
         """Sweeps that are interrupted, some twice or thrice, and resumed, to the same tables byte by byte."""
         found = 0
-        times = 4 if self.quick else 40
+        times = 4 if self.quick else 15
         for name, text in TO_RESUME.items():
             undisturbed = self.folder(text)
             process = self.start(undisturbed)
