@@ -50,8 +50,10 @@ def decks(quick):
             if n < points <= 4000//n:  # bounded work
                 method = f"harmonics = {n}, constraint_points = {points}"
                 yield f"harmonics-2d-{n}-{points}", deck("wave_2d", ("0.9", "0.3", "1e-6"), method), None
-
-
+    for power in (2, 9) if quick else range(1, 17):
+        yield (f"flat-crest-1e-{power}", f"&surface kind = 'crossed_1d', amplitude1 = 1e-{power}, wavelength1 = 1, "
+               "amplitude2 = 1, wavelength2 = 1 /\n&load pbar_over_pstar = 1e-5, 1e-3, 0.05, 0.25, 0.7 /\n"
+               "&method accuracy = 0.1 /\n", None)
     for power in () if quick else (1, 2, 4, 8, 16):
         yield (f"long-cell-1e{power}", "&surface kind = 'crossed_1d', amplitude1 = 1, wavelength1 = 1, amplitude2 = 1, "
                f"wavelength2 = 1e{power} /\n&load pbar_over_pstar = 0.5 /\n&method accuracy = 0.1 /\n", None)
