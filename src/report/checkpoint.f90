@@ -224,8 +224,10 @@ contains
       read (unit, iostat=status) start
       if (status /= 0) start = ''
       place = len(mark) + 1
-      if (start == mark) call next()
-      if (start == mark .and. size(words) > 0) call next()
+      if (start == mark) then
+         call next()
+         if (size(words) > 0) call next()
+      end if
       if (start /= mark) then
          call fatal_error(error, exit_bad_input, escaped(name)//': this is no checkpoint of this version of wavycon'//way_out)
       else if (size(words) == 0) then
