@@ -76,9 +76,10 @@ contains
       end select
    end subroutine solve_one
 
-   !> Brings a solver to where it was after a load. Only those that start each load from the one before have to go the way
-   !> again: the series' and the expansions' last digits, and their pivots, depend on it. What takes long are grids, and these
-   !> are left out, but where an expansion's loads were looked for with their help.
+   !> Brings a solver to where it was after a load. Only those that start each load from the one before have
+   !> to go the way again: the series' and the expansions' last digits, and their pivots, depend on it. What
+   !> takes long are grids, and these are left out, but where an expansion's loads were looked for with their
+   !> help.
    subroutine retrace(solver, loads_by, target, state)
       class(contact_solver), intent(inout) :: solver
       integer, intent(in) :: loads_by

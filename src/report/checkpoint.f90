@@ -1,11 +1,12 @@
 !> <case>.checkpoint: the loads of a sweep that are finished, from its beginning until its tables are written.
 !>
-!> First a mark, then frames: the number of words, its complement, the words and their checksum. The first frame tells the run
-!> apart from all others, the second says what is being solved, each further one is a load. What an interruption left of a
-!> last frame is not looked at; anything else that does not fit is damage.
+!> First a mark, then frames: the number of words, its complement, the words and their checksum. The first
+!> frame tells the run apart from all others, the second says what is being solved, each further one is a
+!> load. What an interruption left of a last frame is not looked at; anything else that does not fit is
+!> damage.
 !>
-!> Runs side by side do not mix: each has a file of its own, which got its name when it was whole and loses it, to the next run
-!> that begins, without being written into by it.
+!> Runs side by side do not mix: each has a file of its own, which got its name when it was whole and loses
+!> it, to the next run that begins, without being written into by it.
 module wavycon_checkpoint
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_checkpoint_words, only: checksum, state_of_words, surface_checksum, text_of_words, words_of_state, &
@@ -61,8 +62,8 @@ contains
       name = results%directory//'/.'//trim(results%deck%scene%case)//'.'//kind//'.'//integer_text(process_id())//'.part'
    end function working_name
 
-   !> Begins a checkpoint with the loads that are known already; one that is there is replaced. A checkpoint that cannot be
-   !> written is no reason not to solve: `is_kept` tells.
+   !> Begins a checkpoint with the loads that are known already; one that is there is replaced. A checkpoint
+   !> that cannot be written is no reason not to solve: `is_kept` tells.
    subroutine begin(self, results, known)
       class(checkpoint_file), intent(out) :: self
       type(results_type), intent(in) :: results   !! in a directory that is there
@@ -146,8 +147,8 @@ contains
       self%opened = .false.
    end subroutine give_up
 
-   !> Writes a frame, and sees that it is there: on a full disk gfortran 12 reports nothing. Nor is more written when another
-   !> run's checkpoint has taken the place.
+   !> Writes a frame, and sees that it is there: on a full disk gfortran 12 reports nothing. Nor is more
+   !> written when another run's checkpoint has taken the place.
    subroutine put(self, words)
       type(checkpoint_file), intent(inout) :: self
       integer(int64), intent(in) :: words(:)
@@ -194,8 +195,8 @@ contains
       allocate (words(0))
    end subroutine get
 
-   !> Takes the finished loads of an interrupted run. Errors: exit_bad_input for a checkpoint of something else, or damaged;
-   !> exit_file_trouble.
+   !> Takes the finished loads of an interrupted run. Errors: exit_bad_input for a checkpoint of something
+   !> else, or damaged; exit_file_trouble.
    subroutine read_checkpoint(results, known, found, error)
       type(results_type), intent(inout) :: results   !! `states` are those of the loads that are known
       logical, intent(out) :: known(:)                !! the loads found, in the deck's order
@@ -268,8 +269,8 @@ contains
 
    end subroutine read_checkpoint
 
-   !> What is being solved: the program, the deck but for where it lies and where the results go, and the surface, whose
-   !> heights may come from a file. Empty if it cannot be written.
+   !> What is being solved: the program, the deck but for where it lies and where the results go, and the
+   !> surface, whose heights may come from a file. Empty if it cannot be written.
    subroutine describe(results, text)
       type(results_type), intent(in) :: results
       character(:), allocatable, intent(out) :: text

@@ -12,8 +12,8 @@ module wavycon_checkpoint_words
    public :: checksum, state_of_words, surface_checksum, text_of_words, words_of_state, words_of_text
 
    integer, parameter :: bytes_of_word = 8
-   !> Words of a state: its load's number, P, eight measures, three numbers of the solver's work, two texts, and of
-   !> the grid that follows its size, none if there is none, and whether it is that of a quarter.
+   !> Words of a state: its load's number, P, eight measures, three numbers of the solver's work, two texts,
+   !> and of the grid that follows its size, none if there is none, and whether it is that of a quarter.
    integer, parameter :: fixed_words = 20
    integer, parameter :: text_bytes = 16
 
@@ -86,7 +86,8 @@ contains
       text = trim(transfer(words, repeat(' ', bytes_of_word*size(words))))
    end function text_of_words
 
-   !> All of a state but the answers of the solvers whose loads are solved again: a series' and an expansion's.
+   !> All of a state but the answers of the solvers whose loads are solved again: a series' and an
+   !> expansion's.
    pure subroutine words_of_state(load, state, words)
       integer, intent(in) :: load
       type(contact_state), intent(in) :: state
