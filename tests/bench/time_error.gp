@@ -14,7 +14,7 @@ set style line 24 lc rgb red lw 1.4 dt solid pt 5 ps 0.7*mark
 set style line 25 lc rgb black lw 1.2 dt (7, 4) pt 8 ps 0.9*mark
 set style line 26 lc rgb grey lw 1.6 dt solid pt 13 ps 0.9*mark
 
-left = 0.08
+left = 0.095
 right = 0.99
 bottom = 0.085
 top = 0.9
@@ -54,7 +54,7 @@ do for [row = 1:3] {
       set tmargin at screen y + high
       set format y (panel == 1 ? '10^{%T}' : '')
       set format x (row == 3 ? '10^{%T}' : '')
-      set ylabel (panel == 1 ? '{/*0.85 error of '.quantity[row].'}' : '') offset 1, 0
+      set ylabel (panel == 1 ? '{/*0.85 error of '.quantity[row].'}' : '') offset 1.6, 0
       set xlabel (row == 3 ? '{/*0.85 time / ms}' : '') offset 0, 0.3
       unset label
       if (row == 1) {
