@@ -81,23 +81,10 @@ contains
 
       if (fftw_alignment_of(field) /= 0) then
          allocate (aligned, source=field)
-         call transform(aligned)
+         call execute(self, aligned, forwards=.true.)
       else
-         call transform(field)
+         call execute(self, field, forwards=.true.)
       end if
-
-   contains
-
-      subroutine transform(values)
-         real(c_double), intent(inout) :: values(:, :)
-
-         if (self%even) then
-            call fftw_execute_r2r(self%forward_plan, values, self%cosines)
-         else
-            call fftw_execute_dft_r2c(self%forward_plan, values, self%waves)
-         end if
-      end subroutine transform
-
    end subroutine forward
 
    !> From the spectrum, which is lost, to `factor` times its field.
@@ -109,25 +96,28 @@ contains
 
       if (fftw_alignment_of(field) /= 0) then
          allocate (aligned, mold=field)
-         call transform(aligned)
+         call execute(self, aligned, forwards=.false.)
          field = aligned
       else
-         call transform(field)
+         call execute(self, field, forwards=.false.)
       end if
-
-   contains
-
-      subroutine transform(values)
-         real(c_double), intent(inout) :: values(:, :)
-
-         if (self%even) then
-            call fftw_execute_r2r(self%backward_plan, self%cosines, values)
-         else
-            call fftw_execute_dft_c2r(self%backward_plan, self%waves, values)
-         end if
-      end subroutine transform
-
    end subroutine backward
+
+   subroutine execute(self, field, forwards)
+      type(grid_transform), intent(inout) :: self
+      real(c_double), intent(inout), contiguous :: field(:, :)   !! where FFTW's vectors may start
+      logical, intent(in) :: forwards
+
+      if (self%even .and. forwards) then
+         call fftw_execute_r2r(self%forward_plan, field, self%cosines)
+      else if (self%even) then
+         call fftw_execute_r2r(self%backward_plan, self%cosines, field)
+      else if (forwards) then
+         call fftw_execute_dft_r2c(self%forward_plan, field, self%waves)
+      else
+         call fftw_execute_dft_c2r(self%backward_plan, self%waves, field)
+      end if
+   end subroutine execute
 
    !> The series that takes the values of a field on the points.
    subroutine series(self, field, answer)

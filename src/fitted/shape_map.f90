@@ -47,7 +47,18 @@ contains
       class(shape_map), intent(in) :: self
       complex(dp), intent(in) :: w
 
-      complex(dp) :: power, slope, step
+      complex(dp) :: slope
+
+      slope = conjugate_slope(self, w)
+      jacobian = self%b(0)**2 - (slope%re**2 + slope%im**2)
+   end function jacobian
+
+   !> dz/d conj(w) [s].
+   elemental complex(dp) function conjugate_slope(self, w) result(slope)
+      type(shape_map), intent(in) :: self
+      complex(dp), intent(in) :: w
+
+      complex(dp) :: power, step
       integer :: k
 
       slope = 0.0_dp
@@ -57,8 +68,7 @@ contains
          slope = slope + (self%fold*k - 1)*self%b(k)*power
          power = power*step
       end do
-      jacobian = self%b(0)**2 - (slope%re**2 + slope%im**2)
-   end function jacobian
+   end function conjugate_slope
 
    !> The same with its derivatives with the coefficients.
    pure subroutine linearise_jacobian(self, w, jacobian, derivative)
@@ -126,7 +136,7 @@ contains
       integer, parameter :: most_steps = 40
       !> Of b_0: what rounding leaves.
       real(dp), parameter :: tolerance = 64*epsilon(1.0_dp)
-      complex(dp) :: edge, left, power, slope, step
+      complex(dp) :: edge, left, slope, step
       real(dp) :: angle, bend, direction, turn
       integer :: i, k
 
@@ -152,13 +162,7 @@ contains
       w = w*min(abs(z)/abs(edge), 1.2_dp)
       do i = 1, most_steps
          left = z - self%place(w)
-         slope = 0.0_dp
-         step = conjg(w)**self%fold
-         power = conjg(w)**(self%fold - 2)
-         do k = 1, ubound(self%b, 1)
-            slope = slope + (self%fold*k - 1)*self%b(k)*power
-            power = power*step
-         end do
+         slope = conjugate_slope(self, w)
          bend = self%b(0)**2 - (slope%re**2 + slope%im**2)
          if (.not. bend > 1e-3_dp*self%b(0)**2 .or. .not. abs(w) < 4.0_dp) return
          step = (self%b(0)*left - slope*conjg(left))/bend

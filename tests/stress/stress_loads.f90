@@ -4,6 +4,7 @@
 !> usage: stress_loads DIMENSION HARMONICS POINTS SYMMETRY FOLDER   answers that fail are saved in FOLDER
 program stress_loads
    use, intrinsic :: iso_fortran_env, only: int64
+   use command_words, only: number, word
    use stress_kkt_in_quad, only: check_in_quad, kkt_type
    use stress_problem_file, only: write_problem
    use wavycon_beale, only: beale_solver
@@ -73,27 +74,5 @@ program stress_loads
          size(problem%linear), size(problem%bounds), qp_status_name(solution%status), verdict, kkt%stationarity, &
          kkt%feasibility, kkt%sign, kkt%complementarity, solution%kkt_residual, solution%pivots, seconds
    end do
-
-contains
-
-   function word(i)
-      integer, intent(in) :: i
-      character(:), allocatable :: word
-
-      integer :: length
-
-      call get_command_argument(i, length=length)
-      allocate (character(length) :: word)
-      call get_command_argument(i, word)
-   end function word
-
-   integer function number(i)
-      integer, intent(in) :: i
-
-      character(:), allocatable :: text
-
-      text = word(i)
-      read (text, *) number
-   end function number
 
 end program stress_loads

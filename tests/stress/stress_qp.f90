@@ -4,6 +4,7 @@
 !>        stress_qp FILE                               a case that was saved
 program stress_qp
    use, intrinsic :: iso_fortran_env, only: int64
+   use command_words, only: number, word
    use stress_exact_programme, only: bad_start, kind_names, make_programme, nearly_parallel, &
                                      programme_type, random_recipe, recipe_type
    use stress_kkt_in_quad, only: check_in_quad, kkt_type
@@ -149,25 +150,5 @@ contains
       write (*, '(4(a, es10.2e3))') 'in quadruple precision: stationarity ', kkt%stationarity, ', feasibility ', &
          kkt%feasibility, ', sign ', kkt%sign, ', complementarity ', kkt%complementarity
    end subroutine run_file
-
-   function word(i)
-      integer, intent(in) :: i
-      character(:), allocatable :: word
-
-      integer :: length
-
-      call get_command_argument(i, length=length)
-      allocate (character(length) :: word)
-      call get_command_argument(i, word)
-   end function word
-
-   integer function number(i)
-      integer, intent(in) :: i
-
-      character(:), allocatable :: text
-
-      text = word(i)
-      read (text, *) number
-   end function number
 
 end program stress_qp
