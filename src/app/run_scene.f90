@@ -19,7 +19,7 @@ module wavycon_run_scene
    use wavycon_scene, only: scene_type
    use wavycon_solve_loads, only: solve_loads
    use wavycon_summary_table, only: write_summary_table
-   use wavycon_system, only: make_directories, path_kind, path_other
+   use wavycon_system, only: make_directories
    use wavycon_theory_table, only: write_theory_table
    implicit none (type, external)
    private
@@ -120,15 +120,10 @@ contains
       integer :: status
       type(output_file) :: file
 
-      if (path_kind(results%directory) == path_other) then
-         call fatal_error(error, exit_file_trouble, escaped(results%directory)// &
-                          ': the output directory cannot be made: a file of that name is in the way')
-         return
-      end if
       call make_directories(results%directory, failure)
       if (allocated(failure)) then
          call fatal_error(error, exit_file_trouble, escaped(results%directory)// &
-                          ': the output directory cannot be made: '//failure)
+                          ': the output directory cannot be made: '//escaped(failure))
          return
       end if
       call file%open(results%directory, trim(results%deck%scene%case)//'.resolved.nml')

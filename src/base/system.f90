@@ -109,7 +109,7 @@ contains
    !> Makes a directory and those above it.
    subroutine make_directories(path, failure)
       character(*), intent(in) :: path
-      character(:), allocatable, intent(out) :: failure  !! which part, and the system's words; not allocated if all is well
+      character(:), allocatable, intent(out) :: failure  !! which part, and what is in the way; not allocated if all is well
 
       integer :: i, number
 
@@ -118,10 +118,11 @@ contains
             if (path(i:i) /= '/') cycle
          end if
          number = int(c_make_directory(path(:i - 1)//c_null_char))
-         if (number /= 0) then
-            failure = path(:i - 1)//': '//error_text(number)
-            return
-         end if
+         if (number == 0) cycle
+         failure = path(:i - 1)//': '//error_text(number)
+         ! The system's word for that is 'File exists'.
+         if (path_kind(path(:i - 1)) == path_other) failure = path(:i - 1)//' is a file and no directory'
+         return
       end do
    end subroutine make_directories
 
