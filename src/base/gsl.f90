@@ -14,7 +14,7 @@ module wavycon_gsl
    public :: gsl_integration_qaws_table_alloc, gsl_integration_qaws_table_free, gsl_integration_qaws
    public :: gsl_integration_fixed_jacobi, gsl_integration_fixed_alloc, gsl_integration_fixed_free
    public :: gsl_integration_fixed_nodes, gsl_integration_fixed_weights
-   public :: gsl_set_error_handler, gsl_set_error_handler_off
+   public :: return_gsl_errors
 
    !> A real function of one real variable, with its parameters.
    type, bind(c) :: gsl_function
@@ -109,12 +109,6 @@ module wavycon_gsl
          type(c_ptr), value :: w
       end function gsl_integration_fixed_weights
 
-      !> Sets the handler of the library's errors; returns the one before.
-      type(c_funptr) function gsl_set_error_handler(new_handler) bind(c, name='gsl_set_error_handler')
-         import :: c_funptr
-         type(c_funptr), value :: new_handler
-      end function gsl_set_error_handler
-
       !> Makes errors come back as statuses instead of ending the program; returns the handler before.
       type(c_funptr) function gsl_set_error_handler_off() bind(c, name='gsl_set_error_handler_off')
          import :: c_funptr
@@ -128,5 +122,15 @@ module wavycon_gsl
          integer(c_size_t), value :: stride, n
       end subroutine gsl_sort_index
    end interface
+
+contains
+
+   !> Makes the library's errors come back as statuses and null pointers: its own handler would end the program. Whoever
+   !> calls what can fail calls this first; again it changes nothing.
+   subroutine return_gsl_errors()
+      type(c_funptr) :: previous_handler
+
+      previous_handler = gsl_set_error_handler_off()
+   end subroutine return_gsl_errors
 
 end module wavycon_gsl

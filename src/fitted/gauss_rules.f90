@@ -1,8 +1,9 @@
 !> Gauss quadrature with the weights of Jacobi's polynomials.
 module wavycon_gauss_rules
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_c_binding, only: c_associated, c_f_pointer, c_ptr, c_size_t
    use wavycon_gsl, only: gsl_integration_fixed_alloc, gsl_integration_fixed_free, &
-      gsl_integration_fixed_jacobi, gsl_integration_fixed_nodes, gsl_integration_fixed_weights
+      gsl_integration_fixed_jacobi, gsl_integration_fixed_nodes, gsl_integration_fixed_weights, return_gsl_errors
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
@@ -11,7 +12,8 @@ module wavycon_gauss_rules
 
 contains
 
-   !> Nodes and weights for the weight (1 - x)^right_power (1 + x)^left_power on -1 <= x <= 1.
+   !> Nodes and weights for the weight (1 - x)^right_power (1 + x)^left_power on -1 <= x <= 1; not numbers, if there
+   !> is no such rule or not the memory: what is solved with them is then found not to be finite.
    subroutine gauss_jacobi(right_power, left_power, nodes, weights)
       real(dp), intent(in) :: right_power, left_power        !! > -1
       real(dp), intent(out) :: nodes(:), weights(:)          !! shape (n), n >= 1
@@ -19,13 +21,12 @@ contains
       type(c_ptr) :: workspace
       real(dp), pointer :: values(:)
 
+      call return_gsl_errors()
       workspace = gsl_integration_fixed_alloc(gsl_integration_fixed_jacobi, size(nodes, kind=c_size_t), &
          -1.0_dp, 1.0_dp, right_power, left_power)
-      ! A null pointer comes only where memory is short, and then only if GSL's own handler, which ends the
-      ! program, is off.
       if (.not. c_associated(workspace)) then
-         nodes = 0.0_dp
-         weights = 0.0_dp
+         nodes = ieee_value(nodes, ieee_quiet_nan)
+         weights = nodes
          return
       end if
       call c_f_pointer(gsl_integration_fixed_nodes(workspace), values, shape(nodes))

@@ -1,11 +1,11 @@
 !> Definite integrals, with algebraic singularities at the ends where there are any, by GSL's QAWS.
 module wavycon_quadrature
-   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_funloc, c_funptr, c_int, &
-      c_loc, c_ptr, c_size_t
+   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_funloc, c_int, c_loc, c_ptr, &
+      c_size_t
    use wavycon_error, only: error_type, exit_not_converged, fatal_error
    use wavycon_gsl, only: gsl_function, gsl_integration_qaws, gsl_integration_qaws_table_alloc, &
       gsl_integration_qaws_table_free, gsl_integration_workspace_alloc, gsl_integration_workspace_free, &
-      gsl_set_error_handler, gsl_set_error_handler_off
+      return_gsl_errors
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
@@ -48,7 +48,6 @@ contains
 
       type(callback_data), target :: data
       type(gsl_function) :: function
-      type(c_funptr) :: previous_handler
       type(c_ptr) :: table, workspace
       real(c_double) :: alpha, beta, error_estimate
       integer(c_int) :: status
@@ -69,8 +68,7 @@ contains
       function%function = c_funloc(evaluate)
       function%params = c_loc(data)
 
-      ! GSL's own handler would abort the program.
-      previous_handler = gsl_set_error_handler_off()
+      call return_gsl_errors()
       table = gsl_integration_qaws_table_alloc(alpha, beta, 0_c_int, 0_c_int)
       workspace = gsl_integration_workspace_alloc(most_intervals)
       if (c_associated(table) .and. c_associated(workspace)) then
@@ -88,7 +86,6 @@ contains
       ! GSL's free takes null pointers.
       call gsl_integration_workspace_free(workspace)
       call gsl_integration_qaws_table_free(table)
-      previous_handler = gsl_set_error_handler(previous_handler)
    end subroutine integrate
 
    !> What GSL calls.
