@@ -26,7 +26,7 @@ program stress_loads
    type(kkt_type) :: kkt
    type(qp_problem) :: problem
    type(qp_solution) :: solution
-   character(:), allocatable :: verdict
+   character(7) :: verdict
    character(40) :: name
    integer :: dimension, harmonics, i, points, symmetry
    integer(int64) :: begun, ended, rate
@@ -71,7 +71,7 @@ program stress_loads
          call write_problem(word(5)//'/case-'//word(4)//'-'//trim(name), problem, problem%bounds)
       end if
       write (*, '(es24.16, 4("|", i0), 2("|", a), 5("|", es10.2e3), "|", i0, "|", f0.3)') loads(i), dimension, harmonics, &
-         size(problem%linear), size(problem%bounds), qp_status_name(solution%status), verdict, kkt%stationarity, &
+         size(problem%linear), size(problem%bounds), qp_status_name(solution%status), trim(verdict), kkt%stationarity, &
          kkt%feasibility, kkt%sign, kkt%complementarity, solution%kkt_residual, solution%pivots, seconds
    end do
 

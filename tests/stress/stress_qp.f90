@@ -20,13 +20,11 @@ program stress_qp
    !> measure.
    real(dp), parameter :: promised_residual = 1e-12_dp
 
-   character(:), allocatable :: folder
    integer :: case
 
    if (command_argument_count() == 1) then
       call run_file(word(1))
    else if (command_argument_count() == 5) then
-      folder = word(5)
       do case = number(2), number(3)
          call run_case(number(1), case, number(4))
       end do
@@ -85,7 +83,7 @@ contains
       if (solution%status == qp_infeasible .and. wanted == qp_converged) verdict = 'wrong'
       if (verdict /= 'passed') then
          write (name, '(i0)') case
-         call write_problem(folder//'/case-'//trim(name)//'.qp', programme%problem, &
+         call write_problem(word(5)//'/case-'//trim(name)//'.qp', programme%problem, &
                             start_bounds(recipe%kind, programme%problem))
       end if
       write (*, '(i0, "|", a, 4("|", i0), 3("|", a), 7("|", es10.2e3), "|", i0, "|", f0.3)') case, &
