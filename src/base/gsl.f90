@@ -125,8 +125,8 @@ module wavycon_gsl
 
 contains
 
-   !> Makes the library's errors come back as statuses and null pointers: its own handler would end the program. Whoever
-   !> calls what can fail calls this first; again it changes nothing.
+   !> Makes the library's errors come back as statuses and null pointers: its own handler would end the program.
+   !> Whoever calls what can fail calls this first; a second time changes nothing.
    subroutine return_gsl_errors()
       type(c_funptr) :: previous_handler
 

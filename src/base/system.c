@@ -1,7 +1,6 @@
 /* The few calls to the operating system that Fortran has no word for. */
 #define _XOPEN_SOURCE 700
 #include <errno.h>
-#include <fenv.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,13 +9,15 @@
 #include <sys/types.h>
 #include <unistd.h>
 
-/* 0 nothing there, 1 a directory, 2 something else. */
+/* 0 nothing there, 1 a directory, 2 a file, 3 a pipe or a device, 4 the system does not say. */
 int wavycon_path_kind(const char *path)
 {
     struct stat info;
     if (stat(path, &info) != 0)
-        return 0;
-    return S_ISDIR(info.st_mode) ? 1 : 2;
+        return errno == ENOENT || errno == ENOTDIR ? 0 : 4;
+    if (S_ISDIR(info.st_mode))
+        return 1;
+    return S_ISREG(info.st_mode) ? 2 : 3;
 }
 
 /* Bytes of a file, as the system sees it; -1 if there is none. */
@@ -126,10 +127,6 @@ void wavycon_full_path(const char *path, char *full, size_t length)
 size_t wavycon_parse_number(const char *text, double *value)
 {
     char *end;
-    fenv_t environment;
-    /* A number too large is an infinity and no exception, in builds that trap those. */
-    feholdexcept(&environment);
     *value = strtod(text, &end);
-    fesetenv(&environment);
     return (size_t)(end - text);
 }

@@ -9,7 +9,8 @@ module wavycon_system
    public :: outlive_file_size_limit, parse_number, process_id, stdout_is_terminal
 
    !> What `path_kind` can answer.
-   integer, parameter, public :: path_absent = 0, path_directory = 1, path_other = 2
+   integer, parameter, public :: path_absent = 0, path_directory = 1, path_file = 2, path_device = 3, &
+                                 path_unknown = 4
 
    interface
       integer(c_int) function c_path_kind(path) bind(c, name='wavycon_path_kind')
@@ -54,6 +55,7 @@ module wavycon_system
       end function c_stdout_is_terminal
 
       !> The number that a text begins with. Returns how many bytes it takes, 0 if it is none.
+      !> N.B. One too large is an infinity, and overflow is signalled.
       integer(c_size_t) function parse_number(text, value) bind(c, name='wavycon_parse_number')
          import :: c_char, c_double, c_size_t
          character(kind=c_char), intent(in) :: text(*)   !! ended by a null character
@@ -90,7 +92,8 @@ contains
       if (full == '') full = path
    end function full_path
 
-   !> Whether a path names nothing, a directory or something else.
+   !> Whether a path names nothing, a directory, a file or something else (a pipe, a device); unknown, if the system
+   !> refuses to say.
    integer function path_kind(path)
       character(*), intent(in) :: path
 
@@ -109,7 +112,8 @@ contains
    !> Makes a directory and those above it.
    subroutine make_directories(path, failure)
       character(*), intent(in) :: path
-      character(:), allocatable, intent(out) :: failure  !! which part, and what is in the way; not allocated if all is well
+      character(:), allocatable, intent(out) :: failure
+         !! which part, and what is in the way; not allocated if all is well
 
       integer :: i, number
 
@@ -121,7 +125,8 @@ contains
          if (number == 0) cycle
          failure = path(:i - 1)//': '//error_text(number)
          ! The system's word for that is 'File exists'.
-         if (path_kind(path(:i - 1)) == path_other) failure = path(:i - 1)//' is a file and no directory'
+         if (any(path_kind(path(:i - 1)) == [path_file, path_device])) &
+            failure = path(:i - 1)//' is a file and no directory'
          return
       end do
    end subroutine make_directories

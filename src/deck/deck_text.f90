@@ -1,9 +1,7 @@
 !> The text of a deck file, and where in it a byte stands.
 module wavycon_deck_text
-   use, intrinsic :: iso_fortran_env, only: int64
-   use wavycon_error, only: error_type, exit_file_trouble, fatal_error
-   use wavycon_plain_text, only: escaped, integer_text, system_words
-   use wavycon_system, only: path_absent, path_directory, path_kind
+   use wavycon_error, only: error_type
+   use wavycon_file_bytes, only: byte_order_mark, read_file
    implicit none (type, external)
    private
 
@@ -24,7 +22,6 @@ module wavycon_deck_text
    end interface deck_text_type
 
    character(*), parameter :: line_feed = achar(10), carriage_return = achar(13)
-   character(*), parameter :: byte_order_mark = char(239)//char(187)//char(191)
 
    !> A file larger than this is no deck [byte]; the fullest deck allowed is a tenth of it.
    integer, parameter :: largest = 64*1024*1024
@@ -98,98 +95,16 @@ contains
       end do
    end subroutine line_bounds
 
-   !> Reads a file whole; all its errors have the status `exit_file_trouble`.
-   subroutine read_deck_text(path, text, error, most_bytes)
+   !> Reads a deck; all its errors have the status `exit_file_trouble`.
+   subroutine read_deck_text(path, text, error)
       character(*), intent(in) :: path
       type(deck_text_type), intent(out) :: text
       type(error_type), allocatable, intent(out) :: error
-      integer, intent(in), optional :: most_bytes   !! of a file that is no deck
 
       character(:), allocatable :: content
-      character(200) :: message
-      integer :: status, unit
 
-      select case (path_kind(path))
-      case (path_absent)
-         call trouble('there is no such file')
-         return
-      case (path_directory)
-         call trouble('this is a directory, not a file')
-         return
-      end select
-      open (newunit=unit, file=path, access='stream', form='unformatted', action='read', status='old', &
-         iostat=status, iomsg=message)
-      if (status /= 0) then
-         call trouble('cannot be opened: '//system_words(message))
-         return
-      end if
-      content = ''
-      if (present(most_bytes)) then
-         call read_bytes(unit, most_bytes, content, status, message)
-      else
-         call read_bytes(unit, largest, content, status, message)
-      end if
-      close (unit)
-      if (status /= 0) then
-         call trouble('cannot be read: '//system_words(message))
-         return
-      end if
-      text = deck_text_type(path, content)
-
-   contains
-
-      subroutine trouble(words)
-         character(*), intent(in) :: words
-
-         call fatal_error(error, exit_file_trouble, escaped(path)//': '//words)
-      end subroutine trouble
-
+      call read_file(path, largest, content, error)
+      if (.not. allocated(error)) text = deck_text_type(path, content)
    end subroutine read_deck_text
-
-   !> All the bytes of a file; a pipe, whose size is not known, is read a byte at a time.
-   subroutine read_bytes(unit, most, content, status, message)
-      integer, intent(in) :: unit, most
-      character(:), allocatable, intent(inout) :: content
-      integer, intent(out) :: status
-      character(*), intent(inout) :: message
-
-      character(1) :: byte
-      integer(int64) :: size_of_file
-      integer :: used
-
-      status = 0
-      inquire (unit=unit, size=size_of_file)
-      if (size_of_file > most) then
-         call too_large()
-      else if (size_of_file > 0) then
-         content = repeat(' ', int(size_of_file))
-         read (unit, iostat=status, iomsg=message) content
-      else
-         content = repeat(' ', 4096)
-         used = 0
-         do
-            read (unit, iostat=status, iomsg=message) byte
-            if (is_iostat_end(status)) exit
-            if (status /= 0) return
-            if (used == most) then
-               call too_large()
-               return
-            end if
-            if (used == len(content)) content = content//repeat(' ', used)
-            used = used + 1
-            content(used:used) = byte
-         end do
-         content = content(:used)
-         status = 0
-      end if
-
-   contains
-
-      subroutine too_large()
-         status = 1
-         message = 'it is larger than the '//integer_text(most/1024**2)//' MB allowed'
-      end subroutine too_large
-
-   end subroutine read_bytes
 
 end module wavycon_deck_text

@@ -1,14 +1,11 @@
 !> Height maps from files: gnuplot's matrix, or lines of x, y and z.
-!>
-!> What stands behind a '#' and empty lines are left out; numbers are parted by blanks, tabs, commas or semicolons.
 module wavycon_height_map_file
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use, intrinsic :: iso_c_binding, only: c_null_char
-   use wavycon_deck_text, only: deck_text_type, read_deck_text
-   use wavycon_error, only: error_type, exit_bad_input, fatal_error
+   use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
+   use wavycon_key_table, only: smallest_number
    use wavycon_kinds, only: dp
-   use wavycon_plain_text, only: escaped, excerpt, integer_text, short_number
-   use wavycon_system, only: parse_number
+   use wavycon_number_table, only: number_table, read_number_table
+   use wavycon_plain_text, only: escaped, integer_text, short_number
+   use wavycon_system, only: path_device, path_kind
    implicit none (type, external)
    private
 
@@ -25,14 +22,6 @@ module wavycon_height_map_file
    integer, parameter :: least_points = 4, most_points = 8192
    integer, parameter :: most_bytes = 2000000000
 
-   !> The numbers of a file, line by line.
-   type :: number_table
-      character(:), allocatable :: path
-      real(dp), allocatable :: values(:)
-      integer, allocatable :: first(:)   !! of each line that has numbers, its first; and one behind the last
-      integer, allocatable :: line(:)    !! of these lines, the number in the file
-   end type number_table
-
 contains
 
    !> Reads a map. Errors: exit_file_trouble if the file cannot be read, exit_bad_input if it is no map.
@@ -42,19 +31,20 @@ contains
       type(height_map_type), intent(out) :: map
       type(error_type), allocatable, intent(out) :: error
 
-      type(deck_text_type) :: text
       type(number_table) :: table
-      integer :: columns
 
-      call read_deck_text(path, text, error, most_bytes)
-      if (allocated(error)) return
-      call read_numbers(text, table, error)
+      ! A pipe may keep one waiting, a device never end, and neither can be read again from the resolved deck.
+      if (path_kind(path) == path_device) then
+         call fatal_error(error, exit_file_trouble, escaped(path)//': this is a pipe or a device, not a file')
+         return
+      end if
+      call read_number_table(path, most_bytes, table, error)
       if (allocated(error)) return
       map%format = format
       if (format == 'auto') then
-         columns = table%first(2) - table%first(1)
          map%format = 'matrix'
-         if (columns == 3 .and. size(table%line) > 3 .and. size(table%values) == 3*size(table%line)) map%format = 'xyz'
+         if (table%length(1) == 3 .and. table%rows() > 3 .and. size(table%values) == 3*table%rows()) &
+            map%format = 'xyz'
       end if
       if (map%format == 'xyz') then
          call take_points(table, map, error)
@@ -64,87 +54,6 @@ contains
       if (.not. allocated(error)) call check_size(path, map, error)
    end subroutine read_height_map
 
-   !> Errors: exit_bad_input for what is no finite number, and if there is none at all.
-   subroutine read_numbers(text, table, error)
-      type(deck_text_type), intent(inout) :: text   !! its content is ended by a null character
-      type(number_table), intent(out) :: table
-      type(error_type), allocatable, intent(out) :: error
-
-      character(*), parameter :: separators = ' ,;'//achar(9)
-      real(dp) :: value
-      integer :: first, last, length, line, place, lines, values
-
-      table%path = text%path
-      text%content = text%content//c_null_char
-      ! A number takes two bytes at least.
-      allocate (table%values(len(text%content)/2 + 1), table%first(size(text%line_start) + 1), &
-                table%line(size(text%line_start)))
-      lines = 0
-      values = 0
-      do line = 1, size(text%line_start)
-         call text%line_bounds(line, first, last)
-         if (last == len(text%content)) last = last - 1
-         if (lines > 0) then
-            if (table%first(lines) /= values + 1) lines = lines + 1
-         else
-            lines = 1
-         end if
-         table%first(lines) = values + 1
-         table%line(lines) = line
-         place = first
-         do while (place <= last)
-            if (text%content(place:place) == '#') exit
-            if (index(separators, text%content(place:place)) > 0) then
-               place = place + 1
-               cycle
-            end if
-            length = int(parse_number(text%content(place:), value))
-            if (.not. ends_there(place + length) .or. length == 0) then
-               call bad_number('is no number')
-               return
-            else if (.not. ieee_is_finite(value)) then
-               call bad_number('is no height: a map must be whole')
-               return
-            end if
-            values = values + 1
-            table%values(values) = value
-            place = place + length
-         end do
-      end do
-      if (values == 0) then
-         call fatal_error(error, exit_bad_input, escaped(text%path)//': there are no numbers in this file')
-         return
-      end if
-      if (table%first(lines) == values + 1) lines = lines - 1
-      table%first(lines + 1) = values + 1
-      table%values = table%values(:values)
-      table%first = table%first(:lines + 1)
-      table%line = table%line(:lines)
-
-   contains
-
-      pure logical function ends_there(behind)
-         integer, intent(in) :: behind
-
-         ends_there = behind > last
-         if (.not. ends_there) ends_there = index(separators//'#', text%content(behind:behind)) > 0
-      end function ends_there
-
-      subroutine bad_number(words)
-         character(*), intent(in) :: words
-
-         integer :: behind
-
-         behind = place
-         do while (.not. ends_there(behind))
-            behind = behind + 1
-         end do
-         call fatal_error(error, exit_bad_input, escaped(text%path)//':'//integer_text(line)//": '"// &
-                          excerpt(text%content(place:max(place, behind - 1)))//"' "//words)
-      end subroutine bad_number
-
-   end subroutine read_numbers
-
    !> A row a line. Errors: exit_bad_input for rows of unlike length.
    subroutine take_matrix(table, map, error)
       type(number_table), intent(in) :: table
@@ -153,15 +62,15 @@ contains
 
       integer :: columns, j
 
-      columns = table%first(2) - table%first(1)
-      do j = 2, size(table%line)
-         if (table%first(j + 1) - table%first(j) == columns) cycle
+      columns = table%length(1)
+      do j = 2, table%rows()
+         if (table%length(j) == columns) cycle
          call fatal_error(error, exit_bad_input, escaped(table%path)//':'//integer_text(table%line(j))//': this row has '// &
-                          integer_text(table%first(j + 1) - table%first(j))//' heights, the first has '// &
+                          integer_text(table%length(j))//' heights, the first has '// &
                           integer_text(columns)//": all must have the same number. Is it file_format = 'xyz'?")
          return
       end do
-      map%height = reshape(table%values, [columns, size(table%line)])
+      map%height = reshape(table%values, [columns, table%rows()])
    end subroutine take_matrix
 
    !> A point a line, x or y running first. Errors: exit_bad_input for what is no regular grid.
@@ -175,28 +84,27 @@ contains
       real(dp), allocatable :: xyz(:, :)
       integer :: fast, i, j, k, m, n, slow
 
-      do k = 1, size(table%line)
-         if (table%first(k + 1) - table%first(k) /= 3) then
-            call bad_line(k, 'this line has '//integer_text(table%first(k + 1) - table%first(k))// &
+      do k = 1, table%rows()
+         if (table%length(k) /= 3) then
+            call bad_line(k, 'this line has '//integer_text(table%length(k))// &
                           " numbers: file_format = 'xyz' wants x, y and z")
             return
          end if
       end do
-      allocate (xyz(3, size(table%line)), source=reshape(table%values, [3, size(table%line)]))
+      allocate (xyz(3, table%rows()), source=reshape(table%values, [3, table%rows()]))
       if (size(xyz, 2) < 2) then
          call bad_line(1, 'one point is no map')
          return
       end if
       fast = merge(1, 2, abs(xyz(1, 2) - xyz(1, 1)) > abs(xyz(2, 2) - xyz(2, 1)))
       slow = 3 - fast
-      map%step(fast) = xyz(fast, 2) - xyz(fast, 1)
-      m = 1
-      do while (m < size(xyz, 2))
-         if (.not. abs(xyz(fast, m + 1) - xyz(fast, 1) - m*map%step(fast)) <= tolerance*abs(map%step(fast))) exit
-         m = m + 1
-      end do
+      call take_steps(xyz(fast, :), m, map%step(fast))
       n = (size(xyz, 2) + m - 1)/m
-      if (m > 1 .and. n > 1) map%step(slow) = xyz(slow, m + 1) - xyz(slow, 1)
+      if (n > 1) call take_steps(xyz(slow, ::m), k, map%step(slow))
+      if (.not. abs(map%step(fast)) >= smallest_number) then
+         call bad_line(2, 'this point is where the first one is')
+         return
+      end if
       do k = 1, size(xyz, 2)
          i = modulo(k - 1, m)
          j = (k - 1)/m
@@ -206,8 +114,11 @@ contains
                        ' is out of step: the points must form a regular grid, '//integer_text(m)//' to a row as it seems')
          return
       end do
-      if (m*n /= size(xyz, 2)) then
-         call bad_line(size(table%line), 'the last row ends short: '//integer_text(size(xyz, 2))// &
+      if (n > 1 .and. .not. abs(map%step(slow)) >= smallest_number) then
+         call bad_line(m + 1, 'this point is where the first one is')
+         return
+      else if (m*n /= size(xyz, 2)) then
+         call bad_line(table%rows(), 'the last row ends short: '//integer_text(size(xyz, 2))// &
                        ' points are no multiple of the '//integer_text(m)//' of the first row')
          return
       end if
@@ -230,6 +141,24 @@ contains
       end subroutine bad_line
 
    end subroutine take_points
+
+   !> How many coordinates follow each other in steps, and the mean step: the rounding of a single one would add up.
+   pure subroutine take_steps(coordinate, number, step)
+      real(dp), intent(in) :: coordinate(:)   !! shape (n), n >= 2
+      integer, intent(out) :: number          !! >= 2
+      real(dp), intent(out) :: step
+
+      !> Of the first step.
+      real(dp), parameter :: tolerance = 0.1_dp
+
+      step = coordinate(2) - coordinate(1)
+      number = 2
+      do while (number < size(coordinate))
+         if (.not. abs(coordinate(number + 1) - coordinate(number) - step) <= tolerance*abs(step)) exit
+         number = number + 1
+      end do
+      step = (coordinate(number) - coordinate(1))/(number - 1)
+   end subroutine take_steps
 
    !> Errors: exit_bad_input for a map that is too small or too large.
    subroutine check_size(path, map, error)
