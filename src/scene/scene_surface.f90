@@ -1,11 +1,12 @@
 !> The surface that a deck describes.
 module wavycon_scene_surface
    use wavycon_deck, only: deck_type
-   use wavycon_error, only: error_type
+   use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_constants, only: pi
    use wavycon_height_map_file, only: height_map_type, read_height_map
+   use wavycon_key_table, only: largest_number, smallest_number
    use wavycon_kinds, only: dp
-   use wavycon_plain_text, only: escaped
+   use wavycon_plain_text, only: escaped, short_number
    use wavycon_surface, only: surface_of_points, surface_type
    use wavycon_system, only: full_path, path_absent, path_kind
    use wavycon_wave_surfaces, only: crossed_1d, hexagonal, wave_1d, wave_2d, wave_sum
@@ -57,19 +58,33 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(height_map_type) :: map
-      character(:), allocatable :: path
+      character(:), allocatable :: map_of, path
       real(dp) :: length(2)
 
       path = place_of_map(deck)
+      map_of = ' (the height map of '//escaped(deck%path)//')'
       call read_height_map(path, deck%surface%file_format, map, error)
       if (allocated(error)) then
-         error%message = error%message//' (the height map of '//escaped(deck%path)//')'
+         error%message = error%message//map_of
          return
       end if
       length = [deck%surface%length_x, deck%surface%length_y]
       if (all(map%step > 0.0_dp)) length = map%step*shape(map%height)
       if (map%step(1) > 0.0_dp .and. size(map%height, 2) == 1) length = map%step(1)*size(map%height, 1)
-      map%height = deck%surface%height_scale*(map%height - sum(map%height)/size(map%height))
+      if (maxval(map%height) <= minval(map%height)) then
+         ! Rounding of the mean is no roughness.
+         map%height = 0.0_dp
+      else
+         map%height = deck%surface%height_scale*(map%height - sum(map%height)/size(map%height))
+      end if
+      associate (largest => maxval(abs(map%height)))
+         if (largest > largest_number .or. (largest < smallest_number .and. largest > 0.0_dp)) then
+            call fatal_error(error, exit_bad_input, escaped(path)//': the heights over their mean, times '// &
+                             'height_scale, are up to '//short_number(largest)//' [length]: lengths may be '// &
+                             'from '//short_number(smallest_number)//' to '//short_number(largest_number)//map_of)
+            return
+         end if
+      end associate
       surface = surface_of_points(length, map%height)
       allocate (statistics)
       statistics%points = shape(map%height)
