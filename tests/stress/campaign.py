@@ -19,6 +19,7 @@ import builds as other_builds
 import extremes
 import faults as machine_faults
 import fuzz_decks
+import fuzz_maps
 import names
 import quadratic_programmes
 
@@ -43,9 +44,14 @@ def loads(settings, results):
 def decks(settings, results):
     for fuzz, amount in ((fuzz_decks.fuzz_checks, 150 if settings.quick else 5000),
                          (fuzz_decks.fuzz_monsters, 100000 if settings.quick else 10000000),
-                         (fuzz_decks.fuzz_runs, 30 if settings.quick else 500)):
+                         (fuzz_decks.fuzz_runs, 30 if settings.quick else 500),
+                         (fuzz_maps.fuzz_checks, 60 if settings.quick else 3000),
+                         (fuzz_maps.fuzz_runs, 20 if settings.quick else 500),
+                         (fuzz_maps.fuzz_monsters, 100000 if settings.quick else 10000000)):
         with work_folder() as work:
             yield fuzz(settings.program, settings.seed, amount, work, results)
+    with work_folder() as work:
+        yield fuzz_maps.odd_files(settings.program, work, results)
     with work_folder() as work:
         yield names.campaign(settings.program, ROOT/"scripts", settings.quick, work, results)
 

@@ -75,6 +75,16 @@ def run(arguments, folder, patience=PATIENCE, limits=(), environment=None, **opt
     return Outcome(process.returncode, stdout or b"", stderr or b"", time.monotonic() - begun, hung)
 
 
+def memory_limits(program, part, address_space):
+    """The limits of a run that may take no more than so many bytes; none where the program cannot even start with them: a
+    sanitizer reserves terabytes."""
+    limits = [(resource.RLIMIT_AS, address_space)]
+    if run([program, "--version"], "/", limits=limits).status == 0:
+        return limits
+    part.notes.append("memory is not bounded: the program does not start within the bound")
+    return []
+
+
 def complaints_about(outcome, statuses=(0, 1, 2, 3), seconds=SECONDS):
     """What no run may do, whatever its input."""
     words = []

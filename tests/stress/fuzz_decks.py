@@ -1,10 +1,9 @@
 """Decks that nobody would write: mutated bytes, words, groups and sizes. Every one ends with a status and clean words."""
 import random
 import re
-import resource
 import sys
 
-from common import SECONDS, Part, complaints_about, files_below, result_complaints, run, save
+from common import SECONDS, Part, complaints_about, files_below, memory_limits, result_complaints, run, save
 
 MEGABYTE = 1000000
 ADDRESS_SPACE = 4000*MEGABYTE  # of a run [byte]: a deck of 10 MB that takes more is out of hand
@@ -271,10 +270,11 @@ def message_complaints(outcome):
 def fuzz_monsters(program, seed, size, work, failures):
     """Large decks with --check, in bounded memory and time."""
     part = Part(f"decks of {size/MEGABYTE:g} MB, --check")
+    limits = memory_limits(program, part, ADDRESS_SPACE)
     slowest = ("", 0.0)
     for name, content in monsters(random.Random(f"{seed} monsters"), size):
         (work/"deck.nml").write_bytes(content)
-        outcome = run([program, "--check", "deck.nml"], work, limits=[(resource.RLIMIT_AS, ADDRESS_SPACE)])
+        outcome = run([program, "--check", "deck.nml"], work, limits=limits)
         complaints = complaints_about(outcome, (0, 1, 3)) + message_complaints(outcome)
         if len(outcome.stderr) > MEGABYTE:
             complaints.append(f"says {len(outcome.stderr)} bytes")

@@ -1,0 +1,474 @@
+"""Height maps that nobody would measure: mutated numbers, rows, columns, bytes and sizes, and what is no file.
+
+Every one ends with a status and clean words. What is accepted is read a second time, here: size, extremes and rms must
+be those that the log names."""
+import os
+import random
+import re
+import sys
+
+from common import Part, complaints_about, files_below, memory_limits, result_complaints, run, save
+from fuzz_decks import empty, mutate_bytes
+
+MEGABYTE = 1000000
+ADDRESS_SPACE = 4000*MEGABYTE  # of a run [byte]
+LARGE_SECONDS = 10.0  # for a map of a hundred megabytes
+LARGEST = 1e90
+LOG_TOLERANCE = 1e-5  # of the numbers of the log, which have six digits
+# Troubles of a file or of a map as a whole have no line.
+WITHOUT_LINE = re.compile(r"there are no numbers|a map of \d+ x \d+ points|the heights over their mean"
+                          r"|there is no such file|this is a (directory|pipe)|cannot be (opened|read)")
+# Too many points for a run to be short.
+MOST_POINTS = 4096
+
+NUMBERS = ["0", "-0", "1", "-1", "+1", "1e-12", "1e12", "1e90", "-1e90", "1.1e90", "1e300", "-1e308", "1e309", "1e-90",
+           "1e-300", "1e400", "-1e400", "1e-400", "4.9e-324", "2e-310", "nan", "NaN", "-nan", "nan(1)", "inf", "-Infinity",
+           "1d0", "1.D-3", ".5", "5.", ".", "1e", "1e+", "1+3", "0x10", "0x1p3", "1_8", "1,5", "-1,25", "1.0.0", "--1",
+           "3*1", "(1,2)", "1/2", "", "*", "1e99999", "0." + "9"*80, "9"*99, "9"*101, "1"*400, "½", "１", "NA", "null",
+           "'1'", "1\x0b", "1\x00", "\x1b[31m1", "x"]
+GAPS = [" ", "  ", "\t", ",", ", ", ";", " ; ", ",,", ";;", "\x0b", "\x0c", "\u00a0", "|", ":", "\x00", "#"]
+LINE_ENDS = ["\r\n", "\r", "\n\n", "\n \n", "\n# remark\n", "\x0b\n", "\x85", "\u2028", ""]
+
+
+def matrix(stream, columns, rows, gap=" "):
+    """Heights, a row a line."""
+    return "".join(gap.join(f"{stream.uniform(-1, 1):.6g}" for _ in range(columns)) + "\n" for _ in range(rows))
+
+
+def points(stream, m, n, digits=6):
+    """x, y and z, x or y running first, rising or falling, with or without empty lines."""
+    sign, first, blocks = stream.choice((1, -1)), stream.random() < 0.5, stream.random() < 0.5
+    step = stream.choice((1.0, 0.1, 1/3, 1e-6, 1e6))
+    text = ""
+    for j in range(n):
+        for i in range(m):
+            x, y = f"{sign*i*step:.{digits}e}", f"{3 + 2*j*step:.{digits}e}"
+            text += f"{x if first else y} {y if first else x} {stream.uniform(-1, 1):.6g}\n"
+        text += "\n" if blocks else ""
+    return text
+
+
+def fine_map(stream):
+    """A map as an instrument may write it."""
+    m, n = stream.choice(((4, 4), (5, 7), (8, 8), (9, 1), (13, 4), (16, 5), (31, 1)))
+    if n > 1 and stream.random() < 0.5:
+        return points(stream, m, n)
+    return matrix(stream, m, n, stream.choice((" ", " ", "\t", ",", ";", ", ")))
+
+
+def cells(text):
+    return [line.split() for line in text.split("\n")]
+
+
+def joined(rows):
+    return "\n".join(" ".join(row) for row in rows)
+
+
+def mutate_number(stream, text):
+    """Another number in the place of one."""
+    places = list(re.finditer(r"[^\s,;]+", text))
+    if not places:
+        return stream.choice(NUMBERS)
+    place = stream.choice(places)
+    return text[:place.start()] + stream.choice(NUMBERS) + text[place.end():]
+
+
+def mutate_row(stream, text):
+    """Numbers of a row left out or put in."""
+    rows = cells(text)
+    row = stream.choice(rows)
+    if row and stream.random() < 0.5:
+        del row[stream.randrange(len(row)):][:stream.randint(1, 3)]
+    else:
+        row[stream.randint(0, len(row)):0] = [stream.choice(NUMBERS)]*stream.randint(1, 5)
+    return joined(rows)
+
+
+def mutate_column(stream, text):
+    """A column left out, doubled, or put in."""
+    rows = cells(text)
+    column = stream.randrange(max(len(row) for row in rows) + 1)
+    action, number = stream.randrange(3), stream.choice(NUMBERS)
+    for row in rows:
+        if not row:
+            continue
+        if action == 0:
+            del row[column:column + 1]
+        elif action == 1:
+            row[column:column] = row[column:column + 1]
+        else:
+            row[column:column] = [number]
+    return joined(rows)
+
+
+def mutate_lines(stream, text):
+    """Lines left out, doubled, swapped, sorted, turned round, cut short."""
+    lines = text.split("\n")
+    i, j = stream.randrange(len(lines)), stream.randrange(len(lines))
+    action = stream.randrange(8)
+    if action == 0:
+        del lines[i:i + stream.randint(1, 4)]
+    elif action == 1:
+        lines[i:i] = lines[i:i + 1]*stream.randint(1, 4)
+    elif action == 2:
+        lines[i], lines[j] = lines[j], lines[i]
+    elif action == 3:
+        lines.sort()
+    elif action == 4:
+        stream.shuffle(lines)
+    elif action == 5:
+        lines.reverse()
+    elif action == 6:
+        lines = lines*stream.randint(2, 5)
+    else:
+        return text[:stream.randrange(len(text) + 1)]
+    return "\n".join(lines)
+
+
+def mutate_gap(stream, text):
+    """Something else between numbers: everywhere or once."""
+    if stream.random() < 0.5:
+        return re.sub(r"[ \t,;]+", lambda _: gap, text) if (gap := stream.choice(GAPS)) else text
+    places = list(re.finditer(r"[ \t,;]+", text))
+    if not places:
+        return text
+    place = stream.choice(places)
+    return text[:place.start()] + stream.choice(GAPS) + text[place.end():]
+
+
+def mutate_decimals(stream, text):
+    """Points as commas, exponents as Fortran writes them."""
+    return text.replace(*stream.choice(((".", ","), ("e", "d"), ("e", "D"), ("-", "−"), (".", ""))))
+
+
+def mutate_steps(stream, text):
+    """A column squared, scaled or moved: coordinates out of step."""
+    rows = cells(text)
+    column, size = stream.randrange(3), 10.0**stream.choice((-100, -9, -3, -1, 3, 9, 100))
+    action = stream.randrange(3)
+    for row in rows:
+        try:
+            value = float(row[column])
+        except (IndexError, ValueError):
+            continue
+        row[column] = repr((value*abs(value), value*size, value + size)[action])
+    return joined(rows)
+
+
+def mutate_remarks(stream, text):
+    """Remarks, empty lines and words."""
+    place = stream.randrange(len(text) + 1)
+    remark = stream.choice(["#", "\n#\n", "# 1 2 3\n", "\n\n\n", "x y z\n", "\n ,\n", "! 1\n", "// 1\n", '"', "%"])
+    return text[:place] + remark + text[place:]
+
+
+MUTATIONS = (mutate_number, mutate_number, mutate_number, mutate_row, mutate_column, mutate_lines, mutate_lines,
+             mutate_gap, mutate_decimals, mutate_steps, mutate_remarks)
+
+
+def mutated(stream, gently=False):
+    """A map after one mutation or a few."""
+    text = fine_map(stream)
+    for _ in range(stream.choice((0, 0, 1, 1, 2)) if gently else stream.choice((1, 1, 1, 2, 3, 6))):
+        text = stream.choice(MUTATIONS)(stream, text) or "\n"
+    if stream.random() < 0.1:
+        text = text.replace("\n", stream.choice(LINE_ENDS))
+    if stream.random() < 0.1:
+        text = text.rstrip("\n")
+    content = text.encode("utf-16" if stream.random() < 0.02 else "utf-8", "surrogatepass")
+    if stream.random() < 0.05:
+        content = b"\xef\xbb\xbf" + content
+    if stream.random() < (0.05 if gently else 0.25):
+        content = mutate_bytes(stream, content)
+    return content
+
+
+def deck(stream, name="heights.dat"):
+    """A deck for a map."""
+    scale = stream.choice(("", "", ", height_scale = 1e-9", ", height_scale = 1e85", ", height_scale = 1e-85"))
+    form = stream.choice(("", "", ", file_format = 'matrix'", ", file_format = 'xyz'"))
+    return (f"&surface kind = 'file', file = '{name}'{form}{scale}, length_x = 2 /\n"
+            f"&load pbar_over_pstar = 0.05, 0.7, 1.2 /\n&output lines = t, points_per_wavelength = 8 /\n")
+
+
+def second_reading(content, form):
+    """Points along x and y, lowest and highest height over their mean and rms of a map, None if it is no map to this
+    reader, which is more lenient than the program."""
+    text = content.decode(errors="replace").removeprefix("\ufeff")
+    lines = [re.split(r"[ \t,;]+", line.split("#")[0].strip(" \t,;")) for line in re.split("\r\n|\r|\n", text)]
+    try:
+        rows = [[float(word.lower().replace("d", "e")) for word in line] for line in lines if line != [""]]
+    except ValueError:
+        return None
+    if not rows or len({len(row) for row in rows}) > 1:
+        return None
+    if any(not abs(value) <= LARGEST for row in rows for value in row):
+        return None
+    shape = len(rows[0]), len(rows)
+    if form == "xyz":
+        # Either coordinate may run first.
+        if len(rows[0]) != 3:
+            return None
+        first = 0 if abs(rows[1][0] - rows[0][0]) > abs(rows[1][1] - rows[0][1]) else 1
+        step = rows[1][first] - rows[0][first]
+        row_length = 1
+        while step and row_length < len(rows) and (rows[row_length][first] - rows[row_length - 1][first])/step > 0:
+            row_length += 1
+        shape = row_length, len(rows)//row_length
+        shape = shape if first == 0 else shape[::-1]
+        rows = [[row[2]] for row in rows]
+    heights = [value for row in rows for value in row]
+    mean = sum(heights)/len(heights)
+    over = [value - mean for value in heights]
+    return shape, min(over), max(over), (sum(value*value for value in over)/len(over))**0.5
+
+
+def reading_complaints(outcome, content, text):
+    """Whether the log says of an accepted map what a second reader finds."""
+    match = re.search(r"^map +(\d+) x (\d+) points \((\w+)\), heights over their mean (\S+) to (\S+), rms (\S+) ",
+                      outcome.stdout.decode(errors="replace"), re.MULTILINE)
+    if not match:
+        return ["the log does not name the map"]
+    found = second_reading(content, match.group(3))
+    if not found:
+        return ["a second reader finds no map here"]
+    scale = re.search(r"height_scale = ([\d.e-]+)", text)
+    scale = float(scale.group(1)) if scale else 1.0
+    if (int(match.group(1)), int(match.group(2))) != found[0]:
+        return [f"a second reader finds {found[0][0]} x {found[0][1]} points"]
+    size = scale*max(abs(found[1]), abs(found[2]))
+    for word, value in zip(match.groups()[3:], found[1:]):
+        if abs(float(word) - scale*value) > LOG_TOLERANCE*size:
+            return [f"the log says {word}, a second reader {scale*value:.6g}"]
+    return []
+
+
+def message_complaints(outcome, content=b""):
+    """What is said of a map that is refused names it, or the deck, and the line where the trouble is in one."""
+    if outcome.status not in (1, 3):
+        return []
+    words = outcome.stderr.decode(errors="replace").splitlines()
+    if words and re.match(r"deck\.nml:\d+:\d+: error 1 of", words[0]):
+        return []
+    match = re.fullmatch(r"([^:]*)(?::(\d+))?: (.+) \(the height map of deck\.nml\)", words[0] if len(words) == 1 else "")
+    if not match:
+        return [f"no map is named: {' '.join(words)[:80]}"]
+    if match.group(2) is None and not WITHOUT_LINE.match(match.group(3)):
+        return [f"no line is named: {words[0][:80]}"]
+    if match.group(2) is not None and not 1 <= int(match.group(2)) <= 1 + content.count(b"\n") + content.count(b"\r"):
+        return [f"there is no line {match.group(2)}"]
+    return []
+
+
+def keep(failures, name, text, content):
+    """Keeps a failing case: a deck and its map."""
+    save(failures, f"{name}.nml", re.sub(r"file = '[^']*'", f"file = '{name}.dat'", text).encode())
+    save(failures, f"{name}.dat", content)
+
+
+def fuzz_checks(program, seed, count, work, failures):
+    """Mutated maps with --check."""
+    part = Part("mutated height maps, --check")
+    slowest, accepted = 0.0, 0
+    for i in range(count):
+        stream = random.Random(f"{seed} map {i}")
+        content, text = mutated(stream), deck(stream)
+        (work/"heights.dat").write_bytes(content)
+        (work/"deck.nml").write_text(text)
+        outcome = run([program, "--check", "deck.nml"], work)
+        complaints = complaints_about(outcome, (0, 1, 3)) + message_complaints(outcome, content)
+        made = files_below(work) - {"deck.nml", "heights.dat"}
+        if made:
+            complaints.append(f"--check makes {sorted(made)[0]}")
+        slowest = max(slowest, outcome.seconds)
+        accepted += outcome.status == 0
+        if not part.count(f"map-check-{i}.nml", complaints):
+            keep(failures, f"map-check-{i}", text, content)
+    part.worst = f"{accepted} accepted, {slowest:.2f} s"
+    return part
+
+
+def fuzz_runs(program, seed, count, work, failures):
+    """Maps of which most are still fine, solved; the resolved deck must give the same summary."""
+    part = Part("mutated height maps, run")
+    slowest, unsolved, refused, i = 0.0, 0, 0, 0
+    while part.tried < count:
+        i += 1
+        stream = random.Random(f"{seed} map run {i}")
+        content, text = mutated(stream, gently=True), deck(stream)
+        if len(content) > 20*MOST_POINTS:
+            continue
+        (work/"heights.dat").write_bytes(content)
+        (work/"deck.nml").write_text(text)
+        checked = run([program, "--check", "deck.nml"], work)
+        if checked.status != 0 and stream.random() < 0.9:
+            continue
+        outcome = run([program, "deck.nml"], work)
+        complaints = complaints_about(outcome) + message_complaints(outcome, content)
+        if checked.status != outcome.status and {checked.status, outcome.status} != {0, 2}:
+            complaints.append(f"--check ends with status {checked.status}, the run with {outcome.status}")
+        made = files_below(work) - {"deck.nml", "heights.dat"}
+        if outcome.status in (1, 3) and made:
+            complaints.append(f"refused, but makes {sorted(made)[0]}")
+        complaints += result_complaints(work, made)
+        if outcome.status in (0, 2):
+            complaints += reading_complaints(outcome, content, text)
+            again = run([program, "outputs/deck/deck.resolved.nml", "--output", "again"], work)
+            if again.status != outcome.status:
+                complaints.append(f"the resolved deck ends with status {again.status}")
+            elif rows(work/"again"/"deck.summary.dat") != rows(work/"outputs"/"deck"/"deck.summary.dat"):
+                complaints.append("the resolved deck gives another summary")
+        unsolved += outcome.status == 2
+        refused += outcome.status in (1, 3)
+        slowest = max(slowest, outcome.seconds)
+        if not part.count(f"map-run-{i}.nml", complaints):
+            keep(failures, f"map-run-{i}", text, content)
+        empty(work)
+    part.worst = f"{refused} refused, {unsolved} with status 2, {slowest:.2f} s"
+    return part
+
+
+def rows(path):
+    return [line for line in path.read_text().splitlines() if not line.startswith("#")]
+
+
+def monsters(stream, size):
+    """Maps of some size, each large in another way, and the status they must have; None if either."""
+    row = matrix(stream, 64, 1).encode()
+    square = matrix(stream, 32, 32).encode()
+    yield "one long row", b"1 2 "*(size//4), 1
+    yield "one long column", b"1\n2\n"*(size//4), 1
+    yield "long rows", (b"0.5 -1 "*(4096) + b"\n")*max(4, size//28673), None
+    yield "many rows", row*(size//len(row)), None
+    yield "remarks", b"# remark\n"*(size//9) + square, 0
+    yield "a long remark", b"#" + b"x"*size + b"\n" + square, 0
+    yield "blanks", b" "*size + square, 0
+    yield "lines", b"\n"*size + square, 0
+    yield "carriage returns", b"\r"*size + square, 0
+    yield "commas", b","*size + square, 1
+    yield "commas in lines", b",\n"*(size//2) + square, 0
+    yield "long number", b"1"*size + square, 1
+    yield "long fraction", b"0." + b"3"*size + square, 1
+    yield "long exponent", b"1e" + b"9"*size + square, 1
+    yield "long word", b"x"*size, 1
+    yield "ragged", b"1 2 3 4\n1 2 3\n"*(size//14), 1
+    yield "one bad number at the end", b"1 2 3 4\n"*(size//8) + b"1 2 x 4\n", 1
+    yield "the same point", b"0 0 1\n"*(size//6), 1
+    yield "points on a line", b"".join(b"%d 0 1\n" % i for i in range(size//8)), 1
+    yield "decimal commas", b"1,5 2,5\n"*(size//8), 1
+    yield "nulls", b"\x00"*size, 1
+    yield "noise", bytes(stream.randrange(256) for _ in range(min(size, MEGABYTE)))*max(1, size//MEGABYTE), 1
+    yield "program", open(sys.executable, "rb").read(size), 1
+    yield "two bytes a character", square.decode().encode("utf-16")*(size//(2*len(square))), 1
+
+
+def fuzz_monsters(program, seed, size, work, failures):
+    """Large maps with --check, in bounded memory and time; the largest sizes take no form but a plain one."""
+    part = Part(f"height maps of {size/MEGABYTE:g} MB, --check")
+    limits = memory_limits(program, part, ADDRESS_SPACE)
+    slowest = ("", 0.0)
+    text = "&surface kind = 'file', file = 'heights.dat' /\n&load pbar_over_pstar = 0.5 /\n"
+    (work/"deck.nml").write_text(text)
+
+    def check(name, status, seconds):
+        nonlocal slowest
+        outcome = run([program, "--check", "deck.nml"], work, patience=2*LARGE_SECONDS,
+                      limits=limits)
+        complaints = complaints_about(outcome, (0, 1, 3) if status is None else (status,), seconds)
+        if len(outcome.stderr) > 1000:
+            complaints.append(f"says {len(outcome.stderr)} bytes")
+        elif status is not None and outcome.status == status:
+            complaints += message_complaints(outcome, b"\n"*size)
+        slowest = max(slowest, (name, outcome.seconds), key=lambda pair: pair[1])
+        return part.count(name, complaints)
+
+    for name, content, status in monsters(random.Random(f"{seed} large maps"), size):
+        (work/"heights.dat").write_bytes(content)
+        if not check(name, status, seconds=LARGE_SECONDS if size > 50*MEGABYTE else 2.0):
+            keep(failures, f"map-monster-{name.replace(' ', '-')}", text, content[:MEGABYTE])
+    # A map of ten times the size, still fine; and a file of 3 GB, which takes no room on the disk.
+    (work/"heights.dat").write_bytes((b"0.125 -3.5e-3 "*1024 + b"\n")*max(4, 10*size//14337))
+    check("a map of ten times the size", 0 if 10*size//14337 <= 8192 else 1, LARGE_SECONDS)
+    with open(work/"heights.dat", "wb") as file:
+        file.truncate(3000*MEGABYTE)
+    check("a file of 3 GB", 3, 2.0)
+    part.worst = f"{slowest[1]:.2f} s ({slowest[0]})"
+    return part
+
+
+def odd_files(program, work, failures):
+    """What is no map, and maps of odd sizes: the status and the words that each must give."""
+    part = Part("odd height maps")
+    good = matrix(random.Random("odd"), 8, 8)
+    square = "0 1 0 -1\n"*4
+
+    def attempt(name, content, status, words, map_name="heights.dat", make=None):
+        content = content.encode() if isinstance(content, str) else content
+        folder = work/name
+        folder.mkdir()
+        text = (f"&surface kind = 'file', file = '{map_name.replace(chr(39), chr(39)*2)}' /\n"
+                f"&load pbar_over_pstar = 0.1, 0.6 /\n&output map = t, points_per_wavelength = 8 /\n")
+        (folder/"deck.nml").write_text(text)
+        if make:
+            make(folder/map_name)
+        elif content is not None:
+            (folder/map_name).write_bytes(content)
+        before = files_below(work)
+        outcome = run([program, "deck.nml"], folder)
+        complaints = complaints_about(outcome, (status,)) + message_complaints(outcome, content or text.encode())
+        if words not in (outcome.stdout + outcome.stderr).decode(errors="replace"):
+            complaints.append(f"does not say '{words}'")
+        complaints += result_complaints(work, files_below(work) - before)
+        if not part.count(name, complaints):
+            keep(failures, f"map-odd-{name.replace(' ', '-')}", text, content or b"")
+
+    for name, content in (("no bytes", ""), ("remarks alone", "# 1 2 3\n#\n"), ("blanks alone", " \t \n \n\n"),
+                          ("a mark alone", b"\xef\xbb\xbf"), ("line ends alone", "\r\r\n\n\r")):
+        attempt(name, content, 1, "heights.dat: there are no numbers in this file")
+    attempt("one point", "1", 1, "a map of 1 x 1 points")
+    attempt("one column", "1\n2\n1\n0\n", 1, "a map of 1 x 4 points")
+    attempt("two rows", "1 2 3 4\n"*2, 1, "a map of 4 x 2 points")
+    attempt("one row", "1 2 1 0\n", 0, "map       4 x 1 points")
+    attempt("one row of points", "0 0 1\n1 0 2\n2 0 1\n3 0 0\n", 0, "map       4 x 1 points (xyz)")
+    attempt("8193 columns", "1 2 3 "*2731 + "\n", 1, "a map of 8193 x 1 points")
+    attempt("text", "The quick brown fox\n", 1, "heights.dat:1: 'The' is no number")
+    attempt("two bytes a character", good.encode("utf-16"), 1, "heights.dat:1: '\\xFF\\xFE")
+    attempt("two bytes, no mark", good.encode("utf-16-le"), 1, "heights.dat:1: '")
+    attempt("a mark before", b"\xef\xbb\xbf" + good.encode(), 0, "map       8 x 8 points")
+    attempt("no last line end", good.rstrip("\n"), 0, "map       8 x 8 points")
+    attempt("CR LF", good.replace("\n", "\r\n"), 0, "map       8 x 8 points")
+    attempt("CR", good.replace("\n", "\r"), 0, "map       8 x 8 points")
+    attempt("the deck itself", None, 1, "deck.nml:1: '&surface' is no number", map_name="deck.nml", make=lambda path: None)
+    attempt("a program", open(sys.executable, "rb").read(100000), 1, "heights.dat:1: '\\x7FELF")
+    attempt("ragged", "1 2 3 4\n1 2 3 4\n1 2 3\n1 2 3 4\n", 1, "heights.dat:3: this row has 3 heights, the first has 4")
+    attempt("a decimal comma", "1,5 2,5\n"*4, 1, "heights.dat:1: is '1,5' a number with a decimal comma?")
+    attempt("a hole", "1 2 3 4\n1 nan 3 4\n" + square, 1, "heights.dat:2: 'nan' is no height")
+    attempt("too large", "1 2 3 4\n1 2 3 1e400\n" + square, 1, "heights.dat:2: '1e400' is too large")
+    attempt("much too large", "1e300 2 3 4\n" + square, 1, "heights.dat:1: '1e300' is too large")
+    attempt("unsorted points", "0 0 1\n1 0 1\n0 1 1\n1 1 2\n2 0 1\n2 1 0\n"*3, 1,
+            "heights.dat:5: x = 2, y = 0 is out of step")
+    attempt("too small", "1e-200 2e-200 1e-200 0\n", 1, "the heights over their mean, times height_scale, are up to 1e-200")
+    for height in ("0", "0.1", "-1e90", "1e-90", "4.9e-324"):
+        for side in (4, 7, 11, 16):
+            attempt(f"flat {height} {side}", (" ".join([height]*side) + "\n")*side, 0, "the surface is flat")
+    for columns, lines in ((5, 5), (7, 11), (13, 4), (16, 16), (17, 31), (61, 1), (64, 4), (101, 5)):
+        stream = random.Random(columns)
+        attempt(f"{columns} x {lines}", matrix(stream, columns, lines), 0, f"map       {columns} x {lines} points")
+        if lines > 1:
+            attempt(f"{columns} x {lines} points", points(stream, columns, lines), 0, " points (xyz)")
+    attempt("a directory", None, 3, "this is a directory", make=lambda path: path.mkdir())
+    attempt("a pipe", None, 3, "this is a pipe or a device", make=os.mkfifo)
+    attempt("a link to itself", None, 3, "cannot be opened: ", make=lambda path: path.symlink_to(path.name))
+    attempt("a link to nothing", None, 3, "there is no such file", make=lambda path: path.symlink_to("nothing"))
+    attempt("nothing", None, 3, "there is no such file")
+    for device in ("/dev/zero", "/dev/null", "/dev/urandom", "/dev/full", "/dev/tty"):
+        attempt(f"device {device[5:]}", None, 3, "this is a pipe or a device", map_name=device, make=lambda path: None)
+    attempt("below a file", None, 3, "there is no such file", map_name="deck.nml/map.dat", make=lambda path: None)
+    attempt("a long name", None, 3, "cannot be opened: ", map_name="x"*900, make=lambda path: None)
+    for i, name in enumerate(("it's", 'a "map"', "a map", "$(touch CANARY)", "; touch CANARY", "ä€𝄞", "-rf", "a\\nb",
+                              "100%s")):
+        attempt(f"name {i}", good, 0, "map       8 x 8 points", map_name=name)
+    attempt("a name of two lines", good, 1, "this quote is not closed on its line", map_name="a\nb")
+    if any(path.name == "CANARY" for path in work.rglob("*")):
+        part.count("CANARY", ["the name of a map reached a shell"])
+    return part
