@@ -1,5 +1,6 @@
 !> Height maps from files: gnuplot's matrix, or lines of x, y and z.
 module wavycon_height_map_file
+   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_key_table, only: smallest_number
    use wavycon_kinds, only: dp
@@ -31,7 +32,7 @@ contains
       type(height_map_type), intent(out) :: map
       type(error_type), allocatable, intent(out) :: error
 
-      type(number_table) :: table
+      type(number_table), target :: table
 
       ! A pipe may keep one waiting, a device never end, and neither can be read again from the resolved deck.
       if (path_kind(path) == path_device) then
@@ -46,13 +47,29 @@ contains
          if (table%length(1) == 3 .and. table%rows() > 3 .and. size(table%values) == 3*table%rows()) &
             map%format = 'xyz'
       end if
-      if (map%format == 'xyz') then
+      if (.not. there_is_room(size(table%values)/merge(3, 1, map%format == 'xyz'))) then
+         call fatal_error(error, exit_file_trouble, escaped(path)//': there is not the memory for a map of this size')
+      else if (map%format == 'xyz') then
          call take_points(table, map, error)
       else
          call take_matrix(table, map, error)
       end if
       if (.not. allocated(error)) call check_size(path, map, error)
    end subroutine read_height_map
+
+   !> Whether there is the memory to make a map and its surface, beyond that of the numbers read: once it has begun
+   !> there is no way to say that it lacks.
+   logical function there_is_room(heights)
+      integer, intent(in) :: heights   !! of the map
+
+      !> Numbers for each height: the map, the waves of the surface and their copies, the transforms' own.
+      integer(int64), parameter :: copies = 5
+      real(dp), allocatable :: room(:)
+      integer :: status
+
+      allocate (room(copies*heights), stat=status)
+      there_is_room = status == 0
+   end function there_is_room
 
    !> A row a line. Errors: exit_bad_input for rows of unlike length.
    subroutine take_matrix(table, map, error)
@@ -75,13 +92,13 @@ contains
 
    !> A point a line, x or y running first. Errors: exit_bad_input for what is no regular grid.
    subroutine take_points(table, map, error)
-      type(number_table), intent(in) :: table
+      type(number_table), intent(in), target :: table
       type(height_map_type), intent(inout) :: map
       type(error_type), allocatable, intent(out) :: error
 
       !> Of a step: coordinates are often rounded.
       real(dp), parameter :: tolerance = 0.01_dp
-      real(dp), allocatable :: xyz(:, :)
+      real(dp), pointer :: xyz(:, :)
       integer :: fast, i, j, k, m, n, slow
 
       do k = 1, table%rows()
@@ -91,7 +108,7 @@ contains
             return
          end if
       end do
-      allocate (xyz(3, table%rows()), source=reshape(table%values, [3, table%rows()]))
+      xyz(1:3, 1:table%rows()) => table%values
       if (size(xyz, 2) < 2) then
          call bad_line(1, 'one point is no map')
          return
