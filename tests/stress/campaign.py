@@ -22,10 +22,11 @@ import fuzz_decks
 import fuzz_maps
 import names
 import quadratic_programmes
+import valgrind_runs
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 MOST_SHOWN = 20  # failures of a part
-PARTS = ("qp", "loads", "decks", "faults", "builds")
+PARTS = ("qp", "loads", "decks", "faults", "builds", "valgrind")
 
 
 def qp(settings, results):
@@ -66,6 +67,11 @@ def builds(settings, results):
         yield other_builds.levels(ROOT, ROOT/"build", work)
     with work_folder() as work:
         yield other_builds.sanitizers(ROOT, ROOT/"build", settings.seed, settings.quick, work, results)
+
+
+def valgrind(settings, results):
+    with work_folder() as work:
+        yield valgrind_runs.campaign(settings.program, settings.programs.parent, settings.quick, work, results)
 
 
 @contextlib.contextmanager

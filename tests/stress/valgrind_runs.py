@@ -1,0 +1,102 @@
+"""The test programs and decks of each solver under valgrind's memcheck: no read of what was never written, none beyond
+what was allocated, no memory that is lost."""
+import concurrent.futures
+import os
+import re
+import shutil
+import subprocess
+
+from common import Part, save
+
+STATUS = 99  # of a program in which valgrind found something
+PATIENCE = 240.0  # seconds for one program
+COMMAND = ["valgrind", "--quiet", "--leak-check=full", "--show-leak-kinds=definite", "--errors-for-leak-kinds=definite",
+           f"--error-exitcode={STATUS}"]
+# These take more than a second by themselves and minutes under valgrind. The decks below go the same ways.
+LEFT_OUT = ("unit.fitted_details", "unit.fitted_fields", "exact.fitted", "exact.fitted_contact", "exact.grid",
+            "exact.surfaces")
+LOADS = "&load pbar_over_pstar = 0.05, 0.3, 0.7, 1 /\n"
+TABLES = "&output lines = t, map = t, contours = t, points_per_wavelength = 8 /\n"
+OF_THE_PAPER = TABLES.replace("map", "coefficients = t, theory = t, map")
+COARSE = "&method solver = 'grid', accuracy = 1e-2 /\n"
+# Name, deck, exit status.
+DECKS = (
+    ("beale 1-D", "&surface kind = 'wave_1d' /\n" + LOADS + OF_THE_PAPER, 0),
+    ("beale 2-D", "&surface kind = 'wave_2d' /\n" + LOADS + OF_THE_PAPER
+     + "&method harmonics = 5, constraint_points = 9 /\n", 0),
+    ("closed form", "&surface kind = 'wave_1d' /\n" + LOADS + TABLES.replace("map", "theory = t, map")
+     + "&method solver = 'auto' /\n", 0),
+    ("fitted", "&surface kind = 'wave_2d' /\n" + LOADS + "&method solver = 'fitted', accuracy = 1e-2 /\n"
+     "&output lines = t, details = t, points_per_wavelength = 8 /\n", 0),
+    ("auto, hexagonal", "&surface kind = 'hexagonal' /\n&load pbar_over_pstar = 0.02, 0.5 /\n"
+     "&method solver = 'auto', accuracy = 3e-2 /\n", 0),
+    ("grid, gap asked for", "&surface kind = 'wave_2d' /\n&load mean_gap_over_amplitude = 0.4 /\n" + COARSE
+     + TABLES, 0),
+    ("grid, area asked for", "&surface kind = 'crossed_1d', amplitude1 = 1, wavelength1 = 1, amplitude2 = 1, "
+     "wavelength2 = 2 /\n&load contact_area_fraction = 0.3 /\n&method grid_points = 32 /\n" + TABLES, 0),
+    ("grid, sum", "&surface kind = 'sum', amplitudes = 1, 0.5, waves_x = 1, 2, waves_y = 0, 1, phases = 0, 40 /\n"
+     + LOADS + "&method grid_points = 32 /\n" + TABLES, 0),
+    ("map, matrix", "&surface kind = 'file', file = 'matrix.dat' /\n" + LOADS + TABLES, 0),
+    ("map, points", "&surface kind = 'file', file = 'points.dat' /\n" + LOADS + TABLES, 0),
+    ("map, ragged", "&surface kind = 'file', file = 'ragged.dat' /\n" + LOADS, 1),
+    ("flat", "&surface kind = 'wave_1d', amplitude = 0 /\n" + LOADS, 0),
+    ("bad deck", "&surface knd = 'wave_3d', amplitude = 1e999, file = 'x /\n&lod pbar = 1,,2 /\n&load\n", 1),
+)
+MAPS = {"matrix.dat": "".join(" ".join(str((3*i*i + 5*j + i*j) % 7) for i in range(8)) + "\n" for j in range(8)),
+        "points.dat": "".join(f"{i} {j} {(3*i*i + 5*j + i*j) % 7}\n" for i in range(5) for j in range(8)),
+        "ragged.dat": "1 2 3 4\n1 2 3\n"}
+
+
+def found(words, folder, status):
+    """What a run under valgrind may not do."""
+    # Like a processor that valgrind knows all instructions of.
+    variables = dict(os.environ, OPENBLAS_CORETYPE="Haswell", OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1")
+    log = folder/"valgrind.log"
+    command = COMMAND + [f"--log-file={log}"] + [str(word) for word in words]
+    try:
+        result = subprocess.run(command, cwd=folder, env=variables, stdin=subprocess.DEVNULL, capture_output=True,
+                                timeout=PATIENCE, check=False)
+    except subprocess.TimeoutExpired:
+        return [f"takes longer than {PATIENCE:.0f} s"]
+    if result.returncode == STATUS or log.read_text(errors="replace").strip():
+        lines = [re.sub(r"^==\d+== *", "", line) for line in log.read_text(errors="replace").splitlines()]
+        return ["; ".join(line for line in lines if line)[:400]]
+    if result.returncode != status:
+        return [f"exit status {result.returncode}"]
+    return []
+
+
+def cases(program, programs, quick, work):
+    """Name, command, folder and exit status of each run."""
+    for name, text, status in DECKS:
+        if quick and name not in ("beale 1-D", "map, ragged"):
+            continue
+        folder = work/name
+        folder.mkdir()
+        for map_name, heights in MAPS.items():
+            (folder/map_name).write_text(heights)
+        (folder/"deck.nml").write_text(text)
+        yield name, [program, "deck.nml"], folder, status
+    if quick:
+        return
+    for path in sorted(programs.glob("unit/unit.*")) + sorted(programs.glob("exact/exact.*")):
+        if path.is_file() and os.access(path, os.X_OK) and path.name not in LEFT_OUT:
+            folder = work/path.name
+            folder.mkdir()
+            yield path.name, [path], folder, 0
+
+
+def campaign(program, programs, quick, work, failures):
+    part = Part("valgrind")
+    if not shutil.which("valgrind"):
+        part.worst = "skipped: valgrind is not installed"
+        return part
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        runs = [(name, pool.submit(found, words, folder, status))
+                for name, words, folder, status in cases(program, programs, quick, work)]
+        for name, run in runs:
+            if not part.count(name, run.result()):
+                save(failures, f"{name}.valgrind", (work/name/"valgrind.log").read_bytes())
+    if not quick:
+        part.notes.append("left out, for they take minutes: " + ", ".join(LEFT_OUT))
+    return part
