@@ -6,6 +6,7 @@ import shutil
 import subprocess
 
 import fuzz_decks
+import fuzz_maps
 from common import Part, complaints_about, files_below, run
 
 SECONDS = 120.0  # a deck without optimisation takes no longer
@@ -110,9 +111,10 @@ def sanitizers(source, builds, seed, quick, work, failures):
     suppressions = pathlib.Path(__file__).resolve().parent/"libgfortran.supp"
     os.environ.update(LSAN_OPTIONS=f"suppressions={suppressions}:print_suppressions=0",
                       UBSAN_OPTIONS="halt_on_error=1:print_stacktrace=1")
-    for fuzz, amount in ((fuzz_decks.fuzz_checks, 50 if quick else 500), (fuzz_decks.fuzz_runs, 10 if quick else 60)):
-        folder = work/fuzz.__name__
-        folder.mkdir()
+    for fuzz, amount in ((fuzz_decks.fuzz_checks, 50 if quick else 500), (fuzz_decks.fuzz_runs, 10 if quick else 60),
+                         (fuzz_maps.fuzz_checks, 50 if quick else 500), (fuzz_maps.fuzz_runs, 10 if quick else 60)):
+        folder = work/fuzz.__module__/fuzz.__name__
+        folder.mkdir(parents=True)
         fuzzed = fuzz(program, seed, amount, folder, failures)
         part.tried += fuzzed.tried
         part.passed += fuzzed.passed
