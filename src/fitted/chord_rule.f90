@@ -1,5 +1,5 @@
 !> The integral of f/|z - z'| over a mapped disc, exact to rounding for a target z inside or outside, however
-!> near its edge.
+!> near its edge; and Hadamard's finite part of that of f/|z - z'|^3.
 !>
 !> For f = (1 - |w|^2)^power times a polynomial take the chords through the target w_t: with w = w_t + t e^(i
 !> phi),
@@ -9,6 +9,14 @@
 !> where Q = (z(w) - z(w_t))/t is a polynomial that does not vanish, and 1 - |w|^2 the product of the
 !> distances to the chord's ends. So a Gauss rule along the chord and, in phi, the midpoint rule over half a
 !> turn (target inside) or Gauss's between the tangents (outside) are spectral.
+!>
+!> For 1/|z - z'|^3 it is the finite part of f J/(t^2 |Q|^3): the circle left out about the target is not one in
+!> the disc, but what that adds is odd in t. With s along the chord from -1 to 1 and s_0 the target,
+!>
+!>     finite part of the integral of (1 - s^2)^(3/2) C_m(s)/(s - s_0)^2 ds = (pi/2)(m+1)(m+3) T_(m+2)(s_0),
+!>
+!> C_m Gegenbauer's polynomials of this weight, whose squares have the integrals (pi/8)(m+1)(m+3), and T_m
+!> Chebyshev's.
 module wavycon_chord_rule
    use wavycon_constants, only: pi
    use wavycon_disc_polynomials, only: disc_polynomials
@@ -23,12 +31,15 @@ module wavycon_chord_rule
 
    type :: chord_rule
       real(dp) :: power = 0.5_dp                          !! of the weight
+      logical :: cubes = .false.                          !! whether the kernel is 1/|z - z'|^3
       real(dp), allocatable :: node(:), weight(:)         !! along a chord, between -1 and 1, shape (n)
       real(dp), allocatable :: angle(:), angle_weight(:)  !! Gauss's rule for a target outside, shape (m)
+      !> Weights of the coefficients of C_m, shape (n, 0:n-1).
+      real(dp), allocatable, private :: gegenbauer(:, :)
       ! Room for the n m points of one target.
-      complex(dp), allocatable, private :: w(:), e2(:), step(:), last(:), q(:), slope(:)
+      complex(dp), allocatable, private :: w(:), e2(:), step(:), last(:), own(:), q(:), slope(:)
       complex(dp), allocatable, private :: quotient(:, :), power_of_w(:, :)  !! shape (n m, K)
-      real(dp), allocatable, private :: factor(:), density(:), f(:), f_slope(:)
+      real(dp), allocatable, private :: factor(:), density(:), f(:), f_slope(:), swelling(:)
       real(dp), allocatable, private :: values(:, :)                         !! shape (n m, N)
    contains
       procedure :: rows
@@ -39,6 +50,9 @@ module wavycon_chord_rule
 contains
 
    !> Prepares for targets in the image of one basis and one number of shape terms.
+   !>
+   !> The weight decides on the kernel: (1 - |w|^2)^(1/2), a spot's pressure, has 1/|z - z'|, and the power 3/2,
+   !> an island's gap, 1/|z - z'|^3.
    subroutine start_chord_rule(rule, basis, shape_terms, angles, points)
       type(chord_rule), intent(out) :: rule
       type(disc_polynomials), intent(in) :: basis
@@ -46,16 +60,27 @@ contains
       integer, intent(in) :: angles       !! m, number of chords, >= 1
       integer, intent(in) :: points       !! n, on a chord, >= 1
 
-      integer :: n
+      integer :: m, n
 
       n = angles*points
       rule%power = basis%power
+      rule%cubes = rule%power > 1.0_dp
       allocate (rule%node(points), rule%weight(points), rule%angle(angles), rule%angle_weight(angles))
       call gauss_jacobi(basis%power, basis%power, rule%node, rule%weight)
       call gauss_jacobi(0.0_dp, 0.0_dp, rule%angle, rule%angle_weight)
-      allocate (rule%w(n), rule%e2(n), rule%step(n), rule%last(n), rule%q(n), rule%slope(n))
+      if (rule%cubes) then
+         allocate (rule%gegenbauer(points, 0:points - 1))
+         associate (g => rule%gegenbauer, s => rule%node)
+            g(:, 0) = rule%weight
+            if (points > 1) g(:, 1) = 4*s*g(:, 0)
+            do m = 2, points - 1
+               g(:, m) = (2*(m + 1)*s*g(:, m - 1) - (m + 2)*g(:, m - 2))/m
+            end do
+         end associate
+      end if
+      allocate (rule%w(n), rule%e2(n), rule%step(n), rule%last(n), rule%own(n), rule%q(n), rule%slope(n))
       allocate (rule%quotient(n, shape_terms), rule%power_of_w(n, shape_terms))
-      allocate (rule%factor(n), rule%density(n), rule%f(n), rule%f_slope(n), rule%values(n, basis%terms))
+      allocate (rule%factor(n), rule%density(n), rule%f(n), rule%f_slope(n), rule%swelling(n), rule%values(n, basis%terms))
    end subroutine start_chord_rule
 
    !> The integral for one target, for each polynomial of the basis, and its derivative with the shape for a
@@ -66,12 +91,12 @@ contains
       class(chord_rule), intent(inout) :: self
       type(disc_polynomials), intent(in) :: basis      !! the one the rule was prepared for
       type(shape_map), intent(in) :: shape
-      complex(dp), intent(in) :: target                !! w_t
+      complex(dp), intent(in) :: target                !! w_t; for cubes |w_t| <= 1
       real(dp), intent(in) :: c(:)                     !! coefficients of the sum, shape (N)
       real(dp), intent(out) :: row(:)                  !! integrals of the terms, shape (N)
       real(dp), intent(out) :: shape_row(0:)           !! d(integral of the sum)/d b_k, shape (0:K)
 
-      complex(dp) :: first, last, target_power, target_step
+      complex(dp) :: first, last, own_slope, target_power, target_step
       real(dp) :: b, gradient, inverse, ratio
       integer :: i, j, k, m, n
 
@@ -79,9 +104,9 @@ contains
       m = shape%fold
       call self%place_points(target)
       call basis%evaluate(n, self%w, self%values)
-      associate (w => self%w, q => self%q, slope => self%slope, step => self%step, last_power => self%last, &
+      associate (w => self%w, q => self%q, slope => self%slope, step => self%step, own => self%own, last_power => self%last, &
                  quotient => self%quotient, power_of_w => self%power_of_w, &
-                 f => self%f, f_slope => self%f_slope, density => self%density)
+                 f => self%f, f_slope => self%f_slope, density => self%density, swelling => self%swelling)
          ! With v = w_t: (w^(j+m) - v^(j+m)) = w^m (w^j - v^j) + v^j (w^m - v^m), all over t e^(i phi), j = m
          ! k - 1.
          target_step = target**m
@@ -99,6 +124,8 @@ contains
             step(i) = step(i)*w(i)**2
             quotient(i, 1) = first
             last_power(i) = first*w(i) + last
+            ! The analytic part's quotient over b_0.
+            own(i) = 1.0_dp - shape%crowding*conjg(last_power(i)*w(i) + last*target)
          end do
          do k = 2, ubound(shape%b, 1)
             ratio = (m*k - 1.0_dp)/(m*(k - 1) - 1.0_dp)
@@ -108,7 +135,7 @@ contains
             end do
             target_power = target_power*target_step
          end do
-         q = shape%b(0)
+         q = shape%b(0)*own
          slope = 0.0_dp
          do k = 1, ubound(shape%b, 1)
             b = shape%b(k)
@@ -121,9 +148,15 @@ contains
          b = shape%b(0)
          do i = 1, n
             inverse = 1.0_dp/(q(i)%re**2 + q(i)%im**2)
-            f(i) = b**2 - (slope(i)%re**2 + slope(i)%im**2)
+            own_slope = shape%crowded_slope(w(i))
+            swelling(i) = own_slope%re**2 + own_slope%im**2
+            f(i) = b**2*swelling(i) - (slope(i)%re**2 + slope(i)%im**2)
             density(i) = self%factor(i)*sqrt(inverse)
             f_slope(i) = f(i)*inverse
+            if (self%cubes) then
+               density(i) = density(i)*inverse
+               f_slope(i) = 3*f_slope(i)
+            end if
             f(i) = f(i)*density(i)
          end do
          call dgemv('T', n, basis%terms, 1.0_dp, self%values, n, f, 1, 0.0_dp, row, 1)
@@ -131,7 +164,8 @@ contains
          gradient = 0.0_dp
          do i = 1, n
             density(i) = density(i)*f(i)
-            gradient = gradient + density(i)*(2*b - f_slope(i)*q(i)%re)
+            gradient = gradient + density(i)*(2*b*swelling(i) &
+                                              - f_slope(i)*(q(i)%re*own(i)%re + q(i)%im*own(i)%im))
          end do
          shape_row(0) = gradient
          do k = 1, ubound(shape%b, 1)
@@ -152,7 +186,7 @@ contains
       complex(dp), intent(in) :: target          !! w_t
 
       complex(dp) :: direction, e
-      real(dp) :: distance, half, middle, opening, scale, t
+      real(dp) :: distance, half, middle, opening, scale, t, weight(size(self%node))
       integer :: angles, i, j, k
 
       angles = size(self%angle)
@@ -170,16 +204,42 @@ contains
          end if
          middle = -(target%re*e%re + target%im*e%im)
          half = sqrt(max(1.0_dp - (target%re*e%im - target%im*e%re)**2, 0.0_dp))
-         scale = scale*half**(2*self%power + 1)
+         if (self%cubes) then
+            scale = scale*half**(2*self%power - 1)
+            weight = finite_part_weights(self, -middle/half)
+         else
+            scale = scale*half**(2*self%power + 1)
+            weight = self%weight
+         end if
          do j = 1, size(self%node)
             k = k + 1
             t = middle + half*self%node(j)
             self%w(k) = target + t*e
             self%e2(k) = e**2
-            self%factor(k) = scale*self%weight(j)
+            self%factor(k) = scale*weight(j)
          end do
       end do
    end subroutine place_points
+
+   !> Weights along a chord for the finite part with 1/(s - s_0)^2.
+   pure function finite_part_weights(self, s_0) result(weight)
+      class(chord_rule), intent(in) :: self
+      real(dp), intent(in) :: s_0               !! the target's place on the chord, between -1 and 1
+      real(dp) :: weight(size(self%node))
+
+      real(dp) :: last, next, now
+      integer :: m
+
+      weight = 0.0_dp
+      last = s_0
+      now = 2*s_0**2 - 1.0_dp
+      do m = 0, size(self%node) - 1
+         weight = weight + 4*now*self%gegenbauer(:, m)
+         next = 2*s_0*now - last
+         last = now
+         now = next
+      end do
+   end function finite_part_weights
 
    !> The integral of f/|z - z'|^3 for a target outside.
    !>

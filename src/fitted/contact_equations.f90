@@ -3,18 +3,18 @@
 !>
 !> Spot: its pressure p makes u + h = delta, and bears the load P on a cell. Island, for the square lattice:
 !> its gap g makes the pressure vanish, which is P + (cos 2 pi x + cos 2 pi y)/2 in full contact, with the
-!> crest as origin, and is changed by -(1/4 pi^2) times the Laplacian of U = integral of Gp g. With the trough
-!> as origin therefore
+!> crest as origin, and is changed by -(1/4 pi^2) times the integral of g and the Laplacian of Gp, a finite
+!> part. With the trough as origin therefore
 !>
-!>     U = pi^2 P r^2 + (cos 2 pi x + cos 2 pi y)/2 + sum over k of d_k Re(z^(fold k)).
+!>     (1/4 pi^2) integral of Laplacian(Gp) g = sin^2(pi x) + sin^2(pi y) - (1 - P).
 !>
 !> The power of 1 - |w|^2 leaves out the term that a wrong shape would bring in: only the right edge fits. So
-!> the system in the coefficients, the approach or the harmonic terms and the shape has more equations than
-!> unknowns.
+!> the system in the coefficients, a spot's approach and the shape has more equations than unknowns.
 module wavycon_contact_equations
    use wavycon_chord_rule, only: chord_rule, start_chord_rule
    use wavycon_constants, only: pi
    use wavycon_disc_rule, only: disc_rule, plain_disc_rule
+   use wavycon_error_estimate, only: round_reach
    use wavycon_expansion, only: expansion
    use wavycon_image_rule, only: image_rows
    use wavycon_kinds, only: dp
@@ -26,13 +26,13 @@ module wavycon_contact_equations
    public :: contact_equations, start_equations
 
    type :: contact_equations
-      integer :: unknowns = 0                    !! N coefficients, 1 or 1+M others, 1+K of the shape
+      integer :: unknowns = 0                    !! N coefficients, a spot's approach, 1+K of the shape
       type(chord_rule) :: chords
       type(disc_rule) :: rule
       complex(dp), allocatable :: target(:)      !! in the disc, shape (m)
       real(dp), allocatable :: values(:, :)      !! of the basis at the rule's points, shape (n, N)
       real(dp), allocatable :: matrix(:, :)      !! derivatives of the equations, shape (m, unknowns)
-      real(dp), allocatable :: rest(:)           !! right less left side of the equations, shape (m) [Delta]
+      real(dp), allocatable :: rest(:)           !! right less left side, shape (m) [Delta], an island's [p*]
       real(dp), allocatable :: load_row(:)       !! derivatives of the load, shape (unknowns)
       real(dp), allocatable :: density(:)        !! the expansion at the rule's points, shape (n)
       real(dp), allocatable, private :: image(:, :)
@@ -56,7 +56,7 @@ contains
 
       fold = like%basis%fold
       others = 1
-      if (like%island) others = size(like%harmonic)
+      if (like%island) others = 0
       equations%unknowns = like%basis%terms + others + size(like%shape%b)
       associate (degree => like%basis%degree)
          ! Sharp tips make the quotient on the chords less smooth, near neighbours the kernel.
@@ -74,6 +74,8 @@ contains
          ! Two more than the unknowns of the round part of a function: with as many, any size would do.
          radii = degree/2 + merge(5, 4, like%island)
          angles = degree/fold + merge(2, 1, like%island)
+         ! Sharper shapes are better determined by half as many again.
+         if (reach > round_reach) angles = 3*angles/2
       end associate
       allocate (equations%target(radii*angles))
       n = 0
@@ -113,30 +115,25 @@ contains
       call dgemv('N', n, terms, 1.0_dp, self%values, n, now%c, 1, 0.0_dp, self%density, 1)
       do i = 1, m
          call self%chords%rows(now%basis, now%shape, self%target(i), now%c, row, slopes)
-         call image_rows(lattice%kernel, now%shape, self%rule, self%target(i), self%density, &
+         call image_rows(lattice%kernel, now%island, now%shape, self%rule, self%target(i), self%density, &
                          self%image(i, :), image_slopes)
          self%matrix(i, :terms) = row
          self%matrix(i, shapes + 1:) = slopes + image_slopes
       end do
       call dgemm('N', 'N', m, terms, n, 1.0_dp, self%image, m, self%values, n, 1.0_dp, self%matrix, m)
+      if (now%island) self%matrix = self%matrix/(4*pi**2)
       call dgemv('N', m, terms, -1.0_dp, self%matrix, m, now%c, 1, 0.0_dp, self%rest, 1)
       do i = 1, m
          z = now%shape%place(self%target(i))
          if (now%island) then
-            self%rest(i) = self%rest(i) + opening(load, z)
-            slope = -opening_slope(load, z)
-            do k = 0, ubound(now%harmonic, 1)
-               v = (z/now%scale)**(fold*k)
-               self%matrix(i, terms + 1 + k) = -v%re
-               self%rest(i) = self%rest(i) + now%harmonic(k)*v%re
-               if (k > 0) slope = slope - now%harmonic(k)*fold*k/now%scale*conjg((z/now%scale)**(fold*k - 1))
-            end do
+            self%rest(i) = self%rest(i) + sin(pi*z%re)**2 + sin(pi*z%im)**2 - (1.0_dp - load)
+            slope = -pi*cmplx(sin(2*pi*z%re), sin(2*pi*z%im), dp)
          else
             self%rest(i) = self%rest(i) + now%approach - lattice%undeformed_gap(z)
             self%matrix(i, terms + 1) = -1.0_dp
             slope = lattice%undeformed_slope(z)
          end if
-         v = self%target(i)
+         v = now%shape%crowded(self%target(i))
          do k = 0, ubound(now%shape%b, 1)
             if (k > 0) v = conjg(self%target(i))**(fold*k - 1)
             self%matrix(i, shapes + 1 + k) = self%matrix(i, shapes + 1 + k) + slope%re*v%re + slope%im*v%im
@@ -175,53 +172,5 @@ contains
       if (present(factor)) product = product*factor
       integral = sum(product)
    end function integral
-
-   !> pi^2 P r^2 + (cos 2 pi x + cos 2 pi y)/2 - 1, which falls as r^4 for P = 1, without loss of digits.
-   pure real(dp) function opening(load, z)
-      real(dp), intent(in) :: load
-      complex(dp), intent(in) :: z  !! from the trough
-
-      opening = -(1.0_dp - load)*pi**2*(z%re**2 + z%im**2) - bulge(pi*z%re) - bulge(pi*z%im)
-   end function opening
-
-   !> Gradient of the above, as a complex number.
-   pure complex(dp) function opening_slope(load, z)
-      real(dp), intent(in) :: load
-      complex(dp), intent(in) :: z
-
-      opening_slope = -2*(1.0_dp - load)*pi**2*z - pi*cmplx(bulge_slope(pi*z%re), bulge_slope(pi*z%im), dp)
-   end function opening_slope
-
-   !> sin^2 t - t^2, |t| <= pi/2 or a little more, by its power series.
-   pure real(dp) function bulge(t)
-      real(dp), intent(in) :: t
-
-      real(dp) :: term
-      integer :: j
-
-      term = t**2
-      bulge = 0.0_dp
-      do j = 2, 25
-         term = -term*(2*t)**2/(2*j*(2*j - 1))
-         bulge = bulge + term
-         if (abs(term) <= 0.1_dp*epsilon(term)*abs(bulge)) exit
-      end do
-   end function bulge
-
-   !> sin 2t - 2t.
-   pure real(dp) function bulge_slope(t)
-      real(dp), intent(in) :: t
-
-      real(dp) :: term
-      integer :: j
-
-      term = 2*t
-      bulge_slope = 0.0_dp
-      do j = 1, 25
-         term = -term*(2*t)**2/(2*j*(2*j + 1))
-         bulge_slope = bulge_slope + term
-         if (abs(term) <= 0.1_dp*epsilon(term)*abs(bulge_slope)) exit
-      end do
-   end function bulge_slope
 
 end module wavycon_contact_equations

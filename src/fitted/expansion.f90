@@ -18,8 +18,6 @@ module wavycon_expansion
       type(shape_map) :: shape
       real(dp), allocatable :: c(:)          !! coefficients of the basis, shape (N)
       real(dp) :: approach = 0.0_dp          !! delta below merging: u + h = delta in contact
-      real(dp), allocatable :: harmonic(:)   !! above merging the d_k, of Re((z/scale)^(fold k)), shape (0:M)
-      real(dp) :: scale = 1.0_dp
    contains
       procedure :: raised
       procedure :: at
@@ -29,12 +27,12 @@ module wavycon_expansion
 contains
 
    !> The same function in a basis of another degree, with another number of shape terms; what does not fit is
-   !> dropped.
-   function raised(self, degree, shape_terms, harmonics) result(copy)
+   !> dropped. With another crowding it is nearly the same.
+   function raised(self, degree, shape_terms, crowding) result(copy)
       class(expansion), intent(in) :: self
       integer, intent(in) :: degree       !! of the new basis
       integer, intent(in) :: shape_terms  !! K >= 1
-      integer, intent(in) :: harmonics    !! M >= 0, above merging
+      real(dp), intent(in) :: crowding    !! of the shape, near the one it has
       type(expansion) :: copy
 
       integer :: i, n
@@ -52,13 +50,9 @@ contains
       allocate (copy%shape%b(0:shape_terms), source=0.0_dp)
       n = min(shape_terms, ubound(self%shape%b, 1))
       copy%shape%b(:n) = self%shape%b(:n)
+      copy%shape%crowding = crowding
+      copy%shape%b(1) = copy%shape%b(1) + (crowding - self%shape%crowding)*copy%shape%b(0)
       copy%approach = self%approach
-      if (self%island) then
-         copy%scale = self%shape%b(0)
-         allocate (copy%harmonic(0:harmonics), source=0.0_dp)
-         n = min(harmonics, ubound(self%harmonic, 1))
-         copy%harmonic(:n) = self%harmonic(:n)*[((copy%scale/self%scale)**(self%basis%fold*i), i=0, n)]
-      end if
    end function raised
 
    !> The value at the centre: a spot's peak pressure, an island's gap at the trough.

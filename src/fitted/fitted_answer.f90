@@ -30,7 +30,7 @@ module wavycon_fitted_answer
       real(dp) :: peak_error = huge(1.0_dp)
       real(dp) :: energy_error = huge(1.0_dp)
       real(dp) :: perimeter_error = huge(1.0_dp)
-      real(dp) :: residual = huge(1.0_dp)       !! largest violation of the equations of contact
+      real(dp) :: residual = huge(1.0_dp)       !! largest violation of the equations [Delta], an island's [p*]
       real(dp) :: reach = 0.0_dp                !! of the edge, in half ways to the next spot or island
       integer :: degree = 0                     !! of the polynomials
       integer :: iterations = 0                 !! Gauss-Newton steps of all degrees

@@ -23,13 +23,13 @@ module wavycon_fitted_solver
    public :: wave_lattice, square_lattice, rectangular_lattice, hexagonal_lattice
 
    !> Spots of the square lattice merge at about this load; the regime tried first.
-   real(dp), parameter :: about_merging = 0.2286_dp
+   real(dp), parameter :: about_merging = 0.228605_dp
    !> A start further off in load, as a ratio of P or of 1 - P, is followed in steps of this ratio.
    real(dp), parameter :: load_ratio = 2.0_dp
    !> The asymptotes are good enough to start from below this P, above this P.
    real(dp), parameter :: light_load = 0.03_dp, heavy_load = 0.7_dp
    !> Degrees of the polynomials: the first, the step, the last.
-   integer, parameter :: first_degree = 6, degree_step = 4, last_degree = 32
+   integer, parameter :: first_degree = 6, degree_step = 4, last_degree = 40
    !> Steps are half ones below the first, and for round shapes below the second.
    integer, parameter :: full_degree = 8, fine_degree = 12
    !> A start has had its own accuracy: as many degrees are gone back, so that a sweep can come down again.
@@ -100,7 +100,7 @@ contains
       trusted = .false.
       compared = 0
       do
-         now = now%raised(degree, shape_terms(degree), degree/4 + 2)
+         now = now%raised(degree, shape_terms(degree), crowding(lattice, now))
          call start_equations(equations, now, reach(lattice, now))
          if (reach(lattice, now) > 0.7_dp) tolerance = finest
          call converge(equations, lattice, answer%pbar_over_pstar, now, tolerance, &
@@ -278,6 +278,31 @@ contains
       ! Low degrees do not determine as many.
       if (degree < fine_degree) shape_terms = (degree + 1)/3
    end function shape_terms
+
+   !> The crowding of the edge's points for the next degree.
+   !>
+   !> N.B. The constants are from trials: up to merging more makes the Jacobian vanish at the tips, and further
+   !> away it only costs degrees.
+   pure real(dp) function crowding(lattice, now)
+      type(wave_lattice), intent(in) :: lattice
+      type(expansion), intent(in) :: now
+
+      !> At merging, and the power of the reach with which it falls off.
+      real(dp), parameter :: spot = 0.015_dp, spot_power = 4.0_dp, island = 0.095_dp, island_power = 17.0_dp
+      !> Less is not worth a Newton step, nor is a small change.
+      real(dp), parameter :: least = 0.004_dp, small_change = 0.2_dp
+      !> Newton's method follows no longer steps.
+      real(dp), parameter :: longest_step = 0.02_dp
+
+      crowding = now%shape%crowding
+      if (.not. lattice%square) return
+      associate (near => min(reach(lattice, now), 1.0_dp))
+         crowding = merge(island*near**island_power, spot*near**spot_power, now%island)
+      end associate
+      if (crowding < least) crowding = 0.0_dp
+      if (abs(crowding - now%shape%crowding) < small_change*crowding) crowding = now%shape%crowding
+      crowding = min(crowding, now%shape%crowding + longest_step)
+   end function crowding
 
    !> How far the edge reaches, on the way to the nearest neighbours.
    pure real(dp) function reach(lattice, now)

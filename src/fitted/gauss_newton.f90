@@ -19,7 +19,7 @@ contains
       real(dp), intent(in) :: load                         !! P
       type(expansion), intent(inout) :: now
       real(dp), intent(out) :: change                      !! largest change of the shape over its size
-      real(dp), intent(out) :: residual                    !! largest of the equations before the step [Delta]
+      real(dp), intent(out) :: residual                    !! largest of the equations before the step [Delta, p*]
       logical, intent(out) :: ok                           !! the step is finite and its shape has a size
 
       !> Longer steps are cut: the shape stays one, and Gauss-Newton is not reliable beyond.
@@ -52,11 +52,7 @@ contains
       change = maxval(abs(step(shapes + 1:)))/now%shape%b(0)
       part = min(1.0_dp, longest_change/max(change, tiny(change)))
       now%c = now%c + part*step(:terms)
-      if (now%island) then
-         now%harmonic = now%harmonic + part*step(terms + 1:shapes)
-      else
-         now%approach = now%approach + part*step(terms + 1)
-      end if
+      if (.not. now%island) now%approach = now%approach + part*step(terms + 1)
       now%shape%b = now%shape%b + part*step(shapes + 1:)
       ok = now%shape%b(0) > 0.0_dp
    end subroutine gauss_newton_step

@@ -1,5 +1,5 @@
-!> The integral over a mapped disc of f times the smooth part of a lattice's kernel: all the other spots and
-!> the mean.
+!> The integral over a mapped disc of f times the smooth part of a lattice's kernel, or of its Laplacian: all
+!> the other spots or islands, and the mean.
 module wavycon_image_rule
    use wavycon_constants, only: pi
    use wavycon_disc_rule, only: disc_rule
@@ -15,8 +15,9 @@ contains
 
    !> Weights of f at the points of a rule, for one target, and the derivative with the shape of the integral
    !> for one f.
-   pure subroutine image_rows(kernel, shape, rule, target, density, row, shape_row)
+   pure subroutine image_rows(kernel, cubes, shape, rule, target, density, row, shape_row)
       type(periodic_kernel), intent(in) :: kernel
+      logical, intent(in) :: cubes                   !! whether the Laplacian is taken
       type(shape_map), intent(in) :: shape           !! of the symmetry of the lattice, or less
       type(disc_rule), intent(in) :: rule            !! with the weight of f
       complex(dp), intent(in) :: target              !! w_t, |w_t| <= 1
@@ -25,8 +26,8 @@ contains
       real(dp), intent(out) :: shape_row(0:)         !! d(integral)/d b_k, shape (0:K)
 
       real(dp), dimension(2*shape%fold*size(rule%point)) :: x, y, value, slope_x, slope_y
-      complex(dp), dimension(size(rule%point)) :: z, w, pulled, power, step, bend
-      complex(dp) :: total, turn, z_target, target_power, slope
+      complex(dp), dimension(size(rule%point)) :: z, w, own_slope, pulled, power, step, bend
+      complex(dp) :: own, total, turn, z_target, target_power, slope
       real(dp) :: jacobian(size(rule%point)), folded(size(rule%point))
       integer :: g, i, k, m, n
 
@@ -44,7 +45,11 @@ contains
             y(2*n*g + n + i) = z_target%im - (turn%im*z(i)%re - turn%re*z(i)%im)
          end do
       end do
-      call kernel%smooth_part(size(x), x, y, value, slope_x, slope_y)
+      if (cubes) then
+         call kernel%smooth_laplacian(size(x), x, y, value, slope_x, slope_y)
+      else
+         call kernel%smooth_part(size(x), x, y, value, slope_x, slope_y)
+      end if
 
       ! The mean over the group: the rule's weights are those of the whole disc.
       folded = 0.0_dp
@@ -68,10 +73,14 @@ contains
                *cmplx(slope_x(n*g + i), slope_y(n*g + i), dp)
          end do
       end do
-      shape_row(0) = total%re*target%re + total%im*target%im
+      own = shape%crowded(target)
+      own_slope = shape%crowded_slope(w)
+      shape_row(0) = total%re*own%re + total%im*own%im
       do i = 1, n
-         shape_row(0) = shape_row(0) + rule%weight(i)*density(i)*(2*shape%b(0)*folded(i) &
-            - jacobian(i)*(pulled(i)%re*w(i)%re + pulled(i)%im*w(i)%im))
+         own = shape%crowded(w(i))
+         shape_row(0) = shape_row(0) + rule%weight(i)*density(i)*( &
+            2*shape%b(0)*(own_slope(i)%re**2 + own_slope(i)%im**2)*folded(i) &
+            - jacobian(i)*(pulled(i)%re*own%re + pulled(i)%im*own%im))
       end do
       ! The slope of the anti-analytic part.
       step = conjg(w)**m

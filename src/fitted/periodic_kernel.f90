@@ -29,6 +29,7 @@ module wavycon_periodic_kernel
       real(dp), allocatable :: bending(:, :)     !! coefficients of the Laplacian [1/s^2], as `coefficient`
    contains
       procedure :: smooth_part
+      procedure :: smooth_laplacian
       procedure :: laplacian
       procedure :: reduced
    end type periodic_kernel
@@ -39,8 +40,8 @@ module wavycon_periodic_kernel
    real(dp), parameter :: noise = 32*epsilon(1.0_dp)
    !> erfc of it is 1e-19.
    real(dp), parameter :: cut_off = 6.4_dp
-   !> Where |x| of a point and of its reduced place are the same, their 1/|x| must be the same finite number.
-   real(dp), parameter :: least_square = 1e-200_dp
+   !> Where |x| of a point and of its reduced place are the same, their 1/|x|^5 must be the same finite number.
+   real(dp), parameter :: least_square = 1e-100_dp
 
 contains
 
@@ -129,43 +130,12 @@ contains
       real(dp), intent(in) :: x(n), y(n)                          !! [s]
       real(dp), intent(out) :: value(n), slope_x(n), slope_y(n)   !! Gp - 1/r [1/s], its derivatives [1/s^2]
 
-      real(dp), dimension(n) :: xr, yr, u, v, q, dq, dv
-      real(dp) :: a, b, far, near, row, one
-      integer :: i, j, k
+      real(dp), dimension(n) :: xr, yr
+      real(dp) :: a, b, far, near
+      integer :: i, k
 
-      do i = 1, n
-         row = merge(1.0_dp, 0.0_dp, y(i) > 0.5_dp*self%height) &
-            - merge(1.0_dp, 0.0_dp, y(i) < -0.5_dp*self%height)
-         yr(i) = y(i) - row*self%height
-         xr(i) = x(i) - row*self%row_shift
-         one = merge(1.0_dp, 0.0_dp, xr(i) > 0.5_dp) - merge(1.0_dp, 0.0_dp, xr(i) < -0.5_dp)
-         xr(i) = xr(i) - one
-         u(i) = 8*xr(i)**2 - 1.0_dp
-         v(i) = 8*(yr(i)/self%height)**2 - 1.0_dp
-      end do
-      value = 0.0_dp
-      slope_x = 0.0_dp
-      dv = 0.0_dp
-      do k = ubound(self%degree, 1), 0, -1
-         q = self%coefficient(self%degree(k), k)
-         dq = 0.0_dp
-         do j = self%degree(k) - 1, 0, -1
-            a = self%coefficient(j, k)
-            do i = 1, n
-               dq(i) = dq(i)*u(i) + q(i)
-               q(i) = q(i)*u(i) + a
-            end do
-         end do
-         do i = 1, n
-            dv(i) = dv(i)*v(i) + value(i)
-            value(i) = value(i)*v(i) + q(i)
-            slope_x(i) = slope_x(i)*v(i) + dq(i)
-         end do
-      end do
-      do i = 1, n
-         slope_x(i) = 16*xr(i)*slope_x(i)
-         slope_y(i) = 16*yr(i)/self%height**2*dv(i)
-      end do
+      call reduce(self, n, x, y, xr, yr)
+      call polynomial(self, self%coefficient, n, xr, yr, value, slope_x, slope_y)
       do k = 1, size(self%image, 2)
          a = self%image(1, k)
          b = self%image(2, k)
@@ -188,6 +158,41 @@ contains
       end do
    end subroutine smooth_part
 
+   !> The Laplacian of Gp less 1/r^3, and its gradient, at n places, |x| <= 3/2, |y| <= 3 height/2: the sum of
+   !> 1/|x - n|^3 over all lattice points but the origin.
+   pure subroutine smooth_laplacian(self, n, x, y, value, slope_x, slope_y)
+      class(periodic_kernel), intent(in) :: self
+      integer, intent(in) :: n
+      real(dp), intent(in) :: x(n), y(n)                          !! [s]
+      real(dp), intent(out) :: value(n), slope_x(n), slope_y(n)   !! [1/s^3], its derivatives [1/s^4]
+
+      real(dp), dimension(n) :: xr, yr
+      real(dp) :: a, b, far, near
+      integer :: i, k
+
+      call reduce(self, n, x, y, xr, yr)
+      call polynomial(self, self%bending, n, xr, yr, value, slope_x, slope_y)
+      do k = 1, size(self%image, 2)
+         a = self%image(1, k)
+         b = self%image(2, k)
+         do i = 1, n
+            near = 1.0_dp/((xr(i) - a)**2 + (yr(i) - b)**2)
+            far = near*sqrt(near)
+            value(i) = value(i) + far
+            far = 3*far*near
+            slope_x(i) = slope_x(i) - (xr(i) - a)*far
+            slope_y(i) = slope_y(i) - (yr(i) - b)*far
+         end do
+      end do
+      do i = 1, n
+         near = 1.0_dp/max(xr(i)**2 + yr(i)**2, least_square)
+         far = 1.0_dp/max(x(i)**2 + y(i)**2, least_square)
+         value(i) = value(i) + (near*sqrt(near) - far*sqrt(far))
+         slope_x(i) = slope_x(i) - 3*(xr(i)*(near**2*sqrt(near)) - x(i)*(far**2*sqrt(far)))
+         slope_y(i) = slope_y(i) - 3*(yr(i)*(near**2*sqrt(near)) - y(i)*(far**2*sqrt(far)))
+      end do
+   end subroutine smooth_laplacian
+
    !> The Laplacian of Gp at n places, |x| <= 3/2, |y| <= 3 height/2: the sum of 1/|x - n|^3 over the lattice.
    pure subroutine laplacian(self, n, x, y, value)
       class(periodic_kernel), intent(in) :: self
@@ -195,28 +200,72 @@ contains
       real(dp), intent(in) :: x(n), y(n)      !! [s]
       real(dp), intent(out) :: value(n)       !! [1/s^3]
 
-      complex(dp) :: z
-      real(dp) :: q, u, v
+      real(dp), dimension(n) :: slope_x, slope_y
+
+      call self%smooth_laplacian(n, x, y, value, slope_x, slope_y)
+      value = value + 1.0_dp/hypot(x, y)**3
+   end subroutine laplacian
+
+   !> The same places in the rectangle about the origin.
+   pure subroutine reduce(self, n, x, y, xr, yr)
+      class(periodic_kernel), intent(in) :: self
+      integer, intent(in) :: n
+      real(dp), intent(in) :: x(n), y(n)       !! |x| <= 3/2, |y| <= 3 height/2 [s]
+      real(dp), intent(out) :: xr(n), yr(n)    !! [s]
+
+      real(dp) :: one, row
+      integer :: i
+
+      do i = 1, n
+         row = merge(1.0_dp, 0.0_dp, y(i) > 0.5_dp*self%height) &
+            - merge(1.0_dp, 0.0_dp, y(i) < -0.5_dp*self%height)
+         yr(i) = y(i) - row*self%height
+         xr(i) = x(i) - row*self%row_shift
+         one = merge(1.0_dp, 0.0_dp, xr(i) > 0.5_dp) - merge(1.0_dp, 0.0_dp, xr(i) < -0.5_dp)
+         xr(i) = xr(i) - one
+      end do
+   end subroutine reduce
+
+   !> One of the two polynomials in x^2 and y^2, and its gradient.
+   pure subroutine polynomial(self, coefficient, n, x, y, value, slope_x, slope_y)
+      class(periodic_kernel), intent(in) :: self
+      real(dp), intent(in) :: coefficient(0:, 0:)   !! as self%coefficient
+      integer, intent(in) :: n
+      real(dp), intent(in) :: x(n), y(n)            !! in the rectangle about the origin [s]
+      real(dp), intent(out) :: value(n), slope_x(n), slope_y(n)
+
+      real(dp), dimension(n) :: u, v, q, dq, dv
+      real(dp) :: a
       integer :: i, j, k
 
       do i = 1, n
-         z = self%reduced(cmplx(x(i), y(i), dp))
-         u = 8*z%re**2 - 1.0_dp
-         v = 8*(z%im/self%height)**2 - 1.0_dp
-         value(i) = 0.0_dp
-         do k = ubound(self%degree, 1), 0, -1
-            q = 0.0_dp
-            do j = self%degree(k), 0, -1
-               q = q*u + self%bending(j, k)
+         u(i) = 8*x(i)**2 - 1.0_dp
+         v(i) = 8*(y(i)/self%height)**2 - 1.0_dp
+      end do
+      value = 0.0_dp
+      slope_x = 0.0_dp
+      dv = 0.0_dp
+      do k = ubound(self%degree, 1), 0, -1
+         q = coefficient(self%degree(k), k)
+         dq = 0.0_dp
+         do j = self%degree(k) - 1, 0, -1
+            a = coefficient(j, k)
+            do i = 1, n
+               dq(i) = dq(i)*u(i) + q(i)
+               q(i) = q(i)*u(i) + a
             end do
-            value(i) = value(i)*v + q
          end do
-         value(i) = value(i) + 1.0_dp/abs(z)**3
-         do k = 1, size(self%image, 2)
-            value(i) = value(i) + 1.0_dp/abs(z - cmplx(self%image(1, k), self%image(2, k), dp))**3
+         do i = 1, n
+            dv(i) = dv(i)*v(i) + value(i)
+            value(i) = value(i)*v(i) + q(i)
+            slope_x(i) = slope_x(i)*v(i) + dq(i)
          end do
       end do
-   end subroutine laplacian
+      do i = 1, n
+         slope_x(i) = 16*x(i)*slope_x(i)
+         slope_y(i) = 16*y(i)/self%height**2*dv(i)
+      end do
+   end subroutine polynomial
 
    !> The same place in the rectangle about the origin.
    pure complex(dp) function reduced(self, z)

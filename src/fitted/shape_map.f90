@@ -1,8 +1,10 @@
-!> The map of the unit disc to a contact spot or an open island: z = b_0 w + sum over k of b_k conj(w)^(fold k
-!> - 1).
+!> The map of the unit disc to a contact spot or an open island: z = b_0 (w - tau w^(fold+1)) + sum over k of
+!> b_k conj(w)^(fold k - 1).
 !>
-!> With one term the edge is a hypotrochoid, with b_1 = b_0/(fold - 1) an astroid and its kin: spots and
-!> islands are very nearly such curves up to the load at which they merge.
+!> With tau = 0 and one term the edge is a hypotrochoid, with b_1 = b_0/(fold - 1) an astroid and its kin:
+!> spots and islands are very nearly such curves up to the load at which they merge. A small tau, with b_1
+!> larger by tau b_0, leaves the edge much as it is and crowds its points towards the tips, where shapes
+!> become sharp.
 module wavycon_shape_map
    use wavycon_constants, only: pi
    use wavycon_kinds, only: dp
@@ -13,9 +15,12 @@ module wavycon_shape_map
 
    type :: shape_map
       integer :: fold = 4               !! of the symmetry, >= 2
+      real(dp) :: crowding = 0.0_dp     !! tau, 0 <= tau < 1/(fold+1)
       real(dp), allocatable :: b(:)     !! coefficients [s], shape (0:K)
    contains
       procedure :: place
+      procedure :: crowded
+      procedure :: crowded_slope
       procedure :: jacobian
       procedure :: linearise_jacobian
       procedure :: area
@@ -33,7 +38,7 @@ contains
       complex(dp) :: power, step
       integer :: k
 
-      z = self%b(0)*w
+      z = self%b(0)*self%crowded(w)
       step = conjg(w)**self%fold
       power = conjg(w)**(self%fold - 1)
       do k = 1, ubound(self%b, 1)
@@ -42,15 +47,32 @@ contains
       end do
    end function place
 
+   !> w - tau w^(fold+1), whose multiple by b_0 is the analytic part of the map.
+   elemental complex(dp) function crowded(self, w)
+      class(shape_map), intent(in) :: self
+      complex(dp), intent(in) :: w
+
+      crowded = w*(1.0_dp - self%crowding*w**self%fold)
+   end function crowded
+
+   !> Its derivative.
+   elemental complex(dp) function crowded_slope(self, w) result(slope)
+      class(shape_map), intent(in) :: self
+      complex(dp), intent(in) :: w
+
+      slope = 1.0_dp - (self%fold + 1)*self%crowding*w**self%fold
+   end function crowded_slope
+
    !> Area of the image over that of the disc, |dz/dw|^2 - |dz/d conj(w)|^2 [s^2].
    elemental real(dp) function jacobian(self, w)
       class(shape_map), intent(in) :: self
       complex(dp), intent(in) :: w
 
-      complex(dp) :: slope
+      complex(dp) :: own, slope
 
+      own = self%b(0)*self%crowded_slope(w)
       slope = conjugate_slope(self, w)
-      jacobian = self%b(0)**2 - (slope%re**2 + slope%im**2)
+      jacobian = own%re**2 + own%im**2 - (slope%re**2 + slope%im**2)
    end function jacobian
 
    !> dz/d conj(w) [s].
@@ -77,16 +99,19 @@ contains
       real(dp), intent(out) :: jacobian         !! [s^2]
       real(dp), intent(out) :: derivative(0:)   !! d jacobian/d b_k [s], shape (0:K)
 
-      complex(dp) :: power(ubound(self%b, 1)), slope
+      complex(dp) :: own, power(ubound(self%b, 1)), slope
+      real(dp) :: own_square
       integer :: k
 
+      own = self%crowded_slope(w)
+      own_square = own%re**2 + own%im**2
       slope = 0.0_dp
       do k = 1, ubound(self%b, 1)
          power(k) = (self%fold*k - 1)*conjg(w)**(self%fold*k - 2)
          slope = slope + self%b(k)*power(k)
       end do
-      jacobian = self%b(0)**2 - (slope%re**2 + slope%im**2)
-      derivative(0) = 2*self%b(0)
+      jacobian = self%b(0)**2*own_square - (slope%re**2 + slope%im**2)
+      derivative(0) = 2*self%b(0)*own_square
       derivative(1:) = -2*(slope%re*power%re + slope%im*power%im)
    end subroutine linearise_jacobian
 
@@ -96,7 +121,8 @@ contains
 
       integer :: k
 
-      area = pi*(self%b(0)**2 - sum([((self%fold*k - 1)*self%b(k)**2, k=1, ubound(self%b, 1))]))
+      area = pi*(self%b(0)**2*(1.0_dp + (self%fold + 1)*self%crowding**2) &
+                 - sum([((self%fold*k - 1)*self%b(k)**2, k=1, ubound(self%b, 1))]))
    end function area
 
    !> Length of the edge [s].
@@ -111,7 +137,7 @@ contains
       perimeter = 0.0_dp
       do i = 1, points
          w = exp(cmplx(0.0_dp, pi*(i - 0.5_dp)/(self%fold*points), dp))
-         tangent = self%b(0)*w
+         tangent = self%b(0)*w*self%crowded_slope(w)
          step = conjg(w)**self%fold
          power = conjg(w)**(self%fold - 1)
          do k = 1, ubound(self%b, 1)
@@ -136,7 +162,7 @@ contains
       integer, parameter :: most_steps = 40
       !> Of b_0: what rounding leaves.
       real(dp), parameter :: tolerance = 64*epsilon(1.0_dp)
-      complex(dp) :: edge, left, slope, step
+      complex(dp) :: edge, left, own, slope, step
       real(dp) :: angle, bend, direction, turn
       integer :: i, k
 
@@ -151,7 +177,7 @@ contains
          turn = direction - atan2(edge%im, edge%re)
          turn = turn - 2*pi*anint(turn/(2*pi))
          ! How fast the direction turns with the angle, at least a little: tips are sharp.
-         slope = self%b(0)*w
+         slope = self%b(0)*w*self%crowded_slope(w)
          do k = 1, ubound(self%b, 1)
             slope = slope - (self%fold*k - 1)*self%b(k)*conjg(w)**(self%fold*k - 1)
          end do
@@ -163,9 +189,10 @@ contains
       do i = 1, most_steps
          left = z - self%place(w)
          slope = conjugate_slope(self, w)
-         bend = self%b(0)**2 - (slope%re**2 + slope%im**2)
+         own = self%b(0)*self%crowded_slope(w)
+         bend = own%re**2 + own%im**2 - (slope%re**2 + slope%im**2)
          if (.not. bend > 1e-3_dp*self%b(0)**2 .or. .not. abs(w) < 4.0_dp) return
-         step = (self%b(0)*left - slope*conjg(left))/bend
+         step = (conjg(own)*left - slope*conjg(left))/bend
          w = w + step*min(1.0_dp, 0.2_dp/max(abs(step), tiny(1.0_dp)))
          found = abs(step) <= tolerance .or. abs(left) <= tolerance*self%b(0)
          if (found) return

@@ -58,8 +58,6 @@ contains
       island%shape%fold = 4
       allocate (island%shape%b(0:1))
       island%shape%b(:) = [radius, 0.0_dp]
-      island%scale = radius
-      allocate (island%harmonic(0:2), source=0.0_dp)
       allocate (island%c(island%basis%terms), source=0.0_dp)
       ! The opening is g_0 (1 - rho^2)^(3/2), g_0 = (8/3)(1 - P) b.
       island%c(1) = 8*(1.0_dp - load)*radius/3*sqrt(0.4_dp*pi)
@@ -76,9 +74,7 @@ contains
       guess = from
       if (from%island) then
          factor = sqrt((1.0_dp - new_load)/(1.0_dp - old_load))
-         guess%scale = from%scale*factor
          guess%c = from%c*factor**3
-         guess%harmonic = from%harmonic*factor**2
       else
          factor = (new_load/old_load)**(1.0_dp/3)
          guess%c = from%c*factor
