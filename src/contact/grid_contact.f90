@@ -49,13 +49,14 @@ contains
       real(dp), intent(in) :: accuracy      !! of mean gap [Delta], contact area fraction and peak pressure [p*]
       logical, intent(in) :: keep_fields    !! whether `pressure`, `displacement` and `edge_curves` will be asked for
       !> Of the whole cell; if present and above zero the grid to be solved, whatever the accuracy. Even numbers for
-      !> a surface that mirrors itself.
+      !> a surface that mirrors itself; of a profile the first alone counts.
       integer, intent(in), optional :: points(2)
 
       self%surface = surface
       self%accuracy = accuracy
       self%keep_fields = keep_fields
       if (present(points)) self%points = points
+      if (surface%dimension == 1) self%points(2) = min(self%points(2), 1)
       self%solved = surface
       self%turned = all(self%points == 0) .and. surface%has_smaller_cell()
       if (self%turned) self%solved = surface%smaller_cell()
