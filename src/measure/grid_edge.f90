@@ -14,7 +14,7 @@ module wavycon_grid_edge
    public :: grid_edge, grid_contact_area, grid_strip_edges, start_grid_edge
 
    type, extends(contact_edge) :: grid_edge
-      !> In contact the pressure, else minus the gap, in any unit, shape (M, N); N = 1 for one dimension.
+      !> In contact the pressure, > 0, else minus the gap, <= 0, in any unit, shape (M, N); N = 1 for one dimension.
       real(dp), allocatable :: pressure_or_gap(:, :)
       logical :: even = .true.   !! whether the points are those of a quarter
    contains
@@ -33,7 +33,8 @@ contains
       logical, intent(in) :: even
 
       allocate (edge%pressure_or_gap(size(gap, 1), size(gap, 2)))
-      edge%pressure_or_gap = merge(pressure, -gap, pressure > 0.0_dp)
+      ! An overlap of the size of rounding is no pressure: those of the lightest loads are as small.
+      edge%pressure_or_gap = merge(pressure, -max(gap, 0.0_dp), pressure > 0.0_dp)
       edge%even = even
       edge%period = merge(2, 1, even)*shape(gap)
    end subroutine start_grid_edge
