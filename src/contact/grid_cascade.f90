@@ -78,6 +78,7 @@ contains
          call grid_peak_pressure(edge, answer%values(3), resolved)
          change = abs(answer%values - values)
          answer%errors = max(safety*change, 0.5_dp*safety*last_change, unresolved(surface, edge, resolved))
+         answer%errors = max(answer%errors, hidden_by_chance(surface%dimension, answer%values, answer%errors(2)))
          answer%accurate = answer%state%converged .and. all(answer%errors <= accuracy) .and. all(grid >= trusted_grid)
          if (present(progress)) call progress%grid_solved(grid*merge(2, 1, surface%shape%is_even() .and. grid > 1), &
                                                           answer%state%iterations, answer%state%residual)
@@ -212,8 +213,8 @@ contains
       logical, intent(in) :: peak_resolved
       real(dp) :: errors(3)                    !! of mean gap, contact area and peak pressure
 
-      !> On the average over the edge it is placed to this part of a step.
-      real(dp), parameter :: edge_uncertainty = 0.005_dp
+      !> At each point the edge is placed to this part of a step, and on the average over many of them to this.
+      real(dp), parameter :: edge_scatter = 0.1_dp, edge_uncertainty = 0.005_dp
       !> Hertz's peak pressure of a contact of half width or radius a: this times a over the radius of curvature.
       real(dp), parameter :: hertz_peak(2) = [2*pi, 8.0_dp]
 
@@ -225,7 +226,7 @@ contains
          n = size(field, 2)
          edges = count((field(:m - 1, :) > 0.0_dp) .neqv. (field(2:, :) > 0.0_dp)) &
                  + count((field(:, :n - 1) > 0.0_dp) .neqv. (field(:, 2:) > 0.0_dp))
-         errors = [0.0_dp, edge_uncertainty*edges/size(field), 0.0_dp]
+         errors = [0.0_dp, max(edge_scatter*sqrt(real(edges, dp)), edge_uncertainty*edges)/size(field), 0.0_dp]
          if (all(field > 0.0_dp)) then
             ! With this part of the surface the mean gap falls as the power 5/2 or faster, and with it the change of
             ! the peak.
@@ -239,6 +240,29 @@ contains
          end if
       end associate
    end function unresolved
+
+   !> Errors of mean gap and peak pressure that their changes on three grids may not show, from that of the area.
+   pure function hidden_by_chance(dimension, values, area_error) result(errors)
+      integer, intent(in) :: dimension
+      real(dp), intent(in) :: values(3), area_error
+      real(dp) :: errors(3)                  !! of mean gap, contact area and peak pressure; of the area none
+
+      !> Both converge faster than the area, but not by much more than this.
+      real(dp), parameter :: least_of_area = 0.01_dp
+      !> With these powers of the open part the mean gap falls towards full contact.
+      real(dp), parameter :: closing_power(2) = [4.0_dp, 2.5_dp]
+      real(dp) :: open_part
+
+      errors = 0.0_dp
+      open_part = 1.0_dp - values(2)
+      associate (gap => values(1), area => values(2), peak => values(3))
+         if (.not. min(gap, area, open_part) > 0.0_dp) return
+         errors = least_of_area*area_error*[min(gap, 1.0_dp - gap)/min(area, open_part), 0.0_dp, peak/area]
+         ! A last gap that a few points make may well be much larger.
+         if (area_error >= open_part) errors(1) = max(errors(1), min(area_error**2, &
+            gap*((1.0_dp + area_error/open_part)**closing_power(dimension) - 1.0_dp)))
+      end associate
+   end function hidden_by_chance
 
    !> Points in contact whose pressure is so far below a neighbour's that there may be a gap beside them.
    pure integer function hidden_openings(edge)
