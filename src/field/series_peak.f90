@@ -37,20 +37,25 @@ contains
       peak = series%at(place(1), place(2))
    end subroutine find_peak
 
-   !> Newton's method for a maximum. It stops where it gains nothing more.
+   !> Newton's method for a maximum, a little short of it so that it also climbs to a crest that is the same all along
+   !> a line. It stops where it gains nothing more.
    pure subroutine climb(series, place)
       type(fourier_series), intent(in) :: series
       real(dp), intent(inout) :: place(2)
 
       integer, parameter :: most_steps = 20
-      real(dp) :: determinant, g(2), h(3), step(2), next(2)
+      real(dp), parameter :: short = 1e-3_dp
+      real(dp) :: determinant, g(2), h(3), largest, step(2), next(2)
       integer :: i
 
       do i = 1, most_steps
          call derivatives(series, place, g, h)
          if (ubound(series%c, 2) == 0) h(2:3) = [0.0_dp, -1.0_dp]
+         ! The larger eigenvalue is that along the line, and zero but for rounding.
+         largest = 0.5_dp*(h(1) + h(3)) + hypot(0.5_dp*(h(1) - h(3)), h(2))
+         h([1, 3]) = h([1, 3]) - max(largest, 0.0_dp) - short*maxval(abs(h))
          determinant = h(1)*h(3) - h(2)**2
-         if (.not. (determinant > 0.0_dp .and. h(1) < 0.0_dp)) return
+         if (.not. determinant > 0.0_dp) return
          step = [h(3)*g(1) - h(2)*g(2), h(1)*g(2) - h(2)*g(1)]/determinant
          next = place - step
          if (.not. series%at(next(1), next(2)) > series%at(place(1), place(2))) return
