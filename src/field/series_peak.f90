@@ -1,5 +1,6 @@
 !> The largest value of a field.
 module wavycon_series_peak
+   use wavycon_constants, only: pi
    use wavycon_fourier_series, only: fourier_series
    use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
@@ -10,6 +11,10 @@ module wavycon_series_peak
 
    !> Points to the shortest wave, from the best of which Newton's method climbs to the peak.
    integer, parameter :: points_per_wave = 16
+   !> Crests are tried until none that is left can be higher: between the points of a plane a field may be larger by
+   !> this factor (Ehlich & Zeller, Math. Z. 86 (1964) 41-44). Of many as high, as along a line, so many are tried.
+   real(dp), parameter :: most_between = 1.0_dp/cos(pi/points_per_wave)**2
+   integer, parameter :: most_crests = 10
 
 contains
 
@@ -23,22 +28,49 @@ contains
 
       type(grid_transform) :: transform
       real(dp), allocatable :: values(:, :)
-      integer :: best(2), points(2)
+      real(dp) :: crest(2), height, hidden, largest
+      integer :: best(2), i, points(2)
 
       points = points_per_wave*max(1, ubound(series%c))
       if (ubound(series%c, 2) == 0) points(2) = 1
       allocate (values(points(1), points(2)))
       call transform%start(points, even=.false.)
       call transform%sample(series, values)
+      largest = maxval(abs(values))
+      hidden = (most_between - 1.0_dp)*largest
       best = maxloc(values)
-      if (values(1, 1) >= maxval(values) - rounding*maxval(abs(values))) best = 1
-      place = [transform%x_angle(best(1)), transform%y_angle(best(2))]
-      call climb(series, place)
-      peak = series%at(place(1), place(2))
+      if (values(1, 1) >= maxval(values) - rounding*largest) best = 1
+      do i = 1, most_crests
+         crest = [transform%x_angle(best(1)), transform%y_angle(best(2))]
+         call climb(series, crest)
+         height = series%at(crest(1), crest(2))
+         if (i == 1 .or. height > peak + rounding*largest) then
+            peak = height
+            place = crest
+         end if
+         call take_out(values, best)
+         best = maxloc(values)
+         if (values(best(1), best(2)) + hidden <= peak) exit
+      end do
    end subroutine find_peak
 
-   !> Newton's method for a maximum, a little short of it so that it also climbs to a crest that is the same all along
-   !> a line. It stops where it gains nothing more.
+   !> Takes out the points about a crest, less than half the shortest wave away.
+   pure subroutine take_out(values, place)
+      real(dp), intent(inout) :: values(:, :)
+      integer, intent(in) :: place(2)
+
+      integer, parameter :: reach = points_per_wave/2 - 1
+      integer :: i, j
+
+      do j = place(2) - reach, place(2) + reach
+         do i = place(1) - reach, place(1) + reach
+            values(modulo(i - 1, size(values, 1)) + 1, modulo(j - 1, size(values, 2)) + 1) = -huge(1.0_dp)
+         end do
+      end do
+   end subroutine take_out
+
+   !> Newton's method for a maximum, a little short of it so that it also climbs to a crest that is the same all
+   !> along a line. It stops where it gains nothing more.
    pure subroutine climb(series, place)
       type(fourier_series), intent(in) :: series
       real(dp), intent(inout) :: place(2)
@@ -50,7 +82,7 @@ contains
 
       do i = 1, most_steps
          call derivatives(series, place, g, h)
-         if (ubound(series%c, 2) == 0) h(2:3) = [0.0_dp, -1.0_dp]
+         if (ubound(series%c, 2) == 0) h(2:3) = [0.0_dp, h(1)]
          ! The larger eigenvalue is that along the line, and zero but for rounding.
          largest = 0.5_dp*(h(1) + h(3)) + hypot(0.5_dp*(h(1) - h(3)), h(2))
          h([1, 3]) = h([1, 3]) - max(largest, 0.0_dp) - short*maxval(abs(h))
