@@ -16,17 +16,21 @@ import tempfile
 import time
 
 import builds as other_builds
+import contact_conditions
 import extremes
 import faults as machine_faults
 import fuzz_decks
 import fuzz_maps
+import honest_estimates
 import names
 import quadratic_programmes
+import random_scenes
+import same_contact
 import valgrind_runs
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 MOST_SHOWN = 20  # failures of a part
-PARTS = ("qp", "loads", "decks", "faults", "builds", "valgrind")
+PARTS = ("qp", "loads", "solvers", "decks", "faults", "builds", "valgrind")
 
 
 def qp(settings, results):
@@ -40,6 +44,17 @@ def loads(settings, results):
     yield quadratic_programmes.loads(settings.programs, settings.quick, results)
     with work_folder() as work:
         yield extremes.campaign(settings.program, settings.quick, work, results)
+
+
+def solvers(settings, results):
+    kinds = random_scenes.QUICK if settings.quick else random_scenes.KINDS
+    for campaign, program, scenes in (
+            (contact_conditions.campaign, settings.programs/"stress_scenes", 12),
+            (honest_estimates.campaign, settings.program, 5),
+            (same_contact.order_and_symmetry, settings.program, 4),
+            (same_contact.alone_and_again, settings.program, 3)):
+        with work_folder() as work:
+            yield campaign(program, settings.seed, kinds, 1 if settings.quick else scenes, work, results)
 
 
 def decks(settings, results):

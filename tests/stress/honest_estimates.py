@@ -1,0 +1,64 @@
+"""Error estimates of random scenes beside true errors, by a much finer solve, a closed form or an expansion."""
+import itertools
+import random
+
+from common import Part
+from random_scenes import FITTED, random_loads, random_scene
+from summaries import VALUES, keep, solve
+
+# What README says of them: that they hold in so many of 100, and that none is wrong by more than this factor.
+CONFIDENCE, LARGEST_RATIO = 0.95, 3.0
+FEWEST = 100  # estimates that a share is taken of
+# Accuracies that a much finer solve can follow in a second or so: of waves by quarters of cells, of others.
+FINEST = {"wave_1d": 1e-4, "profile": 1e-4, "sum": 1e-2, "file": 1e-2, "even file": 1e-2}
+FINEST_OF_OTHERS = 3e-3
+COARSEST = 1e-1
+FITTED_ACCURACIES = (1e-10, 1e-3)
+FINER, FITTED_FINER, FINEST_FITTED = 10.0, 100.0, 1e-12  # how much finer is a truth, and how fine at most
+
+
+def random_case(stream, kind, solver):
+    """The files of a random scene to solve, and those of its truth."""
+    scene = random_scene(stream, kind)
+    loads = random_loads(stream, 4)
+    finest, coarsest = FITTED_ACCURACIES if solver == "fitted" else (FINEST.get(kind, FINEST_OF_OTHERS), COARSEST)
+    accuracy = finest*(coarsest/finest)**stream.random()
+    if solver == "fitted":
+        truth = f"solver = 'fitted', accuracy = {max(accuracy/FITTED_FINER, FINEST_FITTED)!r}"
+    else:
+        truth = f"solver = 'auto', accuracy = {accuracy/FINER!r}"
+    return scene.files(loads, f"solver = '{solver}', accuracy = {accuracy!r}"), scene.files(loads, truth)
+
+
+def campaign(program, seed, kinds, scenes, work, failures):
+    """So many scenes of each kind with each solver that it has."""
+    part = Part("error estimates")
+    ratios = {"grid": [], "fitted": []}
+    for kind, solver, number in itertools.product(kinds, ratios, range(scenes)):
+        if solver == "fitted" and kind not in FITTED:
+            continue
+        name = f"estimates-{solver}-{kind.replace(' ', '-')}-{number}"
+        files, finer = random_case(random.Random(f"{seed} {name}"), kind, solver)
+        rows, complaints = solve(program, files, work/name)
+        truths, more = solve(program, finer, work/name)
+        for row, truth in zip(rows, truths):
+            if not (row.told and truth.told):
+                continue  # spots have merged
+            for which, value in enumerate(VALUES):
+                error = abs(row.values[which] - truth.values[which])
+                ratio = max(error - truth.errors[which], 0.0)/row.errors[which]
+                ratios[solver].append(ratio)
+                if ratio > LARGEST_RATIO:
+                    complaints.append(f"{value} at P = {row.load!r} is off by {ratio:.1f} times its estimate, "
+                                      f"{row.errors[which]:.1e}")
+        if not part.count(name, complaints + more):
+            keep(failures, name, files)
+    words = []
+    for solver, all_ratios in ratios.items():
+        held = sum(ratio <= 1.0 for ratio in all_ratios)/max(len(all_ratios), 1)
+        words.append(f"{solver} {max(all_ratios, default=0.0):.2f} times, "
+                     f"{100*held:.1f} % of {len(all_ratios)} hold")
+        if len(all_ratios) >= FEWEST:
+            part.count(f"estimates of {solver}", [] if held >= CONFIDENCE else [f"only {100*held:.1f} % hold"])
+    part.worst = "; ".join(words)
+    return part

@@ -1,0 +1,160 @@
+!> The conditions of contact of an answer on a grid, in quadruple precision and without a transform.
+!>
+!> The displacement is the sum over the points in contact of pressure times the half-space's answer to one point's
+!> pressure, which is a plain sum of cosines. On purpose nothing of the library's operator is used, and of the
+!> answer only the pressure and the mean gap: the gap that it has beside them is one of the things to check.
+module stress_kkt_of_grid
+   use, intrinsic :: iso_fortran_env, only: real128
+   use wavycon_contact_state, only: contact_state
+   use wavycon_grid_edge, only: grid_edge
+   use wavycon_kinds, only: dp
+   use wavycon_surface, only: surface_type
+   implicit none (type, external)
+   private
+
+   public :: check_grid, grid_kkt
+
+   integer, parameter :: qp = real128
+   real(qp), parameter :: two_pi = 8*atan(1.0_qp)
+
+   !> Violations.
+   type :: grid_kkt
+      logical :: well_formed = .false.         !! there are finite pressures and gaps, and some contact
+      real(dp) :: load = huge(1.0_dp)          !! of the mean pressure [P]
+      real(dp) :: residual = huge(1.0_dp)      !! root mean square of gaps in contact and overlaps elsewhere [Delta]
+      real(dp) :: complementarity = huge(1.0_dp)   !! mean of |pressure times gap| [p* Delta]
+      real(dp) :: gap = huge(1.0_dp)           !! largest of the gaps told, out of contact, from those found [Delta]
+   end type grid_kkt
+
+contains
+
+   !> Checks an answer between no load and full contact on a grid of the surface's own cell.
+   type(grid_kkt) function check_grid(surface, state) result(kkt)
+      type(surface_type), intent(in) :: surface
+      type(contact_state), intent(in) :: state   !! with its edge, of a grid that carries all waves of the surface
+
+      real(qp), allocatable :: pressure(:, :), gap(:, :)
+      logical, allocatable :: contact(:, :)
+      real(qp) :: told
+      integer :: i, j, m, n
+
+      if (.not. allocated(state%edge)) return
+      associate (field => state%edge%pressure_or_gap)
+         kkt%well_formed = all(abs(field) <= huge(1.0_dp)) .and. any(field > 0.0_dp)
+         if (.not. kkt%well_formed) return
+         m = size(field, 1)
+         n = size(field, 2)
+         if (state%edge%even) m = 2*m
+         if (state%edge%even .and. n > 1) n = 2*n
+         allocate (pressure(m, n), gap(m, n))
+         do j = 1, n
+            do i = 1, m
+               pressure(i, j) = max(field(state%edge%place(i, 1), state%edge%place(j, 2)), 0.0_dp)
+            end do
+         end do
+         contact = pressure > 0.0_qp
+         kkt%load = relative(sum(pressure)/size(pressure), state%pbar_over_pstar)
+
+         call displace(surface, pressure, gap)
+         do j = 1, n
+            do i = 1, m
+               gap(i, j) = gap(i, j) + undeformed_gap(surface, state%edge, i, j) &
+                           - (1.0_qp - state%measures%mean_gap_over_amplitude)
+            end do
+         end do
+         kkt%residual = real(sqrt(sum(merge(gap, min(gap, 0.0_qp), contact)**2)/size(gap)), dp)
+         kkt%complementarity = real(sum(abs(pressure*gap))/size(gap), dp)
+         kkt%gap = 0.0_dp
+         do j = 1, n
+            do i = 1, m
+               if (contact(i, j)) cycle
+               told = -field(state%edge%place(i, 1), state%edge%place(j, 2))
+               kkt%gap = max(kkt%gap, real(abs(told - max(gap(i, j), 0.0_qp)), dp))
+            end do
+         end do
+      end associate
+   end function check_grid
+
+   !> h/Delta of a point: those of a quarter lie half a step from its rim.
+   real(qp) function undeformed_gap(surface, edge, i, j) result(h)
+      type(surface_type), intent(in) :: surface
+      type(grid_edge), intent(in) :: edge
+      integer, intent(in) :: i, j
+
+      real(dp) :: phi, theta
+
+      call edge%angles(i, j, phi, theta)
+      if (surface%dimension == 1) theta = 0.0_dp
+      h = surface%undeformed_gap_over_amplitude(phi, theta)
+   end function undeformed_gap
+
+   !> u - ubar [Delta] of a pressure [p*] on the points of the whole cell.
+   subroutine displace(surface, pressure, displacement)
+      type(surface_type), intent(in) :: surface
+      real(qp), intent(in) :: pressure(:, :)        !! shape (m, n)
+      real(qp), intent(out) :: displacement(:, :)   !! shape (m, n)
+
+      real(qp), dimension(0:size(pressure, 1) - 1, 0:size(pressure, 2) - 1) :: answer
+      integer :: i, j, k, l, m, n
+
+      m = size(pressure, 1)
+      n = size(pressure, 2)
+      answer = answer_to_a_point(surface, m, n)
+      displacement = 0.0_qp
+      do l = 1, n
+         do k = 1, m
+            if (.not. pressure(k, l) > 0.0_qp) cycle
+            do j = 1, n
+               do i = 1, m
+                  displacement(i, j) = displacement(i, j) + pressure(k, l)*answer(abs(i - k), abs(j - l))
+               end do
+            end do
+         end do
+      end do
+   end subroutine displace
+
+   !> u - ubar of a pressure one at the first point, as many steps away: the sum over all waves that the points
+   !> carry, each with u = p times its wavelength over the stiffness.
+   function answer_to_a_point(surface, m, n) result(u)
+      type(surface_type), intent(in) :: surface
+      integer, intent(in) :: m, n
+      real(qp) :: u(0:m - 1, 0:n - 1)
+
+      real(qp) :: along_x(0:m - 1, 0:n/2), weight(0:m/2, 0:n/2)
+      integer :: i, j, k, l
+
+      do l = 0, n/2
+         do k = 0, m/2
+            weight(k, l) = 0.0_qp
+            if (k + l == 0) cycle
+            ! Waves come in pairs, but those of wave number zero and the shortest.
+            weight(k, l) = merge(1, 2, k == 0 .or. 2*k == m)*merge(1, 2, l == 0 .or. 2*l == n) &
+                           /sqrt((k/real(surface%length(1), qp))**2 + (l/real(surface%length(2), qp))**2)
+         end do
+      end do
+      weight = weight/(real(m, qp)*n*surface%stiffness)
+      along_x = 0.0_qp
+      do l = 0, n/2
+         do k = 0, m/2
+            do i = 0, m - 1
+               along_x(i, l) = along_x(i, l) + weight(k, l)*cos(two_pi*modulo(k*i, m)/m)
+            end do
+         end do
+      end do
+      u = 0.0_qp
+      do j = 0, n - 1
+         do l = 0, n/2
+            u(:, j) = u(:, j) + along_x(:, l)*cos(two_pi*modulo(l*j, n)/n)
+         end do
+      end do
+   end function answer_to_a_point
+
+   !> |a - b|/b.
+   pure real(dp) function relative(a, b)
+      real(qp), intent(in) :: a
+      real(dp), intent(in) :: b
+
+      relative = real(abs(a - b)/b, dp)
+   end function relative
+
+end module stress_kkt_of_grid

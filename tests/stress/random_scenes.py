@@ -1,0 +1,140 @@
+"""Random surfaces and loads, as decks; and the same surfaces moved, mirrored, turned and in other units."""
+import math
+
+KINDS = ("wave_1d", "wave_2d", "wave_2d of two lengths", "crossed_1d", "crossed_1d alike", "hexagonal", "profile",
+         "sum", "even sum", "file", "even file")
+FITTED = ("wave_2d", "crossed_1d alike", "hexagonal")  # that solver = 'fitted' knows, at least below merging
+QUICK = ("wave_1d", "wave_2d", "profile", "even file")  # for the short form: of every kind of answer one
+MERGING = 0.2286  # load at which the spots of the paper's wave merge
+HEIGHTS = "heights.dat"
+
+
+class Scene:
+    """A surface. What is not a height map is a sum of waves as well, with which it can be moved and turned."""
+
+    def __init__(self, kind, cell, waves=(), words="", heights=None):
+        self.kind = kind
+        self.cell = cell        # sides [length]
+        self.waves = waves      # (amplitude [length], waves along x, along y, phase [turn]) of each
+        self.words = words      # keys of &surface, if not those of the sum
+        self.heights = heights  # rows of a height map [length]
+
+    def surface(self):
+        """Keys of &surface."""
+        if self.words:
+            return self.words
+        cell = f"length_x = {self.cell[0]!r}, length_y = {self.cell[1]!r}"
+        if self.heights:
+            return f"kind = 'file', file = '{HEIGHTS}', file_format = 'matrix', {cell}"
+        columns = list(zip(*self.waves))
+        keys = (("amplitudes", columns[0]), ("waves_x", columns[1]), ("waves_y", columns[2]),
+                ("phases", [360.0*math.remainder(phase, 1.0) for phase in columns[3]]))
+        return f"kind = 'sum', {cell}" + "".join(f",\n   {name} = {', '.join(map(repr, values))}"
+                                                 for name, values in keys)
+
+    def files(self, loads, method, e_star=1.0):
+        """What to write beside each other: the deck and its height map."""
+        deck = (f"&surface {self.surface()} /\n&material e_star = {e_star!r} /\n"
+                f"&load pbar_over_pstar = {', '.join(map(repr, loads))} /\n&method {method} /\n")
+        files = {"deck.nml": deck}
+        if self.heights:
+            files[HEIGHTS] = "".join(" ".join(map(repr, row)) + "\n" for row in self.heights)
+        return files
+
+    def moved(self, x, y):
+        """By parts of the cell; a map, which is to keep its points, by as many of them as come nearest."""
+        if self.heights:
+            rows = round(y*len(self.heights))
+            columns = round(x*len(self.heights[0]))
+            heights = [row[columns:] + row[:columns] for row in self.heights[rows:] + self.heights[:rows]]
+            return Scene(self.kind, self.cell, heights=heights)
+        return Scene(self.kind, self.cell, [(a, m, n, phase + m*x + n*y) for a, m, n, phase in self.waves])
+
+    def mirrored(self):
+        if self.heights:
+            return Scene(self.kind, self.cell, heights=[row[::-1] for row in self.heights])
+        return Scene(self.kind, self.cell, [(a, -m, n, phase) for a, m, n, phase in self.waves])
+
+    def turned(self):
+        """By a right angle; not a profile."""
+        cell = self.cell[::-1]
+        if self.heights:
+            return Scene(self.kind, cell, heights=[list(column)[::-1] for column in zip(*self.heights)])
+        return Scene(self.kind, cell, [(a, -n, m, phase) for a, m, n, phase in self.waves])
+
+    def scaled(self, length, height):
+        """In other units of lengths and of heights."""
+        cell = [length*side for side in self.cell]
+        if self.heights:
+            return Scene(self.kind, cell, heights=[[height*value for value in row] for row in self.heights])
+        return Scene(self.kind, cell, [(height*a, m, n, phase) for a, m, n, phase in self.waves])
+
+    @property
+    def is_profile(self):
+        return not self.heights and all(n == 0 for _, _, n, _ in self.waves)
+
+
+def random_scene(stream, kind):
+    a, length = stream.uniform(0.1, 2.0), stream.uniform(0.5, 2.0)
+    if kind == "wave_1d":
+        return Scene(kind, (length, length), [(a, 1, 0, 0.0)],
+                     f"kind = 'wave_1d', amplitude = {a!r}, wavelength = {length!r}")
+    if kind == "wave_2d":
+        return Scene(kind, (length, length), [(a/2, 1, 1, 0.0), (a/2, 1, -1, 0.0)],
+                     f"kind = 'wave_2d', amplitude = {a!r}, wavelength = {length!r}")
+    if kind == "wave_2d of two lengths":
+        other = length*4.0**stream.uniform(-1.0, 1.0)
+        return Scene(kind, (length, other), [(a/2, 1, 1, 0.0), (a/2, 1, -1, 0.0)],
+                     f"kind = 'wave_2d', amplitude = {a!r}, wavelength = {length!r}, wavelength_y = {other!r}")
+    if kind in ("crossed_1d", "crossed_1d alike"):
+        # 'fitted' knows sides of up to 3 to 1 and curvatures of the crests of up to 50 to 1.
+        unlike, long = (8.0, 4.0) if kind == "crossed_1d" else (2.0, 2.0)
+        b, other = a*unlike**stream.uniform(-1.0, 1.0), length*long**stream.uniform(-1.0, 1.0)
+        return Scene(kind, (length, other), [(a, 1, 0, 0.0), (b, 0, 1, 0.0)],
+                     f"kind = 'crossed_1d', amplitude1 = {a!r}, wavelength1 = {length!r}, amplitude2 = {b!r}, "
+                     f"wavelength2 = {other!r}")
+    if kind == "hexagonal":
+        return Scene(kind, (2.0/math.sqrt(3.0)*length, 2.0*length),
+                     [(a/3, 0, 2, 0.0), (a/3, 1, 1, 0.0), (a/3, 1, -1, 0.0)],
+                     f"kind = 'hexagonal', amplitude = {a!r}, wavelength = {length!r}")
+    if kind in ("file", "even file"):
+        cell = (length, length*stream.choice((0.5, 1.0, 1.5)))
+        return Scene(kind, cell, heights=random_map(stream, kind == "even file"))
+    even = kind == "even sum"
+    waves = []
+    for _ in range(stream.randint(1, 4)):
+        m, n = stream.randint(1, 3), 0 if kind == "profile" else stream.randint(-3, 3)
+        phase = stream.choice((0.0, 0.5)) if even else stream.uniform(-0.5, 0.5)
+        waves.append((stream.uniform(-1.2, 1.2), m, n, phase))
+    if kind != "profile" and all(n == 0 for _, _, n, _ in waves):
+        waves.append((stream.uniform(0.2, 1.2), 0, 1, 0.0 if even else stream.uniform(-0.5, 0.5)))
+    if even:
+        # With its mirror image each wave is even.
+        waves = [(a, m, sign*n, phase) for a, m, n, phase in waves for sign in (1, -1)]
+    return Scene(kind, (length, length if kind == "profile" else length*stream.uniform(0.5, 2.0)), waves)
+
+
+def random_map(stream, even):
+    """Heights of waves whose amplitudes fall as a power of their number, of random directions and phases."""
+    rows, columns = stream.choice((8, 12, 16)), stream.choice((8, 16))
+    slope, shortest = stream.uniform(1.0, 2.5), stream.randint(2, min(rows, columns)//2)
+    heights = [[0.0]*columns for _ in range(rows)]
+    for m in range(shortest + 1):
+        for n in range(0 if even else -shortest, shortest + 1):
+            if (m, n) == (0, 0) or m*m + n*n > shortest**2:
+                continue
+            a, phase = math.hypot(m, n)**-slope*stream.gauss(0.0, 1.0), stream.uniform(0.0, 2.0*math.pi)
+            for i in range(rows):
+                for j in range(columns):
+                    x, y = 2.0*math.pi*j*m/columns, 2.0*math.pi*i*n/rows
+                    heights[i][j] += a*(math.cos(x)*math.cos(y) if even else math.cos(x + y - phase))
+    return heights
+
+
+def random_loads(stream, count):
+    """Light ones, heavy ones, those between, and those about merging, from the lightest to the heaviest."""
+    loads = set()
+    while len(loads) < count:
+        loads.add(stream.choice((10.0**stream.uniform(-4.0, 0.0), 1.0 - 10.0**stream.uniform(-4.0, 0.0),
+                                 stream.uniform(0.02, 0.98), MERGING*1.2**stream.uniform(-1.0, 1.0))))
+    return sorted(loads)
