@@ -21,6 +21,7 @@ module wavycon_contact_solver
       procedure :: cheaper_levels
       procedure :: use_level
       procedure :: fields
+      procedure :: settled_fields
       procedure :: edge_curves
       procedure(solve_load), deferred :: solve
       procedure(fields_of_state), deferred :: solved_fields
@@ -106,13 +107,18 @@ contains
       type(contact_state), intent(in) :: state
       class(contact_fields), allocatable, intent(out) :: answer
 
-      type(series_fields), allocatable :: both
-
-      if (.not. is_settled(state)) then
+      if (is_settled(state)) then
+         allocate (answer, source=self%settled_fields(state))
+      else
          call self%solved_fields(state, answer)
-         return
       end if
-      allocate (both)
+   end subroutine fields
+
+   !> Those of a state that needed no solver: all closed in full contact, else nothing yet.
+   type(series_fields) function settled_fields(self, state) result(both)
+      class(contact_solver), intent(in) :: self
+      type(contact_state), intent(in) :: state
+
       if (state%status == full_contact) then
          both%pressure = self%surface%full_contact_series(state%pbar_over_pstar)
          both%displacement = self%surface%shape
@@ -121,8 +127,7 @@ contains
          both%pressure%c = 0.0_dp
          both%displacement%c = 0.0_dp
       end if
-      call move_alloc(both, answer)
-   end subroutine fields
+   end function settled_fields
 
    subroutine edge_curves(self, state, curves)
       class(contact_solver), intent(in) :: self

@@ -47,7 +47,7 @@ contains
       class(grid_contact), intent(out) :: self
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: accuracy      !! of mean gap [Delta], contact area fraction and peak pressure [p*]
-      logical, intent(in) :: keep_fields    !! whether `pressure`, `displacement` and `edge_curves` will be asked for
+      logical, intent(in) :: keep_fields    !! whether `pressure`, `fields` and `edge_curves` will be asked for
       !> Of the whole cell; if present and above zero the grid to be solved, whatever the accuracy. Even numbers for
       !> a surface that mirrors itself; of a profile the first alone counts.
       integer, intent(in), optional :: points(2)

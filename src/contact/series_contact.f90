@@ -2,9 +2,8 @@
 module wavycon_series_contact
    use wavycon_contact_fields, only: contact_fields, series_fields
    use wavycon_contact_solver, only: contact_solver, is_settled
-   use wavycon_contact_state, only: contact_state, full_contact
+   use wavycon_contact_state, only: contact_state
    use wavycon_fourier_series, only: fourier_series
-   use wavycon_kinds, only: dp
    implicit none (type, external)
    private
 
@@ -13,7 +12,6 @@ module wavycon_series_contact
    type, extends(contact_solver), abstract :: series_contact
    contains
       procedure :: pressure
-      procedure :: displacement
       procedure :: solved_fields
       procedure(series_of_state), deferred :: solved_pressure
    end type series_contact
@@ -36,24 +34,15 @@ contains
       type(contact_state), intent(in) :: state
       type(fourier_series) :: field
 
-      if (.not. is_settled(state)) then
-         field = self%solved_pressure(state)
-      else if (state%status == full_contact) then
-         field = self%surface%full_contact_series(state%pbar_over_pstar)
+      type(series_fields) :: both
+
+      if (is_settled(state)) then
+         both = self%settled_fields(state)
+         field = both%pressure
       else
-         allocate (field%c, mold=self%surface%shape%c)
-         field%c = 0.0_dp
+         field = self%solved_pressure(state)
       end if
    end function pressure
-
-   !> (u - ubar)/Delta of a state.
-   function displacement(self, state) result(field)
-      class(series_contact), intent(in) :: self
-      type(contact_state), intent(in) :: state
-      type(fourier_series) :: field
-
-      field = self%surface%displacement_of(self%pressure(state))
-   end function displacement
 
    subroutine solved_fields(self, state, fields)
       class(series_contact), intent(in) :: self

@@ -230,7 +230,7 @@ contains
       type(fourier_series) :: displacement
       real(dp) :: own_gap
 
-      displacement = self%fresh%displacement(self%state)
+      displacement = self%fresh%surface%displacement_of(self%fresh%pressure(self%state))
       own_gap = 1.0_dp - displacement%at(0.0_dp, 0.0_dp)   ! eq. (28)
       write (output_unit, '(i5,i7,a10,a6,i9,i12,f7.2,2i7,3f10.4,f14.9,es14.3,1x,a)') &
          self%harmonics, self%points, merge('full    ', 'diagonal', self%symmetry == symmetry_full), &
