@@ -28,8 +28,7 @@ module wavycon_fitted_fields
    contains
       procedure :: at
       procedure :: edge
-      procedure, private :: displacement
-      procedure, private :: tension
+      procedure, private :: outside
    end type fitted_fields
 
    !> Sizes of the plain rule for what is not near, per turn and per radius, and how much finer it is when
@@ -106,10 +105,10 @@ contains
             end if
             displacement = gap + approach - h
          else if (self%answer%island) then
-            pressure = self%answer%pbar_over_pstar + 1.0_dp - h - self%tension(z)/(4*pi**2)
+            pressure = self%answer%pbar_over_pstar + 1.0_dp - h - self%outside(z)/(4*pi**2)
             displacement = approach - h
          else
-            displacement = self%displacement(z)
+            displacement = self%outside(z)
             gap = displacement + h - approach
          end if
       end associate
@@ -145,66 +144,47 @@ contains
       end do
    end function edge
 
-   !> Integral of Gp p at a place outside.
-   real(dp) function displacement(self, z) result(u)
+   !> At a place outside of all spots the displacement, the integral of Gp p; outside of all islands that of the
+   !> Laplacian of Gp times the gap.
+   real(dp) function outside(self, z) result(total)
       class(fitted_fields), intent(inout) :: self
       complex(dp), intent(in) :: z      !! from the centre, reduced
 
       real(dp), dimension(size(self%source)) :: slope_x, slope_y, value, x, y
       real(dp) :: row(size(self%answer%solution%c)), shape_row(0:ubound(self%answer%solution%shape%b, 1))
       complex(dp) :: image, w
-      integer :: k, n
-      logical :: found
+      integer :: k, n, power
+      logical :: by_chords, found
 
       n = size(self%source)
       x = z%re - self%source%re
       y = z%im - self%source%im
-      call self%lattice%kernel%smooth_part(n, x, y, value, slope_x, slope_y)
-      u = 0.0_dp
+      if (self%answer%island) then
+         call self%lattice%kernel%smooth_laplacian(n, x, y, value, slope_x, slope_y)
+         power = 3
+      else
+         call self%lattice%kernel%smooth_part(n, x, y, value, slope_x, slope_y)
+         power = 1
+      end if
+      total = 0.0_dp
       associate (solution => self%answer%solution, images => self%lattice%kernel%image)
          do k = 0, size(images, 2)
             image = 0.0_dp
             if (k > 0) image = cmplx(images(1, k), images(2, k), dp)
             call solution%shape%find(z - image, w, found)
-            found = found .and. abs(w) < near
-            if (found) then
+            by_chords = found .and. abs(w) < near
+            if (by_chords .and. self%answer%island) then
+               total = total + self%chords%cube_integral(solution%basis, solution%shape, w, solution%c)
+            else if (by_chords) then
                call self%chords%rows(solution%basis, solution%shape, w, solution%c, row, shape_row)
-               u = u + dot_product(row, solution%c)
+               total = total + dot_product(row, solution%c)
             end if
-            ! The smooth part has all images but the one at the origin.
-            if (found .and. k > 0) value = value - 1.0_dp/hypot(x - image%re, y - image%im)
-            if (.not. found .and. k == 0) value = value + 1.0_dp/hypot(x, y)
+            ! The smooth part has the 1/r^power of all images but that of the one at the origin.
+            if (by_chords .and. k > 0) value = value - 1.0_dp/hypot(x - image%re, y - image%im)**power
+            if (.not. by_chords .and. k == 0) value = value + 1.0_dp/hypot(x, y)**power
          end do
       end associate
-      u = u + dot_product(self%strength, value)
-   end function displacement
-
-   !> Integral of the Laplacian of Gp times g at a place outside.
-   real(dp) function tension(self, z)
-      class(fitted_fields), intent(inout) :: self
-      complex(dp), intent(in) :: z      !! from the centre, reduced
-
-      real(dp), dimension(size(self%source)) :: value, x, y
-      complex(dp) :: image, w
-      integer :: k, n
-      logical :: found
-
-      n = size(self%source)
-      x = z%re - self%source%re
-      y = z%im - self%source%im
-      call self%lattice%kernel%laplacian(n, x, y, value)
-      tension = 0.0_dp
-      associate (solution => self%answer%solution, images => self%lattice%kernel%image)
-         do k = 0, size(images, 2)
-            image = 0.0_dp
-            if (k > 0) image = cmplx(images(1, k), images(2, k), dp)
-            call solution%shape%find(z - image, w, found)
-            if (.not. found .or. abs(w) >= near) cycle
-            tension = tension + self%chords%cube_integral(solution%basis, solution%shape, w, solution%c)
-            value = value - 1.0_dp/hypot(x - image%re, y - image%im)**3
-         end do
-      end associate
-      tension = tension + dot_product(self%strength, value)
-   end function tension
+      total = total + dot_product(self%strength, value)
+   end function outside
 
 end module wavycon_fitted_fields
