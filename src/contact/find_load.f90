@@ -99,8 +99,9 @@ contains
          if (abs(next - search%place) <= shortest_step*max(1.0_dp, abs(next))) exit
          search%place = next
       end do
-      ! The area of a grid may jump over the target as the points in contact change, by less than its own error.
-      if (abs(met - search%target) <= error) return
+      ! The area of a grid may jump over the target as the points in contact change, by less than its own error. One
+      ! that is as large as any error can be says nothing of that.
+      if (abs(met - search%target) <= error .and. error < 1.0_dp) return
       if (state%is_good()) state%status = not_accurate
    end subroutine find_root
 

@@ -3,7 +3,7 @@
 module wavycon_fitted_contact
    use wavycon_constants, only: pi
    use wavycon_contact_fields, only: contact_fields
-   use wavycon_contact_measures, only: contact_measures
+   use wavycon_contact_measures, only: contact_measures, unmeasured
    use wavycon_contact_solver, only: contact_solver
    use wavycon_contact_state, only: by_fitted, contact_state, converged, not_accurate, not_found
    use wavycon_edge_curves, only: edge_curve
@@ -80,8 +80,7 @@ contains
                         self%last)
       state%solver = by_fitted
       state%status = not_found
-      ! What is known all the same.
-      state%measures = contact_measures(mean_gap_error=1.0_dp, contact_area_error=1.0_dp, peak_pressure_error=peak)
+      state%measures = unmeasured(self%surface%full_contact_peak)
       if (answer%status == fitted_solved .or. answer%status == fitted_less_exact) then
          self%last = answer
          call take_measures(self%frame, answer, state)

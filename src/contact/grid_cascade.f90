@@ -6,6 +6,7 @@
 module wavycon_grid_cascade
    use wavycon_compliance_operator, only: compliance_operator
    use wavycon_constants, only: pi
+   use wavycon_contact_measures, only: largest_errors
    use wavycon_grid_edge, only: grid_contact_area, grid_edge, start_grid_edge
    use wavycon_grid_peak, only: grid_peak_pressure
    use wavycon_grid_progress, only: grid_progress
@@ -31,13 +32,14 @@ module wavycon_grid_cascade
    !> how the edge happens to lie between the points.
    real(dp), parameter :: safety(3) = [1.25_dp, 2.0_dp, 1.25_dp]
 
-   !> In place of a number that no grid has given yet; so large that no change from it passes for small.
+   !> In place of a number that no grid has given yet; so large that no change from it passes for small. It takes
+   !> three grids until none is left in an estimate.
    real(dp), parameter :: unknown = 1e30_dp
 
    type :: cascade_answer
       type(grid_state) :: state            !! on the finest grid
       real(dp) :: values(3) = 0.0_dp       !! mean gap [Delta], contact area fraction, peak pressure [p*]
-      real(dp) :: errors(3) = huge(1.0_dp) !! estimated, in the same units
+      real(dp) :: errors(3) = huge(1.0_dp) !! estimated, in the same units; `largest_errors` if that cannot be
       logical :: accurate = .false.        !! whether all errors are as small as asked for
       logical :: out_of_memory = .false.   !! whether a finer grid would have been needed, but not its memory
       integer :: grids = 0
@@ -95,6 +97,7 @@ contains
          call move_alloc(finer, answer%state%pressure)
          deallocate (answer%state%gap)
       end do
+      answer%errors = min(answer%errors, largest_errors(surface%full_contact_peak))
    end subroutine solve_by_cascade
 
    !> Whether there is memory for the solution on a grid: it is asked for all at once, and given back.

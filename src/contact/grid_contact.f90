@@ -5,7 +5,7 @@
 !> lie on the user's cell.
 module wavycon_grid_contact
    use wavycon_constants, only: pi
-   use wavycon_contact_measures, only: contact_measures
+   use wavycon_contact_measures, only: contact_measures, unmeasured
    use wavycon_contact_state, only: by_grid, contact_state, converged, no_memory, not_accurate
    use wavycon_edge_curves, only: edge_curve, strip_ends, trace_edges, turn_curves, whole_strips
    use wavycon_fourier_series, only: fourier_series
@@ -109,6 +109,7 @@ contains
       end associate
       state%status = no_memory
       state%solver = by_grid
+      state%measures = unmeasured(self%surface%full_contact_peak)
       if (.not. allocated(answer%state%gap)) return
       state%measures = contact_measures(mean_gap_over_amplitude=answer%values(1), &
                                         approach_over_amplitude=1.0_dp - answer%values(1), &

@@ -47,7 +47,8 @@ contains
             'pressure [p*]. A load that cannot be had so accurately says so.', least=1.0e-12_dp, most=0.1_dp), &
          integer_key('grid_points', '', &
             "Of 'grid' and 'auto', in place of accuracy: points of the cell along x and y of the one grid to solve; one "// &
-            'number for both. Even numbers. For a file the default is its own grid.', 8, 8192, most_values=2), &
+            'number for both. Even numbers. For a file the default is its own grid. Errors are estimated from 64 '// &
+            'points a side on, multiples of 4; of others the largest possible are shown.', 8, 8192, most_values=2), &
          integer_key('harmonics', '9 (2-D), 10 (1-D)', &
             'Highest harmonic of the pressure, in each direction.', 1, most_harmonics), &
          integer_key('constraint_points', '27 (2-D), 26 (1-D)', &

@@ -8,7 +8,7 @@ module wavycon_contact_measures
    implicit none (type, external)
    private
 
-   public :: contact_measures, full_contact_measures, measure_series, measuring_intervals
+   public :: contact_measures, full_contact_measures, largest_errors, measure_series, measuring_intervals, unmeasured
 
    type :: contact_measures
       real(dp) :: mean_gap_over_amplitude = 1.0_dp       !! G: eqs. (19), (28)
@@ -42,6 +42,25 @@ contains
                                   contact_area_fraction=1.0_dp, peak_pressure_over_pstar=pbar_over_pstar + largest, &
                                   min_pressure_over_pstar=pbar_over_pstar - 1.0_dp)
    end function full_contact_measures
+
+   !> What errors of mean gap [Delta], contact area fraction and peak pressure [p*] cannot exceed, so that they stand
+   !> where nothing else is known: all are between zero and one, or the peak of just full contact.
+   pure function largest_errors(largest) result(errors)
+      real(dp), intent(in) :: largest   !! p - P in full contact [p*], of the waves of the paper 1
+      real(dp) :: errors(3)
+
+      errors = [1.0_dp, 1.0_dp, 1.0_dp + largest]
+   end function largest_errors
+
+   !> The measures where there is no answer.
+   pure type(contact_measures) function unmeasured(largest) result(measures)
+      real(dp), intent(in) :: largest   !! as of largest_errors
+
+      real(dp) :: errors(3)
+
+      errors = largest_errors(largest)
+      measures = contact_measures(mean_gap_error=errors(1), contact_area_error=errors(2), peak_pressure_error=errors(3))
+   end function unmeasured
 
    !> Measures the series of a pressure and its displacement. The edge of contact is the isobar p = edge_level p*.
    subroutine measure_series(pressure, displacement, edge_level, measures)
