@@ -158,11 +158,11 @@ contains
       call self%say(trim(line))
       do i = 1, size(results%states)
          associate (state => results%states(i), measures => results%states(i)%measures)
-            write (line, '(5a, 2i8, es9.1, 2x, a)') &
+            write (line, '(5a, 2i8, a9, 2x, a)') &
                cell(state%pbar_over_pstar), cell(results%mean_pressure(i)), &
                cell(measures%mean_gap_over_amplitude), cell(measures%contact_area_fraction), &
                cell(measures%peak_pressure_over_pstar), state%active_constraints, state%pivots, &
-               state%kkt_residual, trim(state%status)
+               with_exponent(state%kkt_residual, 1), trim(state%status)
             call self%say(trim(line))
          end associate
       end do
@@ -177,9 +177,25 @@ contains
       if ((abs(number) >= least .and. abs(number) < most) .or. .not. abs(number) > 0) then
          write (cell, '(f12.6)') number
       else
-         write (cell, '(es12.4)') number
+         write (cell, '(a12)') with_exponent(number, 4)
       end if
    end function cell
+
+   !> A number as 1.2345E+06. Where the exponent takes three digits, before which Fortran has no E unless asked for
+   !> them, as 1.2345E+249.
+   function with_exponent(number, decimals) result(text)
+      real(dp), intent(in) :: number
+      integer, intent(in) :: decimals   !! at most 4, for a column of 12
+      character(:), allocatable :: text
+
+      character(20) :: buffer, layout
+
+      write (layout, '(a, i0, a)') '(es20.', decimals, ')'
+      write (buffer, layout) number
+      write (layout, '(a, i0, a)') '(es20.', decimals, 'e3)'
+      if (index(buffer, 'E') == 0) write (buffer, layout) number
+      text = trim(adjustl(buffer))
+   end function with_exponent
 
    subroutine clear_progress(self)
       class(run_log), intent(inout) :: self
