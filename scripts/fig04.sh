@@ -16,13 +16,7 @@ splot table('fig04', 'map') using 2:3:4 with lines
 unset table
 
 set style fill solid noborder
-set size ratio -1
-set xlabel '{/:Italic x}/'.lambda
-set ylabel '{/:Italic y}/'.lambda
-set xrange [0:1]
-set yrange [0:1]
-set xtics 0.25 format '%.2f' nomirror
-set ytics 0.25 format '%.2f' nomirror
+load 'scripts/unit_cell.gp'
 set key at graph 0.5, 1.025 center bottom horizontal samplen 1.5 width 1
 set lmargin screen 0.16
 set rmargin screen 0.95

@@ -12,13 +12,7 @@ stats edges using 1 nooutput
 loads = STATS_blocks
 array P[loads]
 
-set size ratio -1
-set xlabel '{/:Italic x}/'.lambda
-set ylabel '{/:Italic y}/'.lambda
-set xrange [0:1]
-set yrange [0:1]
-set xtics 0.25 format '%.2f' nomirror
-set ytics 0.25 format '%.2f' nomirror
+load 'scripts/unit_cell.gp'
 set cbrange [0:1]
 set lmargin screen 0.17
 set rmargin screen 0.93
