@@ -49,7 +49,8 @@ contains
          i = i + 1
          word = argument(i)
          if (options_over .or. index(word, '-') /= 1) then
-            if (word == '') call fatal_error(error, exit_bad_input, 'the name of a deck is empty'//new_line('a')//usage)
+            if (word == '') call fatal_error(error, exit_bad_input, 'the name of a deck is empty'//new_line('a')// &
+                                             usage)
             if (allocated(error)) return
             call add_deck(command_line%decks, word)
             cycle
@@ -128,13 +129,14 @@ contains
       if (text /= '' .and. len(text) <= longest .and. verify(text, '0123456789') == 0) &
          read (text, *, iostat=status) threads
       if (status /= 0 .or. threads < 1 .or. threads > most_threads) &
-         call fatal_error(error, exit_bad_input, "--threads needs a number from 1 to "//integer_text(most_threads)// &
-                          ", got '"//escaped(text)//"'"//new_line('a')//usage)
+         call fatal_error(error, exit_bad_input, "--threads needs a number from 1 to "// &
+                          integer_text(most_threads)//", got '"//escaped(text)//"'"//new_line('a')//usage)
    end subroutine read_threads
 
    !> Adds the name of a deck.
    !>
-   !> N.B. decks = [decks, path_type(word)] would lose the memory of the names: gfortran 12 does not free the copy's.
+   !> N.B. decks = [decks, path_type(word)] would lose the memory of the names: gfortran 12 does not free the
+   !> copy's.
    pure subroutine add_deck(decks, path)
       type(path_type), allocatable, intent(inout) :: decks(:)
       character(*), intent(in) :: path

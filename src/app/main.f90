@@ -92,9 +92,10 @@ contains
          do j = 1, i - 1
             if (decks(i)%deck%scene%case /= decks(j)%deck%scene%case) cycle
             if (decks(i)%deck%output%directory /= decks(j)%deck%output%directory) cycle
-            call fatal_error(error, exit_bad_input, escaped(decks(j)%deck%path)//' and '//escaped(decks(i)%deck%path)// &
-                             ' would write the same files: both are case '//trim(decks(i)%deck%scene%case)//' in '// &
-                             escaped(trim(decks(i)%deck%output%directory))//'. Give them different cases.')
+            call fatal_error(error, exit_bad_input, escaped(decks(j)%deck%path)//' and '// &
+                             escaped(decks(i)%deck%path)// &
+                             ' would write the same files: both are case '//trim(decks(i)%deck%scene%case)// &
+                             ' in '//escaped(trim(decks(i)%deck%output%directory))//'. Give them different cases.')
             call stop_on(error)
          end do
       end do

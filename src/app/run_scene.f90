@@ -70,9 +70,11 @@ contains
                                                    escaped(checkpoint_name(results))//', to resume from')
       call log%say_timed('solved and measured')
       call log%show_loads(results)
-      hidden = count(results%states%status == converged .and. results%states%measures%contact_area_fraction <= 0.0_dp)
+      hidden = count(results%states%status == converged .and. &
+                     results%states%measures%contact_area_fraction <= 0.0_dp)
       if (hidden > 0) call log%say('note: at '//integer_text(hidden)//' loads no pressure reaches edge_level = '// &
-                                   short_number(deck%method%edge_level)//' p*, so that their contact area shows as 0')
+                                   short_number(deck%method%edge_level)// &
+                                   ' p*, so that their contact area shows as 0')
 
       call write_tables(results, error)
       if (allocated(error)) return
@@ -102,10 +104,11 @@ contains
       call read_checkpoint(results, known, found, error)
       if (allocated(error)) return
       if (found) then
-         call log%say('resumed   '//integer_text(count(known))//' of '//integer_text(size(known))//' loads are in '// &
-                      escaped(checkpoint_name(results)))
+         call log%say('resumed   '//integer_text(count(known))//' of '//integer_text(size(known))// &
+                      ' loads are in '//escaped(checkpoint_name(results)))
       else
-         call log%say('note: there is no '//escaped(checkpoint_name(results))//' to resume from: all loads are solved')
+         call log%say('note: there is no '//escaped(checkpoint_name(results))// &
+                      ' to resume from: all loads are solved')
       end if
    end subroutine take_checkpoint
 
@@ -136,8 +139,8 @@ contains
       call file%finish(error)
    end subroutine prepare_directory
 
-   !> Writes the tables that the deck asks for. Of a flat surface only the summary: its fields are to be shown in p* and
-   !> Delta, which are zero.
+   !> Writes the tables that the deck asks for. Of a flat surface only the summary: its fields are to be shown in p*
+   !> and Delta, which are zero.
    subroutine write_tables(results, error)
       type(results_type), intent(in) :: results
       type(error_type), allocatable, intent(out) :: error

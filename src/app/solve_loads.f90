@@ -23,7 +23,7 @@ contains
    !> Solves and measures all loads, from the highest to the lowest so that each starts from the one before.
    subroutine solve_loads(results, known, checkpoint, log)
       type(results_type), intent(inout) :: results
-      logical, intent(in) :: known(:)                    !! the loads whose states are in `results`, of an interrupted run
+      logical, intent(in) :: known(:)                    !! loads whose states `results` has, of an interrupted run
       type(checkpoint_file), intent(inout) :: checkpoint !! that the other loads are written to
       type(run_log), intent(inout), target :: log
 

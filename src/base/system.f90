@@ -151,16 +151,16 @@ contains
       ignored = int(c_remove(path//c_null_char))
    end subroutine remove_file
 
-   !> Removes a file should the program be interrupted (SIGINT, SIGTERM, SIGHUP) before it is renamed or removed. Of one file
-   !> at a time: a second call forgets the first.
+   !> Removes a file should the program be interrupted (SIGINT, SIGTERM, SIGHUP) before it is renamed or removed. Of
+   !> one file at a time: a second call forgets the first.
    subroutine remove_when_interrupted(path)
       character(*), intent(in) :: path
 
       call c_remove_when_interrupted(path//c_null_char)
    end subroutine remove_when_interrupted
 
-   !> Makes a write beyond the limit of a file's size (ulimit -f) an error of that write, as on a full disk, not the end of
-   !> the program.
+   !> Makes a write beyond the limit of a file's size (ulimit -f) an error of that write, as on a full disk, not the
+   !> end of the program.
    subroutine outlive_file_size_limit()
       call c_outlive_file_size_limit()
    end subroutine outlive_file_size_limit

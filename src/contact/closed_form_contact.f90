@@ -16,7 +16,8 @@ module wavycon_closed_form_contact
 
    public :: closed_form_contact
 
-   !> Terms of the fields' series. The pressure's fall as the power -3/2: it is then within 1e-5 p* almost everywhere.
+   !> Terms of the fields' series. The pressure's fall as the power -3/2: it is then within 1e-5 p* almost
+   !> everywhere.
    integer, parameter :: field_terms = 2000
 
    type, extends(series_contact) :: closed_form_contact

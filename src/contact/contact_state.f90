@@ -14,7 +14,8 @@ module wavycon_contact_state
                                       closed_form = 'closed_form'
    !> The load is no number; the error estimate is larger than was asked for; the solver has no answer, as that of
    !> fitted expansions where spots of a lattice have merged.
-   character(*), parameter, public :: not_finite = 'not_finite', not_accurate = 'not_accurate', not_found = 'not_found'
+   character(*), parameter, public :: not_finite = 'not_finite', not_accurate = 'not_accurate', &
+      not_found = 'not_found'
 
    !> There is not the memory for a grid as fine as was asked for; the numbers, if any, are those of a coarser one.
    character(*), parameter, public :: no_memory = 'no_memory'
@@ -31,7 +32,7 @@ module wavycon_contact_state
       type(fitted_answer), allocatable :: fitted   !! of an expansion
       character(12) :: solver = 'none'        !! one of the above; 'none' if none was needed
       integer :: active_constraints = 0       !! points at which the pressure is held at zero
-      integer :: pivots = 0                   !! exchanges of variables since the load solved before; iterations on grids
+      integer :: pivots = 0                   !! exchanges of variables since the load before; iterations on grids
       real(dp) :: kkt_residual = 0.0_dp       !! relative
       character(16) :: status = ''            !! one of the above, or why it is not good
    contains

@@ -49,7 +49,7 @@ contains
    subroutine start(self, surface, accuracy, with_grids, keep_fields)
       class(fitted_contact), intent(out) :: self
       type(surface_type), intent(in) :: surface   !! one that find_frame covers
-      real(dp), intent(in) :: accuracy            !! of mean gap [Delta], contact area fraction and peak pressure [p*]
+      real(dp), intent(in) :: accuracy            !! of mean gap [Delta], contact area fraction, peak pressure [p*]
       logical, intent(in) :: with_grids           !! whether grids take over where the expansions are less exact
       logical, intent(in) :: keep_fields          !! whether the fields will be asked for
 
@@ -156,8 +156,8 @@ contains
       pressure = pressure*self%frame%pressure_unit
    end subroutine at
 
-   !> A point with those that mirror it, and with those that are like it on a square cell and about a second crest, is
-   !> evaluated once.
+   !> A point with those that mirror it, and with those that are like it on a square cell and about a second crest,
+   !> is evaluated once.
    subroutine on_cell(self, intervals, dimension, pressure, displacement)
       class(fields_of_answer), intent(inout) :: self
       integer, intent(in) :: intervals, dimension

@@ -20,8 +20,8 @@ module wavycon_fourier_contact
    public :: fourier_contact
 
    !> Beale's method starts at this load, or at the load itself if that is higher, and the dual pass goes down from
-   !> there. Few constraints are active so close to full contact, and the pass costs less than Beale's way from x = 0
-   !> at a light load, along which neighbouring points near the troughs make nearly dependent sets.
+   !> there. Few constraints are active so close to full contact, and the pass costs less than Beale's way from
+   !> x = 0 at a light load, along which neighbouring points near the troughs make nearly dependent sets.
    real(dp), parameter :: starting_load = 0.9_dp
 
    type, extends(series_contact) :: fourier_contact
@@ -69,7 +69,8 @@ contains
       call self%settle(pbar_over_pstar, state, settled)
       if (.not. settled) then
          call self%solve_series(pbar_over_pstar, state)
-         call measure_series(series_of(self, state), displacement_series(self, state), self%edge_level, state%measures)
+         call measure_series(series_of(self, state), displacement_series(self, state), self%edge_level, &
+                             state%measures)
          return
       end if
       allocate (state%x(self%terms%count()), source=0.0_dp)

@@ -52,8 +52,8 @@ contains
    subroutine solve_by_cascade(surface, mean_pressure, accuracy, points, answer, progress)
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: mean_pressure           !! P in (0, 1)
-      real(dp), intent(in) :: accuracy                !! of all three values, absolute; 0 for none but that of `points`
-      integer, intent(in) :: points(2)                !! of the last grid's whole cell; zeros if the accuracy decides
+      real(dp), intent(in) :: accuracy                !! of all three values, absolute; 0 for that of `points` alone
+      integer, intent(in) :: points(2)                !! of the last grid's whole cell; zeros: the accuracy decides
       type(cascade_answer), intent(out) :: answer
       class(grid_progress), intent(in), optional :: progress   !! that hears of each grid
 
@@ -81,9 +81,11 @@ contains
          change = abs(answer%values - values)
          answer%errors = max(safety*change, 0.5_dp*safety*last_change, unresolved(surface, edge, resolved))
          answer%errors = max(answer%errors, hidden_by_chance(surface%dimension, answer%values, answer%errors(2)))
-         answer%accurate = answer%state%converged .and. all(answer%errors <= accuracy) .and. all(grid >= trusted_grid)
-         if (present(progress)) call progress%grid_solved(grid*merge(2, 1, surface%shape%is_even() .and. grid > 1), &
-                                                          answer%state%iterations, answer%state%residual)
+         answer%accurate = answer%state%converged .and. all(answer%errors <= accuracy) .and. &
+            all(grid >= trusted_grid)
+         if (present(progress)) &
+            call progress%grid_solved(grid*merge(2, 1, surface%shape%is_even() .and. grid > 1), &
+                                      answer%state%iterations, answer%state%residual)
          ! A grid that cannot be solved starts no finer one.
          if (answer%accurate .or. last .or. .not. answer%state%converged) exit
          values = answer%values

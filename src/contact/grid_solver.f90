@@ -138,7 +138,8 @@ contains
                end do
             end if
 
-            ! Overlaps far below the residual allowed are left alone: they may be rounding, and come and go for ever.
+            ! Overlaps far below the residual allowed are left alone: they may be rounding, and come and go for
+            ! ever.
             shift = mean_gap_in_contact() - 0.1_dp*allowed
             !$omp parallel do num_threads(threads)
             do j = 1, n

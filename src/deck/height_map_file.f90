@@ -48,7 +48,8 @@ contains
             map%format = 'xyz'
       end if
       if (.not. there_is_room(size(table%values)/merge(3, 1, map%format == 'xyz'))) then
-         call fatal_error(error, exit_file_trouble, escaped(path)//': there is not the memory for a map of this size')
+         call fatal_error(error, exit_file_trouble, escaped(path)// &
+                          ': there is not the memory for a map of this size')
       else if (map%format == 'xyz') then
          call take_points(table, map, error)
       else
@@ -82,8 +83,8 @@ contains
       columns = table%length(1)
       do j = 2, table%rows()
          if (table%length(j) == columns) cycle
-         call fatal_error(error, exit_bad_input, escaped(table%path)//':'//integer_text(table%line(j))//': this row has '// &
-                          integer_text(table%length(j))//' heights, the first has '// &
+         call fatal_error(error, exit_bad_input, escaped(table%path)//':'//integer_text(table%line(j))// &
+                          ': this row has '//integer_text(table%length(j))//' heights, the first has '// &
                           integer_text(columns)//": all must have the same number. Is it file_format = 'xyz'?")
          return
       end do
@@ -128,7 +129,8 @@ contains
          if (abs(xyz(fast, k) - xyz(fast, 1) - i*map%step(fast)) <= tolerance*abs(map%step(fast)) .and. &
              abs(xyz(slow, k) - xyz(slow, 1) - j*map%step(slow)) <= tolerance*abs(map%step(slow))) cycle
          call bad_line(k, 'x = '//short_number(xyz(1, k))//', y = '//short_number(xyz(2, k))// &
-                       ' is out of step: the points must form a regular grid, '//integer_text(m)//' to a row as it seems')
+                       ' is out of step: the points must form a regular grid, '//integer_text(m)// &
+                       ' to a row as it seems')
          return
       end do
       if (n > 1 .and. .not. abs(map%step(slow)) >= smallest_number) then
@@ -154,7 +156,8 @@ contains
          integer, intent(in) :: number
          character(*), intent(in) :: words
 
-         call fatal_error(error, exit_bad_input, escaped(table%path)//':'//integer_text(table%line(number))//': '//words)
+         call fatal_error(error, exit_bad_input, escaped(table%path)//':'//integer_text(table%line(number))// &
+                          ': '//words)
       end subroutine bad_line
 
    end subroutine take_points

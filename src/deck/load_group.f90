@@ -33,10 +33,10 @@ module wavycon_load_group
 
    character(11), parameter :: sweep_keys(*) = ['sweep_from ', 'sweep_to   ', 'sweep_steps']
    character(*), parameter :: forms = &
-      'pbar_over_pstar, mean_pressure, mean_gap_over_amplitude, mean_gap or contact_area_fraction, or sweep_from, '// &
-      'sweep_to and sweep_steps'
-   character(23), parameter :: lists(*) = [character(23) :: 'pbar_over_pstar', 'mean_pressure', 'mean_gap_over_amplitude', &
-                                           'mean_gap', 'contact_area_fraction']
+      'pbar_over_pstar, mean_pressure, mean_gap_over_amplitude, mean_gap or contact_area_fraction, or '// &
+      'sweep_from, sweep_to and sweep_steps'
+   character(23), parameter :: lists(*) = [character(23) :: 'pbar_over_pstar', 'mean_pressure', &
+                                           'mean_gap_over_amplitude', 'mean_gap', 'contact_area_fraction']
 
 contains
 
@@ -50,7 +50,8 @@ contains
          real_key('mean_pressure', '', 'unit of e_star', 'Mean pressures, over the nominal area.', &
             least=0.0_dp, most_values=most_loads), &
          real_key('mean_gap_over_amplitude', '', '-', &
-            'Mean gaps over the mean gap before load, the amplitude of a wave; the loads that leave them are found.', &
+            'Mean gaps over the mean gap before load, the amplitude of a wave; the loads that leave them '// &
+            'are found.', &
             least=0.0_dp, most=1.0_dp, most_values=most_loads), &
          real_key('mean_gap', '', 'length', 'Mean gaps; the loads that leave them are found.', least=0.0_dp, &
             most_values=most_loads), &
@@ -71,8 +72,8 @@ contains
       type(load_group_type), intent(out) :: group
       type(problem_list_type), intent(inout) :: problems
 
-      real(dp), allocatable :: contact_area_fraction(:), mean_gap(:), mean_gap_over_amplitude(:), mean_pressure(:), &
-                               pbar_over_pstar(:)
+      real(dp), allocatable :: contact_area_fraction(:), mean_gap(:), mean_gap_over_amplitude(:), &
+                               mean_pressure(:), pbar_over_pstar(:)
       real(dp) :: sweep_from, sweep_to
       integer :: i, status, sweep_steps
       logical :: has_sweep

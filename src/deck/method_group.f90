@@ -19,7 +19,7 @@ module wavycon_method_group
       character(12) :: symmetry = 'full'   !! 'full', 'diagonal' or 'none'; of no meaning in 1-D
       real(dp) :: edge_level = 0.1_dp      !! the isobar taken as the edge of contact [p*]
       real(dp) :: accuracy = 1.0e-3_dp     !! of the summary's numbers, in their units; 0 for that of a grid given
-      integer :: grid_points(2) = 0        !! of the whole cell, of 'grid'; zeros: as the accuracy or the file has it
+      integer :: grid_points(2) = 0        !! of the whole cell, of 'grid'; zeros: by the accuracy or the file
    end type method_group_type
 
    !> The paper's numbers, for 1-D and 2-D waves.
@@ -38,17 +38,18 @@ contains
 
       table = key_group('method', 'how the contact is computed', [ &
          choice_key('solver', "'beale', or 'auto'", &
-            "'beale': the paper's truncated series by Beale's method, for its waves. 'grid': ever finer grids until "// &
-            "mean gap, area and peak pressure are accurate. 'fitted': expansions fitted to the edge of contact. 'auto': "// &
-            "the closed form for wave_1d, else 'fitted' and, where that cannot, 'grid'.", &
+            "'beale': the paper's truncated series by Beale's method, for its waves. 'grid': ever finer grids "// &
+            "until mean gap, area and peak pressure are accurate. 'fitted': expansions fitted to the edge of "// &
+            "contact. 'auto': the closed form for wave_1d, else 'fitted' and, where that cannot, 'grid'.", &
             [character(6) :: 'beale', 'grid', 'fitted', 'auto']), &
          real_key('accuracy', '1e-3', '-', &
             "Not of 'beale': largest error allowed of mean gap [amplitude], contact area fraction and peak "// &
             'pressure [p*]. A load that cannot be had so accurately says so.', least=1.0e-12_dp, most=0.1_dp), &
          integer_key('grid_points', '', &
-            "Of 'grid' and 'auto', in place of accuracy: points of the cell along x and y of the one grid to solve; one "// &
-            'number for both. Even numbers. For a file the default is its own grid. Errors are estimated from 64 '// &
-            'points a side on, multiples of 4; of others the largest possible are shown.', 8, 8192, most_values=2), &
+            "Of 'grid' and 'auto', in place of accuracy: points of the cell along x and y of the one grid to "// &
+            'solve; one number for both. Even numbers. For a file the default is its own grid. Errors are '// &
+            'estimated from 64 points a side on, multiples of 4; of others the largest possible are shown.', &
+            8, 8192, most_values=2), &
          integer_key('harmonics', '9 (2-D), 10 (1-D)', &
             'Highest harmonic of the pressure, in each direction.', 1, most_harmonics), &
          integer_key('constraint_points', '27 (2-D), 26 (1-D)', &
@@ -117,10 +118,11 @@ contains
          if (input%is_bad('solver')) return
          if (solver == 'beale') then
             if (.not. paper_wave .and. dimension > 0) call problems%add(input%place_of('solver'), &
-               "solver = 'beale' is for the waves of the paper: wave_1d, wave_2d with one wavelength, crossed_1d with "// &
-               "equal waves. Give 'grid' or 'auto'")
+               "solver = 'beale' is for the waves of the paper: wave_1d, wave_2d with one wavelength, "// &
+               "crossed_1d with equal waves. Give 'grid' or 'auto'")
             if (input%has('accuracy')) call problems%add(input%place_of('accuracy'), &
-               "accuracy is a key of solver = 'grid', 'fitted' and 'auto': the series of 'beale' has no error estimate")
+               "accuracy is a key of solver = 'grid', 'fitted' and 'auto': the series of 'beale' has no error "// &
+               'estimate')
             if (input%has('grid_points')) call problems%add(input%place_of('grid_points'), &
                "grid_points is a key of solver = 'grid' and 'auto'; 'beale' has harmonics and constraint_points")
             return

@@ -40,7 +40,8 @@ contains
          logical_key('theory', '.false.', 'The closed forms beside the numbers.'), &
          logical_key('details', '.false.', "Of solver = 'fitted': gaps at trough and saddle, energy, perimeter "// &
             "and the summary's numbers, each with its error estimate."), &
-         integer_key('points_per_wavelength', '128', 'Points of lines and maps along a side of the cell.', 8, 4096)])
+         integer_key('points_per_wavelength', '128', 'Points of lines and maps along a side of the cell.', &
+                     8, 4096)])
    end function output_table
 
    !> Reads the group; a directory that is not given takes its name from the case.
@@ -75,8 +76,8 @@ contains
       if (group%details .and. solver /= 'fitted') call problems%add(input%place_of('details'), &
          "details are those of the expansions of solver = 'fitted'; '"//solver//"' has none for every load")
       if (group%theory .and. .not. paper_wave) call problems%add(input%place_of('theory'), &
-         'theory is known of the waves of the paper alone: wave_1d, wave_2d with one wavelength, crossed_1d with equal '// &
-         'waves')
+         'theory is known of the waves of the paper alone: wave_1d, wave_2d with one wavelength, crossed_1d '// &
+         'with equal waves')
    end subroutine read_output_group
 
    subroutine write_output_group(group, writer)

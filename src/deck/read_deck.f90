@@ -69,8 +69,8 @@ contains
       if (deck%surface%kind /= '') dimension = surface_dimension(deck%surface)
       ! What is said of an unknown surface would only mislead.
       paper_wave = dimension == 0 .or. surface_is_paper_wave(deck%surface)
-      call read_method_group(inputs(method_number), dimension, paper_wave, deck%surface%kind == 'file', deck%method, &
-                             problems)
+      call read_method_group(inputs(method_number), dimension, paper_wave, deck%surface%kind == 'file', &
+                             deck%method, problems)
       call read_output_group(inputs(output_number), trim(deck%scene%case), trim(deck%method%solver), paper_wave, &
                              deck%output, problems)
 

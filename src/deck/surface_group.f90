@@ -30,13 +30,15 @@ module wavycon_surface_group
       real(dp) :: height_scale = 1                     !! [length] of one unit of the file's heights
    end type surface_group_type
 
-   character(10), parameter :: kinds(*) = [character(10) :: 'wave_1d', 'wave_2d', 'crossed_1d', 'hexagonal', 'sum', 'file']
+   character(10), parameter :: kinds(*) = [character(10) :: 'wave_1d', 'wave_2d', 'crossed_1d', 'hexagonal', &
+                                           'sum', 'file']
    !> The keys of each kind, and those that it cannot do without.
-   character(60), parameter :: keys_of(*) = [character(60) :: 'amplitude wavelength', 'amplitude wavelength wavelength_y', &
+   character(60), parameter :: keys_of(*) = [character(60) :: &
+      'amplitude wavelength', 'amplitude wavelength wavelength_y', &
       'amplitude1 wavelength1 amplitude2 wavelength2', 'amplitude wavelength', &
       'length_x length_y amplitudes waves_x waves_y phases', 'length_x length_y file file_format height_scale']
-   character(60), parameter :: needed_by(*) = [character(60) :: '', '', 'amplitude1 wavelength1 amplitude2 wavelength2', '', &
-      'amplitudes waves_x', 'file']
+   character(60), parameter :: needed_by(*) = [character(60) :: '', '', &
+      'amplitude1 wavelength1 amplitude2 wavelength2', '', 'amplitudes waves_x', 'file']
 
 contains
 
@@ -45,25 +47,29 @@ contains
 
       table = key_group('surface', 'which waves the bodies carry', [ &
          choice_key('kind', '', &
-            "'wave_1d': gap amplitude (1 - cos phi), phi = 2 pi x/wavelength. 'wave_2d': amplitude (1 - cos phi "// &
-            "cos theta), theta = 2 pi y/wavelength_y. 'crossed_1d': a wave on each of two blocks. 'hexagonal': three "// &
-            "waves. 'sum': any waves. 'file': a height map.", kinds, required=.true.), &
+            "'wave_1d': gap amplitude (1 - cos phi), phi = 2 pi x/wavelength. 'wave_2d': amplitude (1 - cos "// &
+            "phi cos theta), theta = 2 pi y/wavelength_y. 'crossed_1d': a wave on each of two blocks. "// &
+            "'hexagonal': three waves. 'sum': any waves. 'file': a height map.", kinds, required=.true.), &
          real_key('amplitude', '1.0', 'length', &
-            'Of wave_1d, wave_2d and hexagonal: mean gap before load; of wave_1d and wave_2d half the height from '// &
-            'trough to crest. 0 is a flat surface.', least=0.0_dp), &
+            'Of wave_1d, wave_2d and hexagonal: mean gap before load; of wave_1d and wave_2d half the height '// &
+            'from trough to crest. 0 is a flat surface.', least=0.0_dp), &
          real_key('wavelength', '1.0', 'length', &
             'Of wave_1d and wave_2d, along x (and y); of hexagonal, of each of its three waves.', above=0.0_dp), &
          real_key('wavelength_y', 'wavelength', 'length', 'Of wave_2d along y.', above=0.0_dp), &
-         real_key('amplitude1', '', 'length', 'Of crossed_1d: the wave along x, on the first block.', least=0.0_dp), &
+         real_key('amplitude1', '', 'length', 'Of crossed_1d: the wave along x, on the first block.', &
+                  least=0.0_dp), &
          real_key('wavelength1', '', 'length', 'Of crossed_1d: the wave along x.', above=0.0_dp), &
-         real_key('amplitude2', '', 'length', 'Of crossed_1d: the wave along y, on the second block.', least=0.0_dp), &
+         real_key('amplitude2', '', 'length', 'Of crossed_1d: the wave along y, on the second block.', &
+                  least=0.0_dp), &
          real_key('wavelength2', '', 'length', 'Of crossed_1d: the wave along y.', above=0.0_dp), &
-         real_key('length_x', '1.0', 'length', 'Of sum and file: side of the periodic cell along x.', above=0.0_dp), &
+         real_key('length_x', '1.0', 'length', 'Of sum and file: side of the periodic cell along x.', &
+                  above=0.0_dp), &
          real_key('length_y', 'length_x', 'length', &
             'Of sum and file: side of the cell along y. Of a file of x, y, z both sides are the columns'' own.', &
             above=0.0_dp), &
          real_key('amplitudes', '', 'length', &
-            'Of sum: the height is the sum of amplitudes cos(2 pi (waves_x x/length_x + waves_y y/length_y) - phases).', &
+            'Of sum: the height is the sum of amplitudes cos(2 pi (waves_x x/length_x + waves_y y/length_y) '// &
+            '- phases).', &
             most_values=most_waves), &
          integer_key('waves_x', '', 'Of sum: number of waves in the cell along x, of each amplitude.', &
             -highest_wave, highest_wave, most_values=most_waves), &
@@ -75,9 +81,10 @@ contains
             'Of file: a periodic map of heights, upwards to the other body; looked for beside the deck. '// &
             "The last row and column are the cell's last, not copies of the first.", longest_path), &
          choice_key('file_format', "'auto'", &
-            "Of file: 'matrix', a row of heights for each y; 'xyz', lines of x, y, z on a regular grid; 'auto', xyz "// &
-            'if all lines have three numbers.', [character(6) :: 'auto', 'matrix', 'xyz']), &
-         real_key('height_scale', '1.0', 'length', "Of file: one unit of its heights.", above=0.0_dp)], required=.true.)
+            "Of file: 'matrix', a row of heights for each y; 'xyz', lines of x, y, z on a regular grid; "// &
+            "'auto', xyz if all lines have three numbers.", [character(6) :: 'auto', 'matrix', 'xyz']), &
+         real_key('height_scale', '1.0', 'length', "Of file: one unit of its heights.", above=0.0_dp)], &
+         required=.true.)
    end function surface_table
 
    subroutine read_surface_group(input, group, problems)
@@ -94,8 +101,8 @@ contains
       integer, allocatable :: waves_x(:), waves_y(:)
       character(200) :: message
       integer :: status
-      namelist /surface/ kind, amplitude, wavelength, wavelength_y, amplitude1, wavelength1, amplitude2, wavelength2, &
-         length_x, length_y, amplitudes, waves_x, waves_y, phases, file, file_format, height_scale
+      namelist /surface/ kind, amplitude, wavelength, wavelength_y, amplitude1, wavelength1, amplitude2, &
+         wavelength2, length_x, length_y, amplitudes, waves_x, waves_y, phases, file, file_format, height_scale
 
       kind = group%kind
       amplitude = group%amplitude
@@ -152,8 +159,8 @@ contains
          do i = 1, size(input%table%keys)
             key = trim(input%table%keys(i)%name)
             if (key == 'kind') cycle
-            if (is_among(needed_by(own), key) .and. .not. input%has(key)) call problems%add(input%place_of('kind'), &
-               "kind = '"//trim(kind)//"' needs "//key)
+            if (is_among(needed_by(own), key) .and. .not. input%has(key)) &
+               call problems%add(input%place_of('kind'), "kind = '"//trim(kind)//"' needs "//key)
             if (input%has(key) .and. .not. is_among(keys_of(own), key)) call problems%add(input%place_of(key), &
                key//' is a key of '//kinds_with(key)//", not of '"//trim(kind)//"'"//advice(key))
          end do
@@ -179,7 +186,8 @@ contains
          if (size(group%waves_x) /= size(group%waves_y) .or. size(waves_x) == 0) return
          do i = 1, size(waves_x)
             if (waves_x(i) /= 0 .or. group%waves_y(i) /= 0) cycle
-            call problems%add(input%place_of('waves_x'), 'wave '//integer_text(i)//' has waves_x = 0 and waves_y = 0: '// &
+            call problems%add(input%place_of('waves_x'), 'wave '//integer_text(i)// &
+               ' has waves_x = 0 and waves_y = 0: '// &
                'it is a height and no wave; leave it out')
             return
          end do
@@ -192,7 +200,8 @@ contains
          integer, intent(in) :: number
 
          if (.not. input%has(key) .or. input%is_bad(key) .or. input%is_bad('amplitudes')) return
-         if (number /= size(amplitudes)) call problems%add(input%place_of(key), key//' has '//integer_text(number)// &
+         if (number /= size(amplitudes)) call problems%add(input%place_of(key), key//' has '// &
+            integer_text(number)// &
             ' values and amplitudes '//integer_text(size(amplitudes))//': give one for each wave')
       end subroutine check_count
 

@@ -27,7 +27,7 @@ contains
    subroutine start(self, surface, points)
       class(compliance_operator), intent(inout) :: self   !! not started before
       type(surface_type), intent(in) :: surface
-      integer, intent(in) :: points(2)                    !! M, N of the transform: a quarter cell's, if the surface is even
+      integer, intent(in) :: points(2)                    !! M, N of the transform, on a quarter of an even surface
 
       call self%transform%start(points, surface%shape%is_even())
       self%stiffness = surface%stiffness

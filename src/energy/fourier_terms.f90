@@ -68,7 +68,8 @@ contains
       count_terms = size(self%i)
    end function count_terms
 
-   !> Displacement over pressure of a term, in Delta and p*: 1/i in 1-D (eq. 13), sqrt2/(i^2 + j^2)^1/2 in 2-D (A10).
+   !> Displacement over pressure of a term, in Delta and p*: 1/i in 1-D (eq. 13), sqrt2/(i^2 + j^2)^1/2 in 2-D
+   !> (A10).
    elemental real(dp) function compliance(self, k)
       class(fourier_terms), intent(in) :: self
       integer, intent(in) :: k   !! 1 .. count

@@ -136,7 +136,8 @@ contains
       end do
    end function cosine_table
 
-   !> The node of 0..N, phi = pi k/N, at which an even field has the value that it has at any node of the whole line.
+   !> The node of 0..N, phi = pi k/N, at which an even field has the value that it has at any node of the whole
+   !> line.
    elemental integer function folded(k, intervals)
       integer, intent(in) :: k, intervals
 

@@ -13,7 +13,7 @@ module wavycon_contact_edge
    type :: edge_point
       logical :: exists = .false.
       real(dp) :: phi = 0.0_dp, theta = 0.0_dp       !! [rad], in the plane
-      real(dp) :: p_phi = 0.0_dp, p_theta = 0.0_dp   !! across the edge into the contact; zero where that is not known
+      real(dp) :: p_phi = 0.0_dp, p_theta = 0.0_dp   !! across the edge into the contact; zero if not known
    end type edge_point
 
    !> Points (k, l) of the whole plane; a cell has the name of its lower left point. Its sides are numbered against

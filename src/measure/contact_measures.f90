@@ -8,14 +8,15 @@ module wavycon_contact_measures
    implicit none (type, external)
    private
 
-   public :: contact_measures, full_contact_measures, largest_errors, measure_series, measuring_intervals, unmeasured
+   public :: contact_measures, full_contact_measures, largest_errors, measure_series, measuring_intervals, &
+      unmeasured
 
    type :: contact_measures
       real(dp) :: mean_gap_over_amplitude = 1.0_dp       !! G: eqs. (19), (28)
       real(dp) :: approach_over_amplitude = 0.0_dp       !! of the mean planes, delta'/Delta = 1 - G
       real(dp) :: contact_area_fraction = 0.0_dp         !! of the nominal area; 1 by definition from P = 1 on
       real(dp) :: peak_pressure_over_pstar = 0.0_dp      !! largest
-      real(dp) :: min_pressure_over_pstar = 0.0_dp       !! smallest; negative between the constraint points of a series
+      real(dp) :: min_pressure_over_pstar = 0.0_dp       !! smallest; negative between the points of a series
       real(dp) :: mean_gap_error = 0.0_dp                !! estimated error of the mean gap, in its unit
       real(dp) :: contact_area_error = 0.0_dp            !! likewise
       real(dp) :: peak_pressure_error = 0.0_dp           !! likewise
@@ -39,12 +40,13 @@ contains
       real(dp), intent(in) :: largest           !! p - P [p*], of the waves of the paper 1
 
       measures = contact_measures(mean_gap_over_amplitude=0.0_dp, approach_over_amplitude=1.0_dp, &
-                                  contact_area_fraction=1.0_dp, peak_pressure_over_pstar=pbar_over_pstar + largest, &
+                                  contact_area_fraction=1.0_dp, &
+                                  peak_pressure_over_pstar=pbar_over_pstar + largest, &
                                   min_pressure_over_pstar=pbar_over_pstar - 1.0_dp)
    end function full_contact_measures
 
-   !> What errors of mean gap [Delta], contact area fraction and peak pressure [p*] cannot exceed, so that they stand
-   !> where nothing else is known: all are between zero and one, or the peak of just full contact.
+   !> What errors of mean gap [Delta], contact area fraction and peak pressure [p*] cannot exceed, so that they
+   !> stand where nothing else is known: all are between zero and one, or the peak of just full contact.
    pure function largest_errors(largest) result(errors)
       real(dp), intent(in) :: largest   !! p - P in full contact [p*], of the waves of the paper 1
       real(dp) :: errors(3)
@@ -59,7 +61,8 @@ contains
       real(dp) :: errors(3)
 
       errors = largest_errors(largest)
-      measures = contact_measures(mean_gap_error=errors(1), contact_area_error=errors(2), peak_pressure_error=errors(3))
+      measures = contact_measures(mean_gap_error=errors(1), contact_area_error=errors(2), &
+                                  peak_pressure_error=errors(3))
    end function unmeasured
 
    !> Measures the series of a pressure and its displacement. The edge of contact is the isobar p = edge_level p*.

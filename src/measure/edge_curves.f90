@@ -11,7 +11,7 @@ module wavycon_edge_curves
    !> A curve with the contact on its left. Its last point repeats the first, but for a curve that runs
    !> through the whole plane: that ends one period on.
    type :: edge_curve
-      real(dp), allocatable :: phi(:), theta(:)   !! [rad]; not reduced to one cell, so that the curve is of one piece
+      real(dp), allocatable :: phi(:), theta(:)   !! [rad]; not reduced to one cell: the curve is of one piece
    end type edge_curve
 
 contains

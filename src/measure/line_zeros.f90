@@ -53,7 +53,8 @@ contains
       if (inside) length = length + last - from
    end function length_inside
 
-   !> Where sum_i c_i cos(i x) changes sign between two points: Newton's method, kept inside the bracket by bisection.
+   !> Where sum_i c_i cos(i x) changes sign between two points: Newton's method, kept inside the bracket by
+   !> bisection.
    pure subroutine zero_between(c, start, step, at_start, at_end, x, slope)
       real(dp), intent(in) :: c(0:)                 !! shape (0:n)
       real(dp), intent(in) :: start, step           !! bracket [start, start + step]

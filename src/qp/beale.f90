@@ -5,17 +5,17 @@
 !> Start at x = 0: x is non-basic and free of sign, the slacks s = Cx - b >= 0 are basic. Free non-basic variables
 !> with a derivative are changed first (in either direction), then an active slack with a negative derivative (it
 !> grows), so that the objective falls, up to the first of two events: (a) a basic slack reaches zero and takes the
-!> place of the variable that was changed; (b) the derivative reaches zero and a new free variable u, proportional to
-!> that derivative, takes the place.
+!> place of the variable that was changed; (b) the derivative reaches zero and a new free variable u, proportional
+!> to that derivative, takes the place.
 !>
 !> N.B. Three departures. The free variables change together (see the table). An active slack gives way to its u
 !> before the step, not after it: the path is the same. And the table, which Beale carries in exact arithmetic, only
 !> finds the set of active constraints: the answer is then solved for from the problem's own data, its
-!> Karush-Kuhn-Tucker conditions are checked, and where the table has drifted or Beale's way is long it is made afresh
-!> from that set and the dual pass ends the work.
+!> Karush-Kuhn-Tucker conditions are checked, and where the table has drifted or Beale's way is long it is made
+!> afresh from that set and the dual pass ends the work.
 !>
-!> Inside, constraints of unlike units are multiplied by powers of two that bring their normals to order one: slacks are
-!> compared with each other, and what is rounding of a large one would hide that a small one is violated.
+!> Inside, constraints of unlike units are multiplied by powers of two that bring their normals to order one: slacks
+!> are compared with each other, and what is rounding of a large one would hide that a small one is violated.
 module wavycon_beale
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use wavycon_beale_table, only: table_type
@@ -37,8 +37,8 @@ module wavycon_beale
    !> After so many steps of length zero in a row the least index decides all choices, so that none recurs
    !> (Chang & Cottle, Math. Program. 18 (1980) 127-138), until a step has length again.
    integer, parameter :: patience = 12
-   !> Beale's own steps end after so many pivots times n, and the dual pass goes on from their active constraints: by then
-   !> the way leads through vertices of nearly dependent constraints.
+   !> Beale's own steps end after so many pivots times n, and the dual pass goes on from their active constraints:
+   !> by then the way leads through vertices of nearly dependent constraints.
    integer, parameter :: own_pivots = 8
 
    !> A solver that keeps its table, so that the next problem, which differs in the bounds alone, starts from it.
@@ -114,13 +114,15 @@ contains
       call unscale_multipliers(self%row_powers, solution)
    end subroutine pass_to
 
-   !> Brings the largest component of each normal to between 1/2 and 1, unless they are all of about one size as they are.
+   !> Brings the largest component of each normal to between 1/2 and 1, unless they are all of about one size as
+   !> they are.
    pure subroutine scale_constraints(problem, powers)
       type(qp_problem), intent(inout) :: problem
       integer, allocatable, intent(out) :: powers(:)  !! of two, that the constraints are multiplied by, shape (m)
 
       integer, parameter :: most_power = maxexponent(1.0_dp)/2   ! bounds of whatever size up to that stay finite
-      integer, parameter :: alike = 10   ! of sizes within 2^10 only rounding is hidden, and the way is shorter without
+      ! Of sizes within 2^10 only rounding is hidden, and the way is shorter without.
+      integer, parameter :: alike = 10
       real(dp) :: largest(size(problem%bounds))
       integer :: i
 
@@ -145,8 +147,8 @@ contains
       solution%multipliers = scale(solution%multipliers, powers(solution%active))
    end subroutine unscale_multipliers
 
-   !> Takes the answer from the table's active constraints. Where it does not hold good the table is made afresh from
-   !> them and mended, as long as that changes anything.
+   !> Takes the answer from the table's active constraints. Where it does not hold good the table is made afresh
+   !> from them and mended, as long as that changes anything.
    subroutine settle(self, limit, status, solution)
       class(beale_solver), intent(inout) :: self
       integer, intent(in) :: limit                   !! of the pivots
@@ -169,11 +171,11 @@ contains
             self%set%careful = .true.
             cycle
          end if
-         ! Of nearly dependent constraints only those that push are kept: the dual pass needs multipliers >= 0, and a table
-         ! of the others loses its digits when they are exchanged.
+         ! Of nearly dependent constraints only those that push are kept: the dual pass needs multipliers >= 0, and
+         ! a table of the others loses its digits when they are exchanged.
          do while (any(solution%multipliers < 0.0_dp))
-            call finish_on_active_set(self%problem, self%set, pack(solution%active, solution%multipliers > 0.0_dp), &
-                                      solution)
+            call finish_on_active_set(self%problem, self%set, &
+                                      pack(solution%active, solution%multipliers > 0.0_dp), solution)
          end do
          call self%table%rebuild(self%problem, self%set, solution)
          ! From the same constraints the same steps would follow: then the digits that stopped them are given up.
@@ -192,9 +194,10 @@ contains
       end if
    end subroutine settle
 
-   !> Whether a constraint is excluded by the active ones, by the problem's own data and not by the table's word: with
-   !> weights w >= 0 every allowed x satisfies  (C_i + sum_j w_j C_j) x >= b_i + sum_j w_j b_j,  on the left of which next
-   !> to nothing is left (Farkas' lemma). Only an x that is larger by far than the problem's could then satisfy it.
+   !> Whether a constraint is excluded by the active ones, by the problem's own data and not by the table's word:
+   !> with weights w >= 0 every allowed x satisfies  (C_i + sum_j w_j C_j) x >= b_i + sum_j w_j b_j,  on the left of
+   !> which next to nothing is left (Farkas' lemma). Only an x that is larger by far than the problem's could then
+   !> satisfy it.
    pure logical function is_excluded(problem, table, x)
       type(qp_problem), intent(in) :: problem
       type(table_type), intent(in) :: table
@@ -221,8 +224,8 @@ contains
       default_limit = 20*(size(problem%linear) + size(problem%bounds))
    end function default_limit
 
-   !> Changes non-basic variables until none can lower the objective, or, the pivot limit passed, until the free ones
-   !> can't: the point is then the minimiser on the active constraints.
+   !> Changes non-basic variables until none can lower the objective, or, the pivot limit passed, until the free
+   !> ones can't: the point is then the minimiser on the active constraints.
    subroutine descend(table, pivot_limit, pivots, optimal)
       type(table_type), intent(inout) :: table
       integer, intent(in) :: pivot_limit

@@ -1,15 +1,15 @@
 !> Beale's table: the objective and the basic slacks of a quadratic programme written in its non-basic variables,
 !> and the two exchanges of variables.
 !>
-!> The non-basic variables are active slacks z >= 0 and variables y that are free of sign. At the table's point all of
-!> them are zero, and
+!> The non-basic variables are active slacks z >= 0 and variables y that are free of sign. At the table's point all
+!> of them are zero, and
 !>
 !>     F = f + g'z + 1/2 z'Hz + e'y + 1/2 y'y,    s = a + A z + B y.
 !>
 !> N.B. Beale's free variables come one from each exchange (b) and every exchange (a) couples them again. As any
-!> combinations of them serve as well, here they are kept conjugate to each other and to the active slacks (hence the
-!> plain y'y) by a Householder reflection in exchange (a): all of them can then be changed together. A free variable
-!> that becomes basic can never matter again and is dropped, as he does.
+!> combinations of them serve as well, here they are kept conjugate to each other and to the active slacks (hence
+!> the plain y'y) by a Householder reflection in exchange (a): all of them can then be changed together. A free
+!> variable that becomes basic can never matter again and is dropped, as he does.
 module wavycon_beale_table
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgemm, dgemv, dger, dlarfg, dsymv, dsyr, dtrtri
@@ -39,8 +39,8 @@ module wavycon_beale_table
       real(dp), allocatable :: rows(:, :)     !! (A, B), shape (m, n): row i of basic slack i, columns as `gradient`
       real(dp) :: zero_descent = 0.0_dp       !! |dF/dz|/sqrt(d2F/dz2) below this is rounding
       integer :: excluded = 0                 !! constraint that the active ones seem to exclude, where there is one
-      real(dp), allocatable :: weights(:)     !! of the active constraints, whose sum is then the opposite of its normal
-      logical :: drifted = .false.            !! digits of H were lost by cancellation: the table is to be made afresh
+      real(dp), allocatable :: weights(:)     !! of the active constraints: their sum is the opposite of its normal
+      logical :: drifted = .false.            !! digits of H were lost by cancellation: to be made afresh
       logical :: may_drift = .false.          !! lost digits are put up with, as long as H stays positive
    contains
       procedure :: start
@@ -192,8 +192,8 @@ contains
       table%active_count = k + 1
    end subroutine exchange_with_slack
 
-   !> Exchange (b): an active slack becomes basic, and the free variable u = dF/dz/sqrt(d2F/dz2) non-basic in its place.
-   !> Where that would cost too many digits nothing is exchanged and the table counts as drifted.
+   !> Exchange (b): an active slack becomes basic, and the free variable u = dF/dz/sqrt(d2F/dz2) non-basic in its
+   !> place. Where that would cost too many digits nothing is exchanged and the table counts as drifted.
    subroutine exchange_with_derivative(table, released)
       class(table_type), intent(inout) :: table
       integer, intent(in) :: released   !! place in `active`

@@ -17,14 +17,14 @@ module wavycon_dual_pass
 
    !> A slack that is less negative than this fraction of the largest value of any slack is rounding.
    real(dp), parameter :: zero_slack = 32*epsilon(1.0_dp)
-   !> An element of a row that is smaller than this fraction of it is rounding: a constraint with no larger ones in the
-   !> free variables depends on the active ones.
+   !> An element of a row that is smaller than this fraction of it is rounding: a constraint with no larger ones in
+   !> the free variables depends on the active ones.
    real(dp), parameter :: zero_element = 1e-13_dp
 
 contains
 
-   !> Makes a table optimal whose free variables are at their minimum. If the table drifts on the way it is left as it is,
-   !> to be made afresh from its active constraints.
+   !> Makes a table optimal whose free variables are at their minimum. If the table drifts on the way it is left as
+   !> it is, to be made afresh from its active constraints.
    subroutine restore_optimum(table, pivot_limit, pivots, status)
       type(table_type), intent(inout) :: table
       integer, intent(in) :: pivot_limit

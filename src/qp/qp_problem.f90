@@ -19,7 +19,7 @@ module wavycon_qp_problem
    type :: qp_problem
       real(dp), allocatable :: hessian(:, :)  !! D, symmetric positive definite, shape (n, n)
       real(dp), allocatable :: linear(:)      !! c, shape (n)
-      real(dp), allocatable :: normals(:, :)  !! C transposed: column i is the gradient of constraint i, shape (n, m)
+      real(dp), allocatable :: normals(:, :)  !! C': column i is the gradient of constraint i, shape (n, m)
       real(dp), allocatable :: bounds(:)      !! b, shape (m)
    end type qp_problem
 
@@ -60,8 +60,8 @@ contains
       end select
    end function qp_status_name
 
-   !> The size of the terms of the gradient Dx - c, which cancel where it vanishes; those of Dx among themselves too where D is
-   !> ill-conditioned.
+   !> The size of the terms of the gradient Dx - c, which cancel where it vanishes; those of Dx among themselves too
+   !> where D is ill-conditioned.
    pure real(dp) function gradient_terms(problem, x) result(largest)
       type(qp_problem), intent(in) :: problem
       real(dp), intent(in) :: x(:)   !! shape (n)

@@ -91,8 +91,8 @@ contains
 
    !> The minimiser on the active constraints and their multipliers.
    !>
-   !> N.B. The factors know D by its inverse square root: alone they leave errors of the square root of its condition
-   !> number. Whoever needs more asks for `careful`.
+   !> N.B. The factors know D by its inverse square root: alone they leave errors of the square root of its
+   !> condition number. Whoever needs more asks for `careful`.
    subroutine solve(self, problem, x, multipliers)
       class(working_set), intent(in) :: self
       type(qp_problem), intent(in) :: problem

@@ -18,7 +18,8 @@ module wavycon_checkpoint
    use wavycon_plain_text, only: escaped, excerpt, integer_text, newline, system_words
    use wavycon_resolved_deck, only: write_resolved_deck
    use wavycon_results, only: results_type
-   use wavycon_system, only: file_size, path_absent, path_kind, process_id, remove_file, remove_when_interrupted, rename_file
+   use wavycon_system, only: file_size, path_absent, path_kind, process_id, remove_file, remove_when_interrupted, &
+      rename_file
    use wavycon_version, only: revision, version
    implicit none (type, external)
    private
@@ -59,7 +60,8 @@ contains
       character(*), intent(in) :: kind
       character(:), allocatable :: name
 
-      name = results%directory//'/.'//trim(results%deck%scene%case)//'.'//kind//'.'//integer_text(process_id())//'.part'
+      name = results%directory//'/.'//trim(results%deck%scene%case)//'.'//kind//'.'//integer_text(process_id())// &
+         '.part'
    end function working_name
 
    !> Begins a checkpoint with the loads that are known already; one that is there is replaced. A checkpoint
@@ -81,8 +83,8 @@ contains
       self%run(:2) = [int(process_id(), int64), checksum(int(clock, int64))]
       self%name_now = working
       call remove_when_interrupted(working)
-      open (newunit=self%unit, file=working, access='stream', form='unformatted', status='replace', action='write', &
-            iostat=status)
+      open (newunit=self%unit, file=working, access='stream', form='unformatted', status='replace', &
+            action='write', iostat=status)
       self%opened = status == 0
       if (self%opened) write (self%unit, iostat=status) mark
       call put(self, self%run)
@@ -130,7 +132,8 @@ contains
       logical :: whole
 
       call give_up(self)
-      open (newunit=unit, file=self%name, access='stream', form='unformatted', status='old', action='read', iostat=status)
+      open (newunit=unit, file=self%name, access='stream', form='unformatted', status='old', action='read', &
+            iostat=status)
       if (status /= 0) return
       call get(unit, len(mark) + 1_int64, run, whole)
       close (unit)
@@ -216,8 +219,8 @@ contains
       name = checkpoint_name(results)
       found = path_kind(name) /= path_absent
       if (.not. found) return
-      open (newunit=unit, file=name, access='stream', form='unformatted', status='old', action='read', iostat=status, &
-            iomsg=message)
+      open (newunit=unit, file=name, access='stream', form='unformatted', status='old', action='read', &
+            iostat=status, iomsg=message)
       if (status /= 0) then
          call fatal_error(error, exit_file_trouble, escaped(name)//': cannot be read: '//system_words(message))
          return
@@ -230,7 +233,8 @@ contains
          if (size(words) > 0) call next()
       end if
       if (start /= mark) then
-         call fatal_error(error, exit_bad_input, escaped(name)//': this is no checkpoint of this version of wavycon'//way_out)
+         call fatal_error(error, exit_bad_input, escaped(name)// &
+                          ': this is no checkpoint of this version of wavycon'//way_out)
       else if (size(words) == 0) then
          call damaged()
       else

@@ -107,8 +107,8 @@ contains
             measures%mean_gap_over_amplitude, measures%approach_over_amplitude, measures%contact_area_fraction, &
             measures%peak_pressure_over_pstar, measures%min_pressure_over_pstar, measures%mean_gap_error, &
             measures%contact_area_error, measures%peak_pressure_error, state%kkt_residual], [0_int64]), &
-            int([state%active_constraints, state%pivots], int64), words_of_text(texts(1)), words_of_text(texts(2)), &
-            int(points, int64), 0_int64]
+            int([state%active_constraints, state%pivots], int64), words_of_text(texts(1)), &
+            words_of_text(texts(2)), int(points, int64), 0_int64]
       end associate
       if (.not. allocated(state%edge)) return
       if (state%edge%even) words(fixed_words) = 1

@@ -137,7 +137,8 @@ contains
 
       b = penny_crack_radius_over_wavelength(pbar_over_pstar)
       opening = 0.0_dp
-      if (r_over_wavelength < b) opening = penny_crack_opening_over_amplitude(r_over_wavelength/b, b, pbar_over_pstar)
+      if (r_over_wavelength < b) &
+         opening = penny_crack_opening_over_amplitude(r_over_wavelength/b, b, pbar_over_pstar)
    end function crack_opening
 
 end module wavycon_lines_table

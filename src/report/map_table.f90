@@ -23,7 +23,8 @@ contains
 
       call results%open_table('map', file)
       call file%put_columns([character(40) :: 'pbar_over_pstar[-]', 'x[length]', 'y[length]', &
-                             'undeformed_gap[Delta]', 'pressure_over_pstar[-]', 'displacement[Delta]', 'gap[Delta]'])
+                             'undeformed_gap[Delta]', 'pressure_over_pstar[-]', 'displacement[Delta]', &
+                             'gap[Delta]'])
       do load = 1, size(results%states)
          call results%put_load_heading(file, load, first=load == 1)
          call put_map(results, file, load)

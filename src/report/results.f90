@@ -77,8 +77,8 @@ contains
          call file%put('')
          call file%put('')
       end if
-      call file%put('# load '//integer_text(load)//': pbar/p* = '//exact_number(self%states(load)%pbar_over_pstar)// &
-                    ', '//trim(self%states(load)%status))
+      call file%put('# load '//integer_text(load)//': pbar/p* = '// &
+                    exact_number(self%states(load)%pbar_over_pstar)//', '//trim(self%states(load)%status))
    end subroutine put_load_heading
 
    !> pbar of a load [pressure]; as given, where it was.

@@ -86,16 +86,18 @@ contains
          call self%say('wavycon '//version//' ('//revision//')')
          call self%say('deck      '//escaped(deck%path))
          if (deck%scene%title /= '') call self%say('title     '//escaped(trim(deck%scene%title)))
-         call self%say('surface   '//trim(deck%surface%kind)//', Delta = '//short_number(scene%surface%amplitude)// &
+         call self%say('surface   '//trim(deck%surface%kind)//', Delta = '// &
+                       short_number(scene%surface%amplitude)// &
                        ' [length], cell '//cell_of(scene%surface)//' [length]')
          if (allocated(scene%map)) call self%say('map       '//integer_text(scene%map%points(1))//' x '// &
-            integer_text(scene%map%points(2))//' points ('//trim(scene%map%format)//'), heights over their mean '// &
+            integer_text(scene%map%points(2))//' points ('//trim(scene%map%format)// &
+            '), heights over their mean '// &
             short_number(scene%map%lowest)//' to '//short_number(scene%map%highest)//', rms '// &
             short_number(scene%map%rms)//' [length]')
          call self%say('material  E* = '//short_number(scene%e_star)//' [pressure], p* = '// &
                        short_number(scene%p_star)//' [pressure]')
-         call self%say('loads     '//integer_text(size(scene%target))//', '//target_words(scene%loads_by)//' from '// &
-                       short_number(minval(scene%target))//' to '//short_number(maxval(scene%target)))
+         call self%say('loads     '//integer_text(size(scene%target))//', '//target_words(scene%loads_by)// &
+                       ' from '//short_number(minval(scene%target))//' to '//short_number(maxval(scene%target)))
          call self%say('method    '//trim(deck%method%solver)//', '//results%contact%describe())
       end associate
    end subroutine show_scene
@@ -153,8 +155,8 @@ contains
       integer :: i
 
       if (self%quiet) return
-      write (line, '(5a12, 2a8, a9, 2x, a)') 'pbar/p*', 'pbar', 'gap/Delta', 'area/A0', 'peak/p*', 'active', 'pivots', &
-         'kkt', 'status'
+      write (line, '(5a12, 2a8, a9, 2x, a)') 'pbar/p*', 'pbar', 'gap/Delta', 'area/A0', 'peak/p*', 'active', &
+         'pivots', 'kkt', 'status'
       call self%say(trim(line))
       do i = 1, size(results%states)
          associate (state => results%states(i), measures => results%states(i)%measures)

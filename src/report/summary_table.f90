@@ -10,8 +10,8 @@ module wavycon_summary_table
 
    character(40), parameter :: columns(*) = [character(40) :: &
       'pbar_over_pstar[-]', 'mean_pressure[pressure]', 'mean_gap_over_amplitude[-]', 'approach_over_amplitude[-]', &
-      'contact_area_fraction[-]', 'peak_pressure_over_pstar[-]', 'min_pressure_over_pstar[-]', 'active_constraints[-]', &
-      'pivots[-]', 'kkt_residual[-]']
+      'contact_area_fraction[-]', 'peak_pressure_over_pstar[-]', 'min_pressure_over_pstar[-]', &
+      'active_constraints[-]', 'pivots[-]', 'kkt_residual[-]']
    !> Estimated errors, of the solvers that have them, and which solver it was; the truncated series of 'beale'
    !> knows none.
    character(40), parameter :: error_columns(*) = [character(40) :: &

@@ -49,17 +49,21 @@ contains
          call file%put_columns(columns_2d)
       end if
       do load = 1, size(results%states)
-         associate (p => results%states(load)%pbar_over_pstar, wavelength => results%scene%surface%paper_wavelength())
+         associate (p => results%states(load)%pbar_over_pstar, &
+                    wavelength => results%scene%surface%paper_wavelength())
             if (results%scene%surface%dimension == 1) then
-               call file%put_values([p, kuznetsov_mean_gap_over_amplitude(p), westergaard_contact_area_fraction(p), &
+               call file%put_values([p, kuznetsov_mean_gap_over_amplitude(p), &
+                                     westergaard_contact_area_fraction(p), &
                                      westergaard_peak_pressure_over_pstar(p), hertz_line_contact_area_fraction(p), &
                                      line_crack_contact_area_fraction(p)])
             else
-               call file%put_values([p, hertz_point_contact_area_fraction(p), penny_crack_contact_area_fraction(p), &
+               call file%put_values([p, hertz_point_contact_area_fraction(p), &
+                                     penny_crack_contact_area_fraction(p), &
                                      light_load_mean_gap_one_square(p), light_load_mean_gap_lattice(p), &
                                      penny_crack_mean_gap_over_amplitude(p), light_load_contact_area_longer(p), &
                                      light_load_mean_gap_longer(p), near_closure_contact_area_fraction(p), &
-                                     near_closure_mean_gap_over_amplitude(p), hertz_point_peak_pressure_over_pstar(p), &
+                                     near_closure_mean_gap_over_amplitude(p), &
+                                     hertz_point_peak_pressure_over_pstar(p), &
                                      wavelength*hertz_point_radius_over_wavelength(p), &
                                      wavelength*penny_crack_radius_over_wavelength(p)])
             end if

@@ -44,7 +44,8 @@ contains
 
          select type (solver)
          type is (fourier_contact)
-            call solver%start(surface, method%harmonics, method%constraint_points, scene%symmetry, method%edge_level)
+            call solver%start(surface, method%harmonics, method%constraint_points, scene%symmetry, &
+                              method%edge_level)
          type is (closed_form_contact)
             call solver%start(surface)
          type is (grid_contact)

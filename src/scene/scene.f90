@@ -83,7 +83,8 @@ contains
          worst = maxval(scene%mean_pressure)
          ! Before the division, which may overflow.
          if (scene%p_star > 0.0_dp .and. worst > largest_pbar_over_pstar*scene%p_star) then
-            call fatal_error(error, exit_bad_input, escaped(deck%path)//': mean_pressure = '//short_number(worst)// &
+            call fatal_error(error, exit_bad_input, escaped(deck%path)//': mean_pressure = '// &
+                             short_number(worst)// &
                              ' is more than '//short_number(largest_pbar_over_pstar)//' times p* = '// &
                              short_number(scene%p_star)// &
                              '. Do its unit and that of e_star agree, and those of the lengths?')
@@ -127,7 +128,8 @@ contains
 
       if (deck%method%solver == 'fitted' .and. scene%surface%amplitude > 0.0_dp) then
          call find_frame(scene%surface, frame)
-         if (.not. frame%covered) call fatal_error(error, exit_bad_input, escaped(deck%path)//": solver = 'fitted' knows "// &
+         if (.not. frame%covered) call fatal_error(error, exit_bad_input, escaped(deck%path)// &
+            ": solver = 'fitted' knows "// &
             'wave_2d with one wavelength, crossed_1d with waves not too unlike and hexagonal, not this '// &
             trim(deck%surface%kind)//". Give 'auto' or 'grid'.")
       end if

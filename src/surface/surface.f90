@@ -25,7 +25,7 @@ module wavycon_surface
       type(fourier_series) :: shape
       integer :: points(2) = 0                  !! of the grid that it was given on; zeros for a sum of waves
       real(dp) :: crest(2) = 0.0_dp             !! X, Y of a peak of the shape [rad]
-      real(dp) :: stiffness = 1.0_dp            !! pressure [p*] of a displacement [Delta] times its wavelength [length]
+      real(dp) :: stiffness = 1.0_dp            !! pressure [p*] over displacement [Delta], times its wavelength
       real(dp) :: full_contact_peak = 1.0_dp    !! largest p - pbar in full contact [p*]; the least is -1
       real(dp) :: crest_curvature = 1.0_dp      !! largest sum of the two curvatures over 4 pi^2 Delta [1/length^2]
    contains

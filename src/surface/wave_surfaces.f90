@@ -29,8 +29,8 @@ contains
    end function wave_2d
 
    !> Two blocks with a one-dimensional wave each, crossed at right angles:
-   !> h = a_1 (1 - cos 2 pi x/lambda_1) + a_2 (1 - cos 2 pi y/lambda_2). Equal ones make eq. (21) with Delta = 2a and
-   !> lambda = sqrt2 times theirs, turned by 45 degrees.
+   !> h = a_1 (1 - cos 2 pi x/lambda_1) + a_2 (1 - cos 2 pi y/lambda_2). Equal ones make eq. (21) with Delta = 2a
+   !> and lambda = sqrt2 times theirs, turned by 45 degrees.
    type(surface_type) function crossed_1d(amplitude1, wavelength1, amplitude2, wavelength2) result(surface)
       real(dp), intent(in) :: amplitude1, wavelength1   !! along x [length], >= 0, > 0
       real(dp), intent(in) :: amplitude2, wavelength2   !! along y [length], >= 0, > 0
@@ -48,8 +48,8 @@ contains
                          spread(0.0_dp, 1, 3))
    end function hexagonal
 
-   !> h = Delta - sum_q a_q cos(m_q X + n_q Y - phase_q), X = 2 pi x/L_x, Y = 2 pi y/L_y, with the Delta that lets the
-   !> surfaces just touch.
+   !> h = Delta - sum_q a_q cos(m_q X + n_q Y - phase_q), X = 2 pi x/L_x, Y = 2 pi y/L_y, with the Delta that lets
+   !> the surfaces just touch.
    type(surface_type) function wave_sum(length, a, m, n, phase) result(surface)
       real(dp), intent(in) :: length(2)      !! L_x, L_y [length], > 0
       real(dp), intent(in) :: a(:)           !! [length], of either sign
