@@ -40,11 +40,13 @@ contains
       hidden = (most_between - 1.0_dp)*largest
       best = maxloc(values)
       if (values(1, 1) >= maxval(values) - rounding*largest) best = 1
+      peak = -huge(peak)
+      place = 0.0_dp
       do i = 1, most_crests
          crest = [transform%x_angle(best(1)), transform%y_angle(best(2))]
          call climb(series, crest)
          height = series%at(crest(1), crest(2))
-         if (i == 1 .or. height > peak + rounding*largest) then
+         if (height > peak + rounding*largest) then
             peak = height
             place = crest
          end if
