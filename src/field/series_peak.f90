@@ -79,15 +79,20 @@ contains
 
       integer, parameter :: most_steps = 20
       real(dp), parameter :: short = 1e-3_dp
-      real(dp) :: determinant, g(2), h(3), largest, step(2), next(2)
+      real(dp) :: determinant, g(2), h(3), largest, scale, step(2), next(2)
       integer :: i
 
       do i = 1, most_steps
          call derivatives(series, place, g, h)
          if (ubound(series%c, 2) == 0) h(2:3) = [0.0_dp, h(1)]
+         ! Squares of curvatures in unlike units may overflow.
+         scale = maxval(abs(h))
+         if (.not. scale > 0.0_dp) return
+         g = g/scale
+         h = h/scale
          ! The larger eigenvalue is that along the line, and zero but for rounding.
          largest = 0.5_dp*(h(1) + h(3)) + hypot(0.5_dp*(h(1) - h(3)), h(2))
-         h([1, 3]) = h([1, 3]) - max(largest, 0.0_dp) - short*maxval(abs(h))
+         h([1, 3]) = h([1, 3]) - max(largest, 0.0_dp) - short
          determinant = h(1)*h(3) - h(2)**2
          if (.not. determinant > 0.0_dp) return
          step = [h(3)*g(1) - h(2)*g(2), h(1)*g(2) - h(2)*g(1)]/determinant
