@@ -14,7 +14,6 @@ module wavycon_contact_equations
    use wavycon_chord_rule, only: chord_rule, start_chord_rule
    use wavycon_constants, only: pi
    use wavycon_disc_rule, only: disc_rule, plain_disc_rule
-   use wavycon_error_estimate, only: round_reach
    use wavycon_expansion, only: expansion
    use wavycon_image_rule, only: image_rows
    use wavycon_kinds, only: dp
@@ -50,7 +49,7 @@ contains
       type(expansion), intent(in) :: like
       real(dp), intent(in) :: reach   !! of the edge towards its neighbours; 1 touches
 
-      real(dp), parameter :: sharp_reach = 0.7_dp, near_reach = 0.85_dp
+      real(dp), parameter :: angular_reach = 0.6_dp, sharp_reach = 0.7_dp, near_reach = 0.85_dp
       integer :: angles, finer, fold, i, j, n, others, radii
       real(dp) :: phi
 
@@ -75,7 +74,7 @@ contains
          radii = degree/2 + merge(5, 4, like%island)
          angles = degree/fold + merge(2, 1, like%island)
          ! Sharper shapes are better determined by half as many again.
-         if (reach > round_reach) angles = 3*angles/2
+         if (reach > angular_reach) angles = 3*angles/2
       end associate
       allocate (equations%target(radii*angles))
       n = 0

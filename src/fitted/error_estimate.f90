@@ -8,7 +8,7 @@ module wavycon_error_estimate
 
    !> Below this reach of the edge shapes are round and the terms that turn with the angle matter less: some
    !> degrees add next to nothing, so that the decay of the differences is a guide to the next one.
-   real(dp), parameter, public :: round_reach = 0.6_dp
+   real(dp), parameter, public :: round_reach = 0.75_dp
 
 contains
 

@@ -100,7 +100,7 @@ contains
       trusted = .false.
       compared = 0
       do
-         now = now%raised(degree, shape_terms(degree), crowding(lattice, now))
+         now = now%raised(degree, shape_terms(degree, lattice%fold), crowding(lattice, now))
          call start_equations(equations, now, reach(lattice, now))
          if (reach(lattice, now) > 0.7_dp) tolerance = finest
          call converge(equations, lattice, answer%pbar_over_pstar, now, tolerance, &
@@ -264,19 +264,19 @@ contains
       integer, intent(in) :: degree
       real(dp), intent(in) :: edge_reach
 
-
       next_degree = degree + degree_step
       if (degree < full_degree .or. (degree < fine_degree .and. edge_reach < round_reach)) &
          next_degree = degree + degree_step/2
    end function next_degree
 
    !> Terms of the shape that go with a degree.
-   pure integer function shape_terms(degree)
-      integer, intent(in) :: degree
+   pure integer function shape_terms(degree, fold)
+      integer, intent(in) :: degree, fold
 
       shape_terms = degree/3 + 1
-      ! Low degrees do not determine as many.
-      if (degree < fine_degree) shape_terms = (degree + 1)/3
+      ! Low degrees do not determine as many. Each has its own number on lattices of two-fold symmetry, or the
+      ! next one would change the area by less than it is wrong.
+      if (degree < fine_degree) shape_terms = merge(degree/2 - 1, (degree + 1)/3, fold == 2)
    end function shape_terms
 
    !> The crowding of the edge's points for the next degree.
