@@ -87,7 +87,7 @@ contains
       answer%status = fitted_failed
       iterations = 0
       ! A step of this size leaves about its square; close to merging more.
-      tolerance = min(max(0.1_dp*sqrt(accuracy), finest), 1e-4_dp)
+      tolerance = min(max(0.1_dp*sqrt(accuracy), finest), 1e-5_dp)
       call begin(lattice, answer, now, degree, iterations, ok, start)
       if (.not. ok) return
       merged = .false.
