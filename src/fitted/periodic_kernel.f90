@@ -123,7 +123,7 @@ contains
       end associate
    end subroutine start_periodic_kernel
 
-   !> Gp - 1/r and its gradient at n places, |x| <= 3/2, |y| <= 3 height/2.
+   !> Gp - 1/r and its gradient at n places.
    pure subroutine smooth_part(self, n, x, y, value, slope_x, slope_y)
       class(periodic_kernel), intent(in) :: self
       integer, intent(in) :: n
@@ -158,8 +158,8 @@ contains
       end do
    end subroutine smooth_part
 
-   !> The Laplacian of Gp less 1/r^3, and its gradient, at n places, |x| <= 3/2, |y| <= 3 height/2: the sum of
-   !> 1/|x - n|^3 over all lattice points but the origin.
+   !> The Laplacian of Gp less 1/r^3, and its gradient, at n places: the sum of 1/|x - n|^3 over all lattice
+   !> points but the origin.
    pure subroutine smooth_laplacian(self, n, x, y, value, slope_x, slope_y)
       class(periodic_kernel), intent(in) :: self
       integer, intent(in) :: n
@@ -193,7 +193,7 @@ contains
       end do
    end subroutine smooth_laplacian
 
-   !> The Laplacian of Gp at n places, |x| <= 3/2, |y| <= 3 height/2: the sum of 1/|x - n|^3 over the lattice.
+   !> The Laplacian of Gp at n places: the sum of 1/|x - n|^3 over the lattice.
    pure subroutine laplacian(self, n, x, y, value)
       class(periodic_kernel), intent(in) :: self
       integer, intent(in) :: n
@@ -210,19 +210,16 @@ contains
    pure subroutine reduce(self, n, x, y, xr, yr)
       class(periodic_kernel), intent(in) :: self
       integer, intent(in) :: n
-      real(dp), intent(in) :: x(n), y(n)       !! |x| <= 3/2, |y| <= 3 height/2 [s]
+      real(dp), intent(in) :: x(n), y(n)       !! [s]
       real(dp), intent(out) :: xr(n), yr(n)    !! [s]
 
-      real(dp) :: one, row
-      integer :: i
+      integer :: i, row
 
       do i = 1, n
-         row = merge(1.0_dp, 0.0_dp, y(i) > 0.5_dp*self%height) &
-            - merge(1.0_dp, 0.0_dp, y(i) < -0.5_dp*self%height)
+         row = int(y(i)/self%height + sign(0.5_dp, y(i)))
          yr(i) = y(i) - row*self%height
          xr(i) = x(i) - row*self%row_shift
-         one = merge(1.0_dp, 0.0_dp, xr(i) > 0.5_dp) - merge(1.0_dp, 0.0_dp, xr(i) < -0.5_dp)
-         xr(i) = xr(i) - one
+         xr(i) = xr(i) - int(xr(i) + sign(0.5_dp, xr(i)))
       end do
    end subroutine reduce
 
