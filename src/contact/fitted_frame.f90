@@ -3,7 +3,8 @@ module wavycon_fitted_frame
    use wavycon_constants, only: pi, sqrt2, sqrt3
    use wavycon_kinds, only: dp
    use wavycon_surface, only: no_paper_wave, surface_type, turned_paper_wave
-   use wavycon_wave_lattice, only: hexagonal_lattice, rectangular_lattice, square_lattice, wave_lattice
+   use wavycon_wave_lattice, only: hexagonal_lattice, rectangular_lattice, rhombic_lattice, square_lattice, &
+      wave_lattice
    implicit none (type, external)
    private
 
@@ -30,8 +31,8 @@ module wavycon_fitted_frame
 
 contains
 
-   !> The frame of a surface. Covered are the wave (21), two crossed waves that are not too unlike, and the hexagonal
-   !> wave.
+   !> The frame of a surface. Covered are the wave (21), also with a wavelength of its own each way, two crossed waves
+   !> that are not too unlike, and the hexagonal wave.
    subroutine find_frame(surface, frame)
       type(surface_type), intent(in) :: surface
       type(fitted_frame), intent(out) :: frame
@@ -48,7 +49,7 @@ contains
                frame%turn = exp(cmplx(0.0_dp, -pi/4, dp))
                frame%crests = 2
             end if
-         else if (has_only([1, 0], [0, 1])) then
+         else if (has_only(reshape([1, 0, 0, 1], [2, 2]))) then
             if (maxval(length) > longest*minval(length)*(1.0_dp + rounding)) return
             curvature = [c(1, 0), c(0, 1)]/length**2
             if (maxval(curvature) > most_unlike*minval(curvature)) return
@@ -59,7 +60,13 @@ contains
                amplitude_x = c(0, 1)
             end if
             frame%lattice = rectangular_lattice(maxval(length)/minval(length), amplitude_x)
-         else if (has_only([1, 1], [0, 2])) then
+         else if (has_only(reshape([1, 1], [2, 1]))) then
+            if (maxval(length) > longest*minval(length)*(1.0_dp + rounding)) return
+            frame%side = minval(length)
+            frame%crests = 2
+            if (length(1) > length(2)) frame%turn = (0.0_dp, -1.0_dp)
+            frame%lattice = rhombic_lattice(maxval(length)/minval(length))
+         else if (has_only(reshape([1, 1, 0, 2], [2, 2]))) then
             if (abs(c(1, 1) - 2*c(0, 2)) > rounding .or. abs(length(2) - sqrt3*length(1)) > rounding*length(2)) return
             frame%side = length(1)
             frame%crests = 2
@@ -73,20 +80,22 @@ contains
 
    contains
 
-      !> Whether the shape has two terms, both above zero, and no others.
-      logical function has_only(first, second)
-         integer, intent(in) :: first(2), second(2)
+      !> Whether the shape has these terms, all above zero, and no others.
+      logical function has_only(terms)
+         integer, intent(in) :: terms(:, :)   !! wave numbers in X and Y, shape (2, n)
 
          integer :: i, j
 
          associate (c => surface%shape%c)
-            has_only = all(max(first, second) <= ubound(c))
+            has_only = all(maxval(terms, 2) <= ubound(c))
             if (.not. has_only) return
-            has_only = min(c(first(1), first(2)), c(second(1), second(2))) > rounding
             do j = 0, ubound(c, 2)
                do i = 0, ubound(c, 1)
-                  if (all([i, j] == first) .or. all([i, j] == second)) cycle
-                  has_only = has_only .and. abs(c(i, j)) <= rounding
+                  if (any(terms(1, :) == i .and. terms(2, :) == j)) then
+                     has_only = has_only .and. c(i, j) > rounding
+                  else
+                     has_only = has_only .and. abs(c(i, j)) <= rounding
+                  end if
                end do
             end do
          end associate

@@ -10,7 +10,7 @@ module wavycon_fitted_answer
    !> Statuses of a solution.
    integer, parameter, public :: fitted_solved = 0        !! to the accuracy asked for
    integer, parameter, public :: fitted_less_exact = 1    !! all is set; by its estimates less exact
-   integer, parameter, public :: fitted_merged = 2        !! nothing is set; the square lattice alone goes on
+   integer, parameter, public :: fitted_merged = 2        !! nothing is of use; the square lattice alone goes on
    integer, parameter, public :: fitted_bad_input = 3     !! load not between 0 and 1, or accuracy not > 0
    integer, parameter, public :: fitted_failed = 4        !! no solution was found: nothing is set
 

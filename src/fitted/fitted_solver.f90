@@ -12,7 +12,8 @@ module wavycon_fitted_solver
    use wavycon_island_pressure, only: crest_pressure
    use wavycon_kinds, only: dp
    use wavycon_start_expansion, only: crack_island, hertz_spot, scaled_to_load
-   use wavycon_wave_lattice, only: hexagonal_lattice, rectangular_lattice, square_lattice, wave_lattice
+   use wavycon_wave_lattice, only: hexagonal_lattice, rectangular_lattice, rhombic_lattice, square_lattice, &
+      wave_lattice
    implicit none (type, external)
    private
 
@@ -20,7 +21,7 @@ module wavycon_fitted_solver
    public :: fitted_answer, fitted_status_text
    public :: fitted_fields, start_fitted_fields, fitted_separations
    public :: fitted_solved, fitted_less_exact, fitted_merged, fitted_bad_input, fitted_failed
-   public :: wave_lattice, square_lattice, rectangular_lattice, hexagonal_lattice
+   public :: wave_lattice, square_lattice, rectangular_lattice, rhombic_lattice, hexagonal_lattice
 
    !> Spots of the square lattice merge at about this load; the regime tried first.
    real(dp), parameter :: about_merging = 0.228605_dp
@@ -116,7 +117,8 @@ contains
          degree = next_degree(degree, reach(lattice, now))
       end do
       answer%iterations = iterations
-      if (answer%status == fitted_failed .and. merged) answer%status = fitted_merged
+      ! What a lower degree gave is of the square alone nearly right: there islands are as near.
+      if (merged .and. (answer%status == fitted_failed .or. .not. lattice%square)) answer%status = fitted_merged
 
    contains
 
@@ -304,13 +306,19 @@ contains
       crowding = min(crowding, now%shape%crowding + longest_step)
    end function crowding
 
-   !> How far the edge reaches, on the way to the nearest neighbours.
+   !> How far the edge reaches, on the way to the nearest neighbours: 1 where it touches theirs, in the middle between
+   !> two crests.
    pure real(dp) function reach(lattice, now)
       type(wave_lattice), intent(in) :: lattice
       type(expansion), intent(in) :: now
 
       complex(dp) :: tip
 
+      ! Tips off the axes of symmetry bend: those of long spots come to the middle from the side.
+      if (abs(lattice%saddle%re) > 0.0_dp .and. abs(lattice%saddle%im) > 0.0_dp) then
+         reach = 1.0_dp - now%shape%distance(lattice%saddle)/abs(lattice%saddle)
+         return
+      end if
       tip = now%shape%place((1.0_dp, 0.0_dp))
       reach = abs(tip)/0.5_dp
       if (lattice%fold == 2) then

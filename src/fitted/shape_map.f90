@@ -25,6 +25,7 @@ module wavycon_shape_map
       procedure :: linearise_jacobian
       procedure :: area
       procedure :: perimeter
+      procedure :: distance
       procedure :: find
    end type shape_map
 
@@ -148,6 +149,31 @@ contains
       end do
       perimeter = perimeter*2*pi/points
    end function perimeter
+
+   !> Distance of a place from the edge, below zero inside [s].
+   pure real(dp) function distance(self, z)
+      class(shape_map), intent(in) :: self
+      complex(dp), intent(in) :: z       !! [s]
+
+      !> Points to start from, and halvings of their distance.
+      integer, parameter :: points = 128, halvings = 30
+      complex(dp) :: edge(-1:1), outwards
+      real(dp) :: angle, length(points), step
+      integer :: i, nearest
+
+      length = abs(z - self%place([(exp(cmplx(0.0_dp, 2*pi*i/points, dp)), i=1, points)]))
+      angle = 2*pi*minloc(length, 1)/points
+      step = 2*pi/points
+      do i = 1, halvings
+         step = 0.5_dp*step
+         edge = self%place(exp(cmplx(0.0_dp, angle + [-step, 0.0_dp, step], dp)))
+         nearest = minloc(abs(z - edge), 1) - 2
+         angle = angle + nearest*step
+      end do
+      edge = self%place(exp(cmplx(0.0_dp, angle + [-step, 0.0_dp, step], dp)))
+      outwards = (0.0_dp, -1.0_dp)*(edge(1) - edge(-1))
+      distance = sign(abs(z - edge(0)), real((z - edge(0))*conjg(outwards), dp))
+   end function distance
 
    !> Where the map, or its continuation, has a place: z(w) = z.
    !>

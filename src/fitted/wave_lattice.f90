@@ -1,4 +1,4 @@
-!> The wavy surfaces that the boundary-fitted solver knows: one crest a cell, at the lattice's points.
+!> The wavy surfaces that the boundary-fitted solver knows: one crest a primitive cell, at the lattice's points.
 !>
 !> h/Delta = 1 - sum over i of a_i cos(2 pi k_i.x), the a_i sum to 1 so that a crest touches: Delta is the
 !> mean undeformed gap. Lengths are in the cell's shorter side s, pressures in pi E* Delta/s, which for the
@@ -10,7 +10,7 @@ module wavycon_wave_lattice
    implicit none (type, external)
    private
 
-   public :: wave_lattice, square_lattice, rectangular_lattice, hexagonal_lattice
+   public :: wave_lattice, square_lattice, rectangular_lattice, rhombic_lattice, hexagonal_lattice
 
    type :: wave_lattice
       integer :: fold = 4                        !! of the symmetry about a crest
@@ -55,6 +55,23 @@ contains
       lattice%trough = cmplx(0.5_dp, 0.5_dp*side_ratio, dp)
       call start_periodic_kernel(lattice%kernel, side_ratio, 0.0_dp)
    end function rectangular_lattice
+
+   !> h/Delta = 1 - cos X cos Y: a crest more in the middle of the cell. At a ratio of 1 the paper's surface, with the
+   !> axes at 45 degrees to neighbouring crests.
+   function rhombic_lattice(side_ratio) result(lattice)
+      real(dp), intent(in) :: side_ratio   !! longer wavelength, along y, over the shorter, s: 1 to 3
+      type(wave_lattice) :: lattice
+
+      lattice%fold = 2
+      lattice%square = .false.
+      lattice%area = 0.5_dp*side_ratio
+      allocate (lattice%wave(2, 2), lattice%amplitude(2))
+      lattice%wave(:, :) = reshape([1.0_dp, 1.0_dp/side_ratio, 1.0_dp, -1.0_dp/side_ratio], [2, 2])
+      lattice%amplitude(:) = [0.5_dp, 0.5_dp]
+      lattice%saddle = cmplx(0.25_dp, 0.25_dp*side_ratio, dp)
+      lattice%trough = 0.5_dp
+      call start_periodic_kernel(lattice%kernel, 0.5_dp*side_ratio, 0.5_dp)
+   end function rhombic_lattice
 
    !> Three equal waves at 120 degrees; each crest has six neighbours.
    function hexagonal_lattice() result(lattice)

@@ -130,7 +130,7 @@ contains
          call find_frame(scene%surface, frame)
          if (.not. frame%covered) call fatal_error(error, exit_bad_input, escaped(deck%path)// &
             ": solver = 'fitted' knows "// &
-            'wave_2d with one wavelength, crossed_1d with waves not too unlike and hexagonal, not this '// &
+            'wave_2d with wavelengths up to 3:1, crossed_1d with waves not too unlike and hexagonal, not this '// &
             trim(deck%surface%kind)//". Give 'auto' or 'grid'.")
       end if
       if (deck%method%solver /= 'beale') return
