@@ -114,7 +114,7 @@ contains
             if (.not. ok .or. answer%status == fitted_solved) exit
          end if
          if (degree >= last_degree) exit
-         degree = next_degree(degree, reach(lattice, now))
+         degree = next_degree(degree, lattice%fold, reach(lattice, now))
       end do
       answer%iterations = iterations
       ! What a lower degree gave is of the square alone nearly right: there islands are as near.
@@ -261,13 +261,13 @@ contains
    end subroutine converge
 
    !> Half a step at first, another where the shape is round: terms that turn with the angle matter less
-   !> there.
-   pure integer function next_degree(degree, edge_reach)
-      integer, intent(in) :: degree
+   !> there. Not with two-fold symmetry: of a shape that is nearly four-fold half a step adds next to nothing.
+   pure integer function next_degree(degree, fold, edge_reach)
+      integer, intent(in) :: degree, fold
       real(dp), intent(in) :: edge_reach
 
       next_degree = degree + degree_step
-      if (degree < full_degree .or. (degree < fine_degree .and. edge_reach < round_reach)) &
+      if (degree < full_degree .or. (degree < fine_degree .and. fold > 2 .and. edge_reach < round_reach)) &
          next_degree = degree + degree_step/2
    end function next_degree
 
@@ -275,10 +275,15 @@ contains
    pure integer function shape_terms(degree, fold)
       integer, intent(in) :: degree, fold
 
+      ! With two-fold symmetry each is of the next odd power only. Each degree has its own number, or the next one
+      ! would change the area by less than it is wrong.
+      if (fold == 2) then
+         shape_terms = degree/2
+         return
+      end if
       shape_terms = degree/3 + 1
-      ! Low degrees do not determine as many. Each has its own number on lattices of two-fold symmetry, or the
-      ! next one would change the area by less than it is wrong.
-      if (degree < fine_degree) shape_terms = merge(degree/2 - 1, (degree + 1)/3, fold == 2)
+      ! Low degrees do not determine as many.
+      if (degree < fine_degree) shape_terms = (degree + 1)/3
    end function shape_terms
 
    !> The crowding of the edge's points for the next degree.
