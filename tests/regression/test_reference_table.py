@@ -13,6 +13,7 @@ from tables import Table  # noqa: E402
 
 ROOT = HERE.parent.parent
 REFERENCE = ROOT / "outputs" / "reference" / "wave_2d.dat"
+MERGING = ROOT / "outputs" / "reference" / "merging.dat"
 OTHER_METHODS = ROOT / "inputs" / "reference_2d.dat"
 DECK = """\
 &surface kind = 'wave_2d' /
@@ -23,7 +24,6 @@ DECK = """\
 # The order of the published values; each has its error beside it.
 VALUES = ("mean_gap", "contact_area", "peak_pressure", "trough_gap", "saddle_gap", "saddle_pressure",
           "energy", "perimeter")
-MERGING = 0.2286
 
 
 def published():
@@ -41,6 +41,7 @@ class ReferenceTable(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.table = published()
+        cls.merging = [[float(word) for word in row[1:]] for row in Table(MERGING).rows()]
 
     def solve(self, loads, solver, accuracy, output, kind):
         """{column: words} of a table of the program, loads in the order given."""
@@ -67,7 +68,7 @@ class ReferenceTable(unittest.TestCase):
         for load, row in self.table.items():
             self.assertEqual(len(VALUES), len(row))
             for name, (value, error) in zip(VALUES, row):
-                exactly_zero = name == ("saddle_gap" if load > MERGING else "saddle_pressure")
+                exactly_zero = name == ("saddle_gap" if load > self.merging[0][0] else "saddle_pressure")
                 with self.subTest(load=load, name=name):
                     if exactly_zero:
                         self.assertEqual((0.0, 0.0), (value, error))
@@ -76,6 +77,22 @@ class ReferenceTable(unittest.TestCase):
                         self.assertGreater(error, 0.0)
                         # The worst are the saddle's, about to close.
                         self.assertLess(error, 0.15*value)
+
+    def test_both_sides_of_merging(self):
+        below, above = self.merging
+        for value, error, other, other_error in zip(below[::2], below[1::2], above[::2], above[1::2]):
+            self.assertLess(abs(value - other), error + other_error)
+            # Six digits from below, five or so from above.
+            self.assertLess(error, 1e-6*value)
+            self.assertLess(other_error, 1e-5*value)
+        # Between the last spots and the first island of the table, and of their values.
+        for place, (value, error) in enumerate(zip(below[2::2], below[3::2])):
+            last = max(load for load in self.table if load < below[0])
+            first = min(load for load in self.table if load > below[0])
+            self.assertLess(first - last, 1e-4)
+            sides = sorted((self.table[last][place][0], self.table[first][place][0]))
+            self.assertLess(sides[0] - error, value)
+            self.assertLess(value, sides[1] + error)
 
     def test_recomputed(self):
         # At another accuracy, hence by other degrees; about merging, in both regimes, too.
