@@ -28,7 +28,7 @@ fit_both(formula, chosen, column, distance) = sprintf( \
    formula, chosen, distance, column, distance)
 
 v_m = 0.0
-print '#side  merging_load[p*]    error[p*]  mean_gap[Delta] error[Delta] contact_area[A0]    error[A0]', \
+print '#side[-] merging_load[p*]    error[p*]  mean_gap[Delta] error[Delta] contact_area[A0]    error[A0]', \
       ' peak_pressure[p*]    error[p*]'
 do for [side in 'below above'] {
    chosen = "pick('".side."', $1)"

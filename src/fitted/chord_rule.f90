@@ -148,7 +148,7 @@ contains
          b = shape%b(0)
          do i = 1, n
             inverse = 1.0_dp/(q(i)%re**2 + q(i)%im**2)
-            own_slope = shape%crowded_slope(w(i))
+            own_slope = 1.0_dp - (m + 1)*shape%crowding*step(i)
             swelling(i) = own_slope%re**2 + own_slope%im**2
             f(i) = b**2*swelling(i) - (slope(i)%re**2 + slope(i)%im**2)
             density(i) = self%factor(i)*sqrt(inverse)

@@ -77,6 +77,8 @@ contains
 
       !> Steps to stop at for the tightest accuracy, and what is no convergence at all.
       real(dp), parameter :: finest = 1e-7_dp, largest_change = 1e-4_dp
+      !> What a last step leaves, relative to a measure, in units of the step's square; with a margin.
+      real(dp), parameter :: of_square = 10.0_dp
       type(contact_equations) :: equations
       type(expansion) :: now, past(expansions_before)
       real(dp), dimension(all_measures) :: best, decay, error, last, last_difference, new
@@ -88,7 +90,7 @@ contains
       answer%status = fitted_failed
       iterations = 0
       ! A step of this size leaves about its square; close to merging more.
-      tolerance = min(max(0.1_dp*sqrt(accuracy), finest), 1e-5_dp)
+      tolerance = min(max(0.1_dp*sqrt(accuracy), finest), 1e-4_dp)
       call begin(lattice, answer, now, degree, iterations, ok, start)
       if (.not. ok) return
       merged = .false.
@@ -135,6 +137,7 @@ contains
                call error_estimate(difference(m + 1:), last_difference(m + 1:), decay(m + 1:), new(m + 1:), &
                                    error(m + 1:))
             end associate
+            error = max(error, of_square*change**2*new)
             ! Close to merging a higher degree may be worse.
             better = answer%status == fitted_failed .or. .not. trusted
             if (.not. better) better = sum(error(:measures)/new(:measures)) &

@@ -53,7 +53,8 @@ contains
       class(shape_map), intent(in) :: self
       complex(dp), intent(in) :: w
 
-      crowded = w*(1.0_dp - self%crowding*w**self%fold)
+      crowded = w
+      if (self%crowding > 0.0_dp) crowded = w*(1.0_dp - self%crowding*w**self%fold)
    end function crowded
 
    !> Its derivative.
@@ -61,7 +62,8 @@ contains
       class(shape_map), intent(in) :: self
       complex(dp), intent(in) :: w
 
-      slope = 1.0_dp - (self%fold + 1)*self%crowding*w**self%fold
+      slope = 1.0_dp
+      if (self%crowding > 0.0_dp) slope = slope - (self%fold + 1)*self%crowding*w**self%fold
    end function crowded_slope
 
    !> Area of the image over that of the disc, |dz/dw|^2 - |dz/d conj(w)|^2 [s^2].
