@@ -23,6 +23,7 @@ module wavycon_fitted_contact
       type(grid_contact), allocatable :: grids     !! that take over; not allocated if none are to
       type(fitted_frame), private :: frame
       real(dp), private :: accuracy = 1e-3_dp
+      logical, private :: keep_fields = .true.
       type(fitted_answer), private :: last         !! of the load before
    contains
       procedure :: start
@@ -55,6 +56,7 @@ contains
 
       self%surface = surface
       self%accuracy = accuracy
+      self%keep_fields = keep_fields
       call find_frame(surface, self%frame)
       if (with_grids) then
          allocate (self%grids)
@@ -77,7 +79,7 @@ contains
       ! The solver's accuracy is relative; the largest of the three values is the peak, in full contact.
       peak = 1.0_dp + self%surface%full_contact_peak
       call solve_fitted(self%frame%lattice, pbar_over_pstar/self%frame%pressure_unit, self%accuracy/peak, answer, &
-                        self%last)
+                        self%last, self%keep_fields)
       state%solver = by_fitted
       state%status = not_found
       state%measures = unmeasured(self%surface%full_contact_peak)

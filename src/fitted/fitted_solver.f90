@@ -37,9 +37,10 @@ module wavycon_fitted_solver
    integer, parameter :: degrees_back = 3
    integer, parameter :: most_steps = 12
 
-   !> The three numbers that the accuracy is of: mean gap, area fraction, peak pressure. Energy and perimeter
-   !> come after them: their errors are estimated as well.
-   integer, parameter :: measures = 3, all_measures = 5
+   !> The three numbers that the accuracy is of: mean gap, area fraction, peak pressure. An island's gap at its
+   !> trough follows, which converges as fields do, later than integrals of them; then energy and perimeter,
+   !> whose errors are estimated as well.
+   integer, parameter :: measures = 3, all_measures = 6
 
 contains
 
@@ -47,13 +48,15 @@ contains
    !>
    !> The accuracy is relative: to the mean gap, to the area fraction or, above merging, the open one, to the
    !> peak pressure. The degree of the expansion is raised until the differences of two degrees meet it.
-   subroutine solve_fitted(lattice, pbar_over_pstar, accuracy, answer, start)
+   subroutine solve_fitted(lattice, pbar_over_pstar, accuracy, answer, start, fields)
       type(wave_lattice), intent(in) :: lattice
       real(dp), intent(in) :: pbar_over_pstar        !! P, between 0 and 1
       real(dp), intent(in) :: accuracy               !! > 0; what rounding allows is 1e-14 or so
       type(fitted_answer), intent(out) :: answer
       type(fitted_answer), intent(in), optional :: start
          !! of another load of the same lattice, not the same variable as `answer`; of use where it is near
+      logical, intent(in), optional :: fields
+         !! whether an island's gap at its trough is to be as accurate, for the sake of fields; not if absent
 
       logical :: first_is_island
 
@@ -62,18 +65,19 @@ contains
       if (ieee_is_nan(pbar_over_pstar) .or. ieee_is_nan(accuracy)) return
       if (.not. (pbar_over_pstar > 0.0_dp .and. pbar_over_pstar < 1.0_dp .and. accuracy > 0.0_dp)) return
       first_is_island = lattice%square .and. pbar_over_pstar > about_merging
-      call solve_regime(lattice, accuracy, first_is_island, answer, start)
+      call solve_regime(lattice, accuracy, first_is_island, answer, start, fields)
       if (answer%status >= fitted_merged .and. lattice%square) &
-         call solve_regime(lattice, accuracy, .not. first_is_island, answer, start)
+         call solve_regime(lattice, accuracy, .not. first_is_island, answer, start, fields)
    end subroutine solve_fitted
 
    !> Solves as a spot or as an island.
-   subroutine solve_regime(lattice, accuracy, island, answer, start)
+   subroutine solve_regime(lattice, accuracy, island, answer, start, fields)
       type(wave_lattice), intent(in) :: lattice
       real(dp), intent(in) :: accuracy
       logical, intent(in) :: island
       type(fitted_answer), intent(inout) :: answer   !! its load is set
       type(fitted_answer), intent(in), optional :: start
+      logical, intent(in), optional :: fields
 
       !> Steps to stop at for the tightest accuracy, and what is no convergence at all.
       real(dp), parameter :: finest = 1e-7_dp, largest_change = 1e-4_dp
@@ -83,12 +87,14 @@ contains
       type(expansion) :: now, past(expansions_before)
       real(dp), dimension(all_measures) :: best, decay, error, last, last_difference, new
       real(dp) :: change, residual, tolerance
-      integer :: compared, degree, iterations
+      integer :: asked, compared, degree, iterations
       logical :: better, merged, ok, trusted
 
       answer%island = island
       answer%status = fitted_failed
       iterations = 0
+      asked = measures
+      if (present(fields)) asked = merge(measures + 1, measures, fields .and. island)
       ! A step of this size leaves about its square; close to merging more.
       tolerance = min(max(0.1_dp*sqrt(accuracy), finest), 1e-4_dp)
       call begin(lattice, answer, now, degree, iterations, ok, start)
@@ -127,15 +133,17 @@ contains
       !> Compares with the degree before.
       subroutine judge()
          new = [mean_gap(equations, now), now%shape%area(), &
-                peak_pressure(equations, lattice, answer%pbar_over_pstar, now), &
+                peak_pressure(equations, lattice, answer%pbar_over_pstar, now), now%at_centre(), &
                 energy(equations, lattice, answer%pbar_over_pstar, now), now%shape%perimeter()]
          ok = all(new(:measures) > 0.0_dp)
          if (.not. ok) return
          if (last(1) < huge(last)) then
             associate (difference => abs(new - last), m => measures)
                call error_estimate(difference(:m), last_difference(:m), decay(:m), new(:m), error(:m))
-               call error_estimate(difference(m + 1:), last_difference(m + 1:), decay(m + 1:), new(m + 1:), &
-                                   error(m + 1:))
+               call error_estimate(difference(m + 1:m + 1), last_difference(m + 1:m + 1), decay(m + 1:m + 1), &
+                                   new(m + 1:m + 1), error(m + 1:m + 1))
+               call error_estimate(difference(m + 2:), last_difference(m + 2:), decay(m + 2:), new(m + 2:), &
+                                   error(m + 2:))
             end associate
             error = max(error, of_square*change**2*new)
             ! Close to merging a higher degree may be worse.
@@ -145,7 +153,7 @@ contains
             ! One difference may be small by chance.
             trusted = trusted .or. last_difference(1) < huge(last)
             if (better) call take_over()
-            if (trusted .and. all(best(:measures) <= accuracy*new(:measures))) answer%status = fitted_solved
+            if (trusted .and. all(best(:asked) <= accuracy*new(:asked))) answer%status = fitted_solved
             decay = 1.0_dp
             if (reach(lattice, now) < round_reach) &
                decay = min(abs(new - last)/max(last_difference, tiny(new)), 1.0_dp)
@@ -172,10 +180,10 @@ contains
          answer%mean_gap_error = error(1)
          answer%area_error = error(2)/lattice%area
          answer%peak_error = error(3)
-         answer%energy = new(4)
-         answer%perimeter = new(5)
-         answer%energy_error = error(4)
-         answer%perimeter_error = error(5)
+         answer%energy = new(5)
+         answer%perimeter = new(6)
+         answer%energy_error = error(5)
+         answer%perimeter_error = error(6)
          answer%before = past(:compared)
       end subroutine take_over
 

@@ -177,6 +177,7 @@ contains
             call finish_on_active_set(self%problem, self%set, &
                                       pack(solution%active, solution%multipliers > 0.0_dp), solution)
          end do
+         if (solution%status == qp_converged) return
          call self%table%rebuild(self%problem, self%set, solution)
          ! From the same constraints the same steps would follow: then the digits that stopped them are given up.
          active = .false.

@@ -51,7 +51,8 @@ contains
          type is (grid_contact)
             call solver%start(surface, method%accuracy, keep_fields, points=grid_asked_for())
          type is (fitted_contact)
-            call solver%start(surface, method%accuracy, with_grids=auto, keep_fields=keep_fields)
+            call solver%start(surface, method%accuracy, with_grids=auto, &
+                              keep_fields=keep_fields .or. deck%output%details)
          end select
       end associate
 
