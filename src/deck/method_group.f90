@@ -44,7 +44,8 @@ contains
             [character(6) :: 'beale', 'grid', 'fitted', 'auto']), &
          real_key('accuracy', '1e-3', '-', &
             "Not of 'beale': largest error allowed of mean gap [amplitude], contact area fraction and peak "// &
-            'pressure [p*]. A load that cannot be had so accurately says so.', least=1.0e-12_dp, most=0.1_dp), &
+            "pressure [p*]; where lines, a map, contours or details are asked for, of 'fitted' the gap at a "// &
+            'trough as well. A load that cannot be had so accurately says so.', least=1.0e-12_dp, most=0.1_dp), &
          integer_key('grid_points', '', &
             "Of 'grid' and 'auto', in place of accuracy: points of the cell along x and y of the one grid to "// &
             'solve; one number for both. Even numbers. For a file the default is its own grid. Errors are '// &
