@@ -299,9 +299,11 @@ class Faults:
         self.part.worst = f"needs {least} MB"
 
     def environments(self):
-        basic = {"PATH": os.environ["PATH"]}
+        # Which kernels OpenBLAS is told to take counts as the machine: others round otherwise.
+        kernels = {name: os.environ[name] for name in ("OPENBLAS_CORETYPE",) if name in os.environ}
+        basic = dict(kernels, PATH=os.environ["PATH"])
         cases = {
-            "nothing": {},
+            "nothing": kernels,
             "no HOME": basic,
             "C": dict(basic, LC_ALL="C"),
             "a locale that is not there": dict(basic, LC_ALL="xx_YY.UTF-8", LANG="nonsense"),
