@@ -18,7 +18,7 @@ module wavycon_periodic_kernel
    implicit none (type, external)
    private
 
-   public :: periodic_kernel, start_periodic_kernel, ewald_sum
+   public :: periodic_kernel, start_periodic_kernel, add_points, ewald_sum
 
    type :: periodic_kernel
       real(dp) :: height = 1.0_dp                !! distance of two rows [s], >= 1/2
@@ -31,6 +31,7 @@ module wavycon_periodic_kernel
       procedure :: smooth_part
       procedure :: smooth_laplacian
       procedure :: laplacian
+      procedure :: points_within
       procedure :: reduced
    end type periodic_kernel
 
@@ -123,75 +124,104 @@ contains
       end associate
    end subroutine start_periodic_kernel
 
-   !> Gp - 1/r and its gradient at n places.
+   !> Gp - 1/r and, if asked for, its gradient at n places.
    pure subroutine smooth_part(self, n, x, y, value, slope_x, slope_y)
       class(periodic_kernel), intent(in) :: self
       integer, intent(in) :: n
-      real(dp), intent(in) :: x(n), y(n)                          !! [s]
-      real(dp), intent(out) :: value(n), slope_x(n), slope_y(n)   !! Gp - 1/r [1/s], its derivatives [1/s^2]
+      real(dp), intent(in) :: x(n), y(n)                                    !! [s]
+      real(dp), intent(out) :: value(n)                                     !! Gp - 1/r [1/s]
+      real(dp), intent(out), optional :: slope_x(n), slope_y(n)             !! both or none [1/s^2]
 
-      real(dp), dimension(n) :: xr, yr
-      real(dp) :: a, b, far, near
-      integer :: i, k
-
-      call reduce(self, n, x, y, xr, yr)
-      call polynomial(self, self%coefficient, n, xr, yr, value, slope_x, slope_y)
-      do k = 1, size(self%image, 2)
-         a = self%image(1, k)
-         b = self%image(2, k)
-         do i = 1, n
-            near = 1.0_dp/((xr(i) - a)**2 + (yr(i) - b)**2)
-            far = sqrt(near)
-            value(i) = value(i) + far
-            far = far*near
-            slope_x(i) = slope_x(i) - (xr(i) - a)*far
-            slope_y(i) = slope_y(i) - (yr(i) - b)*far
-         end do
-      end do
-      ! The origin's own 1/r is left out at x, not at the reduced place: for most points the same.
-      do i = 1, n
-         near = 1.0_dp/max(xr(i)**2 + yr(i)**2, least_square)
-         far = 1.0_dp/max(x(i)**2 + y(i)**2, least_square)
-         value(i) = value(i) + (sqrt(near) - sqrt(far))
-         slope_x(i) = slope_x(i) - (xr(i)*(near*sqrt(near)) - x(i)*(far*sqrt(far)))
-         slope_y(i) = slope_y(i) - (yr(i)*(near*sqrt(near)) - y(i)*(far*sqrt(far)))
-      end do
+      call without_origin(self, .false., self%coefficient, n, x, y, value, slope_x, slope_y)
    end subroutine smooth_part
 
-   !> The Laplacian of Gp less 1/r^3, and its gradient, at n places: the sum of 1/|x - n|^3 over all lattice
-   !> points but the origin.
+   !> The Laplacian of Gp less 1/r^3 and, if asked for, its gradient at n places: the sum of 1/|x - n|^3 over all
+   !> lattice points but the origin.
    pure subroutine smooth_laplacian(self, n, x, y, value, slope_x, slope_y)
       class(periodic_kernel), intent(in) :: self
       integer, intent(in) :: n
-      real(dp), intent(in) :: x(n), y(n)                          !! [s]
-      real(dp), intent(out) :: value(n), slope_x(n), slope_y(n)   !! [1/s^3], its derivatives [1/s^4]
+      real(dp), intent(in) :: x(n), y(n)                                    !! [s]
+      real(dp), intent(out) :: value(n)                                     !! [1/s^3]
+      real(dp), intent(out), optional :: slope_x(n), slope_y(n)             !! both or none [1/s^4]
+
+      call without_origin(self, .true., self%bending, n, x, y, value, slope_x, slope_y)
+   end subroutine smooth_laplacian
+
+   !> A polynomial of the kernel and the inverse distances, or their cubes, of the lattice points near by.
+   pure subroutine without_origin(self, cubes, coefficient, n, x, y, value, slope_x, slope_y)
+      class(periodic_kernel), intent(in) :: self
+      logical, intent(in) :: cubes
+      real(dp), intent(in) :: coefficient(0:, 0:)   !! as self%coefficient
+      integer, intent(in) :: n
+      real(dp), intent(in) :: x(n), y(n)            !! [s]
+      real(dp), intent(out) :: value(n)
+      real(dp), intent(out), optional :: slope_x(n), slope_y(n)
 
       real(dp), dimension(n) :: xr, yr
-      real(dp) :: a, b, far, near
-      integer :: i, k
+      real(dp) :: far, near, power
+      logical :: moved
+      integer :: i
 
-      call reduce(self, n, x, y, xr, yr)
-      call polynomial(self, self%bending, n, xr, yr, value, slope_x, slope_y)
-      do k = 1, size(self%image, 2)
-         a = self%image(1, k)
-         b = self%image(2, k)
-         do i = 1, n
-            near = 1.0_dp/((xr(i) - a)**2 + (yr(i) - b)**2)
-            far = near*sqrt(near)
-            value(i) = value(i) + far
-            far = 3*far*near
-            slope_x(i) = slope_x(i) - (xr(i) - a)*far
-            slope_y(i) = slope_y(i) - (yr(i) - b)*far
-         end do
-      end do
+      call reduce(self, n, x, y, xr, yr, moved)
+      call polynomial(self, coefficient, n, xr, yr, value, slope_x, slope_y)
+      call add_points(self%image, cubes, n, xr, yr, value, slope_x, slope_y)
+      if (.not. moved) return
+      ! The origin's own is left out at x, not at the reduced place: for most points the same.
+      power = merge(3.0_dp, 1.0_dp, cubes)
       do i = 1, n
          near = 1.0_dp/max(xr(i)**2 + yr(i)**2, least_square)
          far = 1.0_dp/max(x(i)**2 + y(i)**2, least_square)
-         value(i) = value(i) + (near*sqrt(near) - far*sqrt(far))
-         slope_x(i) = slope_x(i) - 3*(xr(i)*(near**2*sqrt(near)) - x(i)*(far**2*sqrt(far)))
-         slope_y(i) = slope_y(i) - 3*(yr(i)*(near**2*sqrt(near)) - y(i)*(far**2*sqrt(far)))
+         value(i) = value(i) + (inverse(cubes, near) - inverse(cubes, far))
+         if (present(slope_x)) then
+            near = power*near*inverse(cubes, near)
+            far = power*far*inverse(cubes, far)
+            slope_x(i) = slope_x(i) - (xr(i)*near - x(i)*far)
+            slope_y(i) = slope_y(i) - (yr(i)*near - y(i)*far)
+         end if
       end do
-   end subroutine smooth_laplacian
+   end subroutine without_origin
+
+   !> Adds the inverse distances, or their cubes, from some lattice points.
+   pure subroutine add_points(point, cubes, n, x, y, value, slope_x, slope_y)
+      real(dp), intent(in) :: point(:, :)                            !! shape (2, m) [s]
+      logical, intent(in) :: cubes
+      integer, intent(in) :: n
+      real(dp), intent(in) :: x(n), y(n)                             !! [s]
+      real(dp), intent(inout) :: value(n)                            !! [1/s], of cubes [1/s^3]
+      real(dp), intent(inout), optional :: slope_x(n), slope_y(n)    !! both or none [1/s^2], of cubes [1/s^4]
+
+      real(dp) :: a, b, near, power, square
+      integer :: i, k
+
+      power = merge(3.0_dp, 1.0_dp, cubes)
+      do k = 1, size(point, 2)
+         a = point(1, k)
+         b = point(2, k)
+         if (present(slope_x)) then
+            do i = 1, n
+               square = 1.0_dp/((x(i) - a)**2 + (y(i) - b)**2)
+               near = inverse(cubes, square)
+               value(i) = value(i) + near
+               near = power*near*square
+               slope_x(i) = slope_x(i) - (x(i) - a)*near
+               slope_y(i) = slope_y(i) - (y(i) - b)*near
+            end do
+         else
+            do i = 1, n
+               value(i) = value(i) + inverse(cubes, 1.0_dp/((x(i) - a)**2 + (y(i) - b)**2))
+            end do
+         end if
+      end do
+   end subroutine add_points
+
+   !> 1/r or 1/r^3.
+   pure real(dp) function inverse(cubes, inverse_square)
+      logical, intent(in) :: cubes
+      real(dp), intent(in) :: inverse_square   !! 1/r^2
+
+      inverse = sqrt(inverse_square)
+      if (cubes) inverse = inverse*inverse_square
+   end function inverse
 
    !> The Laplacian of Gp at n places: the sum of 1/|x - n|^3 over the lattice.
    pure subroutine laplacian(self, n, x, y, value)
@@ -200,38 +230,70 @@ contains
       real(dp), intent(in) :: x(n), y(n)      !! [s]
       real(dp), intent(out) :: value(n)       !! [1/s^3]
 
-      real(dp), dimension(n) :: slope_x, slope_y
-
-      call self%smooth_laplacian(n, x, y, value, slope_x, slope_y)
+      call self%smooth_laplacian(n, x, y, value)
       value = value + 1.0_dp/hypot(x, y)**3
    end subroutine laplacian
 
    !> The same places in the rectangle about the origin.
-   pure subroutine reduce(self, n, x, y, xr, yr)
+   pure subroutine reduce(self, n, x, y, xr, yr, moved)
       class(periodic_kernel), intent(in) :: self
       integer, intent(in) :: n
       real(dp), intent(in) :: x(n), y(n)       !! [s]
       real(dp), intent(out) :: xr(n), yr(n)    !! [s]
+      logical, intent(out) :: moved            !! whether any is another one
 
-      integer :: i, row
+      integer :: column, i, moves, row
 
+      moves = 0
       do i = 1, n
          row = int(y(i)/self%height + sign(0.5_dp, y(i)))
          yr(i) = y(i) - row*self%height
          xr(i) = x(i) - row*self%row_shift
-         xr(i) = xr(i) - int(xr(i) + sign(0.5_dp, xr(i)))
+         column = int(xr(i) + sign(0.5_dp, xr(i)))
+         xr(i) = xr(i) - column
+         moves = ior(moves, ior(row, column))
       end do
+      moved = moves /= 0
    end subroutine reduce
 
-   !> One of the two polynomials in x^2 and y^2, and its gradient.
+   !> The lattice points but the origin nearer to it than some distance, and how near the next one is.
+   pure subroutine points_within(self, distance, point, next)
+      class(periodic_kernel), intent(in) :: self
+      real(dp), intent(in) :: distance                       !! > 0 [s]
+      real(dp), allocatable, intent(out) :: point(:, :)      !! shape (2, m) [s]
+      real(dp), intent(out) :: next                          !! [s]
+
+      real(dp) :: x, y
+      integer :: columns, i, j, rows
+
+      rows = ceiling(distance/self%height) + 1
+      columns = ceiling(distance + self%row_shift*rows) + 1
+      next = huge(next)
+      allocate (point(2, 0))
+      do j = -rows, rows
+         do i = -columns, columns
+            x = i + self%row_shift*j
+            y = self%height*j
+            if (i == 0 .and. j == 0) cycle
+            if (hypot(x, y) < distance) then
+               point = reshape([point, x, y], [2, size(point, 2) + 1])
+            else
+               next = min(next, hypot(x, y))
+            end if
+         end do
+      end do
+   end subroutine points_within
+
+   !> One of the two polynomials in x^2 and y^2 and, if asked for, its gradient.
    pure subroutine polynomial(self, coefficient, n, x, y, value, slope_x, slope_y)
       class(periodic_kernel), intent(in) :: self
       real(dp), intent(in) :: coefficient(0:, 0:)   !! as self%coefficient
       integer, intent(in) :: n
       real(dp), intent(in) :: x(n), y(n)            !! in the rectangle about the origin [s]
-      real(dp), intent(out) :: value(n), slope_x(n), slope_y(n)
+      real(dp), intent(out) :: value(n)
+      real(dp), intent(out), optional :: slope_x(n), slope_y(n)
 
-      real(dp), dimension(n) :: u, v, q, dq, dv
+      real(dp), dimension(n) :: u, v, q, dq, du, dv
       real(dp) :: a
       integer :: i, j, k
 
@@ -240,28 +302,41 @@ contains
          v(i) = 8*(y(i)/self%height)**2 - 1.0_dp
       end do
       value = 0.0_dp
-      slope_x = 0.0_dp
+      du = 0.0_dp
       dv = 0.0_dp
       do k = ubound(self%degree, 1), 0, -1
          q = coefficient(self%degree(k), k)
-         dq = 0.0_dp
-         do j = self%degree(k) - 1, 0, -1
-            a = coefficient(j, k)
-            do i = 1, n
-               dq(i) = dq(i)*u(i) + q(i)
-               q(i) = q(i)*u(i) + a
+         if (present(slope_x)) then
+            dq = 0.0_dp
+            do j = self%degree(k) - 1, 0, -1
+               a = coefficient(j, k)
+               do i = 1, n
+                  dq(i) = dq(i)*u(i) + q(i)
+                  q(i) = q(i)*u(i) + a
+               end do
             end do
-         end do
+            do i = 1, n
+               dv(i) = dv(i)*v(i) + value(i)
+               du(i) = du(i)*v(i) + dq(i)
+            end do
+         else
+            do j = self%degree(k) - 1, 0, -1
+               a = coefficient(j, k)
+               do i = 1, n
+                  q(i) = q(i)*u(i) + a
+               end do
+            end do
+         end if
          do i = 1, n
-            dv(i) = dv(i)*v(i) + value(i)
             value(i) = value(i)*v(i) + q(i)
-            slope_x(i) = slope_x(i)*v(i) + dq(i)
          end do
       end do
-      do i = 1, n
-         slope_x(i) = 16*x(i)*slope_x(i)
-         slope_y(i) = 16*y(i)/self%height**2*dv(i)
-      end do
+      if (present(slope_x)) then
+         do i = 1, n
+            slope_x(i) = 16*x(i)*du(i)
+            slope_y(i) = 16*y(i)/self%height**2*dv(i)
+         end do
+      end if
    end subroutine polynomial
 
    !> The same place in the rectangle about the origin.
