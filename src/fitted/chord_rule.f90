@@ -33,14 +33,17 @@ module wavycon_chord_rule
       real(dp) :: power = 0.5_dp                          !! of the weight
       logical :: cubes = .false.                          !! whether the kernel is 1/|z - z'|^3
       real(dp), allocatable :: node(:), weight(:)         !! along a chord, between -1 and 1, shape (n)
+      complex(dp), allocatable :: direction(:)            !! of the chords of a target inside, shape (m)
       real(dp), allocatable :: angle(:), angle_weight(:)  !! Gauss's rule for a target outside, shape (m)
       !> Weights of the coefficients of C_m, shape (n, 0:n-1).
       real(dp), allocatable, private :: gegenbauer(:, :)
-      ! Room for the n m points of one target.
-      complex(dp), allocatable, private :: w(:), e2(:), step(:), last(:), own(:), q(:), slope(:)
-      complex(dp), allocatable, private :: quotient(:, :), power_of_w(:, :)  !! shape (n m, K)
+      ! Room for the n m points of one target; of complex numbers the real parts, then the imaginary ones.
+      complex(dp), allocatable, private :: w(:)
+      real(dp), allocatable, private :: e2(:, :), own(:, :), q(:, :), slope(:, :), step(:, :)  !! shape (n m, 2)
+      real(dp), allocatable, private :: last(:, :), parts(:, :)                                !! shape (n m, 2)
+      real(dp), allocatable, private :: quotient(:, :, :), power_of_w(:, :, :)                 !! shape (n m, 2, K)
       real(dp), allocatable, private :: factor(:), density(:), f(:), f_slope(:), swelling(:)
-      real(dp), allocatable, private :: values(:, :)                         !! shape (n m, N)
+      real(dp), allocatable, private :: values(:, :)                                           !! shape (n m, N)
    contains
       procedure :: rows
       procedure, nopass :: cube_integral
@@ -66,6 +69,7 @@ contains
       rule%power = basis%power
       rule%cubes = rule%power > 1.0_dp
       allocate (rule%node(points), rule%weight(points), rule%angle(angles), rule%angle_weight(angles))
+      rule%direction = exp(cmplx(0.0_dp, pi*([(m, m=1, angles)] - 0.5_dp)/angles, dp))
       call gauss_jacobi(basis%power, basis%power, rule%node, rule%weight)
       call gauss_jacobi(0.0_dp, 0.0_dp, rule%angle, rule%angle_weight)
       if (rule%cubes) then
@@ -78,9 +82,11 @@ contains
             end do
          end associate
       end if
-      allocate (rule%w(n), rule%e2(n), rule%step(n), rule%last(n), rule%own(n), rule%q(n), rule%slope(n))
-      allocate (rule%quotient(n, shape_terms), rule%power_of_w(n, shape_terms))
-      allocate (rule%factor(n), rule%density(n), rule%f(n), rule%f_slope(n), rule%swelling(n), rule%values(n, basis%terms))
+      allocate (rule%w(n), rule%e2(n, 2), rule%own(n, 2), rule%q(n, 2), rule%slope(n, 2), rule%step(n, 2))
+      allocate (rule%last(n, 2), rule%parts(n, 2))
+      allocate (rule%quotient(n, 2, shape_terms), rule%power_of_w(n, 2, shape_terms))
+      allocate (rule%factor(n), rule%density(n), rule%f(n), rule%f_slope(n), rule%swelling(n))
+      allocate (rule%values(n, basis%terms))
    end subroutine start_chord_rule
 
    !> The integral for one target, for each polynomial of the basis, and its derivative with the shape for a
@@ -96,89 +102,118 @@ contains
       real(dp), intent(out) :: row(:)                  !! integrals of the terms, shape (N)
       real(dp), intent(out) :: shape_row(0:)           !! d(integral of the sum)/d b_k, shape (0:K)
 
-      complex(dp) :: first, last, own_slope, target_power, target_step
-      real(dp) :: b, gradient, inverse, ratio
-      integer :: i, j, k, m, n
+      complex(dp) :: target_power, target_step
+      integer :: bends, i, j, k, m, n
 
       n = size(self%w)
       m = shape%fold
+      bends = ubound(shape%b, 1)
       call self%place_points(target)
       call basis%evaluate(n, self%w, self%values)
-      associate (w => self%w, q => self%q, slope => self%slope, step => self%step, own => self%own, last_power => self%last, &
-                 quotient => self%quotient, power_of_w => self%power_of_w, &
+      associate (w => self%parts, e2 => self%e2, q => self%q, slope => self%slope, step => self%step, &
+                 own => self%own, last => self%last, quotient => self%quotient, power_of_w => self%power_of_w, &
                  f => self%f, f_slope => self%f_slope, density => self%density, swelling => self%swelling)
          ! With v = w_t: (w^(j+m) - v^(j+m)) = w^m (w^j - v^j) + v^j (w^m - v^m), all over t e^(i phi), j = m
          ! k - 1.
          target_step = target**m
          target_power = target**(m - 1)
          do i = 1, n
-            first = 1.0_dp
-            last = target
-            step(i) = 1.0_dp
-            do j = 2, m - 1
-               first = first*w(i) + last
-               last = last*target
-               step(i) = step(i)*w(i)
-            end do
-            power_of_w(i, 1) = (m - 1)*step(i)
-            step(i) = step(i)*w(i)**2
-            quotient(i, 1) = first
-            last_power(i) = first*w(i) + last
-            ! The analytic part's quotient over b_0.
-            own(i) = 1.0_dp - shape%crowding*conjg(last_power(i)*w(i) + last*target)
+            w(i, 1) = self%w(i)%re
+            w(i, 2) = self%w(i)%im
          end do
-         do k = 2, ubound(shape%b, 1)
-            ratio = (m*k - 1.0_dp)/(m*(k - 1) - 1.0_dp)
-            do i = 1, n
-               quotient(i, k) = step(i)*quotient(i, k - 1) + target_power*last_power(i)
-               power_of_w(i, k) = power_of_w(i, k - 1)*step(i)*ratio
-            end do
+         call set(quotient(:, :, 1), (1.0_dp, 0.0_dp))
+         call set(step, (1.0_dp, 0.0_dp))
+         do j = 2, m - 1
+            call multiply(n, quotient(:, :, 1), w)
+            call add(quotient(:, :, 1), target**(j - 1))
+            call multiply(n, step, w)
+         end do
+         power_of_w(:, :, 1) = (m - 1)*step
+         call multiply(n, step, w)
+         call multiply(n, step, w)
+         last = quotient(:, :, 1)
+         call multiply(n, last, w)
+         call add(last, target_power)
+         ! The analytic part's quotient over b_0 and its slope's square.
+         call set(own, (1.0_dp, 0.0_dp))
+         swelling = 1.0_dp
+         if (shape%crowding > 0.0_dp) then
+            call multiply(n, w, last)
+            call add(w, target_step)
+            own(:, 1) = 1.0_dp - shape%crowding*w(:, 1)
+            own(:, 2) = shape%crowding*w(:, 2)
+            swelling = (1.0_dp - (m + 1)*shape%crowding*step(:, 1))**2 + ((m + 1)*shape%crowding*step(:, 2))**2
+         end if
+         do k = 2, bends
+            quotient(:, :, k) = quotient(:, :, k - 1)
+            call multiply(n, quotient(:, :, k), step)
+            quotient(:, 1, k) = quotient(:, 1, k) + (target_power%re*last(:, 1) - target_power%im*last(:, 2))
+            quotient(:, 2, k) = quotient(:, 2, k) + (target_power%re*last(:, 2) + target_power%im*last(:, 1))
             target_power = target_power*target_step
+            power_of_w(:, :, k) = power_of_w(:, :, k - 1)*((m*k - 1.0_dp)/(m*(k - 1) - 1.0_dp))
+            call multiply(n, power_of_w(:, :, k), step)
+         end do
+         do k = 1, bends
+            call multiply(n, quotient(:, :, k), e2)
          end do
          q = shape%b(0)*own
-         slope = 0.0_dp
-         do k = 1, ubound(shape%b, 1)
-            b = shape%b(k)
-            do i = 1, n
-               quotient(i, k) = quotient(i, k)*self%e2(i)
-               q(i) = q(i) + b*quotient(i, k)
-               slope(i) = slope(i) + b*power_of_w(i, k)
-            end do
-         end do
-         b = shape%b(0)
+         call dgemv('N', 2*n, bends, 1.0_dp, quotient, 2*n, shape%b(1:), 1, 1.0_dp, q, 1)
+         call dgemv('N', 2*n, bends, 1.0_dp, power_of_w, 2*n, shape%b(1:), 1, 0.0_dp, slope, 1)
          do i = 1, n
-            inverse = 1.0_dp/(q(i)%re**2 + q(i)%im**2)
-            own_slope = 1.0_dp - (m + 1)*shape%crowding*step(i)
-            swelling(i) = own_slope%re**2 + own_slope%im**2
-            f(i) = b**2*swelling(i) - (slope(i)%re**2 + slope(i)%im**2)
-            density(i) = self%factor(i)*sqrt(inverse)
-            f_slope(i) = f(i)*inverse
-            if (self%cubes) then
-               density(i) = density(i)*inverse
-               f_slope(i) = 3*f_slope(i)
-            end if
-            f(i) = f(i)*density(i)
+            f_slope(i) = 1.0_dp/(q(i, 1)**2 + q(i, 2)**2)
+            density(i) = self%factor(i)*sqrt(f_slope(i))
+            f(i) = shape%b(0)**2*swelling(i) - (slope(i, 1)**2 + slope(i, 2)**2)
          end do
+         if (self%cubes) density = density*f_slope
+         f_slope = merge(3, 1, self%cubes)*f*f_slope
+         f = f*density
          call dgemv('T', n, basis%terms, 1.0_dp, self%values, n, f, 1, 0.0_dp, row, 1)
          call dgemv('N', n, basis%terms, 1.0_dp, self%values, n, c, 1, 0.0_dp, f, 1)
-         gradient = 0.0_dp
-         do i = 1, n
-            density(i) = density(i)*f(i)
-            gradient = gradient + density(i)*(2*b*swelling(i) &
-                                              - f_slope(i)*(q(i)%re*own(i)%re + q(i)%im*own(i)%im))
+         density = density*f
+         shape_row(0) = 2*shape%b(0)*dot_product(density, swelling)
+         do j = 1, 2
+            slope(:, j) = density*slope(:, j)
+            q(:, j) = density*f_slope*q(:, j)
+            shape_row(0) = shape_row(0) - dot_product(q(:, j), own(:, j))
          end do
-         shape_row(0) = gradient
-         do k = 1, ubound(shape%b, 1)
-            gradient = 0.0_dp
-            do i = 1, n
-               gradient = gradient - density(i)*( &
-                  2*(slope(i)%re*power_of_w(i, k)%re + slope(i)%im*power_of_w(i, k)%im) &
-                  + f_slope(i)*(q(i)%re*quotient(i, k)%re + q(i)%im*quotient(i, k)%im))
-            end do
-            shape_row(k) = gradient
-         end do
+         call dgemv('T', 2*n, bends, -2.0_dp, power_of_w, 2*n, slope, 1, 0.0_dp, shape_row(1:), 1)
+         call dgemv('T', 2*n, bends, -1.0_dp, quotient, 2*n, q, 1, 1.0_dp, shape_row(1:), 1)
       end associate
    end subroutine rows
+
+   !> Complex numbers, kept as real and imaginary parts, times others.
+   pure subroutine multiply(n, a, b)
+      integer, intent(in) :: n
+      real(dp), intent(inout) :: a(n, 2)
+      real(dp), intent(in) :: b(n, 2)
+
+      real(dp) :: re
+      integer :: i
+
+      do i = 1, n
+         re = a(i, 1)*b(i, 1) - a(i, 2)*b(i, 2)
+         a(i, 2) = a(i, 1)*b(i, 2) + a(i, 2)*b(i, 1)
+         a(i, 1) = re
+      end do
+   end subroutine multiply
+
+   !> The same plus one number.
+   pure subroutine add(a, number)
+      real(dp), intent(inout) :: a(:, :)
+      complex(dp), intent(in) :: number
+
+      a(:, 1) = a(:, 1) + number%re
+      a(:, 2) = a(:, 2) + number%im
+   end subroutine add
+
+   !> All the same number.
+   pure subroutine set(a, number)
+      real(dp), intent(out) :: a(:, :)
+      complex(dp), intent(in) :: number
+
+      a(:, 1) = number%re
+      a(:, 2) = number%im
+   end subroutine set
 
    !> Points on the chords, and their weights with the weight of f.
    subroutine place_points(self, target)
@@ -187,14 +222,16 @@ contains
 
       complex(dp) :: direction, e
       real(dp) :: distance, half, middle, opening, scale, t, weight(size(self%node))
-      integer :: angles, i, j, k
+      integer :: angles, i, j, k, of_half
 
       angles = size(self%angle)
+      ! The powers of the weights in use are odd halves.
+      of_half = nint(2*self%power)
       distance = abs(target)
       k = 0
       do i = 1, angles
          if (distance <= 1.0_dp) then
-            e = exp(cmplx(0.0_dp, pi*(i - 0.5_dp)/angles, dp))
+            e = self%direction(i)
             scale = pi/angles
          else
             opening = asin(1.0_dp/distance)
@@ -205,17 +242,18 @@ contains
          middle = -(target%re*e%re + target%im*e%im)
          half = sqrt(max(1.0_dp - (target%re*e%im - target%im*e%re)**2, 0.0_dp))
          if (self%cubes) then
-            scale = scale*half**(2*self%power - 1)
+            scale = scale*half**(of_half - 1)
             weight = finite_part_weights(self, -middle/half)
          else
-            scale = scale*half**(2*self%power + 1)
+            scale = scale*half**(of_half + 1)
             weight = self%weight
          end if
          do j = 1, size(self%node)
             k = k + 1
             t = middle + half*self%node(j)
             self%w(k) = target + t*e
-            self%e2(k) = e**2
+            self%e2(k, 1) = e%re**2 - e%im**2
+            self%e2(k, 2) = 2*e%re*e%im
             self%factor(k) = scale*weight(j)
          end do
       end do
