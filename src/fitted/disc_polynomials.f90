@@ -21,6 +21,7 @@ module wavycon_disc_polynomials
       real(dp), allocatable, private :: recurrence(:, :)  !! shape (3, N)
    contains
       procedure :: evaluate
+      procedure :: slopes
    end type disc_polynomials
 
 contains
@@ -87,16 +88,21 @@ contains
       real(dp), intent(out) :: values(n, self%terms)
 
       real(dp) :: x(n), angular_re(n), angular_im(n), step_re(n), step_im(n), old, a, b, c
-      complex(dp) :: step
       integer :: i, k, l, t
 
       do i = 1, n
          x(i) = 2*(w(i)%re**2 + w(i)%im**2) - 1.0_dp
          angular_re(i) = 1.0_dp
          angular_im(i) = 0.0_dp
-         step = w(i)**self%fold
-         step_re(i) = step%re
-         step_im(i) = step%im
+         step_re(i) = w(i)%re
+         step_im(i) = w(i)%im
+      end do
+      do k = 2, self%fold
+         do i = 1, n
+            old = step_re(i)
+            step_re(i) = old*w(i)%re - step_im(i)*w(i)%im
+            step_im(i) = old*w(i)%im + step_im(i)*w(i)%re
+         end do
       end do
       t = 0
       do k = 0, self%degree, self%fold
@@ -129,5 +135,50 @@ contains
          end do
       end do
    end subroutine evaluate
+
+   !> Gradients of all terms at n points.
+   pure subroutine slopes(self, n, w, values, slope_x, slope_y)
+      class(disc_polynomials), intent(in) :: self
+      integer, intent(in) :: n
+      complex(dp), intent(in) :: w(n)                            !! x + i y in the unit disc
+      real(dp), intent(in) :: values(n, self%terms)              !! there
+      real(dp), intent(out), dimension(n, self%terms) :: slope_x, slope_y
+
+      complex(dp) :: power(n)
+      real(dp) :: a, b, c, s
+      integer :: i, k, l, t
+
+      t = 0
+      do k = 0, self%degree, self%fold
+         ! The gradient of Re(w^k) is k conj(w)^(k-1).
+         if (k == self%fold) power = conjg(w)**(self%fold - 1)
+         if (k > self%fold) power = power*conjg(w)**self%fold
+         do l = 0, (self%degree - k)/2
+            t = t + 1
+            a = self%recurrence(1, t)
+            b = self%recurrence(2, t)
+            c = self%recurrence(3, t)
+            select case (l)
+            case (0)
+               slope_x(:, t) = 0.0_dp
+               slope_y(:, t) = 0.0_dp
+               if (k > 0) then
+                  slope_x(:, t) = b*k*power%re
+                  slope_y(:, t) = b*k*power%im
+               end if
+            case default
+               do i = 1, n
+                  s = a*(2*(w(i)%re**2 + w(i)%im**2) - 1.0_dp) + b
+                  slope_x(i, t) = s*slope_x(i, t - 1) + 4*a*w(i)%re*values(i, t - 1)
+                  slope_y(i, t) = s*slope_y(i, t - 1) + 4*a*w(i)%im*values(i, t - 1)
+               end do
+               if (l > 1) then
+                  slope_x(:, t) = slope_x(:, t) + c*slope_x(:, t - 2)
+                  slope_y(:, t) = slope_y(:, t) + c*slope_y(:, t - 2)
+               end if
+            end select
+         end do
+      end do
+   end subroutine slopes
 
 end module wavycon_disc_polynomials

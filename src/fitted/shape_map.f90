@@ -19,11 +19,13 @@ module wavycon_shape_map
       real(dp), allocatable :: b(:)     !! coefficients [s], shape (0:K)
    contains
       procedure :: place
+      procedure :: linearise_place
       procedure :: crowded
       procedure :: crowded_slope
       procedure :: jacobian
       procedure :: linearise_jacobian
       procedure :: area
+      procedure :: radius
       procedure :: perimeter
       procedure :: distance
       procedure :: find
@@ -47,6 +49,24 @@ contains
          power = power*step
       end do
    end function place
+
+   !> Derivatives of z(w) with the coefficients.
+   pure subroutine linearise_place(self, w, derivative)
+      class(shape_map), intent(in) :: self
+      complex(dp), intent(in) :: w
+      complex(dp), intent(out) :: derivative(0:)   !! dz/d b_k, shape (0:K)
+
+      complex(dp) :: power, step
+      integer :: k
+
+      derivative(0) = self%crowded(w)
+      power = conjg(w)**(self%fold - 1)
+      step = power*conjg(w)
+      do k = 1, ubound(derivative, 1)
+         derivative(k) = power
+         power = power*step
+      end do
+   end subroutine linearise_place
 
    !> w - tau w^(fold+1), whose multiple by b_0 is the analytic part of the map.
    elemental complex(dp) function crowded(self, w)
@@ -102,16 +122,19 @@ contains
       real(dp), intent(out) :: jacobian         !! [s^2]
       real(dp), intent(out) :: derivative(0:)   !! d jacobian/d b_k [s], shape (0:K)
 
-      complex(dp) :: own, power(ubound(self%b, 1)), slope
+      complex(dp) :: own, own_power, power(ubound(self%b, 1)), slope, step
       real(dp) :: own_square
       integer :: k
 
       own = self%crowded_slope(w)
       own_square = own%re**2 + own%im**2
       slope = 0.0_dp
+      own_power = conjg(w)**(self%fold - 2)
+      step = own_power*conjg(w)**2
       do k = 1, ubound(self%b, 1)
-         power(k) = (self%fold*k - 1)*conjg(w)**(self%fold*k - 2)
+         power(k) = (self%fold*k - 1)*own_power
          slope = slope + self%b(k)*power(k)
+         own_power = own_power*step
       end do
       jacobian = self%b(0)**2*own_square - (slope%re**2 + slope%im**2)
       derivative(0) = 2*self%b(0)*own_square
@@ -128,15 +151,35 @@ contains
                  - sum([((self%fold*k - 1)*self%b(k)**2, k=1, ubound(self%b, 1))]))
    end function area
 
+   !> Largest distance of the edge from the centre [s], nearly.
+   pure real(dp) function radius(self)
+      class(shape_map), intent(in) :: self
+
+      !> From one axis of symmetry to the next; tips are on one of them or broad.
+      integer, parameter :: steps = 8
+      integer :: i
+
+      radius = maxval(abs(self%place([(exp(cmplx(0.0_dp, pi*i/(self%fold*steps), dp)), i=0, steps)])))
+   end function radius
+
    !> Length of the edge [s].
    pure real(dp) function perimeter(self)
       class(shape_map), intent(in) :: self
 
       !> The midpoint rule in the angle is spectral; tips ask for many points.
-      integer, parameter :: points = 512
+      integer, parameter :: least_points = 16, most_points = 512
       complex(dp) :: power, step, tangent, w
-      integer :: i, k
+      real(dp) :: ratio
+      integer :: i, k, points
 
+      ! The tangent is that of a circle and, less than it by this ratio, what turns against it. Its length has
+      ! coefficients that fall as powers of the ratio, if most of that turns once between two tips; half as fast
+      ! as that is on the safe side.
+      ratio = sum([((self%fold*k - 1)*abs(self%b(k)), k=1, ubound(self%b, 1))]) &
+         /(self%b(0)*(1.0_dp - (self%fold + 1)*self%crowding))
+      points = most_points
+      if (ratio < 1.0_dp) points = min(ceiling(log(epsilon(ratio))/log(max(ratio, tiny(ratio)))), most_points)
+      points = max(points, least_points)
       perimeter = 0.0_dp
       do i = 1, points
          w = exp(cmplx(0.0_dp, pi*(i - 0.5_dp)/(self%fold*points), dp))
