@@ -15,9 +15,10 @@ module wavycon_contact_equations
    use wavycon_constants, only: pi
    use wavycon_disc_rule, only: disc_rule, plain_disc_rule
    use wavycon_expansion, only: expansion
-   use wavycon_image_rule, only: image_rows
+   use wavycon_image_rule, only: add_image_rows
+   use wavycon_image_series, only: image_series
    use wavycon_kinds, only: dp
-   use wavycon_lapack, only: dgemm, dgemv
+   use wavycon_lapack, only: dgemv
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
    private
@@ -34,9 +35,10 @@ module wavycon_contact_equations
       real(dp), allocatable :: rest(:)           !! right less left side, shape (m) [Delta], an island's [p*]
       real(dp), allocatable :: load_row(:)       !! derivatives of the load, shape (unknowns)
       real(dp), allocatable :: density(:)        !! the expansion at the rule's points, shape (n)
-      real(dp), allocatable, private :: image(:, :)
+      type(image_series) :: images               !! without a radius, if there is none
    contains
       procedure :: linearise
+      procedure, private :: add_images
       procedure, private :: linearise_load
       procedure :: integral
    end type contact_equations
@@ -44,10 +46,12 @@ module wavycon_contact_equations
 contains
 
    !> Chooses targets and rules for expansions like the one given.
-   subroutine start_equations(equations, like, reach)
+   subroutine start_equations(equations, like, reach, images)
       type(contact_equations), intent(out) :: equations
       type(expansion), intent(in) :: like
       real(dp), intent(in) :: reach   !! of the edge towards its neighbours; 1 touches
+      type(image_series), intent(in), optional :: images
+         !! of the lattice's kernel or its Laplacian; of use where it covers the shape
 
       real(dp), parameter :: angular_reach = 0.6_dp, sharp_reach = 0.7_dp, near_reach = 0.85_dp
       integer :: angles, finer, fold, i, j, n, others, radii
@@ -89,9 +93,10 @@ contains
       allocate (equations%values(n, like%basis%terms), equations%density(n))
       call like%basis%evaluate(n, equations%rule%point, equations%values)
       associate (m => size(equations%target))
-         allocate (equations%matrix(m, equations%unknowns), equations%rest(m), equations%image(m, n), &
+         allocate (equations%matrix(m, equations%unknowns), equations%rest(m), &
                    equations%load_row(equations%unknowns))
       end associate
+      if (present(images)) equations%images = images
    end subroutine start_equations
 
    !> Sets the matrix and the rest at an expansion.
@@ -102,8 +107,7 @@ contains
       type(expansion), intent(in) :: now      !! like the one the equations were started for
 
       complex(dp) :: slope, v, z
-      real(dp), dimension(0:ubound(now%shape%b, 1)) :: image_slopes, slopes
-      real(dp) :: row(now%basis%terms)
+      real(dp) :: slopes(0:ubound(now%shape%b, 1)), row(now%basis%terms)
       integer :: fold, i, k, m, n, shapes, terms
 
       terms = now%basis%terms
@@ -114,12 +118,10 @@ contains
       call dgemv('N', n, terms, 1.0_dp, self%values, n, now%c, 1, 0.0_dp, self%density, 1)
       do i = 1, m
          call self%chords%rows(now%basis, now%shape, self%target(i), now%c, row, slopes)
-         call image_rows(lattice%kernel, now%island, now%shape, self%rule, self%target(i), self%density, &
-                         self%image(i, :), image_slopes)
          self%matrix(i, :terms) = row
-         self%matrix(i, shapes + 1:) = slopes + image_slopes
+         self%matrix(i, shapes + 1:) = slopes
       end do
-      call dgemm('N', 'N', m, terms, n, 1.0_dp, self%image, m, self%values, n, 1.0_dp, self%matrix, m)
+      call self%add_images(lattice, now)
       if (now%island) self%matrix = self%matrix/(4*pi**2)
       call dgemv('N', m, terms, -1.0_dp, self%matrix, m, now%c, 1, 0.0_dp, self%rest, 1)
       do i = 1, m
@@ -140,6 +142,28 @@ contains
       end do
       if (.not. now%island) call self%linearise_load(now)
    end subroutine linearise
+
+   !> Adds to the matrix what all other spots or islands, and the mean, do.
+   subroutine add_images(self, lattice, now)
+      class(contact_equations), intent(inout) :: self
+      type(wave_lattice), intent(in) :: lattice
+      type(expansion), intent(in) :: now
+
+      integer :: shapes
+
+      shapes = self%unknowns - size(now%shape%b)
+      associate (rows => self%matrix(:, :now%basis%terms), shape_rows => self%matrix(:, shapes + 1:))
+         if (.not. self%images%covers(now%shape)) then
+            call add_image_rows(lattice%kernel, now%island, now%shape, self%rule, self%values, now%c, self%target, &
+                                rows, shape_rows)
+            return
+         end if
+         call self%images%add_rows(now%shape, self%rule, self%values, now%c, self%target, rows, shape_rows)
+         if (size(self%images%near, 2) > 0) &
+            call add_image_rows(lattice%kernel, now%island, now%shape, self%rule, self%values, now%c, self%target, &
+                                rows, shape_rows, self%images%near)
+      end associate
+   end subroutine add_images
 
    !> Derivatives of the load that a spot bears.
    subroutine linearise_load(self, now)

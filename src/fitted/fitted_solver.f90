@@ -9,6 +9,7 @@ module wavycon_fitted_solver
       fitted_less_exact, fitted_merged, fitted_solved, fitted_status_text
    use wavycon_fitted_fields, only: fitted_fields, fitted_separations, start_fitted_fields
    use wavycon_gauss_newton, only: gauss_newton_step
+   use wavycon_image_series, only: image_series, start_image_series
    use wavycon_island_pressure, only: crest_pressure
    use wavycon_kinds, only: dp
    use wavycon_start_expansion, only: crack_island, hertz_spot, scaled_to_load
@@ -83,8 +84,12 @@ contains
       real(dp), parameter :: finest = 1e-7_dp, largest_change = 1e-4_dp
       !> What a last step leaves, relative to a measure, in units of the step's square; with a margin.
       real(dp), parameter :: of_square = 10.0_dp
+      !> Error of the series of images, of the accuracy or, since shorter ones are hardly quicker, this one; and the
+      !> growth of the shape that they have room for.
+      real(dp), parameter :: of_accuracy = 1e-2_dp, loosest = 1e-6_dp, growth = 1.03_dp
       type(contact_equations) :: equations
       type(expansion) :: now, past(expansions_before)
+      type(image_series) :: images
       real(dp), dimension(all_measures) :: best, decay, error, last, last_difference, new
       real(dp) :: change, residual, tolerance
       integer :: asked, compared, degree, iterations
@@ -110,7 +115,8 @@ contains
       compared = 0
       do
          now = now%raised(degree, shape_terms(degree, lattice%fold), crowding(lattice, now))
-         call start_equations(equations, now, reach(lattice, now))
+         call cover(images, lattice, now, growth, of_accuracy*min(accuracy, loosest))
+         call start_equations(equations, now, reach(lattice, now), images)
          if (reach(lattice, now) > 0.7_dp) tolerance = finest
          call converge(equations, lattice, answer%pbar_over_pstar, now, tolerance, &
                        change, residual, iterations, ok)
@@ -177,6 +183,8 @@ contains
          if (island) answer%area_fraction = 1.0_dp - answer%area_fraction
          answer%peak_pressure = new(3)
          best = error
+         ! The series' own is the same at all degrees, none is better for it.
+         error = max(error, images%tolerance*new)
          answer%mean_gap_error = error(1)
          answer%area_error = error(2)/lattice%area
          answer%peak_error = error(3)
@@ -199,7 +207,12 @@ contains
       logical, intent(out) :: ok
       type(fitted_answer), intent(in), optional :: start
 
+      !> A step of this size leaves less than the first degrees' errors.
+      real(dp), parameter :: start_change = 1e-2_dp
+      !> Of the shape in the first of them; that of long spots is more.
+      real(dp), parameter :: growth = 1.1_dp
       type(contact_equations) :: equations
+      type(image_series) :: images
       real(dp) :: change, load, next, residual, target
 
       target = answer%pbar_over_pstar
@@ -223,9 +236,10 @@ contains
          load = min(target, light_load)
          now = hertz_spot(lattice, load)
       end if
-      call start_equations(equations, now, 0.0_dp)
       do
-         call converge(equations, lattice, load, now, 1e-2_dp, change, residual, iterations, ok)
+         call cover(images, lattice, now, growth, start_change**2)
+         call start_equations(equations, now, 0.0_dp, images)
+         call converge(equations, lattice, load, now, start_change, change, residual, iterations, ok)
          if (.not. ok .or. steps_between(load, target, answer%island) == 0) exit
          next = target
          if (steps_between(load, target, answer%island) > 1) then
@@ -236,6 +250,19 @@ contains
          load = next
       end do
    end subroutine begin
+
+   !> Makes a series of the images, if it does not cover a shape.
+   subroutine cover(images, lattice, now, growth, tolerance)
+      type(image_series), intent(inout) :: images
+      type(wave_lattice), intent(in) :: lattice
+      type(expansion), intent(in) :: now
+      real(dp), intent(in) :: growth        !! that the shape may still take, >= 1
+      real(dp), intent(in) :: tolerance     !! of the series
+
+      if (images%covers(now%shape)) return
+      call start_image_series(images, lattice%kernel, now%island, lattice%fold, growth*now%shape%radius(), &
+                              tolerance)
+   end subroutine cover
 
    !> Number of steps that take one load to the other.
    pure integer function steps_between(one, other, island) result(steps)
