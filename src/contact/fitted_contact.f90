@@ -1,5 +1,5 @@
 !> Contact by boundary-fitted expansions, whose digits are limited by rounding and not by a grid. On request grids
-!> take over where spots are about to merge and the expansions are not as accurate as asked for.
+!> take over where spots are about to merge, or have merged to bands, and the expansions are not as accurate as asked for.
 module wavycon_fitted_contact
    use wavycon_constants, only: pi
    use wavycon_contact_fields, only: contact_fields
@@ -213,25 +213,43 @@ contains
       type(contact_state), intent(in) :: state
       type(edge_curve), allocatable, intent(out) :: curves(:)
 
-      complex(dp) :: edge(edge_points)
+      complex(dp) :: centre, edge(edge_points), to_surface
       type(fitted_fields) :: fields
-      integer :: i, k
+      integer :: i, k, turned
 
       if (allocated(state%edge)) then
          call self%grids%solved_edge_curves(state, curves)
          return
       end if
       call start_fitted_fields(fields, self%frame%lattice, state%fitted)
-      edge = fields%edge(edge_points)*self%frame%side/self%frame%turn
+      to_surface = self%frame%side/self%frame%turn
+      edge = (fields%edge(edge_points) - fields%centre)*to_surface
       ! With the contact on the left.
       if (state%fitted%island) edge = edge(edge_points:1:-1)
-      allocate (curves(self%frame%crests))
+      ! The second of two islands is the first one turned by half a turn, the second half of a cell the first one moved.
+      allocate (curves(self%frame%crests*fields%places))
       do k = 1, size(curves)
-         associate (length => self%surface%length, places => [(mod(i, edge_points) + 1, i=0, edge_points)])
-            curves(k)%phi = 2*pi*edge(places)%re/length(1) + (k - 1)*pi
-            curves(k)%theta = 2*pi*edge(places)%im/length(2) + (k - 1)*pi
+         turned = merge(-1, 1, k > self%frame%crests)
+         centre = turned*fields%centre*to_surface
+         associate (length => self%surface%length, places => [(mod(i, edge_points) + 1, i=0, edge_points)], &
+                    half_cells => modulo(k - 1, self%frame%crests))
+            curves(k)%phi = in_cell(2*pi*centre%re/length(1) + pi*half_cells) + 2*pi*turned*edge(places)%re/length(1)
+            curves(k)%theta = in_cell(2*pi*centre%im/length(2) + pi*half_cells) + 2*pi*turned*edge(places)%im/length(2)
          end associate
       end do
+
+   contains
+
+      !> The same angle between 0 and 2 pi.
+      pure real(dp) function in_cell(angle)
+         real(dp), intent(in) :: angle
+
+         !> An angle of 0 or pi, less rounding, is not to jump.
+         real(dp), parameter :: rounding = 1e-9_dp
+
+         in_cell = angle - 2*pi*floor(angle/(2*pi) + rounding)
+      end function in_cell
+
    end subroutine solved_edge_curves
 
    pure function describe(self) result(words)

@@ -70,6 +70,7 @@ contains
             if (abs(c(1, 1) - 2*c(0, 2)) > rounding .or. abs(length(2) - sqrt3*length(1)) > rounding*length(2)) return
             frame%side = length(1)
             frame%crests = 2
+            frame%turn = (0.0_dp, -1.0_dp)
             frame%lattice = hexagonal_lattice()
          else
             return

@@ -40,7 +40,8 @@ contains
          choice_key('solver', "'beale', or 'auto'", &
             "'beale': the paper's truncated series by Beale's method, for its waves. 'grid': ever finer grids "// &
             "until mean gap, area and peak pressure are accurate. 'fitted': expansions fitted to the edge of "// &
-            "contact. 'auto': the closed form for wave_1d, else 'fitted' and, where that cannot, 'grid'.", &
+            "contact, of spots or of open islands. 'auto': the closed form for wave_1d, else 'fitted' and, where that "// &
+            "cannot, 'grid'.", &
             [character(6) :: 'beale', 'grid', 'fitted', 'auto']), &
          real_key('accuracy', '1e-3', '-', &
             "Not of 'beale': largest error allowed of mean gap [amplitude], contact area fraction and peak "// &

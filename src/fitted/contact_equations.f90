@@ -1,12 +1,11 @@
 !> The equations of contact of one spot below merging, or of one open island above, at points of the mapped
 !> disc.
 !>
-!> Spot: its pressure p makes u + h = delta, and bears the load P on a cell. Island, for the square lattice:
-!> its gap g makes the pressure vanish, which is P + (cos 2 pi x + cos 2 pi y)/2 in full contact, with the
-!> crest as origin, and is changed by -(1/4 pi^2) times the integral of g and the Laplacian of Gp, a finite
-!> part. With the trough as origin therefore
+!> Spot: its pressure p makes u + h = delta, and bears the load P on a cell. Island: its gap g makes the pressure
+!> vanish, which is P + the sum of a_i |k_i| cos 2 pi k_i.x in full contact, and is changed by -(1/4 pi^2) times the
+!> integral of g and the Laplacian of Gp, a finite part. Therefore
 !>
-!>     (1/4 pi^2) integral of Laplacian(Gp) g = sin^2(pi x) + sin^2(pi y) - (1 - P).
+!>     (1/4 pi^2) integral of Laplacian(Gp) g = pressure rise from the trough - (closing pressure - P).
 !>
 !> The power of 1 - |w|^2 leaves out the term that a wrong shape would bring in: only the right edge fits. So
 !> the system in the coefficients, a spot's approach and the shape has more equations than unknowns.
@@ -127,8 +126,8 @@ contains
       do i = 1, m
          z = now%shape%place(self%target(i))
          if (now%island) then
-            self%rest(i) = self%rest(i) + sin(pi*z%re)**2 + sin(pi*z%im)**2 - (1.0_dp - load)
-            slope = -pi*cmplx(sin(2*pi*z%re), sin(2*pi*z%im), dp)
+            self%rest(i) = self%rest(i) + lattice%pressure_rise(z) - (lattice%closing_pressure - load)
+            slope = -lattice%pressure_rise_slope(z)
          else
             self%rest(i) = self%rest(i) + now%approach - lattice%undeformed_gap(z)
             self%matrix(i, terms + 1) = -1.0_dp
@@ -153,7 +152,11 @@ contains
 
       shapes = self%unknowns - size(now%shape%b)
       associate (rows => self%matrix(:, :now%basis%terms), shape_rows => self%matrix(:, shapes + 1:))
-         if (.not. self%images%covers(now%shape)) then
+         if (now%island .and. lattice%troughs == 2) then
+            call add_image_rows(lattice%kernel, now%island, now%shape, self%rule, self%values, now%c, self%target, &
+                                rows, shape_rows, opposite=2*lattice%trough)
+            return
+         else if (.not. self%images%covers(now%shape)) then
             call add_image_rows(lattice%kernel, now%island, now%shape, self%rule, self%values, now%c, self%target, &
                                 rows, shape_rows)
             return

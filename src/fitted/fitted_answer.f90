@@ -10,20 +10,20 @@ module wavycon_fitted_answer
    !> Statuses of a solution.
    integer, parameter, public :: fitted_solved = 0        !! to the accuracy asked for
    integer, parameter, public :: fitted_less_exact = 1    !! all is set; by its estimates less exact
-   integer, parameter, public :: fitted_merged = 2        !! nothing is of use; the square lattice alone goes on
-   integer, parameter, public :: fitted_bad_input = 3     !! load not between 0 and 1, or accuracy not > 0
+   integer, parameter, public :: fitted_merged = 2        !! neither spots nor islands: nothing is set
+   integer, parameter, public :: fitted_bad_input = 3     !! load not between 0 and what closes the troughs, or accuracy not > 0
    integer, parameter, public :: fitted_failed = 4        !! no solution was found: nothing is set
 
    integer, parameter, public :: expansions_before = 3
 
-   !> Lengths in the cell's shorter side s, pressures in p* = pi E* Delta/s, gaps and displacements in Delta.
+   !> Lengths in the cell's shorter side s, pressures in pi E* Delta/s, gaps and displacements in Delta.
    type :: fitted_answer
       integer :: status = fitted_failed
       real(dp) :: pbar_over_pstar = 0.0_dp
       real(dp) :: mean_gap = 0.0_dp             !! G
       real(dp) :: area_fraction = 0.0_dp        !! A_real/A_0
       real(dp) :: peak_pressure = 0.0_dp        !! at a crest
-      real(dp) :: energy = 0.0_dp               !! 1/2 integral of p u, per cell [p* Delta s^2]
+      real(dp) :: energy = 0.0_dp               !! 1/2 integral of p u, per cell [Delta s^2]
       real(dp) :: perimeter = 0.0_dp            !! of a spot or an island
       real(dp) :: mean_gap_error = huge(1.0_dp)       !! estimates of the errors of the above
       real(dp) :: area_error = huge(1.0_dp)
@@ -53,7 +53,7 @@ contains
       case (fitted_less_exact)
          text = 'solved, less exactly than asked for'
       case (fitted_merged)
-         text = 'neighbouring spots have merged'
+         text = 'neither separate spots nor separate islands'
       case (fitted_bad_input)
          text = 'load or accuracy out of range'
       case default

@@ -21,6 +21,8 @@ module wavycon_fitted_fields
       type(wave_lattice) :: lattice
       type(fitted_answer) :: answer
       complex(dp) :: centre = 0.0_dp              !! of the spot or the island [s]
+      integer :: places = 1                       !! in a cell: the centre and, if there are two, -centre
+      real(dp) :: radius = 0.0_dp                 !! of a circle about the spot or the island [s]
       type(chord_rule) :: chords
       type(disc_rule) :: rule
       complex(dp), allocatable :: source(:)       !! the rule's points, all around, shape (n) [s]
@@ -28,6 +30,7 @@ module wavycon_fitted_fields
    contains
       procedure :: at
       procedure :: edge
+      procedure, private :: find_inside
       procedure, private :: outside
    end type fitted_fields
 
@@ -37,6 +40,8 @@ module wavycon_fitted_fields
    real(dp), parameter :: sharp_reach = 0.8_dp
    !> A place is near if the continued map has it within this radius: beyond, the plain rule is exact.
    real(dp), parameter :: near = 1.6_dp
+   !> On a shape's radius, which is that of some of its points.
+   real(dp), parameter :: margin = 1.05_dp
 
 contains
 
@@ -56,9 +61,13 @@ contains
       factor = own*merge(finer, 1, answer%reach > sharp_reach)
       fields%lattice = lattice
       fields%answer = answer
-      if (answer%island) fields%centre = lattice%trough
+      if (answer%island) then
+         fields%centre = lattice%trough
+         fields%places = lattice%troughs
+      end if
       associate (solution => fields%answer%solution)
          m = solution%basis%fold
+         fields%radius = margin*solution%shape%radius()
          call start_chord_rule(fields%chords, solution%basis, ubound(solution%shape%b, 1), own*96, own*48)
          call plain_disc_rule(fields%rule, solution%basis%power, m, factor*along, factor*around/(2*m))
          n = size(fields%rule%point)
@@ -85,34 +94,62 @@ contains
       real(dp), intent(out) :: displacement        !! u less its mean [Delta]
       real(dp), intent(out) :: gap                 !! [Delta], 0 in contact
 
-      complex(dp) :: w, z
-      real(dp) :: approach, h, value
-      logical :: found
+      complex(dp) :: mirrored, w, z
+      real(dp) :: approach, h, outside, value
+      logical :: inside
 
       z = self%lattice%kernel%reduced(place - self%centre)
+      call self%find_inside(z, w, inside)
+      if (self%places == 2) then
+         ! The second island of a cell is the first one turned by half a turn about a crest, with all its fields.
+         mirrored = self%lattice%kernel%reduced(-place - self%centre)
+         if (.not. inside) call self%find_inside(mirrored, w, inside)
+      end if
       h = self%lattice%undeformed_gap(place)
       approach = 1.0_dp - self%answer%mean_gap
-      associate (solution => self%answer%solution)
-         call solution%shape%find(z, w, found)
-         pressure = 0.0_dp
-         gap = 0.0_dp
-         if (found .and. abs(w) <= 1.0_dp) then
-            value = solution%at(w)
-            if (self%answer%island) then
-               gap = value
-            else
-               pressure = value
-            end if
-            displacement = gap + approach - h
-         else if (self%answer%island) then
-            pressure = self%answer%pbar_over_pstar + 1.0_dp - h - self%outside(z)/(4*pi**2)
-            displacement = approach - h
+      pressure = 0.0_dp
+      gap = 0.0_dp
+      if (inside) then
+         value = self%answer%solution%at(w)
+         if (self%answer%island) then
+            gap = value
          else
-            displacement = self%outside(z)
-            gap = displacement + h - approach
+            pressure = value
          end if
-      end associate
+         displacement = gap + approach - h
+      else if (self%answer%island) then
+         outside = self%outside(z)
+         if (self%places == 2) outside = outside + self%outside(mirrored)
+         pressure = self%answer%pbar_over_pstar - self%lattice%closing_pressure &
+            + self%lattice%pressure_rise(place - self%lattice%trough) - outside/(4*pi**2)
+         displacement = approach - h
+      else
+         displacement = self%outside(z)
+         gap = displacement + h - approach
+      end if
    end subroutine at
+
+   !> Whether a place is inside the spot or the island at the centre, or in an image of it, and where the map has it.
+   subroutine find_inside(self, z, w, inside)
+      class(fitted_fields), intent(in) :: self
+      complex(dp), intent(in) :: z          !! from the centre, reduced [s]
+      complex(dp), intent(out) :: w
+      logical, intent(out) :: inside
+
+      complex(dp) :: image
+      integer :: k
+
+      ! Long spots and islands of a rhombic lattice leave the rectangle that places are reduced to.
+      do k = 0, size(self%lattice%kernel%image, 2)
+         image = 0.0_dp
+         if (k > 0) image = cmplx(self%lattice%kernel%image(1, k), self%lattice%kernel%image(2, k), dp)
+         inside = .false.
+         if (abs(z - image) > self%radius) cycle
+         call self%answer%solution%shape%find(z - image, w, inside)
+         inside = inside .and. abs(w) <= 1.0_dp
+         if (inside) return
+      end do
+   end subroutine find_inside
 
    !> Gaps at the trough and at the lattice's saddle, and the saddle's pressure.
    subroutine fitted_separations(lattice, answer, trough_gap, saddle_gap, saddle_pressure, fineness)
@@ -145,7 +182,7 @@ contains
    end function edge
 
    !> At a place outside of all spots the displacement, the integral of Gp p; outside of all islands that of the
-   !> Laplacian of Gp times the gap.
+   !> Laplacian of Gp times the gap, of one island a cell.
    real(dp) function outside(self, z) result(total)
       class(fitted_fields), intent(inout) :: self
       complex(dp), intent(in) :: z      !! from the centre, reduced

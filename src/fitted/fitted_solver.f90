@@ -24,8 +24,6 @@ module wavycon_fitted_solver
    public :: fitted_solved, fitted_less_exact, fitted_merged, fitted_bad_input, fitted_failed
    public :: wave_lattice, square_lattice, rectangular_lattice, rhombic_lattice, hexagonal_lattice
 
-   !> Spots of the square lattice merge at about this load; the regime tried first.
-   real(dp), parameter :: about_merging = 0.228605_dp
    !> A start further off in load, as a ratio of P or of 1 - P, is followed in steps of this ratio.
    real(dp), parameter :: load_ratio = 2.0_dp
    !> The asymptotes are good enough to start from below this P, above this P.
@@ -51,7 +49,7 @@ contains
    !> peak pressure. The degree of the expansion is raised until the differences of two degrees meet it.
    subroutine solve_fitted(lattice, pbar_over_pstar, accuracy, answer, start, fields)
       type(wave_lattice), intent(in) :: lattice
-      real(dp), intent(in) :: pbar_over_pstar        !! P, between 0 and 1
+      real(dp), intent(in) :: pbar_over_pstar        !! P, between 0 and the lattice's closing pressure
       real(dp), intent(in) :: accuracy               !! > 0; what rounding allows is 1e-14 or so
       type(fitted_answer), intent(out) :: answer
       type(fitted_answer), intent(in), optional :: start
@@ -64,10 +62,15 @@ contains
       answer%pbar_over_pstar = pbar_over_pstar
       answer%status = fitted_bad_input
       if (ieee_is_nan(pbar_over_pstar) .or. ieee_is_nan(accuracy)) return
-      if (.not. (pbar_over_pstar > 0.0_dp .and. pbar_over_pstar < 1.0_dp .and. accuracy > 0.0_dp)) return
-      first_is_island = lattice%square .and. pbar_over_pstar > about_merging
+      if (.not. (pbar_over_pstar > 0.0_dp .and. pbar_over_pstar < lattice%closing_pressure .and. accuracy > 0.0_dp)) return
+      first_is_island = pbar_over_pstar > lattice%about_merging
+      if (present(start)) then
+         ! What is merged at a lighter load, or apart at a heavier one, is so at this one.
+         if (start%status <= fitted_less_exact .and. &
+             (start%island .eqv. pbar_over_pstar >= start%pbar_over_pstar)) first_is_island = start%island
+      end if
       call solve_regime(lattice, accuracy, first_is_island, answer, start, fields)
-      if (answer%status >= fitted_merged .and. lattice%square) &
+      if (answer%status >= fitted_merged) &
          call solve_regime(lattice, accuracy, .not. first_is_island, answer, start, fields)
    end subroutine solve_fitted
 
@@ -114,7 +117,7 @@ contains
       trusted = .false.
       compared = 0
       do
-         now = now%raised(degree, shape_terms(degree, lattice%fold), crowding(lattice, now))
+         now = now%raised(degree, shape_terms(degree, now%basis%fold), crowding(lattice, now))
          call cover(images, lattice, now, growth, of_accuracy*min(accuracy, loosest))
          call start_equations(equations, now, reach(lattice, now), images)
          if (reach(lattice, now) > 0.7_dp) tolerance = finest
@@ -128,7 +131,7 @@ contains
             if (.not. ok .or. answer%status == fitted_solved) exit
          end if
          if (degree >= last_degree) exit
-         degree = next_degree(degree, lattice%fold, reach(lattice, now))
+         degree = next_degree(degree, now%basis%fold, reach(lattice, now))
       end do
       answer%iterations = iterations
       ! What a lower degree gave is of the square alone nearly right: there islands are as near.
@@ -138,7 +141,7 @@ contains
 
       !> Compares with the degree before.
       subroutine judge()
-         new = [mean_gap(equations, now), now%shape%area(), &
+         new = [mean_gap(equations, lattice, now), now%shape%area(), &
                 peak_pressure(equations, lattice, answer%pbar_over_pstar, now), now%at_centre(), &
                 energy(equations, lattice, answer%pbar_over_pstar, now), now%shape%perimeter()]
          ok = all(new(:measures) > 0.0_dp)
@@ -180,13 +183,13 @@ contains
          answer%reach = reach(lattice, now)
          answer%mean_gap = new(1)
          answer%area_fraction = new(2)/lattice%area
-         if (island) answer%area_fraction = 1.0_dp - answer%area_fraction
+         if (island) answer%area_fraction = 1.0_dp - lattice%troughs*answer%area_fraction
          answer%peak_pressure = new(3)
          best = error
          ! The series' own is the same at all degrees, none is better for it.
          error = max(error, images%tolerance*new)
          answer%mean_gap_error = error(1)
-         answer%area_error = error(2)/lattice%area
+         answer%area_error = error(2)/lattice%area*merge(lattice%troughs, 1, island)
          answer%peak_error = error(3)
          answer%energy = new(5)
          answer%perimeter = new(6)
@@ -221,8 +224,8 @@ contains
       if (present(start)) then
          if (start%status <= fitted_less_exact .and. (start%island .eqv. answer%island)) then
             load = start%pbar_over_pstar
-            if (steps_between(load, target, answer%island) <= 1) then
-               now = scaled_to_load(start%solution, load, target)
+            if (steps_between(lattice, load, target, answer%island) <= 1) then
+               now = scaled_to_load(lattice, start%solution, load, target)
                degree = max(first_degree, start%degree - degrees_back*degree_step)
                ok = .true.
                return
@@ -230,8 +233,8 @@ contains
          end if
       end if
       if (answer%island) then
-         load = max(target, heavy_load)
-         now = crack_island(load)
+         load = max(target, heavy_load*lattice%closing_pressure)
+         now = crack_island(lattice, load)
       else
          load = min(target, light_load)
          now = hertz_spot(lattice, load)
@@ -240,13 +243,13 @@ contains
          call cover(images, lattice, now, growth, start_change**2)
          call start_equations(equations, now, 0.0_dp, images)
          call converge(equations, lattice, load, now, start_change, change, residual, iterations, ok)
-         if (.not. ok .or. steps_between(load, target, answer%island) == 0) exit
+         if (.not. ok .or. steps_between(lattice, load, target, answer%island) == 0) exit
          next = target
-         if (steps_between(load, target, answer%island) > 1) then
+         if (steps_between(lattice, load, target, answer%island) > 1) then
             next = load_ratio*load
-            if (answer%island) next = 1.0_dp - load_ratio*(1.0_dp - load)
+            if (answer%island) next = lattice%closing_pressure - load_ratio*(lattice%closing_pressure - load)
          end if
-         now = scaled_to_load(now, load, next)
+         now = scaled_to_load(lattice, now, load, next)
          load = next
       end do
    end subroutine begin
@@ -260,19 +263,22 @@ contains
       real(dp), intent(in) :: tolerance     !! of the series
 
       if (images%covers(now%shape)) return
-      call start_image_series(images, lattice%kernel, now%island, lattice%fold, growth*now%shape%radius(), &
+      ! Two islands of a cell are too near to each other.
+      if (now%island .and. lattice%troughs == 2) return
+      call start_image_series(images, lattice%kernel, now%island, now%basis%fold, growth*now%shape%radius(), &
                               tolerance)
    end subroutine cover
 
    !> Number of steps that take one load to the other.
-   pure integer function steps_between(one, other, island) result(steps)
+   pure integer function steps_between(lattice, one, other, island) result(steps)
+      type(wave_lattice), intent(in) :: lattice
       real(dp), intent(in) :: one, other
       logical, intent(in) :: island
 
       real(dp) :: ratio
 
       ratio = other/one
-      if (island) ratio = (1.0_dp - other)/(1.0_dp - one)
+      if (island) ratio = (lattice%closing_pressure - other)/(lattice%closing_pressure - one)
       steps = ceiling(abs(log(ratio))/log(load_ratio))
    end function steps_between
 
@@ -299,14 +305,17 @@ contains
    end subroutine converge
 
    !> Half a step at first, another where the shape is round: terms that turn with the angle matter less
-   !> there. Not with two-fold symmetry: of a shape that is nearly four-fold half a step adds next to nothing.
+   !> there. With other than four-fold symmetry at first only: shapes are nearly of a higher one, and half a step
+   !> adds next to nothing.
    pure integer function next_degree(degree, fold, edge_reach)
       integer, intent(in) :: degree, fold
       real(dp), intent(in) :: edge_reach
 
-      next_degree = degree + degree_step
-      if (degree < full_degree .or. (degree < fine_degree .and. fold > 2 .and. edge_reach < round_reach)) &
-         next_degree = degree + degree_step/2
+      logical :: half
+
+      half = degree < first_degree
+      if (fold == 4) half = degree < full_degree .or. (degree < fine_degree .and. edge_reach < round_reach)
+      next_degree = degree + merge(degree_step/2, degree_step, half)
    end function next_degree
 
    !> Terms of the shape that go with a degree.
@@ -349,34 +358,54 @@ contains
       crowding = min(crowding, now%shape%crowding + longest_step)
    end function crowding
 
-   !> How far the edge reaches, on the way to the nearest neighbours: 1 where it touches theirs, in the middle between
-   !> two crests.
+   !> How far the edge reaches, on the way to the nearest neighbours: 1 where it touches theirs, in the middle.
    pure real(dp) function reach(lattice, now)
       type(wave_lattice), intent(in) :: lattice
       type(expansion), intent(in) :: now
 
-      complex(dp) :: tip
+      !> Of the sine of an angle.
+      real(dp), parameter :: rounding = 1e-12_dp
+      integer :: i
 
-      ! Tips off the axes of symmetry bend: those of long spots come to the middle from the side.
-      if (abs(lattice%saddle%re) > 0.0_dp .and. abs(lattice%saddle%im) > 0.0_dp) then
-         reach = 1.0_dp - now%shape%distance(lattice%saddle)/abs(lattice%saddle)
-         return
+      reach = 0.0_dp
+      if (now%island) then
+         do i = 1, size(lattice%to_next_trough)
+            reach = max(reach, reach_towards(lattice%to_next_trough(i)))
+         end do
+      else
+         do i = 1, size(lattice%to_next_crest)
+            reach = max(reach, reach_towards(lattice%to_next_crest(i)))
+         end do
       end if
-      tip = now%shape%place((1.0_dp, 0.0_dp))
-      reach = abs(tip)/0.5_dp
-      if (lattice%fold == 2) then
-         tip = now%shape%place((0.0_dp, 1.0_dp))
-         reach = max(reach, abs(tip)/(0.5_dp*lattice%kernel%height))
-      end if
+
+   contains
+
+      pure real(dp) function reach_towards(middle)
+         complex(dp), intent(in) :: middle   !! [s]
+
+         complex(dp) :: direction
+
+         direction = middle/abs(middle)
+         associate (turn => direction**now%shape%fold)
+            if (abs(turn%im) < rounding) then
+               reach_towards = abs(now%shape%place(direction))/abs(middle)
+            else
+               ! Tips off the axes of symmetry bend: those of long spots come to the middle from the side.
+               reach_towards = 1.0_dp - now%shape%distance(middle)/abs(middle)
+            end if
+         end associate
+      end function reach_towards
+
    end function reach
 
    !> G: 1 - delta of a spot, the mean of an island's gap.
-   real(dp) function mean_gap(equations, now)
+   real(dp) function mean_gap(equations, lattice, now)
       type(contact_equations), intent(in) :: equations
+      type(wave_lattice), intent(in) :: lattice
       type(expansion), intent(in) :: now
 
       if (now%island) then
-         mean_gap = equations%integral(now)
+         mean_gap = lattice%troughs*equations%integral(now)/lattice%area
       else
          mean_gap = 1.0_dp - now%approach
       end if
@@ -398,8 +427,8 @@ contains
 
    !> 1/2 the integral of p u over a cell.
    !>
-   !> In contact u = delta - h, and above merging p u = p (delta - h + g), p g = 0; the mean of p h follows
-   !> from the first Fourier coefficient of p, which is that of full contact changed by the island's.
+   !> In contact u = delta - h, and above merging p u = p (delta - h + g), p g = 0; the mean of p h follows from
+   !> the Fourier coefficients of p at the waves of h, |k| times those of u.
    real(dp) function energy(equations, lattice, load, now)
       type(contact_equations), intent(in) :: equations
       type(wave_lattice), intent(in) :: lattice
@@ -407,12 +436,14 @@ contains
       type(expansion), intent(in) :: now
 
       complex(dp) :: z(size(equations%rule%point))
-      real(dp) :: waves(size(equations%rule%point))
 
       z = now%shape%place(equations%rule%point)
       if (now%island) then
-         waves = 0.5_dp*(cos(2*pi*z%re) + cos(2*pi*z%im))
-         energy = 0.5_dp*(0.25_dp - equations%integral(now, waves) - load*mean_gap(equations, now))
+         associate (rise => lattice%pressure_rise(z) - lattice%closing_pressure, &
+                    full => 0.5_dp*lattice%area*sum(lattice%amplitude*lattice%pressure))
+            energy = 0.5_dp*(full + lattice%troughs*equations%integral(now, rise) &
+                             - load*mean_gap(equations, lattice, now)*lattice%area)
+         end associate
       else
          energy = 0.5_dp*(now%approach*load*lattice%area - equations%integral(now, lattice%undeformed_gap(z)))
       end if

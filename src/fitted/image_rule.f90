@@ -18,7 +18,8 @@ contains
    !> derivatives with the shape.
    !>
    !> N.B. The derivatives are taken with the targets' w_t kept, so that the targets move with the shape.
-   subroutine add_image_rows(kernel, cubes, shape, rule, values, c, target, rows, shape_rows, near)
+   subroutine add_image_rows(kernel, cubes, shape, rule, values, c, target, rows, shape_rows, near, &
+                             opposite)
       type(periodic_kernel), intent(in) :: kernel
       logical, intent(in) :: cubes                     !! whether the Laplacian is taken
       type(shape_map), intent(in) :: shape             !! of the symmetry of the lattice, or less
@@ -29,14 +30,16 @@ contains
       real(dp), intent(inout) :: rows(:, :)            !! integrals, shape (m, N)
       real(dp), intent(inout) :: shape_rows(:, 0:)     !! d(integral of the sum)/d b_k, shape (m, 0:K)
       real(dp), intent(in), optional :: near(:, :)     !! as of kernel_of_images
+      complex(dp), intent(in), optional :: opposite
+         !! centre of the disc's image less that of its image turned by half a turn, if a cell has that as well [s]
 
-      real(dp), dimension(2*shape%fold*size(rule%point)) :: value, slope_x, slope_y
+      real(dp), parameter :: origin(2, 1) = 0.0_dp
+      real(dp), dimension(2*shape%fold*size(rule%point)) :: own_value, own_x, own_y, value, slope_x, slope_y
       real(dp), dimension(size(target), size(rule%point)) :: folded, pulled_x, pulled_y
       real(dp), dimension(size(rule%point), 0:ubound(shape%b, 1)) :: shift_x, shift_y, swelling
       real(dp) :: weighted(size(rule%point), size(c)), strength(size(rule%point))
-      complex(dp) :: shift(0:ubound(shape%b, 1)), total, turn(0:shape%fold - 1), z(size(rule%point))
-      real(dp) :: across, along
-      integer :: columns, g, i, image, m, mirrored, n, t, terms
+      complex(dp) :: place, shift(0:ubound(shape%b, 1)), total, turn(0:shape%fold - 1), z(size(rule%point))
+      integer :: columns, g, m, n, t, terms
 
       m = size(target)
       n = size(rule%point)
@@ -50,23 +53,19 @@ contains
       pulled_x = 0.0_dp
       pulled_y = 0.0_dp
       do t = 1, m
-         call kernel_of_images(kernel, cubes, shape%fold, shape%place(target(t)), z, value, slope_x, slope_y, near)
-         ! The mean over the group: the rule's weights are those of the whole disc. A source moves as its images
-         ! do, turned back and mirrored.
+         place = shape%place(target(t))
          total = 0.0_dp
-         do g = 0, shape%fold - 1
-            do i = 1, n
-               image = 2*n*g + i
-               mirrored = image + n
-               along = slope_x(image) + slope_x(mirrored)
-               across = slope_y(image) + slope_y(mirrored)
-               total = total + strength(i)*cmplx(along, across, dp)
-               folded(t, i) = folded(t, i) + value(image) + value(mirrored)
-               pulled_x(t, i) = pulled_x(t, i) + turn(g)%re*along - turn(g)%im*across
-               pulled_y(t, i) = pulled_y(t, i) + turn(g)%re*(slope_y(image) - slope_y(mirrored)) &
-                  + turn(g)%im*(slope_x(image) - slope_x(mirrored))
-            end do
-         end do
+         call kernel_of_images(kernel, cubes, shape%fold, place, z, value, slope_x, slope_y, near)
+         call add_values(1)
+         if (present(opposite)) then
+            ! None of those is the target's own.
+            call kernel_of_images(kernel, cubes, shape%fold, place + opposite, -z, value, slope_x, slope_y)
+            call kernel_of_images(kernel, cubes, shape%fold, place + opposite, -z, own_value, own_x, own_y, origin)
+            value = value + own_value
+            slope_x = slope_x + own_x
+            slope_y = slope_y + own_y
+            call add_values(-1)
+         end if
          call shape%linearise_place(target(t), shift)
          shape_rows(t, :) = shape_rows(t, :) + total%re*shift%re + total%im*shift%im
       end do
@@ -76,6 +75,32 @@ contains
          call dgemm('N', 'N', m, columns, n, -mean, pulled_x, m, shift_x, n, 1.0_dp, shape_rows, m)
          call dgemm('N', 'N', m, columns, n, -mean, pulled_y, m, shift_y, n, 1.0_dp, shape_rows, m)
       end associate
+
+   contains
+
+      !> Adds the mean over the group: the rule's weights are those of the whole disc. A source moves as its images
+      !> do, turned back and mirrored.
+      subroutine add_values(direction)
+         integer, intent(in) :: direction   !! of the sources' movement: 1 or -1
+
+         real(dp) :: across, along
+         integer :: i, image, mirrored
+
+         do g = 0, shape%fold - 1
+            do i = 1, n
+               image = 2*n*g + i
+               mirrored = image + n
+               along = slope_x(image) + slope_x(mirrored)
+               across = slope_y(image) + slope_y(mirrored)
+               total = total + strength(i)*cmplx(along, across, dp)
+               folded(t, i) = folded(t, i) + value(image) + value(mirrored)
+               pulled_x(t, i) = pulled_x(t, i) + direction*(turn(g)%re*along - turn(g)%im*across)
+               pulled_y(t, i) = pulled_y(t, i) + direction*(turn(g)%re*(slope_y(image) - slope_y(mirrored)) &
+                                                            + turn(g)%im*(slope_x(image) - slope_x(mirrored)))
+            end do
+         end do
+      end subroutine add_values
+
    end subroutine add_image_rows
 
    !> What the sources at a rule's points bring to an integral over the mapped disc, and how that changes with

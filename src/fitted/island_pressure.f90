@@ -1,4 +1,4 @@
-!> Pressure in the contact around the open islands of the square lattice.
+!> Pressure in the contact around the open islands.
 module wavycon_island_pressure
    use wavycon_constants, only: pi
    use wavycon_disc_rule, only: disc_rule
@@ -12,9 +12,8 @@ module wavycon_island_pressure
 
 contains
 
-   !> Pressure at a crest, p = P + 1 - (1/4 pi^2) times the integral of the kernel's Laplacian times the gap.
-   !>
-   !> The crest's symmetry is that of an island: a sector of the rule is enough.
+   !> Pressure at a crest: that of full contact less 1/(4 pi^2) times the integral of the kernel's Laplacian times the
+   !> gap. Two islands of a cell are mirrored by the crest.
    real(dp) function crest_pressure(lattice, rule, load, now) result(pressure)
       type(wave_lattice), intent(in) :: lattice
       type(disc_rule), intent(in) :: rule       !! with the weight of the expansion
@@ -22,16 +21,24 @@ contains
       type(expansion), intent(in) :: now        !! an island's gap
 
       complex(dp), dimension(size(rule%point)) :: z
-      real(dp), dimension(size(rule%point)) :: cubes, x, y
-      real(dp) :: values(size(rule%point), now%basis%terms)
+      real(dp), dimension(size(rule%point)) :: cubes
+      real(dp) :: values(size(rule%point), now%basis%terms), total
+      complex(dp) :: turn
+      integer :: g
 
-      z = now%shape%place(rule%point)
-      x = 0.5_dp - z%re
-      y = 0.5_dp - z%im
-      call lattice%kernel%laplacian(size(z), x, y, cubes)
-      call now%basis%evaluate(size(z), rule%point, values)
-      pressure = load + 1.0_dp &
-         - sum(rule%weight*now%shape%jacobian(rule%point)*matmul(values, now%c)*cubes)/(4*pi**2)
+      call now%basis%evaluate(size(rule%point), rule%point, values)
+      total = 0.0_dp
+      do g = 0, now%basis%fold - 1
+         turn = exp(cmplx(0.0_dp, 2*pi*g/now%basis%fold, dp))
+         z = lattice%trough + turn*now%shape%place(rule%point)
+         call lattice%kernel%laplacian(size(z), z%re, z%im, cubes)
+         total = total + sum(rule%weight*now%shape%jacobian(rule%point)*matmul(values, now%c)*cubes)
+         z = lattice%trough + turn*conjg(now%shape%place(rule%point))
+         call lattice%kernel%laplacian(size(z), z%re, z%im, cubes)
+         total = total + sum(rule%weight*now%shape%jacobian(rule%point)*matmul(values, now%c)*cubes)
+      end do
+      pressure = load - lattice%closing_pressure + lattice%pressure_rise(-lattice%trough) &
+         - lattice%troughs*total/(2*now%basis%fold)/(4*pi**2)
    end function crest_pressure
 
 end module wavycon_island_pressure

@@ -12,6 +12,7 @@
 !> y^2 to rounding.
 !>
 !> N.B. The lattice is even in x and in y: rectangular or, with every other row moved by half a side, rhombic.
+!> What is said here is for rows along x; for those along y, x and y change places.
 module wavycon_periodic_kernel
    use wavycon_constants, only: pi
    use wavycon_kinds, only: dp
@@ -22,7 +23,8 @@ module wavycon_periodic_kernel
 
    type :: periodic_kernel
       real(dp) :: height = 1.0_dp                !! distance of two rows [s], >= 1/2
-      real(dp) :: row_shift = 0.0_dp             !! of the next row along x [s]: 0 or 1/2
+      real(dp) :: row_shift = 0.0_dp             !! of the next row, along itself [s]: 0 or 1/2
+      logical :: rows_along_y = .false.          !! or along x
       real(dp), allocatable :: image(:, :)       !! lattice points taken out, but the origin, shape (2, m)
       real(dp), allocatable :: coefficient(:, :) !! of the powers of u and v, shape (0:., 0:.)
       integer, allocatable :: degree(:)          !! in u for each power of v
@@ -47,10 +49,11 @@ module wavycon_periodic_kernel
 contains
 
    !> Fits the smooth part.
-   subroutine start_periodic_kernel(kernel, height, row_shift)
+   subroutine start_periodic_kernel(kernel, height, row_shift, rows_along_y)
       type(periodic_kernel), intent(out) :: kernel
       real(dp), intent(in) :: height     !! distance of two rows [s], >= 1/2
-      real(dp), intent(in) :: row_shift  !! of the next row along x [s]: 0 or 1/2
+      real(dp), intent(in) :: row_shift  !! of the next row, along itself [s]: 0 or 1/2
+      logical, intent(in), optional :: rows_along_y   !! along x if absent
 
       integer, parameter :: n = highest_degree
       real(dp) :: cosine(0:n, 0:n), to_powers(0:n, 0:n), values(0:n, 0:n), reach, x, y
@@ -122,6 +125,8 @@ contains
             end do
          end do
       end associate
+      if (present(rows_along_y)) kernel%rows_along_y = rows_along_y
+      if (kernel%rows_along_y) kernel%image(:, :) = kernel%image([2, 1], :)
    end subroutine start_periodic_kernel
 
    !> Gp - 1/r and, if asked for, its gradient at n places.
@@ -242,6 +247,21 @@ contains
       real(dp), intent(out) :: xr(n), yr(n)    !! [s]
       logical, intent(out) :: moved            !! whether any is another one
 
+      if (self%rows_along_y) then
+         call reduce_by_rows(self, n, y, x, yr, xr, moved)
+      else
+         call reduce_by_rows(self, n, x, y, xr, yr, moved)
+      end if
+   end subroutine reduce
+
+   !> The same with x along the rows.
+   pure subroutine reduce_by_rows(self, n, x, y, xr, yr, moved)
+      class(periodic_kernel), intent(in) :: self
+      integer, intent(in) :: n
+      real(dp), intent(in) :: x(n), y(n)       !! [s]
+      real(dp), intent(out) :: xr(n), yr(n)    !! [s]
+      logical, intent(out) :: moved
+
       integer :: column, i, moves, row
 
       moves = 0
@@ -254,7 +274,7 @@ contains
          moves = ior(moves, ior(row, column))
       end do
       moved = moves /= 0
-   end subroutine reduce
+   end subroutine reduce_by_rows
 
    !> The lattice points but the origin nearer to it than some distance, and how near the next one is.
    pure subroutine points_within(self, distance, point, next)
@@ -282,10 +302,27 @@ contains
             end if
          end do
       end do
+      if (self%rows_along_y) point = point([2, 1], :)
    end subroutine points_within
 
    !> One of the two polynomials in x^2 and y^2 and, if asked for, its gradient.
    pure subroutine polynomial(self, coefficient, n, x, y, value, slope_x, slope_y)
+      class(periodic_kernel), intent(in) :: self
+      real(dp), intent(in) :: coefficient(0:, 0:)   !! as self%coefficient
+      integer, intent(in) :: n
+      real(dp), intent(in) :: x(n), y(n)            !! in the rectangle about the origin [s]
+      real(dp), intent(out) :: value(n)
+      real(dp), intent(out), optional :: slope_x(n), slope_y(n)
+
+      if (self%rows_along_y) then
+         call polynomial_by_rows(self, coefficient, n, y, x, value, slope_y, slope_x)
+      else
+         call polynomial_by_rows(self, coefficient, n, x, y, value, slope_x, slope_y)
+      end if
+   end subroutine polynomial
+
+   !> The same with x along the rows.
+   pure subroutine polynomial_by_rows(self, coefficient, n, x, y, value, slope_x, slope_y)
       class(periodic_kernel), intent(in) :: self
       real(dp), intent(in) :: coefficient(0:, 0:)   !! as self%coefficient
       integer, intent(in) :: n
@@ -337,18 +374,18 @@ contains
             slope_y(i) = 16*y(i)/self%height**2*dv(i)
          end do
       end if
-   end subroutine polynomial
+   end subroutine polynomial_by_rows
 
    !> The same place in the rectangle about the origin.
    pure complex(dp) function reduced(self, z)
       class(periodic_kernel), intent(in) :: self
       complex(dp), intent(in) :: z  !! x + i y [s]
 
-      real(dp) :: row, x
+      real(dp) :: x(1), y(1)
+      logical :: moved
 
-      row = anint(z%im/self%height)
-      x = z%re - row*self%row_shift
-      reduced = cmplx(x - anint(x), z%im - row*self%height, dp)
+      call reduce(self, 1, [z%re], [z%im], x, y, moved)
+      reduced = cmplx(x(1), y(1), dp)
    end function reduced
 
    !> Gp by Ewald's sum.

@@ -45,26 +45,39 @@ contains
       spot%approach = sqrt(product(curvature))*radius**2
    end function hertz_spot
 
-   !> A penny-shaped crack in the square lattice.
-   function crack_island(load) result(island)
-      real(dp), intent(in) :: load  !! P < 1
+   !> A penny-shaped crack at each trough, elliptical where the curvatures of the full contact's pressure differ.
+   function crack_island(lattice, load) result(island)
+      type(wave_lattice), intent(in) :: lattice
+      real(dp), intent(in) :: load  !! P < the pressure that closes the troughs
       type(expansion) :: island
 
-      real(dp) :: radius
+      !> Of a long ellipse the length and the width go as this power of the curvatures, inversely.
+      real(dp), parameter :: ellipticity_power = 0.5_dp
+      real(dp) :: curvature(2), missing, radius, ratio
+      integer :: i
 
       island%island = .true.
-      call start_disc_polynomials(island%basis, 4, low_degree, 1.5_dp)
-      radius = sqrt(1.5_dp*(1.0_dp - load))/pi
-      island%shape%fold = 4
+      call start_disc_polynomials(island%basis, lattice%trough_fold, low_degree, 1.5_dp)
+      do i = 1, 2
+         curvature(i) = -4*pi**2*sum(lattice%wave(i, :)**2*lattice%pressure*lattice%phase%re)
+      end do
+      missing = lattice%closing_pressure - load
+      radius = sqrt(3*missing/sqrt(product(curvature)))
+      island%shape%fold = lattice%trough_fold
       allocate (island%shape%b(0:1))
       island%shape%b(:) = [radius, 0.0_dp]
+      if (lattice%trough_fold == 2) then
+         ratio = (curvature(1)/curvature(2))**ellipticity_power
+         island%shape%b(1) = radius*(1.0_dp - ratio)/(1.0_dp + ratio)
+      end if
       allocate (island%c(island%basis%terms), source=0.0_dp)
-      ! The opening is g_0 (1 - rho^2)^(3/2), g_0 = (8/3)(1 - P) b.
-      island%c(1) = 8*(1.0_dp - load)*radius/3*sqrt(0.4_dp*pi)
+      ! The opening is g_0 (1 - rho^2)^(3/2), g_0 = (8/3) b times what is missing.
+      island%c(1) = 8*missing*radius/3*sqrt(0.4_dp*pi)
    end function crack_island
 
    !> A guess for another load: sizes go as the asymptotes.
-   function scaled_to_load(from, old_load, new_load) result(guess)
+   function scaled_to_load(lattice, from, old_load, new_load) result(guess)
+      type(wave_lattice), intent(in) :: lattice
       type(expansion), intent(in) :: from
       real(dp), intent(in) :: old_load, new_load  !! P
       type(expansion) :: guess
@@ -73,7 +86,7 @@ contains
 
       guess = from
       if (from%island) then
-         factor = sqrt((1.0_dp - new_load)/(1.0_dp - old_load))
+         factor = sqrt((lattice%closing_pressure - new_load)/(lattice%closing_pressure - old_load))
          guess%c = from%c*factor**3
       else
          factor = (new_load/old_load)**(1.0_dp/3)

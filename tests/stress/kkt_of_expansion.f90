@@ -77,8 +77,12 @@ contains
                                              *exp(cmplx(0.0_dp, 2*pi*stream%uniform(), dp)))
          call cast_rays(fields, place, ray)
          if (answer%island) then
-            violation = answer%pbar_over_pstar + 1.0_dp - lattice%undeformed_gap(fields%centre + place) &
-                        - [bending(ewald, ray), bending(ewald, ray(::2))]/(4*pi**2)
+            violation = [bending(ewald, ray), bending(ewald, ray(::2))]
+            if (lattice%troughs == 2) violation = violation + &
+               [bending_of_other(ewald, ray, lattice%trough + place), &
+                bending_of_other(ewald, ray(::2), lattice%trough + place)]
+            violation = answer%pbar_over_pstar - lattice%closing_pressure + lattice%pressure_rise(place) &
+                        - violation/(4*pi**2)
          else
             violation = lattice%undeformed_gap(fields%centre + place) - (1.0_dp - answer%mean_gap) &
                         + [potential(ewald, ray), potential(ewald, ray(::2))]
@@ -94,7 +98,7 @@ contains
 
       call cast_rays(fields, (0.0_dp, 0.0_dp), ray)
       if (answer%island) then
-         violation = [moment(ray), moment(ray(::2))]/(lattice%area*answer%mean_gap) - 1.0_dp
+         violation = lattice%troughs*[moment(ray), moment(ray(::2))]/(lattice%area*answer%mean_gap) - 1.0_dp
       else
          violation = [moment(ray), moment(ray(::2))]/(lattice%area*answer%pbar_over_pstar) - 1.0_dp
       end if
@@ -215,6 +219,25 @@ contains
       bending = 2*pi/size(ray)*bending
    end function bending
 
+   !> The same of a cell's other island, this one turned by half a turn about a crest.
+   real(dp) function bending_of_other(ewald, ray, place) result(bending)
+      type(ewald_type), intent(in) :: ewald
+      type(ray_type), intent(in) :: ray(:)
+      complex(dp), intent(in) :: place       !! the rays' origin, from the crest
+
+      complex(dp) :: apart
+      integer :: i, j
+
+      bending = 0.0_dp
+      do i = 1, size(ray)
+         do j = 1, points
+            apart = 2*place + ray(i)%distance(j)*ray(i)%direction
+            bending = bending + ray(i)%weight(j)*ray(i)%distance(j)*ray(i)%value(j)*laplacian(ewald, apart)
+         end do
+      end do
+      bending = 2*pi/size(ray)*bending
+   end function bending_of_other
+
    !> Finite part of the integral of value/r^2 over two opposite rays.
    !>
    !> Of sqrt(1 - t^2) U_n(t), with Chebyshev's polynomial of the second kind, over (t - x)^2 it is
@@ -256,10 +279,10 @@ contains
          do j = -far, far
             do i = -far, far
                if (i == 0 .and. j == 0) cycle
-               place = cmplx(i + shift*j, height*j, dp)
-               ! Points that the rays reach are less than a cell away.
-               if (ewald%e*(abs(place) - 0.75_dp*(1.0_dp + height)) < cut_off) ewald%place = [ewald%place, place]
-               k = cmplx(i, (j - shift*i)/height, dp)
+               place = turned(cmplx(i + shift*j, height*j, dp))
+               ! Two points that are compared are less than two cells away.
+               if (ewald%e*(abs(place) - 1.25_dp*(1.0_dp + height)) < cut_off) ewald%place = [ewald%place, place]
+               k = turned(cmplx(i, (j - shift*i)/height, dp))
                if (j < 0 .or. (j == 0 .and. i < 0) .or. pi*abs(k)/ewald%e > cut_off) cycle
                ewald%wave = [ewald%wave, k]
                ewald%weight = [ewald%weight, 2*erfc(pi*abs(k)/ewald%e)/(height*abs(k))]
@@ -267,6 +290,16 @@ contains
          end do
          ewald%bending = (2*pi*abs(ewald%wave))**2*ewald%weight
       end associate
+
+   contains
+
+      pure complex(dp) function turned(z)
+         complex(dp), intent(in) :: z   !! with rows along x
+
+         turned = z
+         if (lattice%kernel%rows_along_y) turned = cmplx(z%im, z%re, dp)
+      end function turned
+
    end subroutine start_ewald
 
    !> r Gp.
@@ -286,18 +319,33 @@ contains
       type(ewald_type), intent(in) :: ewald
       complex(dp), intent(in) :: place
 
-      real(dp) :: r
-      integer :: i
-
-      associate (e => ewald%e)
-         kernel = -wave_sum(ewald, ewald%bending, place)
-         do i = 2, size(ewald%place)
-            r = abs(place - ewald%place(i))
-            kernel = kernel + erfc(e*r)/r**3 + 2*e/sqrt(pi)*exp(-(e*r)**2)*(1/r**2 + 2*e**2)
-         end do
-         kernel = e**2*screened_part(e*abs(place)) + abs(place)*kernel
+      associate (e => ewald%e, r => abs(place))
+         kernel = e**2*screened_part(e*r) + r*far_laplacian(ewald, place)
       end associate
    end function smooth_laplacian_by_distance
+
+   !> The Laplacian of Gp, away from the lattice's points.
+   pure real(dp) function laplacian(ewald, place)
+      type(ewald_type), intent(in) :: ewald
+      complex(dp), intent(in) :: place
+
+      laplacian = far_laplacian(ewald, place) + screened_laplacian(ewald%e, abs(place))
+   end function laplacian
+
+   !> Its part that is smooth about the origin.
+   pure real(dp) function far_laplacian(ewald, place) result(laplacian)
+      type(ewald_type), intent(in) :: ewald
+      complex(dp), intent(in) :: place
+
+      laplacian = sum(screened_laplacian(ewald%e, abs(place - ewald%place(2:)))) - wave_sum(ewald, ewald%bending, place)
+   end function far_laplacian
+
+   !> The Laplacian of erfc(e r)/r.
+   elemental real(dp) function screened_laplacian(e, r) result(laplacian)
+      real(dp), intent(in) :: e, r   !! > 0
+
+      laplacian = erfc(e*r)/r**3 + 2*e/sqrt(pi)*exp(-(e*r)**2)*(1/r**2 + 2*e**2)
+   end function screened_laplacian
 
    !> x times the Laplacian of -erf(x)/x.
    elemental real(dp) function screened_part(x) result(part)
