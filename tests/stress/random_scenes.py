@@ -1,9 +1,9 @@
 """Random surfaces and loads, as decks; and the same surfaces moved, mirrored, turned and in other units."""
 import math
 
-KINDS = ("wave_1d", "wave_2d", "wave_2d of two lengths", "crossed_1d", "crossed_1d alike", "hexagonal", "profile",
-         "sum", "even sum", "file", "even file")
-FITTED = ("wave_2d", "crossed_1d alike", "hexagonal")  # that solver = 'fitted' knows, at least below merging
+KINDS = ("wave_1d", "wave_2d", "wave_2d of two lengths", "wave_2d alike", "crossed_1d", "crossed_1d alike",
+         "hexagonal", "profile", "sum", "even sum", "file", "even file")
+FITTED = ("wave_2d", "wave_2d alike", "crossed_1d alike", "hexagonal")  # that solver = 'fitted' knows
 QUICK = ("wave_1d", "wave_2d", "profile", "even file")  # for the short form: of every kind of answer one
 MERGING = 0.2286  # load at which the spots of the paper's wave merge
 HEIGHTS = "heights.dat"
@@ -82,8 +82,9 @@ def random_scene(stream, kind):
     if kind == "wave_2d":
         return Scene(kind, (length, length), [(a/2, 1, 1, 0.0), (a/2, 1, -1, 0.0)],
                      f"kind = 'wave_2d', amplitude = {a!r}, wavelength = {length!r}")
-    if kind == "wave_2d of two lengths":
-        other = length*4.0**stream.uniform(-1.0, 1.0)
+    if kind in ("wave_2d of two lengths", "wave_2d alike"):
+        # 'fitted' knows those of up to 3 to 1.
+        other = length*(4.0 if kind == "wave_2d of two lengths" else 3.0)**stream.uniform(-1.0, 1.0)
         return Scene(kind, (length, other), [(a/2, 1, 1, 0.0), (a/2, 1, -1, 0.0)],
                      f"kind = 'wave_2d', amplitude = {a!r}, wavelength = {length!r}, wavelength_y = {other!r}")
     if kind in ("crossed_1d", "crossed_1d alike"):
