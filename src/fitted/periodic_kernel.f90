@@ -9,7 +9,8 @@
 !>
 !> with e = sqrt(pi/A), but slowly. So the sum is taken once per lattice: on the rectangle |x| <= 1/2, |y| <=
 !> height/2 about the origin, Gp less 1/r of a handful of lattice points near by is a polynomial in x^2 and
-!> y^2 to rounding.
+!> y^2 to rounding. So is its Laplacian less their 1/r^3, which has a fit of its own: differentiated, rounding in the
+!> highest coefficients of the first would spoil it.
 !>
 !> N.B. The lattice is even in x and in y: rectangular or, with every other row moved by half a side, rhombic.
 !> What is said here is for rows along x; for those along y, x and y change places.
@@ -39,8 +40,8 @@ module wavycon_periodic_kernel
 
    !> The fit's degree in either variable before what is below rounding is cut off.
    integer, parameter :: highest_degree = 12
-   !> Coefficients below it are rounding of Ewald's sum, whose terms are of order ten.
-   real(dp), parameter :: noise = 32*epsilon(1.0_dp)
+   !> Coefficients below it are rounding of Ewald's sum, whose terms are of order ten, and of its Laplacian.
+   real(dp), parameter :: noise(2) = [32, 320]*epsilon(1.0_dp)
    !> erfc of it is 1e-19.
    real(dp), parameter :: cut_off = 6.4_dp
    !> Where |x| of a point and of its reduced place are the same, their 1/|x|^5 must be the same finite number.
@@ -56,7 +57,7 @@ contains
       logical, intent(in), optional :: rows_along_y   !! along x if absent
 
       integer, parameter :: n = highest_degree
-      real(dp) :: cosine(0:n, 0:n), to_powers(0:n, 0:n), values(0:n, 0:n), reach, x, y
+      real(dp) :: cosine(0:n, 0:n), to_powers(0:n, 0:n), values(0:n, 0:n, 2), distance, reach, x, y
       integer :: degree(0:n), i, j, k
 
       kernel%height = height
@@ -83,18 +84,23 @@ contains
          do i = 0, n
             x = 0.5_dp*sqrt(0.5_dp*(1.0_dp + cosine(1, i)))
             y = 0.5_dp*height*sqrt(0.5_dp*(1.0_dp + cosine(1, j)))
-            values(i, j) = ewald_sum(height, row_shift, x, y, without_origin=.true.)
+            call ewald_sum(height, row_shift, x, y, values(i, j, 1), values(i, j, 2))
             do k = 1, size(kernel%image, 2)
-               values(i, j) = values(i, j) - 1.0_dp/hypot(x - kernel%image(1, k), y - kernel%image(2, k))
+               distance = hypot(x - kernel%image(1, k), y - kernel%image(2, k))
+               values(i, j, :) = values(i, j, :) - [1.0_dp/distance, 1.0_dp/distance**3]
             end do
          end do
       end do
-      values = matmul(cosine, matmul(values, transpose(cosine)))*(2.0_dp/(n + 1))**2
-      values(0, :) = 0.5_dp*values(0, :)
-      values(:, 0) = 0.5_dp*values(:, 0)
-      do j = 0, n
-         degree(j) = findloc(abs(values(:, j)) > noise, .true., dim=1, back=.true.) - 1
-         values(degree(j) + 1:, j) = 0.0_dp
+      degree = -1
+      do k = 1, 2
+         values(:, :, k) = matmul(cosine, matmul(values(:, :, k), transpose(cosine)))*(2.0_dp/(n + 1))**2
+         values(0, :, k) = 0.5_dp*values(0, :, k)
+         values(:, 0, k) = 0.5_dp*values(:, 0, k)
+         do j = 0, n
+            i = findloc(abs(values(:, j, k)) > noise(k), .true., dim=1, back=.true.) - 1
+            values(i + 1:, j, k) = 0.0_dp
+            degree(j) = max(degree(j), i)
+         end do
       end do
       k = findloc(degree >= 0, .true., dim=1, back=.true.) - 1
       ! Powers of one variable bring in lower powers of the same: a degree must not grow with the other power.
@@ -109,22 +115,13 @@ contains
          to_powers(1:, j) = 2*to_powers(:n - 1, j - 1)
          to_powers(:, j) = to_powers(:, j) - to_powers(:, j - 2)
       end do
-      values = matmul(to_powers, matmul(values, transpose(to_powers)))
-      allocate (kernel%degree(0:k), kernel%coefficient(0:degree(0), 0:k))
+      do j = 1, 2
+         values(:, :, j) = matmul(to_powers, matmul(values(:, :, j), transpose(to_powers)))
+      end do
+      allocate (kernel%degree(0:k), kernel%coefficient(0:degree(0), 0:k), kernel%bending(0:degree(0), 0:k))
       kernel%degree(:) = degree(:k)
-      kernel%coefficient(:, :) = values(:degree(0), :k)
-      ! With u = 8 x^2 - 1 the second derivative of f(u) is 16 f' + 32 (u + 1) f''.
-      allocate (kernel%bending(0:degree(0), 0:k), source=0.0_dp)
-      associate (a => kernel%coefficient, l => kernel%bending)
-         do j = 0, k
-            do i = 0, degree(j)
-               if (i > 0) l(i - 1, j) = l(i - 1, j) + 16*i*(2*i - 1)*a(i, j)
-               if (i > 1) l(i - 2, j) = l(i - 2, j) + 32*i*(i - 1)*a(i, j)
-               if (j > 0) l(i, j - 1) = l(i, j - 1) + 16*j*(2*j - 1)*a(i, j)/height**2
-               if (j > 1) l(i, j - 2) = l(i, j - 2) + 32*j*(j - 1)*a(i, j)/height**2
-            end do
-         end do
-      end associate
+      kernel%coefficient(:, :) = values(:degree(0), :k, 1)
+      kernel%bending(:, :) = values(:degree(0), :k, 2)
       if (present(rows_along_y)) kernel%rows_along_y = rows_along_y
       if (kernel%rows_along_y) kernel%image(:, :) = kernel%image([2, 1], :)
    end subroutine start_periodic_kernel
@@ -388,33 +385,31 @@ contains
       reduced = cmplx(x(1), y(1), dp)
    end function reduced
 
-   !> Gp by Ewald's sum.
-   pure real(dp) function ewald_sum(height, row_shift, x, y, without_origin) result(value)
-      real(dp), intent(in) :: height            !! distance of two rows [s]
-      real(dp), intent(in) :: row_shift         !! of the next row along x [s]
-      real(dp), intent(in) :: x, y              !! [s], in the rectangle about the origin
-      logical, intent(in) :: without_origin     !! the value is Gp - 1/r
+   !> Gp - 1/r and its Laplacian by Ewald's sum.
+   pure subroutine ewald_sum(height, row_shift, x, y, value, laplacian)
+      real(dp), intent(in) :: height        !! distance of two rows [s]
+      real(dp), intent(in) :: row_shift     !! of the next row along x [s]
+      real(dp), intent(in) :: x, y          !! [s], in the rectangle about the origin
+      real(dp), intent(out) :: value        !! [1/s]
+      real(dp), intent(out) :: laplacian    !! [1/s^3]
 
-      real(dp) :: e, k_x, k_y, r, reach
+      real(dp) :: bell, e, k_x, k_y, r, reach, screened, wave
       integer :: i, j, rows, columns
 
       e = sqrt(pi/height)
-      value = -2*sqrt(pi)/(e*height)
+      value = -2*sqrt(pi)/(e*height) + e*long_range(e*hypot(x, y), derivative=0)
+      laplacian = e**3*long_range(e*hypot(x, y), derivative=2)
       reach = cut_off/e
       rows = ceiling(reach/height + 0.5_dp)
       columns = ceiling(reach + 1.0_dp + 0.5_dp*rows)
       do j = -rows, rows
          do i = -columns, columns
             r = hypot(x - i - row_shift*j, y - height*j)
-            if (i == 0 .and. j == 0 .and. without_origin) then
-               if (e*r > 1e-8_dp) then
-                  value = value - erf(e*r)/r
-               else
-                  value = value - 2*e/sqrt(pi)
-               end if
-            else if (r < reach) then
-               value = value + erfc(e*r)/r
-            end if
+            if ((i == 0 .and. j == 0) .or. r >= reach) cycle
+            screened = erfc(e*r)/r
+            bell = 2*e/sqrt(pi)*exp(-(e*r)**2)
+            value = value + screened
+            laplacian = laplacian + screened/r**2 + bell*(1/r**2 + 2*e**2)
          end do
       end do
       ! The reciprocal lattice: (i, (j - i shift)/height).
@@ -426,10 +421,38 @@ contains
             k_x = i
             k_y = (j - i*row_shift)/height
             r = hypot(k_x, k_y)
-            if (r < reach .and. (i /= 0 .or. j /= 0)) &
-               value = value + erfc(pi*r/e)/(r*height)*cos(2*pi*(k_x*x + k_y*y))
+            if ((i == 0 .and. j == 0) .or. r >= reach) cycle
+            wave = erfc(pi*r/e)/(r*height)*cos(2*pi*(k_x*x + k_y*y))
+            value = value + wave
+            laplacian = laplacian - (2*pi*r)**2*wave
          end do
       end do
-   end function ewald_sum
+   end subroutine ewald_sum
+
+   !> -erf(x)/x, what is left of the origin's own term, or its Laplacian in the plane.
+   pure real(dp) function long_range(x, derivative) result(value)
+      real(dp), intent(in) :: x             !! >= 0
+      integer, intent(in) :: derivative     !! 0 or 2
+
+      integer, parameter :: terms = 20
+      real(dp) :: power
+      integer :: n
+
+      value = 0.0_dp
+      if (x < 1.0_dp) then
+         ! A sum of -2/sqrt(pi) (-x^2)^n/(n! (2n+1)): closed forms lose digits.
+         power = -2/sqrt(pi)
+         if (derivative == 0) value = power
+         do n = 1, terms
+            if (derivative == 2) value = value - power*4*n/(2*n + 1.0_dp)
+            power = -power*x**2/n
+            if (derivative == 0) value = value + power/(2*n + 1)
+         end do
+      else if (derivative == 0) then
+         value = -erf(x)/x
+      else
+         value = -erf(x)/x**3 + 2/sqrt(pi)*exp(-x**2)*(1/x**2 + 2)
+      end if
+   end function long_range
 
 end module wavycon_periodic_kernel
