@@ -1,21 +1,23 @@
 # The load at which neighbouring spots merge, and what is there, from the loads next to it on either side.
 #
-# usage: gnuplot -d -c scripts/merging.gp DETAILS    DETAILS: the table of details of the paper's wave, Delta = 1
+# usage: gnuplot -d -c scripts/merging.gp SURFACE DETAILS LIGHTEST GUESS HEAVIEST
+#    SURFACE: its name for the table. DETAILS: the table of details, Delta = 1. Loads between LIGHTEST and HEAVIEST are
+#    fitted, on the two sides of GUESS, where spots merge.
 #
 # Towards merging the saddle's gap and, above it, the square of the saddle's pressure vanish as the distance in
 # load does, but for a logarithm: contact is a narrow strip there. With s for either, P is fitted as
 # P_m + s (c_1 + c_2 ln s + c_3 ln^2 s), and the values at distances d from the P_m found from below as
 # v_m + d (c_1 + c_2 ln d + c_3 d). Errors are the changes if c_3 = 0.
-details = ARG1
+surface = ARG1
+details = ARG2
+lightest = real(ARG3)
+merging = real(ARG4)
+heaviest = real(ARG5)
 set fit quiet logfile '/dev/null' limit 1e-13 maxiter 1000
 set print '-'
 
-# The loads fitted, with a first guess of the one between them.
-lightest = 0.2284
-heaviest = 0.2296
-merging = 0.228605
 # Of s and d, so that the coefficients are of order one.
-unit = 1e-3
+unit = heaviest - merging
 pick(side, p) = side eq 'below' ? p > lightest && p < merging : p > merging && p < heaviest
 small(side, gap, pressure) = (side eq 'below' ? gap : pressure**2)/unit
 by_saddle(s) = v_m + s*unit*(c_1 + c_2*log(s) + c_3*log(s)**2)
@@ -28,12 +30,10 @@ fit_both(formula, chosen, column, distance) = sprintf( \
    formula, chosen, distance, column, distance)
 
 v_m = 0.0
-print '#side[-] merging_load[p*]    error[p*]  mean_gap[Delta] error[Delta] contact_area[A0]    error[A0]', \
-      ' peak_pressure[p*]    error[p*]'
 do for [side in 'below above'] {
    chosen = "pick('".side."', $1)"
    eval fit_both('by_saddle(x)', chosen, 1, "small('".side."', $10, $12)")
-   line = sprintf('%-6s %16.9f %12.1e', side, v_m, error)
+   line = sprintf('%-11s %-7s %16.9f %12.1e', surface, side, v_m, error)
    if (side eq 'below') { merging_load = v_m }
    do for [column in '2 4 6'] {
       eval fit_both('by_load(x)', chosen, int(column), '(abs($1 - merging_load)/unit)')

@@ -103,11 +103,11 @@ contains
       real(dp), intent(out) :: shape_row(0:)           !! d(integral of the sum)/d b_k, shape (0:K)
 
       complex(dp) :: target_power, target_step
-      integer :: i, j, k, m, n, terms
+      integer :: bends, i, j, k, m, n
 
       n = size(self%w)
       m = shape%fold
-      terms = ubound(shape%b, 1)
+      bends = ubound(shape%b, 1)
       call self%place_points(target)
       call basis%evaluate(n, self%w, self%values)
       associate (w => self%parts, e2 => self%e2, q => self%q, slope => self%slope, step => self%step, &
@@ -144,7 +144,7 @@ contains
             own(:, 2) = shape%crowding*w(:, 2)
             swelling = (1.0_dp - (m + 1)*shape%crowding*step(:, 1))**2 + ((m + 1)*shape%crowding*step(:, 2))**2
          end if
-         do k = 2, terms
+         do k = 2, bends
             quotient(:, :, k) = quotient(:, :, k - 1)
             call multiply(n, quotient(:, :, k), step)
             quotient(:, 1, k) = quotient(:, 1, k) + (target_power%re*last(:, 1) - target_power%im*last(:, 2))
@@ -153,12 +153,12 @@ contains
             power_of_w(:, :, k) = power_of_w(:, :, k - 1)*((m*k - 1.0_dp)/(m*(k - 1) - 1.0_dp))
             call multiply(n, power_of_w(:, :, k), step)
          end do
-         do k = 1, terms
+         do k = 1, bends
             call multiply(n, quotient(:, :, k), e2)
          end do
          q = shape%b(0)*own
-         call dgemv('N', 2*n, terms, 1.0_dp, quotient, 2*n, shape%b(1:), 1, 1.0_dp, q, 1)
-         call dgemv('N', 2*n, terms, 1.0_dp, power_of_w, 2*n, shape%b(1:), 1, 0.0_dp, slope, 1)
+         call dgemv('N', 2*n, bends, 1.0_dp, quotient, 2*n, shape%b(1:), 1, 1.0_dp, q, 1)
+         call dgemv('N', 2*n, bends, 1.0_dp, power_of_w, 2*n, shape%b(1:), 1, 0.0_dp, slope, 1)
          do i = 1, n
             f_slope(i) = 1.0_dp/(q(i, 1)**2 + q(i, 2)**2)
             density(i) = self%factor(i)*sqrt(f_slope(i))
@@ -176,8 +176,8 @@ contains
             q(:, j) = density*f_slope*q(:, j)
             shape_row(0) = shape_row(0) - dot_product(q(:, j), own(:, j))
          end do
-         call dgemv('T', 2*n, terms, -2.0_dp, power_of_w, 2*n, slope, 1, 0.0_dp, shape_row(1:), 1)
-         call dgemv('T', 2*n, terms, -1.0_dp, quotient, 2*n, q, 1, 1.0_dp, shape_row(1:), 1)
+         call dgemv('T', 2*n, bends, -2.0_dp, power_of_w, 2*n, slope, 1, 0.0_dp, shape_row(1:), 1)
+         call dgemv('T', 2*n, bends, -1.0_dp, quotient, 2*n, q, 1, 1.0_dp, shape_row(1:), 1)
       end associate
    end subroutine rows
 

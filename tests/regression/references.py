@@ -162,7 +162,7 @@ def differences(new, reference):
 
 def decks():
     """All decks but that of the reference values: its table is kept whole, and test_reference_table.py is for it."""
-    return sorted(deck for deck in INPUTS.glob("*.nml") if deck.stem != "reference_table")
+    return sorted(deck for deck in INPUTS.glob("*.nml") if not deck.stem.startswith("reference_"))
 
 
 def run(program, deck, folder):

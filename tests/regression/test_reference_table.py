@@ -12,11 +12,10 @@ sys.path.insert(0, str(HERE))
 from tables import Table  # noqa: E402
 
 ROOT = HERE.parent.parent
-REFERENCE = ROOT / "outputs" / "reference" / "wave_2d.dat"
-MERGING = ROOT / "outputs" / "reference" / "merging.dat"
+REFERENCE = ROOT / "outputs" / "reference"
 OTHER_METHODS = ROOT / "inputs" / "reference_2d.dat"
 DECK = """\
-&surface kind = 'wave_2d' /
+&surface kind = '{}' /
 &load pbar_over_pstar = {} /
 &method solver = '{}', accuracy = {} /
 {}
@@ -26,28 +25,36 @@ VALUES = ("mean_gap", "contact_area", "peak_pressure", "trough_gap", "saddle_gap
           "energy", "perimeter")
 
 
-def published():
+def published(surface):
     """{P: [(value, error) of each of VALUES]}."""
     rows = {}
-    for row in Table(REFERENCE).rows():
+    for row in Table(REFERENCE / f"{surface}.dat").rows():
         numbers = [float(word) for word in row]
         rows[numbers[0]] = list(zip(numbers[1::2], numbers[2::2]))
     return rows
 
 
-class ReferenceTable(unittest.TestCase):
+class ReferenceTable:
+    """The tests of a surface's table."""
     program = ""
+    surface = ""
+    loads = frozenset()            # that are there
+    to_recompute = ()              # at another accuracy, hence by other degrees; about merging in both regimes
+    by_grids = ()                  # accuracy and loads; those about merging cost most
+    smooth = ()                    # hundredths of P between which no spots merge
+    merging_loads = 0.0, 0.0, 0.0  # how far apart the loads next to merging are; digits of it from below and above
 
     @classmethod
     def setUpClass(cls):
-        cls.table = published()
-        cls.merging = [[float(word) for word in row[1:]] for row in Table(MERGING).rows()]
+        cls.table = published(cls.surface)
+        cls.merging = [[float(word) for word in row[2:]] for row in Table(REFERENCE / "merging.dat").rows()
+                       if row[0] == cls.surface]
 
     def solve(self, loads, solver, accuracy, output, kind):
         """{column: words} of a table of the program, loads in the order given."""
         with tempfile.TemporaryDirectory() as scratch:
             deck = pathlib.Path(scratch) / "case.nml"
-            deck.write_text(DECK.format(", ".join(map(repr, loads)), solver, accuracy, output))
+            deck.write_text(DECK.format(self.surface, ", ".join(map(repr, loads)), solver, accuracy, output))
             # 2: a load is less exact than asked for, and its error estimate says so.
             command = [self.program, deck, "--quiet", "--output", scratch]
             status = subprocess.run(command, check=False).returncode
@@ -63,8 +70,7 @@ class ReferenceTable(unittest.TestCase):
                              f"{name} at {load}: {value}, published {expected}")
 
     def test_loads_and_bounds(self):
-        loads = {i/100 for i in range(1, 100)} | {0.001, 0.002, 0.005, 0.995, 0.998, 0.999}
-        self.assertGreaterEqual(set(self.table), loads)
+        self.assertGreaterEqual(set(self.table), self.loads)
         for load, row in self.table.items():
             self.assertEqual(len(VALUES), len(row))
             for name, (value, error) in zip(VALUES, row):
@@ -80,23 +86,22 @@ class ReferenceTable(unittest.TestCase):
 
     def test_both_sides_of_merging(self):
         below, above = self.merging
+        apart, digits_below, digits_above = self.merging_loads
         for value, error, other, other_error in zip(below[::2], below[1::2], above[::2], above[1::2]):
             self.assertLess(abs(value - other), error + other_error)
-            # Six digits from below, five or so from above.
-            self.assertLess(error, 1e-6*value)
-            self.assertLess(other_error, 1e-5*value)
+            self.assertLess(error, digits_below*value)
+            self.assertLess(other_error, digits_above*value)
         # Between the last spots and the first island of the table, and of their values.
         for place, (value, error) in enumerate(zip(below[2::2], below[3::2])):
             last = max(load for load in self.table if load < below[0])
             first = min(load for load in self.table if load > below[0])
-            self.assertLess(first - last, 1e-4)
+            self.assertLess(first - last, apart)
             sides = sorted((self.table[last][place][0], self.table[first][place][0]))
             self.assertLess(sides[0] - error, value)
             self.assertLess(value, sides[1] + error)
 
     def test_recomputed(self):
-        # At another accuracy, hence by other degrees; about merging, in both regimes, too.
-        loads = [0.001, 0.05, 0.2, 0.226, 0.236, 0.3, 0.5, 0.8, 0.999]
+        loads = self.to_recompute
         new = self.solve(loads, "fitted", 1e-7, "&output details = t /", "details")
         names = list(new)[1:17]
         for place, load in enumerate(loads):
@@ -104,8 +109,7 @@ class ReferenceTable(unittest.TestCase):
                 self.check(load, name, float(new[value][place]), float(new[error][place]))
 
     def test_grids(self):
-        # Of the loads the heavier and lighter ones cost least; 0.23 is just above merging.
-        for accuracy, loads in ((1e-3, [0.05, 0.2, 0.23, 0.4, 0.7]), (1e-4, [0.01, 0.1, 0.5, 0.95])):
+        for accuracy, loads in self.by_grids:
             new = self.solve(loads, "grid", accuracy, "", "summary")
             self.assertEqual({"grid"}, set(new["solver"]))
             self.assertEqual({"converged"}, set(new["status"]))
@@ -115,16 +119,10 @@ class ReferenceTable(unittest.TestCase):
                                            ("peak_pressure", "peak_pressure_over_pstar", "peak_pressure_error")):
                     self.check(load, name, float(new[value][place]), float(new[error][place]))
 
-    def test_other_methods(self):
-        for load, *words in Table(OTHER_METHODS).rows():
-            for name, word in zip(VALUES, words):
-                # Half a unit of the last digit for rounding, one for the grids that gave the shorter values.
-                self.check(float(load), name, float(word), 1.5*10.0**-len(word.partition(".")[2]))
-
     def test_work_of_the_load_is_the_energy(self):
         # While P grows the load works on the approach, dE = -P dG: E + P G gains the integral of G.
         step = 0.01
-        for first, last in ((8, 20), (40, 60), (60, 96)):
+        for first, last in self.smooth:
             rows = [self.table[i/100] for i in range(first, last + 1)]
             gaps = [row[0][0] for row in rows]
             gained = [row[6][0] + load*step*row[0][0] for load, row in ((first, rows[0]), (last, rows[-1]))]
@@ -133,6 +131,30 @@ class ReferenceTable(unittest.TestCase):
             allowed = abs(work - simpson(gaps[::2], 2*step))/4
             self.assertLess(allowed, 1e-7)
             self.assertAlmostEqual(work, gained[1] - gained[0], delta=allowed)
+
+
+class Wave2d(ReferenceTable, unittest.TestCase):
+    surface = "wave_2d"
+    loads = frozenset(i/100 for i in range(1, 100)) | {0.001, 0.002, 0.005, 0.995, 0.998, 0.999}
+    to_recompute = 0.001, 0.05, 0.2, 0.226, 0.236, 0.3, 0.5, 0.8, 0.999
+    by_grids = (1e-3, (0.05, 0.2, 0.23, 0.4, 0.7)), (1e-4, (0.01, 0.1, 0.5, 0.95))
+    smooth = (8, 20), (40, 60), (60, 96)
+    merging_loads = 1e-4, 1e-6, 1e-5
+
+    def test_other_methods(self):
+        for load, *words in Table(OTHER_METHODS).rows():
+            for name, word in zip(VALUES, words):
+                # Half a unit of the last digit for rounding, one for the grids that gave the shorter values.
+                self.check(float(load), name, float(word), 1.5*10.0**-len(word.partition(".")[2]))
+
+
+class Hexagonal(ReferenceTable, unittest.TestCase):
+    surface = "hexagonal"
+    loads = frozenset(i/100 for i in range(1, 100)) | {0.001, 0.002, 0.005, 0.995, 0.998, 0.999}
+    to_recompute = 0.001, 0.05, 0.3, 0.5, 0.65, 0.72, 0.75, 0.9, 0.999
+    by_grids = (1e-3, (0.1, 0.6, 0.72, 0.8)), (1e-4, (0.01, 0.3, 0.95))
+    smooth = (8, 40), (40, 64), (76, 96)
+    merging_loads = 5e-4, 1e-5, 4e-5
 
 
 def simpson(values, step):
