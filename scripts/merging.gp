@@ -7,7 +7,8 @@
 # Towards merging the saddle's gap and, above it, the square of the saddle's pressure vanish as the distance in
 # load does, but for a logarithm: contact is a narrow strip there. With s for either, P is fitted as
 # P_m + s (c_1 + c_2 ln s + c_3 ln^2 s), and the values at distances d from the P_m found from below as
-# v_m + d (c_1 + c_2 ln d + c_3 d). Errors are the changes if c_3 = 0.
+# v_m + d (c_1 + c_2 ln d + c_3 d). Errors are the changes if c_3 = 0, and of the values what the load's error makes
+# beside.
 surface = ARG1
 details = ARG2
 lightest = real(ARG3)
@@ -34,9 +35,10 @@ do for [side in 'below above'] {
    chosen = "pick('".side."', $1)"
    eval fit_both('by_saddle(x)', chosen, 1, "small('".side."', $10, $12)")
    line = sprintf('%-11s %-7s %16.9f %12.1e', surface, side, v_m, error)
-   if (side eq 'below') { merging_load = v_m }
+   if (side eq 'below') { merging_load = v_m; load_error = error }
    do for [column in '2 4 6'] {
       eval fit_both('by_load(x)', chosen, int(column), '(abs($1 - merging_load)/unit)')
+      error = error + load_error/unit*abs(c_1 + c_2*log(load_error/unit))
       line = line.sprintf(' %16.9f %12.1e', v_m, error)
    }
    print line
