@@ -57,7 +57,8 @@ contains
       logical, intent(in), optional :: rows_along_y   !! along x if absent
 
       integer, parameter :: n = highest_degree
-      real(dp) :: cosine(0:n, 0:n), to_powers(0:n, 0:n), values(0:n, 0:n, 2), distance, reach, x, y
+      real(dp), dimension(0:n, 0:n) :: cosine, distance, to_powers, x, y
+      real(dp) :: image(2), reach, values(0:n, 0:n, 2)
       integer :: degree(0:n), i, j, k
 
       kernel%height = height
@@ -67,11 +68,10 @@ contains
       allocate (kernel%image(2, 0))
       do j = -4, 4
          do i = -6, 6
-            x = i + row_shift*j
-            y = height*j
+            image = [i + row_shift*j, height*j]
             if (i == 0 .and. j == 0) cycle
-            if (hypot(max(abs(x) - 0.5_dp, 0.0_dp), max(abs(y) - 0.5_dp*height, 0.0_dp)) > reach) cycle
-            kernel%image = reshape([kernel%image, x, y], [2, size(kernel%image, 2) + 1])
+            if (norm2(max(abs(image) - 0.5_dp*[1.0_dp, height], 0.0_dp)) > reach) cycle
+            kernel%image = reshape([kernel%image, image], [2, size(kernel%image, 2) + 1])
          end do
       end do
 
@@ -82,14 +82,15 @@ contains
       end do
       do j = 0, n
          do i = 0, n
-            x = 0.5_dp*sqrt(0.5_dp*(1.0_dp + cosine(1, i)))
-            y = 0.5_dp*height*sqrt(0.5_dp*(1.0_dp + cosine(1, j)))
-            call ewald_sum(height, row_shift, x, y, values(i, j, 1), values(i, j, 2))
-            do k = 1, size(kernel%image, 2)
-               distance = hypot(x - kernel%image(1, k), y - kernel%image(2, k))
-               values(i, j, :) = values(i, j, :) - [1.0_dp/distance, 1.0_dp/distance**3]
-            end do
+            x(i, j) = 0.5_dp*sqrt(0.5_dp*(1.0_dp + cosine(1, i)))
+            y(i, j) = 0.5_dp*height*sqrt(0.5_dp*(1.0_dp + cosine(1, j)))
          end do
+      end do
+      call ewald_sum(height, row_shift, size(x), x, y, values(:, :, 1), values(:, :, 2))
+      do k = 1, size(kernel%image, 2)
+         distance = hypot(x - kernel%image(1, k), y - kernel%image(2, k))
+         values(:, :, 1) = values(:, :, 1) - 1.0_dp/distance
+         values(:, :, 2) = values(:, :, 2) - 1.0_dp/distance**3
       end do
       degree = -1
       do k = 1, 2
@@ -385,46 +386,57 @@ contains
       reduced = cmplx(x(1), y(1), dp)
    end function reduced
 
-   !> Gp - 1/r and its Laplacian by Ewald's sum.
-   pure subroutine ewald_sum(height, row_shift, x, y, value, laplacian)
-      real(dp), intent(in) :: height        !! distance of two rows [s]
-      real(dp), intent(in) :: row_shift     !! of the next row along x [s]
-      real(dp), intent(in) :: x, y          !! [s], in the rectangle about the origin
-      real(dp), intent(out) :: value        !! [1/s]
-      real(dp), intent(out) :: laplacian    !! [1/s^3]
+   !> Gp - 1/r and its Laplacian by Ewald's sum at n places.
+   pure subroutine ewald_sum(height, row_shift, n, x, y, value, laplacian)
+      real(dp), intent(in) :: height            !! distance of two rows [s]
+      real(dp), intent(in) :: row_shift         !! of the next row along x [s]
+      integer, intent(in) :: n
+      real(dp), intent(in) :: x(n), y(n)        !! [s], in the rectangle about the origin
+      real(dp), intent(out) :: value(n)         !! [1/s]
+      real(dp), intent(out) :: laplacian(n)     !! [1/s^3]
 
-      real(dp) :: bell, e, k_x, k_y, r, reach, screened, wave
-      integer :: i, j, rows, columns
+      real(dp) :: bell, e, k_x, k_y, r, reach, square, term, weight
+      integer :: i, j, k, rows, columns
 
       e = sqrt(pi/height)
-      value = -2*sqrt(pi)/(e*height) + e*long_range(e*hypot(x, y), derivative=0)
-      laplacian = e**3*long_range(e*hypot(x, y), derivative=2)
+      do k = 1, n
+         r = e*hypot(x(k), y(k))
+         value(k) = -2*sqrt(pi)/(e*height) + e*long_range(r, derivative=0)
+         laplacian(k) = e**3*long_range(r, derivative=2)
+      end do
       reach = cut_off/e
       rows = ceiling(reach/height + 0.5_dp)
       columns = ceiling(reach + 1.0_dp + 0.5_dp*rows)
       do j = -rows, rows
          do i = -columns, columns
-            r = hypot(x - i - row_shift*j, y - height*j)
-            if ((i == 0 .and. j == 0) .or. r >= reach) cycle
-            screened = erfc(e*r)/r
-            bell = 2*e/sqrt(pi)*exp(-(e*r)**2)
-            value = value + screened
-            laplacian = laplacian + screened/r**2 + bell*(1/r**2 + 2*e**2)
+            if (i == 0 .and. j == 0) cycle
+            do k = 1, n
+               square = (x(k) - i - row_shift*j)**2 + (y(k) - height*j)**2
+               if (square >= reach**2) cycle
+               r = sqrt(square)
+               term = erfc(e*r)/r
+               bell = 2*e/sqrt(pi)*exp(-e**2*square)
+               value(k) = value(k) + term
+               laplacian(k) = laplacian(k) + term/square + bell*(1/square + 2*e**2)
+            end do
          end do
       end do
-      ! The reciprocal lattice: (i, (j - i shift)/height).
+      ! The reciprocal lattice: (i, (j - i shift)/height), one of k and -k.
       reach = cut_off*e/pi
       columns = ceiling(reach)
       rows = ceiling(reach*height + 0.5_dp*columns)
       do j = -rows, rows
-         do i = -columns, columns
+         do i = 0, columns
             k_x = i
             k_y = (j - i*row_shift)/height
             r = hypot(k_x, k_y)
-            if ((i == 0 .and. j == 0) .or. r >= reach) cycle
-            wave = erfc(pi*r/e)/(r*height)*cos(2*pi*(k_x*x + k_y*y))
-            value = value + wave
-            laplacian = laplacian - (2*pi*r)**2*wave
+            if ((i == 0 .and. j <= 0) .or. r >= reach) cycle
+            weight = 2*erfc(pi*r/e)/(r*height)
+            do k = 1, n
+               term = weight*cos(2*pi*(k_x*x(k) + k_y*y(k)))
+               value(k) = value(k) + term
+               laplacian(k) = laplacian(k) - (2*pi*r)**2*term
+            end do
          end do
       end do
    end subroutine ewald_sum
