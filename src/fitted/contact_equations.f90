@@ -78,6 +78,8 @@ contains
          angles = degree/fold + merge(2, 1, like%island)
          ! Sharper shapes are better determined by half as many again.
          if (reach > angular_reach) angles = 3*angles/2
+         ! Of a round shape each term is a harmonic of the angle, and the last would vanish at as many angles.
+         angles = max(angles, ubound(like%shape%b, 1) + 1)
       end associate
       allocate (equations%target(radii*angles))
       n = 0

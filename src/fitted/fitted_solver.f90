@@ -331,6 +331,8 @@ contains
       shape_terms = degree/3 + 1
       ! Low degrees do not determine as many.
       if (degree < fine_degree) shape_terms = (degree + 1)/3
+      ! Of four-fold symmetry. Others go to about the same power: more would be rounding.
+      shape_terms = nint(4.0_dp*shape_terms/fold)
    end function shape_terms
 
    !> The crowding of the edge's points for the next degree.
