@@ -70,6 +70,9 @@ contains
              (start%island .eqv. pbar_over_pstar >= start%pbar_over_pstar)) first_is_island = start%island
       end if
       call solve_regime(lattice, accuracy, first_is_island, answer, start, fields)
+      ! A sharp shape is no start for a rounder one that is not near.
+      if (answer%status >= fitted_merged .and. present(start)) &
+         call solve_regime(lattice, accuracy, first_is_island, answer, fields=fields)
       if (answer%status >= fitted_merged) &
          call solve_regime(lattice, accuracy, .not. first_is_island, answer, start, fields)
    end subroutine solve_fitted
@@ -117,7 +120,7 @@ contains
       trusted = .false.
       compared = 0
       do
-         now = now%raised(degree, shape_terms(degree, now%basis%fold), crowding(lattice, now))
+         now = now%raised(degree, shape_terms(degree, now%basis%fold, reach(lattice, now)), crowding(lattice, now))
          call cover(images, lattice, now, growth, of_accuracy*min(accuracy, loosest))
          call start_equations(equations, now, reach(lattice, now), images)
          if (reach(lattice, now) > 0.7_dp) tolerance = finest
@@ -319,8 +322,9 @@ contains
    end function next_degree
 
    !> Terms of the shape that go with a degree.
-   pure integer function shape_terms(degree, fold)
+   pure integer function shape_terms(degree, fold, edge_reach)
       integer, intent(in) :: degree, fold
+      real(dp), intent(in) :: edge_reach
 
       ! With two-fold symmetry each is of the next odd power only. Each degree has its own number, or the next one
       ! would change the area by less than it is wrong.
@@ -331,8 +335,8 @@ contains
       shape_terms = degree/3 + 1
       ! Low degrees do not determine as many.
       if (degree < fine_degree) shape_terms = (degree + 1)/3
-      ! Of four-fold symmetry. Others go to about the same power: more would be rounding.
-      shape_terms = nint(4.0_dp*shape_terms/fold)
+      ! With other than four-fold symmetry to about the same power: more would be rounding, but not of sharp tips.
+      if (fold < 4 .or. edge_reach < round_reach) shape_terms = nint(4.0_dp*shape_terms/fold)
    end function shape_terms
 
    !> The crowding of the edge's points for the next degree.
