@@ -154,7 +154,7 @@ class Hexagonal(ReferenceTable, unittest.TestCase):
     to_recompute = 0.001, 0.05, 0.3, 0.5, 0.65, 0.72, 0.75, 0.9, 0.999
     by_grids = (1e-3, (0.1, 0.6, 0.72, 0.8)), (1e-4, (0.01, 0.3, 0.95))
     smooth = (8, 40), (40, 64), (76, 96)
-    merging_loads = 5e-4, 5e-5, 6e-5
+    merging_loads = 5e-4, 1e-4, 1e-4
 
 
 def simpson(values, step):
