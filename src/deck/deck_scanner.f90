@@ -206,7 +206,9 @@ contains
       pure logical function is_old_end(token)
          type(token_type), intent(in) :: token
 
-         is_old_end = lower_case(text%content(token%first:token%last)) == '&end'
+         ! Most names are longer: decks may have a million groups.
+         is_old_end = token%last - token%first + 1 == len('&end')
+         if (is_old_end) is_old_end = lower_case(text%content(token%first:token%last)) == '&end'
       end function is_old_end
 
       !> Takes the words and commas that follow 'key ='; token t is the first.

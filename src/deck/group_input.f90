@@ -135,6 +135,7 @@ contains
       table_of = 0
       first_of_table = 0
       do g = 1, size(scan%groups)
+         if (problems%is_full()) return
          name = word_of(text, scan, scan%groups(g)%name)
          i = findloc(tables%name == name(2:), .true., dim=1)
          if (i == 0) cycle
