@@ -21,21 +21,24 @@ contains
       type(expansion), intent(in) :: now        !! an island's gap
 
       complex(dp), dimension(size(rule%point)) :: z
-      real(dp), dimension(size(rule%point)) :: cubes
+      real(dp), dimension(size(rule%point)) :: cubes, strength, x, y
       real(dp) :: values(size(rule%point), now%basis%terms), total
       complex(dp) :: turn
-      integer :: g
+      integer :: g, mirrored
 
       call now%basis%evaluate(size(rule%point), rule%point, values)
+      strength = rule%weight*now%shape%jacobian(rule%point)*matmul(values, now%c)
+      z = now%shape%place(rule%point)
       total = 0.0_dp
-      do g = 0, now%basis%fold - 1
-         turn = exp(cmplx(0.0_dp, 2*pi*g/now%basis%fold, dp))
-         z = lattice%trough + turn*now%shape%place(rule%point)
-         call lattice%kernel%laplacian(size(z), z%re, z%im, cubes)
-         total = total + sum(rule%weight*now%shape%jacobian(rule%point)*matmul(values, now%c)*cubes)
-         z = lattice%trough + turn*conjg(now%shape%place(rule%point))
-         call lattice%kernel%laplacian(size(z), z%re, z%im, cubes)
-         total = total + sum(rule%weight*now%shape%jacobian(rule%point)*matmul(values, now%c)*cubes)
+      do mirrored = 1, 2
+         do g = 0, now%basis%fold - 1
+            turn = exp(cmplx(0.0_dp, 2*pi*g/now%basis%fold, dp))
+            x = lattice%trough%re + real(turn*z, dp)
+            y = lattice%trough%im + aimag(turn*z)
+            call lattice%kernel%laplacian(size(z), x, y, cubes)
+            total = total + sum(strength*cubes)
+         end do
+         z = conjg(z)
       end do
       pressure = load - lattice%closing_pressure + lattice%pressure_rise(-lattice%trough) &
          - lattice%troughs*total/(2*now%basis%fold)/(4*pi**2)
