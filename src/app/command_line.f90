@@ -179,10 +179,9 @@ contains
              newline// &
              '   --check        validate the decks and stop'//newline// &
              '   --output DIR   write the results there, not where the deck says'//newline// &
-             '   --resume       go on from the finished loads of an interrupted run, to the same'//newline// &
-             '                  tables; <case>.checkpoint holds them until the tables are written.'//newline// &
-             '                  What was solved on grids is not solved again; loads of series and of'//newline// &
-             '                  expansions, which start from the one before, are, for the same digits'//newline// &
+             '   --resume       continue an interrupted run, to the same tables. Loads that were solved'//newline// &
+             '                  on grids are read from <case>.checkpoint; loads of the other solvers are'//newline// &
+             '                  fast and are solved again'//newline// &
              '   --threads N    work on large grids with N threads; 1 if not given'//newline// &
              '   --quiet        say nothing but what is wrong'//newline// &
              '   --version      show the version and stop'//newline// &

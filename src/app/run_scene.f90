@@ -2,15 +2,10 @@
 module wavycon_run_scene
    use wavycon_checkpoint, only: checkpoint_file, checkpoint_name, read_checkpoint
    use wavycon_choose_solver, only: choose_solver
-   use wavycon_coefficients_table, only: write_coefficients_table
-   use wavycon_contact_state, only: converged
-   use wavycon_contour_table, only: write_contour_table
+   use wavycon_contact_status, only: converged
    use wavycon_deck, only: deck_type
-   use wavycon_details_table, only: write_details_table
    use wavycon_error, only: error_type, exit_file_trouble, exit_fine, exit_not_converged, fatal_error
    use wavycon_kinds, only: dp
-   use wavycon_lines_table, only: write_lines_table
-   use wavycon_map_table, only: write_map_table
    use wavycon_output_file, only: output_file
    use wavycon_plain_text, only: escaped, integer_text, short_number
    use wavycon_resolved_deck, only: write_resolved_deck
@@ -18,21 +13,13 @@ module wavycon_run_scene
    use wavycon_run_log, only: run_log
    use wavycon_scene, only: scene_type
    use wavycon_solve_loads, only: solve_loads
-   use wavycon_summary_table, only: write_summary_table
    use wavycon_system, only: make_directories
-   use wavycon_theory_table, only: write_theory_table
+   use wavycon_table, only: table_type
+   use wavycon_tables, only: all_tables, table_item
    implicit none (type, external)
    private
 
    public :: run_scene
-
-   abstract interface
-      subroutine table_writer(results, error)
-         import :: error_type, results_type
-         type(results_type), intent(in) :: results
-         type(error_type), allocatable, intent(out) :: error
-      end subroutine table_writer
-   end interface
 
 contains
 
@@ -48,30 +35,42 @@ contains
       type(results_type) :: results
       type(run_log), target :: log
       type(checkpoint_file) :: checkpoint
-      logical, allocatable :: known(:)
-      integer :: bad, hidden
+      type(table_item), allocatable :: tables(:)
+      integer :: bad, hidden, i
+      logical :: keep_fields
 
       status = exit_fine
       call log%start(quiet)
       results%deck = deck
       results%directory = trim(deck%output%directory)
       call move_alloc(scene, results%scene)
-      call choose_solver(deck, results%scene, results%contact)
+      call all_tables(tables)
+      keep_fields = .false.
+      do i = 1, size(tables)
+         if (is_requested(tables(i)%table, deck)) keep_fields = keep_fields .or. tables(i)%table%needs_fields()
+      end do
+      call choose_solver(deck, results%scene, keep_fields, results%solver)
       call log%show_scene(results)
-      allocate (results%states(size(results%scene%target)))
-      allocate (known(size(results%states)), source=.false.)
-      if (resume) call take_checkpoint(results, known, log, error)
+      allocate (results%loads(size(results%scene%target)))
+      call resolved_deck_text(results)
+      if (resume) call take_checkpoint(results, log, error)
       if (.not. allocated(error)) call prepare_directory(results, error)
       if (allocated(error)) return
 
-      call checkpoint%begin(results, known)
-      call solve_loads(results, known, checkpoint, log)
-      if (.not. checkpoint%is_kept()) call log%say('note: not all loads could be written to '// &
+      call checkpoint%create(results)
+      call solve_loads(results, checkpoint, log)
+      if (.not. checkpoint%is_complete()) call log%say('note: not all loads could be written to '// &
                                                    escaped(checkpoint_name(results))//', to resume from')
       call log%say_timed('solved and measured')
       call log%show_loads(results)
-      hidden = count(results%states%status == converged .and. &
-                     results%states%measures%contact_area_fraction <= 0.0_dp)
+      hidden = 0
+      bad = 0
+      do i = 1, size(results%loads)
+         associate (solution => results%loads(i)%solution)
+            if (solution%status == converged .and. solution%measures%contact_area_fraction <= 0.0_dp) hidden = hidden + 1
+            if (.not. solution%is_good()) bad = bad + 1
+         end associate
+      end do
       if (hidden > 0) call log%say('note: at '//integer_text(hidden)//' loads no pressure reaches edge_level = '// &
                                    short_number(deck%method%edge_level)// &
                                    ' p*, so that their contact area shows as 0')
@@ -79,32 +78,32 @@ contains
       call write_tables(results, error)
       if (allocated(error)) return
       call checkpoint%remove()
-      bad = count(.not. results%states%is_good())
       if (bad > 0) status = exit_not_converged
       if (results%scene%p_star <= 0.0_dp) call log%say('the surface is flat: there is only a summary')
       call log%say_timed('tables written')
       call log%say('results: '//escaped(results%directory)//'/'//trim(deck%scene%case)//'.summary.dat')
       if (bad == 0) then
-         call log%say(trim(deck%scene%case)//': all '//integer_text(size(results%states))//' loads solved')
+         call log%say(trim(deck%scene%case)//': all '//integer_text(size(results%loads))//' loads solved')
       else
-         call log%say(trim(deck%scene%case)//': '//integer_text(bad)//' of '//integer_text(size(results%states))// &
+         call log%say(trim(deck%scene%case)//': '//integer_text(bad)//' of '//integer_text(size(results%loads))// &
                       ' loads NOT solved as asked, see the status column')
       end if
    end subroutine run_scene
 
    !> Takes the loads that are finished. Errors: exit_bad_input, exit_file_trouble.
-   subroutine take_checkpoint(results, known, log, error)
+   subroutine take_checkpoint(results, log, error)
       type(results_type), intent(inout) :: results
-      logical, intent(inout) :: known(:)          !! which loads those are
       type(run_log), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
 
       logical :: found
+      integer :: i, known
 
-      call read_checkpoint(results, known, found, error)
+      call read_checkpoint(results, found, error)
       if (allocated(error)) return
       if (found) then
-         call log%say('resumed   '//integer_text(count(known))//' of '//integer_text(size(known))// &
+         known = count([(allocated(results%loads(i)%solution), i=1, size(results%loads))])
+         call log%say('resumed   '//integer_text(known)//' of '//integer_text(size(results%loads))// &
                       ' loads are in '//escaped(checkpoint_name(results)))
       else
          call log%say('note: there is no '//escaped(checkpoint_name(results))// &
@@ -139,30 +138,70 @@ contains
       call file%finish(error)
    end subroutine prepare_directory
 
-   !> Writes the tables that the deck asks for. Of a flat surface only the summary: its fields are to be shown in p*
-   !> and Delta, which are zero.
+   !> Whether the deck requests a table.
+   logical function is_requested(table, deck)
+      class(table_type), intent(in) :: table
+      type(deck_type), intent(in) :: deck
+
+      associate (output => deck%output)
+         select case (table%key())
+         case ('lines')
+            is_requested = output%lines
+         case ('map')
+            is_requested = output%map
+         case ('contours')
+            is_requested = output%contours
+         case ('coefficients')
+            is_requested = output%coefficients
+         case ('theory')
+            is_requested = output%theory
+         case ('details')
+            is_requested = output%details
+         case default
+            is_requested = .true.
+         end select
+      end associate
+   end function is_requested
+
+   subroutine resolved_deck_text(results)
+      type(results_type), intent(inout) :: results
+
+      character(2000) :: line
+      type(deck_type) :: deck
+      integer :: status, unit
+
+      deck = results%deck
+      deck%path = ''
+      deck%output%directory = ''
+      results%resolved_deck = ''
+      open (newunit=unit, status='scratch', action='readwrite')
+      call write_resolved_deck(deck, unit, status)
+      rewind (unit)
+      do
+         read (unit, '(a)', iostat=status) line
+         if (status /= 0) exit
+         results%resolved_deck = results%resolved_deck//trim(line)//new_line('a')
+      end do
+      close (unit)
+   end subroutine resolved_deck_text
+
+   !> Writes the tables that the deck requests. Errors: exit_file_trouble.
    subroutine write_tables(results, error)
       type(results_type), intent(in) :: results
       type(error_type), allocatable, intent(out) :: error
 
-      call write_summary_table(results, error)
-      if (results%scene%p_star <= 0.0_dp) return
-      call write_if(results%deck%output%lines, write_lines_table)
-      call write_if(results%deck%output%map, write_map_table)
-      call write_if(results%deck%output%contours, write_contour_table)
-      call write_if(results%deck%output%coefficients, write_coefficients_table)
-      call write_if(results%deck%output%theory, write_theory_table)
-      call write_if(results%deck%output%details, write_details_table)
+      type(table_item), allocatable :: tables(:)
+      integer :: i
 
-   contains
-
-      subroutine write_if(asked, write_table)
-         logical, intent(in) :: asked
-         procedure(table_writer) :: write_table
-
-         if (asked .and. .not. allocated(error)) call write_table(results, error)
-      end subroutine write_if
-
+      call all_tables(tables)
+      do i = 1, size(tables)
+         associate (table => tables(i)%table)
+            if (.not. is_requested(table, results%deck)) cycle
+            if (results%scene%p_star <= 0.0_dp .and. .not. table%is_for_flat_surfaces()) cycle
+            call table%write(results, error)
+            if (allocated(error)) return
+         end associate
+      end do
    end subroutine write_tables
 
 end module wavycon_run_scene

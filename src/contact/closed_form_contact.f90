@@ -1,14 +1,16 @@
-!> The 1-D wave in closed form: Westergaard's solution. Fields are its exact Fourier series, cut far out.
+!> The 1-D wave in closed form: Westergaard's solution. Fields are its exact Fourier series, truncated.
 module wavycon_closed_form_contact
    use wavycon_constants, only: pi
    use wavycon_contact_measures, only: contact_measures
-   use wavycon_contact_state, only: by_closed_form, closed_form, contact_state
+   use wavycon_contact_solution, only: contact_solution
+   use wavycon_contact_solver, only: contact_solver
+   use wavycon_contact_status, only: closed_form
    use wavycon_fourier_series, only: fourier_series
    use wavycon_dundurs, only: dundurs_coefficients
    use wavycon_edge_curves, only: edge_curve, strip_ends
    use wavycon_kinds, only: dp
    use wavycon_kuznetsov, only: kuznetsov_mean_gap_over_amplitude
-   use wavycon_series_contact, only: series_contact
+   use wavycon_series_solution, only: series_solution
    use wavycon_surface, only: surface_type
    use wavycon_westergaard, only: westergaard_contact_area_fraction, westergaard_peak_pressure_over_pstar
    implicit none (type, external)
@@ -16,20 +18,33 @@ module wavycon_closed_form_contact
 
    public :: closed_form_contact
 
-   !> Terms of the fields' series. The pressure's fall as the power -3/2: it is then within 1e-5 p* almost
-   !> everywhere.
+   character(*), parameter :: solver_name = 'closed_form'
+
+   !> Terms of the fields' series. The coefficients of the pressure fall as i^(-3/2): the series is then within 1e-5 p* of the
+   !> pressure except next to the edge.
    integer, parameter :: field_terms = 2000
 
-   type, extends(series_contact) :: closed_form_contact
+   type, extends(contact_solver) :: closed_form_contact
    contains
-      procedure :: start
-      procedure :: solve
-      procedure :: solved_pressure
-      procedure :: solved_edge_curves
+      procedure, nopass :: name
       procedure :: describe
+      procedure :: start
+      procedure :: solve_partial_contact
    end type closed_form_contact
 
+   type, extends(series_solution) :: closed_form_solution
+   contains
+      procedure :: pressure
+      procedure :: edge_curves
+   end type closed_form_solution
+
 contains
+
+   pure function name() result(words)
+      character(:), allocatable :: words
+
+      words = solver_name
+   end function name
 
    subroutine start(self, surface)
       class(closed_form_contact), intent(out) :: self
@@ -38,44 +53,41 @@ contains
       self%surface = surface
    end subroutine start
 
-   subroutine solve(self, pbar_over_pstar, state)
+   subroutine solve_partial_contact(self, pbar_over_pstar, solution)
       class(closed_form_contact), intent(inout) :: self
-      real(dp), intent(in) :: pbar_over_pstar     !! P
-      type(contact_state), intent(out) :: state
+      real(dp), intent(in) :: pbar_over_pstar
+      class(contact_solution), allocatable, intent(out) :: solution
 
-      logical :: settled
+      associate (unused => self, gap => kuznetsov_mean_gap_over_amplitude(pbar_over_pstar))
+         allocate (closed_form_solution :: solution)
+         solution%pbar_over_pstar = pbar_over_pstar
+         solution%status = closed_form
+         solution%solver = solver_name
+         solution%measures = contact_measures( &
+                             mean_gap_over_amplitude=gap, approach_over_amplitude=1.0_dp - gap, &
+                             contact_area_fraction=westergaard_contact_area_fraction(pbar_over_pstar), &
+                             peak_pressure_over_pstar=westergaard_peak_pressure_over_pstar(pbar_over_pstar), &
+                             min_pressure_over_pstar=0.0_dp)
+      end associate
+   end subroutine solve_partial_contact
 
-      call self%settle(pbar_over_pstar, state, settled)
-      if (settled) return
-      state%status = closed_form
-      state%solver = by_closed_form
-      state%measures = contact_measures( &
-                       mean_gap_over_amplitude=kuznetsov_mean_gap_over_amplitude(pbar_over_pstar), &
-                       approach_over_amplitude=1.0_dp - kuznetsov_mean_gap_over_amplitude(pbar_over_pstar), &
-                       contact_area_fraction=westergaard_contact_area_fraction(pbar_over_pstar), &
-                       peak_pressure_over_pstar=westergaard_peak_pressure_over_pstar(pbar_over_pstar), &
-                       min_pressure_over_pstar=0.0_dp)
-   end subroutine solve
+   subroutine pressure(self, series)
+      class(closed_form_solution), intent(in) :: self
+      type(fourier_series), intent(out) :: series
 
-   function solved_pressure(self, state) result(field)
-      class(closed_form_contact), intent(in) :: self
-      type(contact_state), intent(in) :: state
-      type(fourier_series) :: field
+      allocate (series%c(0:field_terms, 0:0))
+      series%c(0, 0) = self%pbar_over_pstar
+      series%c(1:, 0) = dundurs_coefficients(self%pbar_over_pstar, field_terms)
+   end subroutine pressure
 
-      associate (unused => self); end associate
-      allocate (field%c(0:field_terms, 0:0))
-      field%c(0, 0) = state%pbar_over_pstar
-      field%c(1:, 0) = dundurs_coefficients(state%pbar_over_pstar, field_terms)
-   end function solved_pressure
-
-   subroutine solved_edge_curves(self, state, curves)
-      class(closed_form_contact), intent(in) :: self
-      type(contact_state), intent(in) :: state
+   subroutine edge_curves(self, surface, curves)
+      class(closed_form_solution), intent(in) :: self
+      type(surface_type), intent(in) :: surface
       type(edge_curve), allocatable, intent(out) :: curves(:)
 
-      associate (unused => self); end associate
-      call strip_ends([pi*state%measures%contact_area_fraction], .true., curves)
-   end subroutine solved_edge_curves
+      associate (unused => surface); end associate
+      call strip_ends([pi*self%measures%contact_area_fraction], .true., curves)
+   end subroutine edge_curves
 
    pure function describe(self) result(words)
       class(closed_form_contact), intent(in) :: self

@@ -1,6 +1,5 @@
 !> The pressure and the displacement of one solution, anywhere on the surface.
 module wavycon_contact_fields
-   use wavycon_constants, only: pi
    use wavycon_fourier_series, only: fourier_series
    use wavycon_kinds, only: dp
    implicit none (type, external)
@@ -11,7 +10,7 @@ module wavycon_contact_fields
    type, abstract :: contact_fields
    contains
       procedure(fields_at_point), deferred :: at
-      procedure :: on_cell
+      procedure(fields_on_cell), deferred :: on_cell
    end type contact_fields
 
    abstract interface
@@ -21,9 +20,17 @@ module wavycon_contact_fields
          real(dp), intent(in) :: x, y                       !! X, Y of the surface's cell [rad]
          real(dp), intent(out) :: pressure, displacement    !! p/p*, (u - ubar)/Delta
       end subroutine fields_at_point
+
+      !> At X = 2 pi k/N, Y = 2 pi l/N, k, l = 0..N (l = 0 alone in 1-D).
+      subroutine fields_on_cell(self, intervals, dimension, pressure, displacement)
+         import :: contact_fields, dp
+         class(contact_fields), intent(inout) :: self
+         integer, intent(in) :: intervals, dimension   !! N; 1 or 2
+         real(dp), allocatable, intent(out) :: pressure(:, :), displacement(:, :)   !! shape (0:N, 0:N) or (0:N, 0:0)
+      end subroutine fields_on_cell
    end interface
 
-   !> Both as series.
+   !> Both as Fourier series.
    type, extends(contact_fields) :: series_fields
       type(fourier_series) :: pressure, displacement
    contains
@@ -32,23 +39,6 @@ module wavycon_contact_fields
    end type series_fields
 
 contains
-
-   !> At X = 2 pi k/N, Y = 2 pi l/N, k, l = 0..N (l = 0 alone in 1-D).
-   subroutine on_cell(self, intervals, dimension, pressure, displacement)
-      class(contact_fields), intent(inout) :: self
-      integer, intent(in) :: intervals, dimension   !! N; 1 or 2
-      real(dp), allocatable, intent(out) :: pressure(:, :), displacement(:, :)   !! shape (0:N, 0:N) or (0:N, 0:0)
-
-      integer :: k, l, lines
-
-      lines = merge(0, intervals, dimension == 1)
-      allocate (pressure(0:intervals, 0:lines), displacement(0:intervals, 0:lines))
-      do l = 0, lines
-         do k = 0, intervals
-            call self%at(2*pi*k/intervals, 2*pi*l/intervals, pressure(k, l), displacement(k, l))
-         end do
-      end do
-   end subroutine on_cell
 
    subroutine series_at(self, x, y, pressure, displacement)
       class(series_fields), intent(inout) :: self
@@ -59,12 +49,13 @@ contains
       displacement = self%displacement%at(x, y)
    end subroutine series_at
 
+   !> The dimension is that of the series.
    subroutine series_on_cell(self, intervals, dimension, pressure, displacement)
       class(series_fields), intent(inout) :: self
       integer, intent(in) :: intervals, dimension
       real(dp), allocatable, intent(out) :: pressure(:, :), displacement(:, :)
 
-      associate (known_by_the_series => dimension); end associate
+      associate (unused => dimension); end associate
       call self%pressure%evaluate_on_cell(intervals, pressure)
       call self%displacement%evaluate_on_cell(intervals, displacement)
    end subroutine series_on_cell

@@ -1,152 +1,145 @@
-!> What all solvers that a user can choose have in common.
+!> What every solver that a user can select declares and does. src/README.md describes how to add one.
 module wavycon_contact_solver
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-   use wavycon_contact_fields, only: contact_fields, series_fields
    use wavycon_contact_measures, only: full_contact_measures
-   use wavycon_contact_state, only: contact_state, full_contact, no_load, no_memory, not_finite, not_found
-   use wavycon_edge_curves, only: edge_curve
+   use wavycon_contact_solution, only: contact_solution, solution_without_contact_edge
+   use wavycon_contact_status, only: full_contact, no_load, not_finite
    use wavycon_kinds, only: dp
+   use wavycon_solver_progress, only: solver_progress
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
 
-   public :: contact_solver, is_settled
+   public :: contact_solver
 
-   !> A solver of one surface, for loads that are best given from the highest to the lowest. Fields and edges are in
-   !> the angles X, Y of the surface's cell.
+   !> A solver of one surface. Some solvers start each load from the last one: give the loads from the highest to the lowest.
    type, abstract :: contact_solver
       type(surface_type) :: surface
+      class(solver_progress), pointer :: progress => null()   !! shown the progress within a load, if associated
    contains
-      procedure :: settle
-      procedure :: cheaper_levels
-      procedure :: use_level
-      procedure :: fields
-      procedure :: settled_fields
-      procedure :: edge_curves
-      procedure(solve_load), deferred :: solve
-      procedure(fields_of_state), deferred :: solved_fields
-      procedure(edge_of_state), deferred :: solved_edge_curves
+      procedure(name_of_solver), deferred, nopass :: name
       procedure(words_of_solver), deferred :: describe
+      procedure :: solve
+      procedure(solve_load), deferred :: solve_partial_contact
+      procedure :: has_coefficients
+      procedure :: has_details
+      procedure :: show_progress
+      procedure :: coarser_levels
+      procedure :: use_level
+      procedure :: starts_from_last_load
+      procedure :: skip_load
+      procedure :: new_kept_solution
    end type contact_solver
 
    abstract interface
-      !> Solves for one load and measures it. Whatever happens the state has a status.
-      subroutine solve_load(self, pbar_over_pstar, state)
-         import :: contact_solver, contact_state, dp
-         class(contact_solver), intent(inout) :: self
-         real(dp), intent(in) :: pbar_over_pstar     !! P
-         type(contact_state), intent(out) :: state
-      end subroutine solve_load
+      !> The name in decks and tables.
+      pure function name_of_solver() result(name)
+         character(:), allocatable :: name
+      end function name_of_solver
 
-      !> Pressure and displacement of a state between no load and full contact.
-      subroutine fields_of_state(self, state, fields)
-         import :: contact_fields, contact_solver, contact_state
-         class(contact_solver), intent(in) :: self
-         type(contact_state), intent(in) :: state
-         class(contact_fields), allocatable, intent(out) :: fields
-      end subroutine fields_of_state
-
-      !> The edge of contact of such a state: closed curves in 2-D, in 1-D the two ends of each strip.
-      subroutine edge_of_state(self, state, curves)
-         import :: contact_solver, contact_state, edge_curve
-         class(contact_solver), intent(in) :: self
-         type(contact_state), intent(in) :: state
-         type(edge_curve), allocatable, intent(out) :: curves(:)
-      end subroutine edge_of_state
-
-      !> The solver and its discretisation, for the log and the heads of tables.
+      !> The discretisation, for the log and the heads of tables.
       pure function words_of_solver(self) result(words)
          import :: contact_solver
          class(contact_solver), intent(in) :: self
          character(:), allocatable :: words
       end function words_of_solver
+
+      !> Solves and measures one load between no load and full contact. The solution is always allocated and has a status.
+      subroutine solve_load(self, pbar_over_pstar, solution)
+         import :: contact_solution, contact_solver, dp
+         class(contact_solver), intent(inout) :: self
+         real(dp), intent(in) :: pbar_over_pstar     !! 0 < P < 1
+         class(contact_solution), allocatable, intent(out) :: solution
+      end subroutine solve_load
    end interface
 
 contains
 
-   !> Settles the loads that need no solver: none, those from full contact on, and what is no number.
-   subroutine settle(self, pbar_over_pstar, state, settled)
-      class(contact_solver), intent(in) :: self
-      real(dp), intent(in) :: pbar_over_pstar
-      type(contact_state), intent(inout) :: state
-      logical, intent(out) :: settled
+   !> Solves and measures one load. The solution is always allocated and has a status.
+   subroutine solve(self, pbar_over_pstar, solution)
+      class(contact_solver), intent(inout) :: self
+      real(dp), intent(in) :: pbar_over_pstar        !! P
+      class(contact_solution), allocatable, intent(out) :: solution
 
-      settled = .true.
-      state%pbar_over_pstar = pbar_over_pstar
-      if (ieee_is_nan(pbar_over_pstar)) then
-         state%status = not_finite
-      else if (pbar_over_pstar >= 1.0_dp) then
-         state%status = full_contact
-         state%measures = full_contact_measures(pbar_over_pstar, self%surface%full_contact_peak)
-      else if (pbar_over_pstar <= 0.0_dp) then
-         state%status = no_load
-      else
-         settled = .false.
+      if (pbar_over_pstar > 0.0_dp .and. pbar_over_pstar < 1.0_dp) then
+         call self%solve_partial_contact(pbar_over_pstar, solution)
+         return
       end if
-   end subroutine settle
+      allocate (solution_without_contact_edge :: solution)
+      solution%pbar_over_pstar = pbar_over_pstar
+      if (ieee_is_nan(pbar_over_pstar)) then
+         solution%status = not_finite
+      else if (pbar_over_pstar >= 1.0_dp) then
+         solution%status = full_contact
+         solution%measures = full_contact_measures(pbar_over_pstar, self%surface%full_contact_peak)
+      else
+         solution%status = no_load
+      end if
+   end subroutine solve
 
-   !> How many times the loads to come may be solved more cheaply, by those who look for one of them.
-   integer function cheaper_levels(self)
+   !> Whether every solution has the coefficients of a pressure series that the solver computed.
+   pure logical function has_coefficients(self)
       class(contact_solver), intent(in) :: self
 
       associate (unused => self); end associate
-      cheaper_levels = 0
-   end function cheaper_levels
+      has_coefficients = .false.
+   end function has_coefficients
 
-   !> Solves the loads to come more cheaply.
+   !> Whether solutions have `contact_details`.
+   pure logical function has_details(self)
+      class(contact_solver), intent(in) :: self
+
+      associate (unused => self); end associate
+      has_details = .false.
+   end function has_details
+
+   !> Shows the progress within each load to come.
+   subroutine show_progress(self, progress)
+      class(contact_solver), intent(inout) :: self
+      class(solver_progress), intent(in), pointer :: progress   !! null: no more
+
+      self%progress => progress
+   end subroutine show_progress
+
+   !> Number of levels at which loads can be solved faster and less accurately, while a load is searched for.
+   integer function coarser_levels(self)
+      class(contact_solver), intent(in) :: self
+
+      associate (unused => self); end associate
+      coarser_levels = 0
+   end function coarser_levels
+
+   !> Selects the level of the loads to come.
    subroutine use_level(self, level)
       class(contact_solver), intent(inout) :: self
-      integer, intent(in) :: level   !! 0 for as good as asked for .. `cheaper_levels`
+      integer, intent(in) :: level   !! 0, as accurate as requested, to coarser_levels
 
       associate (unused => self, unused_too => level); end associate
    end subroutine use_level
 
-   !> Pressure and displacement of any state.
-   subroutine fields(self, state, answer)
+   !> Whether a solution depends, if only in its last digits, on the load solved before.
+   pure logical function starts_from_last_load(self)
       class(contact_solver), intent(in) :: self
-      type(contact_state), intent(in) :: state
-      class(contact_fields), allocatable, intent(out) :: answer
 
-      if (is_settled(state)) then
-         allocate (answer, source=self%settled_fields(state))
-      else
-         call self%solved_fields(state, answer)
-      end if
-   end subroutine fields
+      associate (unused => self); end associate
+      starts_from_last_load = .false.
+   end function starts_from_last_load
 
-   !> Those of a state that needed no solver: all closed in full contact, else nothing yet.
-   type(series_fields) function settled_fields(self, state) result(both)
+   !> Brings the solver to where it would be after solving a load whose solution was kept from an interrupted run.
+   subroutine skip_load(self, pbar_over_pstar)
+      class(contact_solver), intent(inout) :: self
+      real(dp), intent(in) :: pbar_over_pstar        !! P
+
+      associate (unused => self, unused_too => pbar_over_pstar); end associate
+   end subroutine skip_load
+
+   !> An empty solution of the type that this solver's is_kept solutions have. Not allocated if it keeps none.
+   subroutine new_kept_solution(self, solution)
       class(contact_solver), intent(in) :: self
-      type(contact_state), intent(in) :: state
+      class(contact_solution), allocatable, intent(out) :: solution
 
-      if (state%status == full_contact) then
-         both%pressure = self%surface%full_contact_series(state%pbar_over_pstar)
-         both%displacement = self%surface%shape
-      else
-         allocate (both%pressure%c, both%displacement%c, mold=self%surface%shape%c)
-         both%pressure%c = 0.0_dp
-         both%displacement%c = 0.0_dp
-      end if
-   end function settled_fields
-
-   subroutine edge_curves(self, state, curves)
-      class(contact_solver), intent(in) :: self
-      type(contact_state), intent(in) :: state
-      type(edge_curve), allocatable, intent(out) :: curves(:)
-
-      if (is_settled(state)) then
-         allocate (curves(0))
-      else
-         call self%solved_edge_curves(state, curves)
-      end if
-   end subroutine edge_curves
-
-   !> Whether a state needed no solver, or has nothing from it.
-   pure logical function is_settled(state)
-      type(contact_state), intent(in) :: state
-
-      is_settled = state%status == full_contact .or. state%status == no_load .or. state%status == not_finite .or. &
-                   state%status == not_found .or. (state%status == no_memory .and. .not. allocated(state%edge))
-   end function is_settled
+      associate (unused => self); end associate
+      if (allocated(solution)) return
+   end subroutine new_kept_solution
 
 end module wavycon_contact_solver

@@ -9,7 +9,7 @@ module wavycon_grid_cascade
    use wavycon_contact_measures, only: largest_errors
    use wavycon_grid_edge, only: grid_contact_area, grid_edge, start_grid_edge
    use wavycon_grid_peak, only: grid_peak_pressure
-   use wavycon_grid_progress, only: grid_progress
+   use wavycon_solver_progress, only: solver_progress
    use wavycon_grid_solver, only: grid_state, solve_on_grid
    use wavycon_kinds, only: dp
    use wavycon_surface, only: surface_type
@@ -55,7 +55,7 @@ contains
       real(dp), intent(in) :: accuracy                !! of all three values, absolute; 0 for that of `points` alone
       integer, intent(in) :: points(2)                !! of the last grid's whole cell; zeros: the accuracy decides
       type(cascade_answer), intent(out) :: answer
-      class(grid_progress), intent(in), optional :: progress   !! that hears of each grid
+      class(solver_progress), intent(in), optional :: progress   !! that hears of each grid
 
       real(dp) :: values(3), change(3), last_change(3), tolerance
       real(dp), allocatable :: finer(:, :)

@@ -1,55 +1,78 @@
-!> Contact on grids, to an accuracy asked for or on a grid of so many points.
+!> solver = 'grid': contact on grids, refined to an accuracy or with a given number of points.
 !>
-!> Surfaces that mirror themselves are solved on a quarter of their cell. The wave (21), and any like it, repeats
-!> itself on a square of half the area turned by 45 degrees, of which a quarter is enough, unless the points are to
-!> lie on the user's cell.
+!> A surface with mirror symmetry is solved on a quarter of its cell. The wave (21), and any surface like it, also repeats
+!> itself on a square of half the area turned by 45 degrees; a quarter of that square is then enough, unless the number of
+!> points, which refers to the user's cell, is given.
 module wavycon_grid_contact
+   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_constants, only: pi
-   use wavycon_contact_measures, only: contact_measures, unmeasured
-   use wavycon_contact_state, only: by_grid, contact_state, converged, no_memory, not_accurate
+   use wavycon_contact_measures, only: contact_measures
+   use wavycon_contact_solution, only: contact_solution, no_solution, pack_common, packed_values, unpack_common
+   use wavycon_contact_solver, only: contact_solver
+   use wavycon_contact_status, only: converged, no_memory, not_accurate
    use wavycon_edge_curves, only: edge_curve, strip_ends, trace_edges, turn_curves, whole_strips
    use wavycon_fourier_series, only: fourier_series
    use wavycon_grid_cascade, only: cascade_answer, solve_by_cascade
-   use wavycon_grid_edge, only: grid_strip_edges, start_grid_edge
-   use wavycon_grid_progress, only: grid_progress
+   use wavycon_grid_edge, only: grid_edge, grid_strip_edges, start_grid_edge
    use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: integer_text, short_number
    use wavycon_qp_problem, only: qp_iteration_limit, qp_status_name
-   use wavycon_series_contact, only: series_contact
+   use wavycon_series_solution, only: series_solution
    use wavycon_surface, only: surface_type
    use wavycon_turned_series, only: to_half_angles
    implicit none (type, external)
    private
 
-   public :: grid_contact
+   public :: grid_contact, grid_solution
 
-   type, extends(series_contact) :: grid_contact
-      class(grid_progress), pointer :: progress => null()   !! that hears of each grid
-      real(dp), private :: accuracy = 0.0_dp                 !! asked for
-      integer, private :: points(2) = 0                      !! likewise
+   character(*), parameter :: solver_name = 'grid'
+
+   type, extends(contact_solver) :: grid_contact
+      real(dp), private :: accuracy = 0.0_dp                 !! requested
+      integer, private :: points(2) = 0                      !! requested
       integer, private :: level = 0
       logical, private :: keep_fields = .true., turned = .false.
       type(surface_type), private :: solved                  !! the surface on the cell that is solved
    contains
-      procedure :: start
-      procedure :: cheaper_levels
-      procedure :: use_level
-      procedure :: solve
-      procedure :: solved_pressure
-      procedure :: solved_edge_curves
+      procedure, nopass :: name
       procedure :: describe
+      procedure :: start
+      procedure :: solve_partial_contact
+      procedure :: coarser_levels
+      procedure :: use_level
+      procedure :: new_kept_solution
    end type grid_contact
 
+   type, extends(series_solution) :: grid_solution
+      type(grid_edge), allocatable :: edge    !! pressure and gap at the grid points; not allocated if not kept
+      logical, private :: turned = .false.    !! the grid's cell is the smaller one, turned by 45 degrees
+   contains
+      procedure :: pressure
+      procedure :: edge_curves
+      procedure :: is_kept
+      procedure :: pack_kept
+      procedure :: unpack_kept
+   end type grid_solution
+
+   !> Numbers that pack_kept puts between the common ones and the field.
+   integer, parameter :: own_values = 4
+
 contains
+
+   pure function name() result(words)
+      character(:), allocatable :: words
+
+      words = solver_name
+   end function name
 
    subroutine start(self, surface, accuracy, keep_fields, points)
       class(grid_contact), intent(out) :: self
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: accuracy      !! of mean gap [Delta], contact area fraction and peak pressure [p*]
-      logical, intent(in) :: keep_fields    !! whether `pressure`, `fields` and `edge_curves` will be asked for
+      logical, intent(in) :: keep_fields    !! whether solutions keep their fields and edges
       !> Of the whole cell; if present and above zero the grid to be solved, whatever the accuracy. Even numbers for
-      !> a surface that mirrors itself; of a profile the first alone counts.
+      !> a surface with mirror symmetry; of a profile only the first counts.
       integer, intent(in), optional :: points(2)
 
       self%surface = surface
@@ -62,11 +85,11 @@ contains
       if (self%turned) self%solved = surface%smaller_cell()
    end subroutine start
 
-   !> One ten times less accurate, or with half the points, each.
-   integer function cheaper_levels(self) result(levels)
+   !> Each level is ten times less accurate than the one before, or has half the points each way.
+   integer function coarser_levels(self) result(levels)
       class(grid_contact), intent(in) :: self
 
-      !> What is less is no guide to the better answer.
+      !> Coarser levels do not help the search.
       real(dp), parameter :: worst_accuracy = 1e-2_dp
       integer, parameter :: least_points = 64
 
@@ -81,7 +104,7 @@ contains
             levels = levels + 1
          end do
       end if
-   end function cheaper_levels
+   end function coarser_levels
 
    subroutine use_level(self, level)
       class(grid_contact), intent(inout) :: self
@@ -90,16 +113,14 @@ contains
       self%level = level
    end subroutine use_level
 
-   subroutine solve(self, pbar_over_pstar, state)
+   subroutine solve_partial_contact(self, pbar_over_pstar, solution)
       class(grid_contact), intent(inout) :: self
-      real(dp), intent(in) :: pbar_over_pstar     !! P
-      type(contact_state), intent(out) :: state
+      real(dp), intent(in) :: pbar_over_pstar
+      class(contact_solution), allocatable, intent(out) :: solution
 
       type(cascade_answer) :: answer
-      logical :: settled
+      type(grid_solution), allocatable :: own
 
-      call self%settle(pbar_over_pstar, state, settled)
-      if (settled) return
       associate (accuracy => self%accuracy*10.0_dp**self%level, points => self%points/2**self%level)
          if (associated(self%progress)) then
             call solve_by_cascade(self%solved, pbar_over_pstar, accuracy, points, answer, self%progress)
@@ -107,71 +128,139 @@ contains
             call solve_by_cascade(self%solved, pbar_over_pstar, accuracy, points, answer)
          end if
       end associate
-      state%status = no_memory
-      state%solver = by_grid
-      state%measures = unmeasured(self%surface%full_contact_peak)
-      if (.not. allocated(answer%state%gap)) return
-      state%measures = contact_measures(mean_gap_over_amplitude=answer%values(1), &
-                                        approach_over_amplitude=1.0_dp - answer%values(1), &
-                                        contact_area_fraction=answer%values(2), &
-                                        peak_pressure_over_pstar=answer%values(3), &
-                                        min_pressure_over_pstar=minval(answer%state%pressure), &
-                                        mean_gap_error=answer%errors(1), contact_area_error=answer%errors(2), &
-                                        peak_pressure_error=answer%errors(3))
-      state%active_constraints = count(answer%state%pressure <= 0.0_dp)
-      state%pivots = answer%iterations
-      state%kkt_residual = answer%state%residual
+      if (.not. allocated(answer%state%gap)) then
+         call no_solution(pbar_over_pstar, self%surface, solver_name, no_memory, solution)
+         return
+      end if
+      allocate (own)
+      own%pbar_over_pstar = pbar_over_pstar
+      own%solver = solver_name
+      own%turned = self%turned
+      own%measures = contact_measures(mean_gap_over_amplitude=answer%values(1), &
+                                      approach_over_amplitude=1.0_dp - answer%values(1), &
+                                      contact_area_fraction=answer%values(2), &
+                                      peak_pressure_over_pstar=answer%values(3), &
+                                      min_pressure_over_pstar=minval(answer%state%pressure), &
+                                      mean_gap_error=answer%errors(1), contact_area_error=answer%errors(2), &
+                                      peak_pressure_error=answer%errors(3))
+      own%active_constraints = count(answer%state%pressure <= 0.0_dp)
+      own%iterations = answer%iterations
+      own%residual = answer%state%residual
       if (.not. answer%state%converged) then
-         state%status = qp_status_name(qp_iteration_limit)
+         own%status = qp_status_name(qp_iteration_limit)
       else if (answer%accurate .or. (all(self%points > 0) .and. .not. answer%out_of_memory)) then
-         state%status = converged
+         own%status = converged
       else if (answer%out_of_memory) then
-         state%status = no_memory
+         own%status = no_memory
       else
-         state%status = not_accurate
+         own%status = not_accurate
       end if
       if (self%keep_fields) then
-         allocate (state%edge)
-         call start_grid_edge(state%edge, answer%state%pressure, answer%state%gap, self%solved%shape%is_even())
+         allocate (own%edge)
+         call start_grid_edge(own%edge, answer%state%pressure, answer%state%gap, self%solved%shape%is_even())
       end if
-   end subroutine solve
+      call move_alloc(own, solution)
+   end subroutine solve_partial_contact
 
-   function solved_pressure(self, state) result(field)
-      class(grid_contact), intent(in) :: self
-      type(contact_state), intent(in) :: state
-      type(fourier_series) :: field
+   subroutine pressure(self, series)
+      class(grid_solution), intent(in) :: self
+      type(fourier_series), intent(out) :: series
 
       type(grid_transform) :: transform
       real(dp), allocatable :: p(:, :)
 
-      allocate (p, mold=state%edge%pressure_or_gap)
-      p = max(state%edge%pressure_or_gap, 0.0_dp)
-      call transform%start(shape(p), state%edge%even)
-      call transform%series(p, field)
-      if (self%turned) field = to_half_angles(field)
-   end function solved_pressure
+      if (.not. allocated(self%edge)) return
+      allocate (p, mold=self%edge%pressure_or_gap)
+      p = max(self%edge%pressure_or_gap, 0.0_dp)
+      call transform%start(shape(p), self%edge%even)
+      call transform%series(p, series)
+      if (self%turned) series = to_half_angles(series)
+   end subroutine pressure
 
-   subroutine solved_edge_curves(self, state, curves)
-      class(grid_contact), intent(in) :: self
-      type(contact_state), intent(in) :: state
+   subroutine edge_curves(self, surface, curves)
+      class(grid_solution), intent(in) :: self
+      type(surface_type), intent(in) :: surface
       type(edge_curve), allocatable, intent(out) :: curves(:)
 
       real(dp), allocatable :: edges(:)
 
-      if (self%solved%dimension == 2) then
-         call trace_edges(state%edge, curves)
+      if (.not. allocated(self%edge)) then
+         allocate (curves(0))
+      else if (surface%dimension == 2) then
+         call trace_edges(self%edge, curves)
          if (self%turned) call fill_whole_cell(curves)
-         return
-      end if
-      call grid_strip_edges(state%edge, edges)
-      if (state%edge%even) then
-         call strip_ends(edges, state%edge%in_contact(1, 1), curves)
       else
-         call whole_strips(edges, state%edge%in_contact(1, 1), curves)
+         call grid_strip_edges(self%edge, edges)
+         if (self%edge%even) then
+            call strip_ends(edges, self%edge%in_contact(1, 1), curves)
+         else
+            call whole_strips(edges, self%edge%in_contact(1, 1), curves)
+         end if
       end if
-   end subroutine solved_edge_curves
+   end subroutine edge_curves
 
-   !> From the smaller cell to the surface's own, of which it is half: the other half is like it, half a cell away.
+   !> Grids are the solver that takes long.
+   pure logical function is_kept(self)
+      class(grid_solution), intent(in) :: self
+
+      associate (unused => self); end associate
+      is_kept = .true.
+   end function is_kept
+
+   subroutine new_kept_solution(self, solution)
+      class(grid_contact), intent(in) :: self
+      class(contact_solution), allocatable, intent(out) :: solution
+
+      associate (unused => self); end associate
+      allocate (grid_solution :: solution)
+   end subroutine new_kept_solution
+
+   !> The number of points, zero if the fields were not kept, then two symmetries and the pressures and gaps.
+   pure subroutine pack_kept(self, values)
+      class(grid_solution), intent(in) :: self
+      real(dp), allocatable, intent(out) :: values(:)
+
+      real(dp), allocatable :: common(:)
+      integer :: first, j, points(2), status
+
+      call pack_common(self, common)
+      points = 0
+      if (allocated(self%edge)) points = shape(self%edge%pressure_or_gap)
+      first = packed_values + own_values
+      allocate (values(first + product(points)), stat=status)
+      if (status /= 0) return
+      values(:first) = [common, real(points, dp), 0.0_dp, 0.0_dp]
+      if (self%turned) values(first - 1) = 1.0_dp
+      if (.not. allocated(self%edge)) return
+      if (self%edge%even) values(first) = 1.0_dp
+      do j = 1, points(2)
+         values(first + (j - 1)*points(1) + 1:first + j*points(1)) = self%edge%pressure_or_gap(:, j)
+      end do
+   end subroutine pack_kept
+
+   pure subroutine unpack_kept(self, values, understood)
+      class(grid_solution), intent(inout) :: self
+      real(dp), intent(in) :: values(:)
+      logical, intent(out) :: understood
+
+      integer :: first, points(2)
+      real(dp), allocatable :: field(:, :)
+
+      call unpack_common(self, values, understood)
+      first = packed_values + own_values
+      if (understood) understood = size(values) >= first
+      if (understood) understood = all(values(first - 3:first - 2) >= 0.0_dp) .and. &
+                                   nint(product(values(first - 3:first - 2)), int64) == size(values) - first
+      if (.not. understood) return
+      points = nint(values(first - 3:first - 2))
+      self%turned = values(first - 1) > 0.0_dp
+      if (product(points) == 0) return
+      field = reshape(values(first + 1:), points)
+      allocate (self%edge)
+      call start_grid_edge(self%edge, field, -field, values(first) > 0.0_dp)
+   end subroutine unpack_kept
+
+   !> From the smaller cell to the surface's own, which has twice its area: the other half repeats it, half a cell away.
    subroutine fill_whole_cell(curves)
       type(edge_curve), allocatable, intent(inout) :: curves(:)
 

@@ -1,23 +1,19 @@
-!> <case>.checkpoint: the loads of a sweep that are finished, from its beginning until its tables are written.
+!> <case>.checkpoint: the loads of a sweep that are solved, until its tables are written.
 !>
-!> First a mark, then frames: the number of words, its complement, the words and their checksum. The first
-!> frame tells the run apart from all others, the second says what is being solved, each further one is a
-!> load. What an interruption left of a last frame is not looked at; anything else that does not fit is
-!> damage.
+!> Only solutions that a resumed run may keep are written (contact_solution%is_kept); the others are fast to solve again. The
+!> file holds a mark and a line feed, then records: the number of 8-byte words, the words and their checksum. The first
+!> record identifies the run, the second is a text that describes what is solved, each further one is a solution. A last
+!> record that was cut short by an interruption is ignored.
 !>
-!> Runs side by side do not mix: each has a file of its own, which got its name when it was whole and loses
-!> it, to the next run that begins, without being written into by it.
+!> Two runs of the same case do not mix: each writes to a file of its own, which a later run replaces as a whole.
 module wavycon_checkpoint
    use, intrinsic :: iso_fortran_env, only: int64
-   use wavycon_checkpoint_words, only: checksum, state_of_words, surface_checksum, text_of_words, words_of_state, &
-                                       words_of_text
-   use wavycon_contact_state, only: contact_state
-   use wavycon_deck, only: deck_type
-   use wavycon_deck_text, only: deck_text_type, read_deck_text
+   use wavycon_contact_solution, only: contact_solution
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
+   use wavycon_kinds, only: dp
    use wavycon_plain_text, only: escaped, excerpt, integer_text, newline, system_words
-   use wavycon_resolved_deck, only: write_resolved_deck
    use wavycon_results, only: results_type
+   use wavycon_surface, only: surface_type
    use wavycon_system, only: file_size, path_absent, path_kind, process_id, remove_file, remove_when_interrupted, &
       rename_file
    use wavycon_version, only: revision, version
@@ -26,20 +22,20 @@ module wavycon_checkpoint
 
    public :: checkpoint_file, checkpoint_name, read_checkpoint
 
-   character(*), parameter :: mark = 'wavycon checkpoint 1'//newline
+   character(*), parameter :: mark = 'wavycon checkpoint 2'//newline
    integer, parameter :: bytes_of_word = 8
+   character(*), parameter :: end_of_text = '(end)'
    character(*), parameter :: way_out = '. Without --resume all loads are solved, and the checkpoint is replaced.'
 
    type :: checkpoint_file
       private
       integer :: unit = -1
       logical :: opened = .false.
-      integer(int64) :: run(3) = 0             !! that it is of
-      character(:), allocatable :: name        !! final name
-      character(:), allocatable :: name_now
+      integer(int64) :: run(3) = 0                    !! identifies the run
+      character(:), allocatable :: name, name_now     !! final name; name at present
    contains
-      procedure :: begin
-      procedure :: is_kept
+      procedure :: create
+      procedure :: is_complete
       procedure :: add
       procedure :: remove
    end type checkpoint_file
@@ -54,168 +50,151 @@ contains
       name = results%directory//'/'//trim(results%deck%scene%case)//'.checkpoint'
    end function checkpoint_name
 
-   !> The name of a file that this process alone uses, until it is renamed or removed.
-   function working_name(results, kind) result(name)
-      type(results_type), intent(in) :: results
-      character(*), intent(in) :: kind
-      character(:), allocatable :: name
-
-      name = results%directory//'/.'//trim(results%deck%scene%case)//'.'//kind//'.'//integer_text(process_id())// &
-         '.part'
-   end function working_name
-
-   !> Begins a checkpoint with the loads that are known already; one that is there is replaced. A checkpoint
-   !> that cannot be written is no reason not to solve: `is_kept` tells.
-   subroutine begin(self, results, known)
+   !> Creates the checkpoint of a run with the solutions that are known already; it replaces that of an earlier run. A
+   !> checkpoint that cannot be written does not stop the run: see is_complete.
+   subroutine create(self, results)
       class(checkpoint_file), intent(out) :: self
-      type(results_type), intent(in) :: results   !! in a directory that is there
-      logical, intent(in) :: known(:)             !! loads whose states are known, in the deck's order
+      type(results_type), intent(in) :: results   !! whose directory exists; loads that are known are allocated
 
-      character(:), allocatable :: description, failure, working
+      character(:), allocatable :: failure
       integer :: clock(8), load, status
 
-      working = working_name(results, 'checkpoint')
       self%name = checkpoint_name(results)
-      call describe(results, description)
-      if (description == '') return
+      self%name_now = results%directory//'/.'//trim(results%deck%scene%case)//'.checkpoint.'// &
+                      integer_text(process_id())//'.part'
       call date_and_time(values=clock)
       call system_clock(self%run(3))
       self%run(:2) = [int(process_id(), int64), checksum(int(clock, int64))]
-      self%name_now = working
-      call remove_when_interrupted(working)
-      open (newunit=self%unit, file=working, access='stream', form='unformatted', status='replace', &
+      call remove_when_interrupted(self%name_now)
+      open (newunit=self%unit, file=self%name_now, access='stream', form='unformatted', status='replace', &
             action='write', iostat=status)
       self%opened = status == 0
       if (self%opened) write (self%unit, iostat=status) mark
       call put(self, self%run)
-      call put(self, words_of_text(description))
-      do load = 1, size(known)
-         if (known(load)) call self%add(load, results%states(load))
+      call put(self, words_of(description(results)))
+      do load = 1, size(results%loads)
+         if (allocated(results%loads(load)%solution)) call self%add(load, results%loads(load)%solution)
       end do
-      if (self%opened) call rename_file(working, self%name, failure)
+      if (self%opened) then
+         call rename_file(self%name_now, self%name, failure)
+         if (allocated(failure)) call close_file(self)
+      end if
+      if (.not. self%opened) call remove_file(self%name_now)
       self%name_now = self%name
-      if (self%opened .and. .not. allocated(failure)) return
-      call give_up(self)
-      call remove_file(working)
-   end subroutine begin
+   end subroutine create
 
-   !> Whether loads are still being written down.
-   pure logical function is_kept(self)
+   !> Whether all solutions so far could be written.
+   pure logical function is_complete(self)
       class(checkpoint_file), intent(in) :: self
 
-      is_kept = self%opened
-   end function is_kept
+      is_complete = self%opened
+   end function is_complete
 
-   !> Writes down a finished load.
-   subroutine add(self, load, state)
+   !> Adds a solution, if a resumed run may keep it.
+   subroutine add(self, load, solution)
       class(checkpoint_file), intent(inout) :: self
       integer, intent(in) :: load             !! its place in the deck
-      type(contact_state), intent(in) :: state
+      class(contact_solution), intent(in) :: solution
 
-      integer(int64), allocatable :: words(:)
+      character(len(solution%solver) + len(solution%status)) :: names
+      real(dp), allocatable :: values(:)
 
-      if (.not. self%opened) return
-      call words_of_state(load, state, words)
-      if (allocated(words)) then
-         call put(self, words)
+      if (.not. self%opened .or. .not. solution%is_kept()) return
+      names = solution%solver//solution%status
+      call solution%pack_kept(values)
+      if (allocated(values)) then
+         call put(self, [int(load, int64), words_of(names), transfer(values, [0_int64])])
       else
-         call give_up(self)
+         call close_file(self)
       end if
    end subroutine add
 
-   !> Ends the checkpoint: the tables hold all. That of another run is left to it.
+   !> Removes the checkpoint: the tables are written. One that another run has put in its place stays.
    subroutine remove(self)
       class(checkpoint_file), intent(inout) :: self
 
-      integer(int64), allocatable :: run(:)
+      integer(int64), allocatable :: words(:)
       integer :: status, unit
       logical :: whole
 
-      call give_up(self)
+      call close_file(self)
       open (newunit=unit, file=self%name, access='stream', form='unformatted', status='old', action='read', &
             iostat=status)
       if (status /= 0) return
-      call get(unit, len(mark) + 1_int64, run, whole)
+      call get(unit, len(mark) + 1_int64, words, whole)
       close (unit)
-      if (.not. whole .or. size(run) /= size(self%run)) return
-      if (all(run == self%run)) call remove_file(self%name)
+      if (size(words) /= size(self%run)) return
+      if (all(words == self%run)) call remove_file(self%name)
    end subroutine remove
 
-   subroutine give_up(self)
+   subroutine close_file(self)
       type(checkpoint_file), intent(inout) :: self
 
       integer :: ignored
 
       if (self%opened) close (self%unit, iostat=ignored)
       self%opened = .false.
-   end subroutine give_up
+   end subroutine close_file
 
-   !> Writes a frame, and sees that it is there: on a full disk gfortran 12 reports nothing. Nor is more
-   !> written when another run's checkpoint has taken the place.
+   !> Writes a record and compares the file's size: gfortran 12 does not report a full disk. Nothing is written any more once
+   !> another run has replaced the file.
    subroutine put(self, words)
       type(checkpoint_file), intent(inout) :: self
       integer(int64), intent(in) :: words(:)
 
-      integer(int64) :: count_of, next_byte
+      integer(int64) :: next_byte
       integer :: status
 
       if (.not. self%opened) return
-      count_of = size(words, kind=int64)
-      write (self%unit, iostat=status) count_of, not(count_of), words, checksum(words)
+      write (self%unit, iostat=status) size(words, kind=int64), words, checksum(words)
       if (status == 0) flush (self%unit, iostat=status)
       if (status == 0) then
          inquire (unit=self%unit, pos=next_byte)
          if (file_size(self%name_now) /= next_byte - 1) status = 1
       end if
-      if (status /= 0) call give_up(self)
+      if (status /= 0) call close_file(self)
    end subroutine put
 
-   !> Reads the frame at a place. What is cut short is not whole, what does not fit has no words.
+   !> Reads the record at a place. A damaged record is whole and has no words.
    subroutine get(unit, place, words, whole)
       integer, intent(in) :: unit
       integer(int64), intent(in) :: place                   !! of its first byte
       integer(int64), allocatable, intent(out) :: words(:)
       logical, intent(out) :: whole
 
-      integer(int64) :: bytes, head(2), there
+      integer(int64) :: bytes, length, sum_of_words
       integer :: status
 
       allocate (words(0))
       inquire (unit=unit, size=bytes)
-      bytes = bytes - place + 1
-      whole = .false.
-      if (bytes < 2*bytes_of_word) return
-      read (unit, pos=place, iostat=status) head
-      whole = status /= 0 .or. head(2) /= not(head(1)) .or. head(1) < 1
-      if (whole) return
-      if (head(1) > bytes/bytes_of_word - 3) return
-      whole = .true.
+      read (unit, pos=place, iostat=status) length
+      whole = status == 0
+      ! A length that is damaged must not allocate more than the file holds.
+      if (whole) whole = length >= 0 .and. length <= (bytes - place + 1)/bytes_of_word - 2
+      if (.not. whole) return
       deallocate (words)
-      allocate (words(head(1)))
-      read (unit, iostat=status) words, there
-      if (status == 0 .and. there == checksum(words)) return
+      allocate (words(length))
+      read (unit, iostat=status) words, sum_of_words
+      if (status == 0 .and. sum_of_words == checksum(words)) return
       deallocate (words)
       allocate (words(0))
    end subroutine get
 
-   !> Takes the finished loads of an interrupted run. Errors: exit_bad_input for a checkpoint of something
-   !> else, or damaged; exit_file_trouble.
-   subroutine read_checkpoint(results, known, found, error)
-      type(results_type), intent(inout) :: results   !! `states` are those of the loads that are known
-      logical, intent(out) :: known(:)                !! the loads found, in the deck's order
-      logical, intent(out) :: found                   !! whether there is a checkpoint
+   !> Reads the solutions of an interrupted run. Errors: exit_bad_input for a damaged checkpoint and for one of another run,
+   !> exit_file_trouble.
+   subroutine read_checkpoint(results, found, error)
+      type(results_type), intent(inout) :: results   !! the loads found are allocated
+      logical, intent(out) :: found                  !! whether there is a checkpoint
       type(error_type), allocatable, intent(out) :: error
 
-      character(:), allocatable :: description, name
+      character(:), allocatable :: name
       character(len(mark)) :: start
       character(200) :: message
       integer(int64) :: place
       integer(int64), allocatable :: words(:)
-      type(contact_state) :: state
-      integer :: load, status, unit
+      integer :: status, unit
       logical :: understood, whole
 
-      known = .false.
       name = checkpoint_name(results)
       found = path_kind(name) /= path_absent
       if (.not. found) return
@@ -226,129 +205,171 @@ contains
          return
       end if
       read (unit, iostat=status) start
-      if (status /= 0) start = ''
       place = len(mark) + 1
-      if (start == mark) then
-         call next()
-         if (size(words) > 0) call next()
-      end if
-      if (start /= mark) then
+      if (status /= 0 .or. start /= mark) then
          call fatal_error(error, exit_bad_input, escaped(name)// &
                           ': this is no checkpoint of this version of wavycon'//way_out)
-      else if (size(words) == 0) then
-         call damaged()
       else
-         call describe(results, description)
-         if (description == '') then
-            call fatal_error(error, exit_file_trouble, escaped(name)//': nothing can be written beside it')
-         else
-            call compare(name, text_of_words(words), description, error)
-         end if
-      end if
-      do while (.not. allocated(error))
          call next()
-         if (.not. whole) exit
-         call state_of_words(words, load, state, understood)
-         if (understood) understood = load <= size(known)
-         if (understood) understood = .not. known(load)
-         if (understood) then
-            results%states(load) = state
-            known(load) = .true.
-         else
-            call damaged()
-         end if
-      end do
+         understood = size(words) > 0
+         if (understood) call next()
+         if (understood) understood = size(words) > 0
+         if (understood) call compare(name, text_of(words), description(results), error)
+         do while (understood .and. .not. allocated(error))
+            call next()
+            if (.not. whole) exit
+            call take_solution(words, results, understood)
+         end do
+         if (.not. understood) call fatal_error(error, exit_bad_input, escaped(name)//': the checkpoint is damaged'//way_out)
+      end if
       close (unit)
 
    contains
 
       subroutine next()
          call get(unit, place, words, whole)
-         place = place + (size(words) + 3)*bytes_of_word
+         place = place + (size(words) + 2)*bytes_of_word
       end subroutine next
-
-      subroutine damaged()
-         call fatal_error(error, exit_bad_input, escaped(name)//': the checkpoint is damaged'//way_out)
-      end subroutine damaged
 
    end subroutine read_checkpoint
 
-   !> What is being solved: the program, the deck but for where it lies and where the results go, and the
-   !> surface, whose heights may come from a file. Empty if it cannot be written.
-   subroutine describe(results, text)
+   !> Takes the solution of a record.
+   subroutine take_solution(words, results, understood)
+      integer(int64), intent(in) :: words(:)
+      type(results_type), intent(inout) :: results
+      logical, intent(out) :: understood        !! .false.: the record is no solution of a load of this deck
+
+      character(:), allocatable :: text
+      class(contact_solution), allocatable :: solution
+      integer :: load, names
+
+      understood = .false.
+      if (size(words) == 0) return
+      if (words(1) < 1 .or. words(1) > size(results%loads)) return
+      load = int(words(1))
+      call results%solver%new_kept_solution(solution)
+      if (.not. allocated(solution) .or. allocated(results%loads(load)%solution)) return
+      names = size(words_of(solution%solver//solution%status))
+      if (size(words) < names + 1) return
+      text = text_of(words(2:names + 1))//repeat(' ', len(solution%solver) + len(solution%status))
+      solution%solver = text(:len(solution%solver))
+      solution%status = text(len(solution%solver) + 1:)
+      call solution%unpack_kept(transfer(words(names + 2:), [0.0_dp]), understood)
+      if (understood) call move_alloc(solution, results%loads(load)%solution)
+   end subroutine take_solution
+
+   !> What is being solved: the program, the surface and the deck, without the places of its files.
+   function description(results) result(text)
       type(results_type), intent(in) :: results
-      character(:), allocatable, intent(out) :: text
+      character(:), allocatable :: text
 
-      type(deck_type) :: deck
-      type(deck_text_type) :: resolved
-      type(error_type), allocatable :: error
-      character(:), allocatable :: working
       character(20) :: number
-      integer :: status, unit
 
-      text = ''
-      working = working_name(results, 'description')
-      call remove_when_interrupted(working)
-      open (newunit=unit, file=working, status='replace', action='write', iostat=status)
-      if (status /= 0) return
-      deck = results%deck
-      deck%path = ''
-      deck%output%directory = ''
-      call write_resolved_deck(deck, unit, status)
-      close (unit, iostat=status)
-      call read_deck_text(working, resolved, error)
-      call remove_file(working)
-      if (allocated(error)) return
       write (number, '(i0)') surface_checksum(results%scene%surface)
-      text = 'wavycon '//version//' ('//revision//')'//newline//'surface '//trim(number)//newline//resolved%content
-   end subroutine describe
+      text = 'wavycon '//version//' ('//revision//')'//newline//'surface '//trim(number)//newline//results%resolved_deck
+   end function description
 
-   !> Errors: exit_bad_input where what is to be solved is not what was.
+   !> Errors: exit_bad_input where what was solved is not what is to be solved.
    subroutine compare(name, before, now, error)
       character(*), intent(in) :: name                    !! of the checkpoint
-      character(*), intent(in) :: before, now             !! as `describe` says it
+      character(*), intent(in) :: before, now             !! descriptions
       type(error_type), allocatable, intent(out) :: error
 
-      type(deck_text_type) :: text_before, text_now
-      character(:), allocatable :: line_before, line_now, words
+      character(:), allocatable :: words
       integer :: i
 
-      text_before = deck_text_type(name, trim(before))
-      text_now = deck_text_type(name, trim(now))
-      if (text_before%content == text_now%content) return
-      line_before = ''
-      line_now = ''
-      do i = 1, max(size(text_before%line_start), size(text_now%line_start))
-         line_before = line(text_before, i)
-         line_now = line(text_now, i)
-         if (line_before /= line_now) exit
+      i = 1
+      do while (line(before, i) == line(now, i))
+         if (line(now, i) == end_of_text) return
+         i = i + 1
       end do
       select case (i)
       case (1)
-         words = 'is of '//line_before//', this is '//line_now
+         words = 'is of '//line(before, i)//', this is '//line(now, i)
       case (2)
          words = 'is of another surface: the deck or its height map has changed'
       case default
-         words = "is of another deck: '"//excerpt(line_now)//"' was '"//excerpt(line_before)//"'"
+         words = "is of another deck: '"//excerpt(line(now, i))//"' was '"//excerpt(line(before, i))//"'"
       end select
       call fatal_error(error, exit_bad_input, escaped(name)//': the checkpoint '//words//way_out)
    end subroutine compare
 
-   !> A line without its comment and the blanks around it; empty behind the last.
+   !> A line without its comment and the blanks around it; end_of_text after the last line.
    pure function line(text, number)
-      type(deck_text_type), intent(in) :: text
+      character(*), intent(in) :: text
       integer, intent(in) :: number
       character(:), allocatable :: line
 
-      integer :: behind, first, last
+      integer :: comment, first, i, length
 
-      line = ''
-      if (number > size(text%line_start)) return
-      call text%line_bounds(number, first, last)
-      line = text%content(first:last)
-      behind = index(line, '   ! ')
-      if (behind > 0) line = line(:behind - 1)
+      first = 1
+      do i = 1, number
+         if (first > len(text)) then
+            line = end_of_text
+            return
+         end if
+         length = index(text(first:)//newline, newline) - 1
+         line = text(first:first + length - 1)
+         first = first + length + 1
+      end do
+      comment = index(line, '   ! ')
+      if (comment > 0) line = line(:comment - 1)
       line = trim(adjustl(line))
    end function line
+
+   !> A text, padded with blanks to whole words.
+   pure function words_of(text) result(words)
+      character(*), intent(in) :: text
+      integer(int64), allocatable :: words(:)
+
+      words = transfer(text//repeat(' ', modulo(-len(text), bytes_of_word)), [0_int64])
+   end function words_of
+
+   !> The text without the blanks at its end.
+   pure function text_of(words) result(text)
+      integer(int64), intent(in) :: words(:)
+      character(:), allocatable :: text
+
+      text = trim(transfer(words, repeat(' ', bytes_of_word*size(words))))
+   end function text_of
+
+   !> A polynomial in the half words, modulo a prime: a change of any one word changes it.
+   pure integer(int64) function checksum(words) result(total)
+      integer(int64), intent(in) :: words(:)
+
+      integer(int64), parameter :: prime = 2_int64**31 - 1, factor = 1103515245_int64, low_half = 2_int64**32 - 1
+      integer :: i
+
+      total = 1
+      do i = 1, size(words)
+         total = modulo(total*factor + iand(words(i), low_half), prime)
+         total = modulo(total*factor + shiftr(words(i), 32), prime)
+      end do
+   end function checksum
+
+   !> Of the waves or the heights of a surface.
+   pure integer(int64) function surface_checksum(surface) result(total)
+      type(surface_type), intent(in) :: surface
+
+      integer(int64) :: parts(5)
+
+      parts = 0
+      parts(1) = checksum(transfer([surface%amplitude, surface%length], [0_int64]))
+      parts(2) = of_array(surface%shape%c)
+      if (.not. surface%shape%is_even()) &
+         parts(3:) = [of_array(surface%shape%cs), of_array(surface%shape%sc), of_array(surface%shape%ss)]
+      total = checksum(parts)
+
+   contains
+
+      pure integer(int64) function of_array(values)
+         real(dp), intent(in) :: values(:, :)
+
+         integer :: j
+
+         of_array = checksum([(checksum(transfer(values(:, j), [0_int64])), j=1, size(values, 2))])
+      end function of_array
+
+   end function surface_checksum
 
 end module wavycon_checkpoint

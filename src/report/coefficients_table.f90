@@ -1,18 +1,51 @@
 !> <case>.coefficients.dat: the Fourier coefficients of the pressure, A_i of eq. (12) or A_ij of eq. (25), a block a
 !> load.
 module wavycon_coefficients_table
-   use wavycon_fourier_series, only: fourier_series
+   use wavycon_contact_solver, only: contact_solver
    use wavycon_error, only: error_type
+   use wavycon_fourier_series, only: fourier_series
    use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
    use wavycon_results, only: results_type
-   use wavycon_series_contact, only: series_contact
+   use wavycon_surface, only: surface_type
+   use wavycon_table, only: table_type
    implicit none (type, external)
    private
 
-   public :: write_coefficients_table
+   public :: coefficients_table
+
+   type, extends(table_type) :: coefficients_table
+   contains
+      procedure, nopass :: key
+      procedure, nopass :: meaning
+      procedure :: refusal
+      procedure, nopass :: write => write_coefficients_table
+   end type coefficients_table
 
 contains
+
+   pure function key() result(words)
+      character(:), allocatable :: words
+
+      words = 'coefficients'
+   end function key
+
+   pure function meaning() result(words)
+      character(:), allocatable :: words
+
+      words = 'The Fourier coefficients of the pressure.'
+   end function meaning
+
+   function refusal(self, solver, surface) result(words)
+      class(coefficients_table), intent(in) :: self
+      class(contact_solver), intent(in) :: solver
+      type(surface_type), intent(in) :: surface
+      character(:), allocatable :: words
+
+      associate (unused => self, unused_too => surface); end associate
+      words = ''
+      if (.not. solver%has_coefficients()) words = "the pressure of solver = '"//solver%name()//"' is not a Fourier series"
+   end function refusal
 
    !> Errors: exit_file_trouble.
    subroutine write_coefficients_table(results, error)
@@ -29,12 +62,10 @@ contains
       else
          call file%put_columns([character(8) :: 'i[-]', 'j[-]', 'A_ij[-]'])
       end if
-      do load = 1, size(results%states)
+      do load = 1, size(results%loads)
          call results%put_load_heading(file, load, first=load == 1)
-         select type (contact => results%contact)
-         class is (series_contact)
-            pressure = contact%pressure(results%states(load))
-         end select
+         call results%loads(load)%solution%coefficients(results%scene%surface, pressure)
+         if (.not. allocated(pressure%c)) cycle
          do i = 0, ubound(pressure%c, 1)
             do j = 0, ubound(pressure%c, 2)
                if (i + j == 0) cycle

@@ -1,20 +1,48 @@
-!> <case>.contour.dat: the edge of contact, the isobar p = edge_level p*, as closed curves.
+!> <case>.contour.dat: the edge of contact as closed curves; with solver = 'beale' the isobar p = edge_level p*.
 !>
-!> A block a load that has an edge, a blank line between curves. In 2-D a curve has the contact on its left;
-!> it is of one piece and may reach beyond the cell. In 1-D a curve is the two ends of a strip.
+!> A block for each load that has an edge, with a blank line between curves. In 2-D the contact lies on the left of a curve,
+!> which is in one piece and may extend beyond the cell. In 1-D a curve is the two ends of a strip.
 module wavycon_contour_table
    use wavycon_constants, only: pi
-   use wavycon_error, only: error_type
    use wavycon_edge_curves, only: edge_curve
+   use wavycon_error, only: error_type
    use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
    use wavycon_results, only: results_type
+   use wavycon_table, only: table_type
    implicit none (type, external)
    private
 
-   public :: write_contour_table
+   public :: contour_table
+
+   type, extends(table_type) :: contour_table
+   contains
+      procedure, nopass :: key
+      procedure, nopass :: meaning
+      procedure :: needs_fields
+      procedure, nopass :: write => write_contour_table
+   end type contour_table
 
 contains
+
+   pure function key() result(words)
+      character(:), allocatable :: words
+
+      words = 'contours'
+   end function key
+
+   pure function meaning() result(words)
+      character(:), allocatable :: words
+
+      words = 'The edge of contact as closed curves.'
+   end function meaning
+
+   pure logical function needs_fields(self)
+      class(contour_table), intent(in) :: self
+
+      associate (unused => self); end associate
+      needs_fields = .true.
+   end function needs_fields
 
    !> Errors: exit_file_trouble.
    subroutine write_contour_table(results, error)
@@ -28,8 +56,8 @@ contains
       call results%open_table('contour', file)
       call file%put_columns([character(40) :: 'pbar_over_pstar[-]', 'x[length]', 'y[length]'])
       blocks = 0
-      do load = 1, size(results%states)
-         call results%contact%edge_curves(results%states(load), curves)
+      do load = 1, size(results%loads)
+         call results%loads(load)%solution%edge_curves(results%scene%surface, curves)
          if (size(curves) == 0) cycle
          blocks = blocks + 1
          call results%put_load_heading(file, load, first=blocks == 1)
@@ -50,7 +78,7 @@ contains
       integer :: i
 
       do i = 1, size(curve%phi)
-         call file%put_values([results%states(load)%pbar_over_pstar, &
+         call file%put_values([results%loads(load)%solution%pbar_over_pstar, &
                                results%scene%surface%length*[curve%phi(i), curve%theta(i)]/(2*pi)])
       end do
    end subroutine put_curve

@@ -16,12 +16,14 @@ module wavycon_lines_table
    use wavycon_penny_crack, only: penny_crack_opening_over_amplitude, penny_crack_pressure_over_pstar, &
                                   penny_crack_radius_over_wavelength
    use wavycon_results, only: results_type
+   use wavycon_surface, only: gap_over_amplitude
+   use wavycon_table, only: table_type
    use wavycon_westergaard, only: westergaard_displacement_over_amplitude, westergaard_gap_over_amplitude, &
                                   westergaard_pressure_over_pstar
    implicit none (type, external)
    private
 
-   public :: write_lines_table
+   public :: lines_table
 
    character(40), parameter :: columns(*) = [character(40) :: &
       'pbar_over_pstar[-]', 'line[-]', 'distance[length]', 'x[length]', 'y[length]', 'pressure_over_pstar[-]', &
@@ -31,7 +33,34 @@ module wavycon_lines_table
    character(40), parameter :: columns_2d(*) = [character(40) :: &
       'hertz_pressure[p*]', 'crack_pressure[p*]', 'crack_opening[Delta]']
 
+   type, extends(table_type) :: lines_table
+   contains
+      procedure, nopass :: key
+      procedure, nopass :: meaning
+      procedure :: needs_fields
+      procedure, nopass :: write => write_lines_table
+   end type lines_table
+
 contains
+
+   pure function key() result(words)
+      character(:), allocatable :: words
+
+      words = 'lines'
+   end function key
+
+   pure function meaning() result(words)
+      character(:), allocatable :: words
+
+      words = 'Pressures and gaps along lines.'
+   end function meaning
+
+   pure logical function needs_fields(self)
+      class(lines_table), intent(in) :: self
+
+      associate (unused => self); end associate
+      needs_fields = .true.
+   end function needs_fields
 
    !> Errors: exit_file_trouble.
    subroutine write_lines_table(results, error)
@@ -50,9 +79,9 @@ contains
       else
          call file%put_columns([columns, columns_2d])
       end if
-      do load = 1, size(results%states)
+      do load = 1, size(results%loads)
          call results%put_load_heading(file, load, first=load == 1)
-         call results%contact%fields(results%states(load), fields)
+         call results%loads(load)%solution%fields(results%scene%surface, fields)
          do line = 1, results%scene%surface%dimension
             if (line > 1) call file%put('')
             call put_line(results, file, load, line, fields)
@@ -71,7 +100,7 @@ contains
       real(dp) :: dundurs(results%deck%method%harmonics), start(2), way(2), angles(2), phi, theta, p, u, load_p
       integer :: k, intervals
 
-      load_p = results%states(load)%pbar_over_pstar
+      load_p = results%loads(load)%solution%pbar_over_pstar
       dundurs = 0.0_dp
       if (results%deck%output%theory .and. results%scene%surface%dimension == 1) &
          dundurs = dundurs_coefficients(load_p, size(dundurs))
@@ -99,8 +128,8 @@ contains
             call file%add(load_p)
             call file%add(line)
             call file%add([norm2(surface%length*k*way)/(2*pi), surface%length*angles/(2*pi), &
-                           p, u, surface%undeformed_gap_over_amplitude(angles(1), angles(2)) + u &
-                           - results%states(load)%measures%approach_over_amplitude, beside])
+                           p, u, gap_over_amplitude(surface%undeformed_gap_over_amplitude(angles(1), angles(2)), u, &
+                                                    results%loads(load)%solution%measures%approach_over_amplitude), beside])
             call file%end_row()
          end do
       end associate

@@ -6,12 +6,41 @@ module wavycon_map_table
    use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
    use wavycon_results, only: results_type
+   use wavycon_surface, only: gap_over_amplitude
+   use wavycon_table, only: table_type
    implicit none (type, external)
    private
 
-   public :: write_map_table
+   public :: map_table
+
+   type, extends(table_type) :: map_table
+   contains
+      procedure, nopass :: key
+      procedure, nopass :: meaning
+      procedure :: needs_fields
+      procedure, nopass :: write => write_map_table
+   end type map_table
 
 contains
+
+   pure function key() result(words)
+      character(:), allocatable :: words
+
+      words = 'map'
+   end function key
+
+   pure function meaning() result(words)
+      character(:), allocatable :: words
+
+      words = 'Pressures and gaps over the whole cell.'
+   end function meaning
+
+   pure logical function needs_fields(self)
+      class(map_table), intent(in) :: self
+
+      associate (unused => self); end associate
+      needs_fields = .true.
+   end function needs_fields
 
    !> Errors: exit_file_trouble.
    subroutine write_map_table(results, error)
@@ -25,7 +54,7 @@ contains
       call file%put_columns([character(40) :: 'pbar_over_pstar[-]', 'x[length]', 'y[length]', &
                              'undeformed_gap[Delta]', 'pressure_over_pstar[-]', 'displacement[Delta]', &
                              'gap[Delta]'])
-      do load = 1, size(results%states)
+      do load = 1, size(results%loads)
          call results%put_load_heading(file, load, first=load == 1)
          call put_map(results, file, load)
       end do
@@ -44,17 +73,17 @@ contains
       integer :: k, l, n
 
       n = results%deck%output%points_per_wavelength
-      associate (surface => results%scene%surface)
-         approach = results%states(load)%measures%approach_over_amplitude
-         call results%contact%fields(results%states(load), fields)
+      associate (surface => results%scene%surface, solution => results%loads(load)%solution)
+         approach = solution%measures%approach_over_amplitude
+         call solution%fields(surface, fields)
          call fields%on_cell(n, surface%dimension, p, u)
          call surface%shape%evaluate_on_cell(n, shape)
          do l = 0, merge(n, 0, surface%dimension == 2)
             if (l > 0) call file%put('')
             do k = 0, n
-               call file%put_values([results%states(load)%pbar_over_pstar, surface%length(1)*k/n, &
+               call file%put_values([solution%pbar_over_pstar, surface%length(1)*k/n, &
                                      surface%length(2)*l/n, 1.0_dp - shape(k, l), p(k, l), u(k, l), &
-                                     1.0_dp - shape(k, l) + u(k, l) - approach])
+                                     gap_over_amplitude(1.0_dp - shape(k, l), u(k, l), approach)])
             end do
          end do
       end associate

@@ -1,7 +1,7 @@
 !> All that the tables of one scene are written from, and the header that they share.
 module wavycon_results
+   use wavycon_contact_solution, only: contact_solution_item
    use wavycon_contact_solver, only: contact_solver
-   use wavycon_contact_state, only: contact_state
    use wavycon_deck, only: deck_type
    use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
@@ -16,9 +16,10 @@ module wavycon_results
    type :: results_type
       type(deck_type) :: deck
       type(scene_type), allocatable :: scene
-      class(contact_solver), allocatable :: contact
-      character(:), allocatable :: directory             !! that the tables go to
-      type(contact_state), allocatable :: states(:)      !! in the deck's order of loads
+      class(contact_solver), allocatable :: solver
+      character(:), allocatable :: directory                 !! of the tables
+      character(:), allocatable :: resolved_deck             !! the deck with every key's value in effect
+      type(contact_solution_item), allocatable :: loads(:)   !! in the deck's order
    contains
       procedure :: open_table
       procedure :: put_load_heading
@@ -42,7 +43,7 @@ contains
                        ', Delta[length] = '//exact_number(surface%amplitude)//cell_sides())
          call file%put('# material: e_star[pressure] = '//exact_number(self%scene%e_star)// &
                        ', p*[pressure] = '//exact_number(self%scene%p_star))
-         call file%put('# method: '//trim(method%solver)//', '//self%contact%describe()//edge_level())
+         call file%put('# method: '//trim(method%solver)//', '//self%solver%describe()//edge_level())
       end associate
 
    contains
@@ -77,8 +78,10 @@ contains
          call file%put('')
          call file%put('')
       end if
-      call file%put('# load '//integer_text(load)//': pbar/p* = '// &
-                    exact_number(self%states(load)%pbar_over_pstar)//', '//trim(self%states(load)%status))
+      associate (solution => self%loads(load)%solution)
+         call file%put('# load '//integer_text(load)//': pbar/p* = '//exact_number(solution%pbar_over_pstar)//', '// &
+                       trim(solution%status))
+      end associate
    end subroutine put_load_heading
 
    !> pbar of a load [pressure]; as given, where it was.
@@ -89,7 +92,7 @@ contains
       if (allocated(self%scene%mean_pressure)) then
          mean_pressure = self%scene%mean_pressure(load)
       else
-         mean_pressure = self%scene%p_star*self%states(load)%pbar_over_pstar
+         mean_pressure = self%scene%p_star*self%loads(load)%solution%pbar_over_pstar
       end if
    end function mean_pressure
 

@@ -1,12 +1,12 @@
 !> What the program says while it runs, on standard output.
 module wavycon_run_log
    use, intrinsic :: iso_fortran_env, only: int64, output_unit
-   use wavycon_grid_progress, only: grid_progress
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: escaped, integer_text, short_number
    use wavycon_results, only: results_type
    use wavycon_scene, only: target_words
    use wavycon_surface, only: surface_type
+   use wavycon_solver_progress, only: solver_progress
    use wavycon_system, only: stdout_is_terminal
    use wavycon_version, only: revision, version
    implicit none (type, external)
@@ -34,7 +34,7 @@ module wavycon_run_log
    end type run_log
 
    !> Shows the grids of a load.
-   type, extends(grid_progress) :: log_progress
+   type, extends(solver_progress) :: log_progress
       type(run_log), pointer :: log => null()
       integer :: load = 0, loads = 0
    contains
@@ -98,7 +98,7 @@ contains
                        short_number(scene%p_star)//' [pressure]')
          call self%say('loads     '//integer_text(size(scene%target))//', '//target_words(scene%loads_by)// &
                        ' from '//short_number(minval(scene%target))//' to '//short_number(maxval(scene%target)))
-         call self%say('method    '//trim(deck%method%solver)//', '//results%contact%describe())
+         call self%say('method    '//trim(deck%method%solver)//', '//results%solver%describe())
       end associate
    end subroutine show_scene
 
@@ -155,16 +155,16 @@ contains
       integer :: i
 
       if (self%quiet) return
-      write (line, '(5a12, 2a8, a9, 2x, a)') 'pbar/p*', 'pbar', 'gap/Delta', 'area/A0', 'peak/p*', 'active', &
-         'pivots', 'kkt', 'status'
+      write (line, '(5a12, 2a11, a9, 2x, a)') 'pbar/p*', 'pbar', 'gap/Delta', 'area/A0', 'peak/p*', 'active', &
+         'iterations', 'residual', 'status'
       call self%say(trim(line))
-      do i = 1, size(results%states)
-         associate (state => results%states(i), measures => results%states(i)%measures)
-            write (line, '(5a, 2i8, a9, 2x, a)') &
-               cell(state%pbar_over_pstar), cell(results%mean_pressure(i)), &
+      do i = 1, size(results%loads)
+         associate (solution => results%loads(i)%solution, measures => results%loads(i)%solution%measures)
+            write (line, '(5a, 2i11, a9, 2x, a)') &
+               cell(solution%pbar_over_pstar), cell(results%mean_pressure(i)), &
                cell(measures%mean_gap_over_amplitude), cell(measures%contact_area_fraction), &
-               cell(measures%peak_pressure_over_pstar), state%active_constraints, state%pivots, &
-               with_exponent(state%kkt_residual, 1), trim(state%status)
+               cell(measures%peak_pressure_over_pstar), solution%active_constraints, solution%iterations, &
+               with_exponent(solution%residual, 1), trim(solution%status)
             call self%say(trim(line))
          end associate
       end do

@@ -4,6 +4,7 @@
 !> (29), (30), (29) with the coefficient of the whole lattice, the longer asymptotes, and the radii of the two
 !> limits.
 module wavycon_theory_table
+   use wavycon_contact_solver, only: contact_solver
    use wavycon_error, only: error_type
    use wavycon_hertz_line, only: hertz_line_contact_area_fraction
    use wavycon_hertz_point, only: hertz_point_contact_area_fraction, hertz_point_peak_pressure_over_pstar, &
@@ -18,11 +19,13 @@ module wavycon_theory_table
    use wavycon_penny_crack, only: penny_crack_contact_area_fraction, penny_crack_mean_gap_over_amplitude, &
                                   penny_crack_radius_over_wavelength
    use wavycon_results, only: results_type
+   use wavycon_surface, only: no_paper_wave, surface_type
+   use wavycon_table, only: table_type
    use wavycon_westergaard, only: westergaard_contact_area_fraction, westergaard_peak_pressure_over_pstar
    implicit none (type, external)
    private
 
-   public :: write_theory_table
+   public :: theory_table
 
    character(40), parameter :: columns_1d(*) = [character(40) :: &
       'pbar_over_pstar[-]', 'kuznetsov_mean_gap[Delta]', 'westergaard_area[-]', 'westergaard_peak[p*]', &
@@ -32,7 +35,39 @@ module wavycon_theory_table
       'crack_gap_eq30[Delta]', 'light_area_longer[-]', 'light_gap_longer[Delta]', 'closure_area_longer[-]', &
       'closure_gap_longer[Delta]', 'hertz_peak[p*]', 'hertz_radius[length]', 'crack_radius[length]']
 
+   type, extends(table_type) :: theory_table
+   contains
+      procedure, nopass :: key
+      procedure, nopass :: meaning
+      procedure :: refusal
+      procedure, nopass :: write => write_theory_table
+   end type theory_table
+
 contains
+
+   pure function key() result(words)
+      character(:), allocatable :: words
+
+      words = 'theory'
+   end function key
+
+   pure function meaning() result(words)
+      character(:), allocatable :: words
+
+      words = 'The closed forms beside the numbers.'
+   end function meaning
+
+   function refusal(self, solver, surface) result(words)
+      class(theory_table), intent(in) :: self
+      class(contact_solver), intent(in) :: solver
+      type(surface_type), intent(in) :: surface
+      character(:), allocatable :: words
+
+      associate (unused => self, unused_too => solver); end associate
+      words = ''
+      if (surface%paper_wave() == no_paper_wave) words = 'closed forms exist only for the waves of the paper: wave_1d, '// &
+         'wave_2d with one wavelength, crossed_1d with equal waves'
+   end function refusal
 
    !> Errors: exit_file_trouble.
    subroutine write_theory_table(results, error)
@@ -48,8 +83,8 @@ contains
       else
          call file%put_columns(columns_2d)
       end if
-      do load = 1, size(results%states)
-         associate (p => results%states(load)%pbar_over_pstar, &
+      do load = 1, size(results%loads)
+         associate (p => results%loads(load)%solution%pbar_over_pstar, &
                     wavelength => results%scene%surface%paper_wavelength())
             if (results%scene%surface%dimension == 1) then
                call file%put_values([p, kuznetsov_mean_gap_over_amplitude(p), &

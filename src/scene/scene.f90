@@ -128,7 +128,7 @@ contains
 
       if (deck%method%solver == 'fitted' .and. scene%surface%amplitude > 0.0_dp) then
          call find_frame(scene%surface, frame)
-         if (.not. frame%covered) call fatal_error(error, exit_bad_input, escaped(deck%path)// &
+         if (.not. frame%is_found()) call fatal_error(error, exit_bad_input, escaped(deck%path)// &
             ": solver = 'fitted' knows "// &
             'wave_2d with wavelengths up to 3:1, crossed_1d with waves not too unlike and hexagonal, not this '// &
             trim(deck%surface%kind)//". Give 'auto' or 'grid'.")

@@ -9,7 +9,7 @@ module wavycon_surface
    implicit none (type, external)
    private
 
-   public :: surface_type, surface_of_series, surface_of_points
+   public :: surface_type, surface_of_series, surface_of_points, gap_over_amplitude
 
    !> How the cell lies to the wave of Johnson, Greenwood & Higginson (1985), where the surface is that: eq. (3) or
    !> (21) in phi = X, theta = Y, or (21) in phi = (X + Y)/2, theta = (X - Y)/2.
@@ -120,6 +120,15 @@ contains
 
       gap = 1.0_dp - self%shape%at(x, y)
    end function undeformed_gap_over_amplitude
+
+   !> The gap over Delta: h + (u - ubar) - approach, zero in contact.
+   elemental real(dp) function gap_over_amplitude(undeformed_gap, displacement, approach) result(gap)
+      real(dp), intent(in) :: undeformed_gap   !! h/Delta
+      real(dp), intent(in) :: displacement     !! (u - ubar)/Delta
+      real(dp), intent(in) :: approach         !! of the mean planes, over Delta
+
+      gap = undeformed_gap + displacement - approach
+   end function gap_over_amplitude
 
    !> One over the wavelength of a harmonic [1/length].
    elemental real(dp) function frequency(self, m, n)

@@ -8,7 +8,7 @@
 program bench_paper_method
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use samples, only: clock_ms, sample_set
-   use wavycon, only: beale_solver, contact_state, fourier_series, dp, fourier_contact, qp_problem, &
+   use wavycon, only: beale_solver, beale_solution, fourier_series, dp, beale_contact, qp_problem, &
                       qp_solution, qp_status_name, symmetry_diagonal, symmetry_full, wave_2d
    implicit none (type, external)
 
@@ -16,9 +16,9 @@ program bench_paper_method
    type :: contender
       integer :: harmonics, points, symmetry
       logical :: straight = .false.      !! by Beale's method from x = 0 at the load itself
-      type(fourier_contact) :: fresh     !! that has solved nothing yet
+      type(beale_contact) :: fresh     !! that has solved nothing yet
       type(sample_set) :: times
-      type(contact_state) :: state
+      type(beale_solution) :: solution
    end type contender
 
    !> Fewest rounds of a comparison, however long they take.
@@ -66,7 +66,7 @@ contains
             medians(i, j) = contenders(j)%times%median()
             leasts(i, j) = contenders(j)%times%least()
             call write_row(contenders(j), loads(i), gaps(i))
-            if (contenders(j)%straight .and. .not. contenders(j)%state%is_good()) unsolved = unsolved + 1
+            if (contenders(j)%straight .and. .not. contenders(j)%solution%is_good()) unsolved = unsolved + 1
          end do
       end do
       if (unsolved > 0) then
@@ -90,8 +90,8 @@ contains
 
    !> All loads by one dual pass from the highest to the lowest, against each load on its own.
    subroutine compare_sweep()
-      type(fourier_contact) :: fresh, contact
-      type(contact_state) :: state
+      type(beale_contact) :: fresh, contact
+      type(beale_solution) :: solution
       type(sample_set) :: sweeps, singles
       real(dp) :: before, start
       integer :: i
@@ -102,14 +102,14 @@ contains
          contact = fresh
          before = clock_ms()
          do i = size(loads), 1, -1
-            call contact%solve_series(loads(i), state)
+            call contact%solve_series(loads(i), solution)
          end do
          call sweeps%add(clock_ms() - before)
 
          before = clock_ms()
          do i = size(loads), 1, -1
             contact = fresh
-            call contact%solve_series(loads(i), state)
+            call contact%solve_series(loads(i), solution)
          end do
          call singles%add(clock_ms() - before)
       end do
@@ -185,12 +185,12 @@ contains
       type(contender), intent(inout) :: self
       real(dp), intent(in) :: load
 
-      type(fourier_contact) :: contact
+      type(beale_contact) :: contact
       real(dp) :: before
 
       contact = self%fresh
       before = clock_ms()
-      call contact%solve_series(load, self%state)
+      call contact%solve_series(load, self%solution)
       call self%times%add(clock_ms() - before)
    end subroutine run_usual_way
 
@@ -208,9 +208,13 @@ contains
       before = clock_ms()
       call solver%solve(problem, solution)
       call self%times%add(clock_ms() - before)
-      self%state = contact_state(pbar_over_pstar=load, x=solution%x, pivots=solution%pivots, &
-                                 active_constraints=size(solution%active), &
-                                 kkt_residual=solution%kkt_residual, status=qp_status_name(solution%status))
+      self%solution%pbar_over_pstar = load
+      self%solution%x = solution%x
+      self%solution%setup = self%fresh%setup
+      self%solution%iterations = solution%pivots
+      self%solution%active_constraints = size(solution%active)
+      self%solution%residual = solution%kkt_residual
+      self%solution%status = qp_status_name(solution%status)
    end subroutine run_beale
 
    subroutine write_table_head(title)
@@ -227,18 +231,19 @@ contains
       real(dp), intent(in) :: load
       real(dp), intent(in) :: gap   !! G that the answer is compared with
 
-      type(fourier_series) :: displacement
+      type(fourier_series) :: displacement, pressure
       real(dp) :: own_gap
 
-      displacement = self%fresh%surface%displacement_of(self%fresh%pressure(self%state))
+      call self%solution%pressure(pressure)
+      displacement = self%fresh%surface%displacement_of(pressure)
       own_gap = 1.0_dp - displacement%at(0.0_dp, 0.0_dp)   ! eq. (28)
       write (output_unit, '(i5,i7,a10,a6,i9,i12,f7.2,2i7,3f10.4,f14.9,es14.3,1x,a)') &
          self%harmonics, self%points, merge('full    ', 'diagonal', self%symmetry == symmetry_full), &
-         merge('beale', 'dual ', self%straight), shape(self%fresh%problem%normals), load, self%state%pivots, &
+         merge('beale', 'dual ', self%straight), shape(self%fresh%problem%normals), load, self%solution%iterations, &
          self%times%count, self%times%median(), self%times%least(), self%times%largest(), own_gap, &
-         own_gap - gap, trim(self%state%status)
+         own_gap - gap, trim(self%solution%status)
       flush (output_unit)
-      all_good = all_good .and. (self%straight .or. self%state%is_good())
+      all_good = all_good .and. (self%straight .or. self%solution%is_good())
    end subroutine write_row
 
    subroutine write_head(title)

@@ -9,12 +9,12 @@
 program bench_single_solves
    use, intrinsic :: iso_fortran_env, only: error_unit, input_unit, output_unit
    use samples, only: clock_ms
-   use wavycon, only: contact_state, dp, fourier_contact, symmetry_full, wave_2d
+   use wavycon, only: beale_solution, dp, beale_contact, symmetry_full, wave_2d
    implicit none (type, external)
 
    character(*), parameter :: numbers = '(*(es26.17e3))'
-   type(fourier_contact) :: fresh, contact
-   type(contact_state) :: state
+   type(beale_contact) :: fresh, contact
+   type(beale_solution) :: solution
    real(dp), allocatable :: times(:)
    real(dp) :: load, before
    integer :: i, count, ios
@@ -37,12 +37,12 @@ program bench_single_solves
       do i = 1, count
          contact = fresh
          before = clock_ms()
-         call contact%solve_series(load, state)
+         call contact%solve_series(load, solution)
          times(i) = clock_ms() - before
       end do
-      write (output_unit, '(a,1x,i0)') trim(state%status), state%pivots
+      write (output_unit, '(a,1x,i0)') trim(solution%status), solution%iterations
       write (output_unit, numbers) times
-      write (output_unit, numbers) state%x
+      write (output_unit, numbers) solution%x
       flush (output_unit)
       deallocate (times)
    end do

@@ -11,7 +11,7 @@
 program time_error_wave
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use samples, only: clock_ms, sample_set
-   use wavycon, only: contact_state, dp, fourier_contact, surface_type, symmetry_full, wave_2d
+   use wavycon, only: beale_contact, contact_solution, dp, surface_type, symmetry_full, wave_2d
    use wavycon_fitted_solver, only: fitted_answer, solve_fitted, square_lattice, wave_lattice
    use wavycon_grid_cascade, only: cascade_answer, solve_by_cascade
    implicit none (type, external)
@@ -138,8 +138,8 @@ contains
       real(dp), intent(in) :: load       !! P
       real(dp), intent(in) :: end_time   !! [ms]
 
-      type(fourier_contact) :: fresh, contact
-      type(contact_state) :: state
+      type(beale_contact) :: fresh, contact
+      class(contact_solution), allocatable :: solution
       type(sample_set) :: times
       real(dp) :: start
       integer :: k
@@ -150,15 +150,15 @@ contains
          do while (again(times))
             contact = fresh
             start = clock_ms()
-            call contact%solve(load, state)
+            call contact%solve(load, solution)
             call times%add(clock_ms() - start)
          end do
-         if (.not. state%is_good()) then
+         if (.not. solution%is_good()) then
             write (error_unit, '(a,i0,a,f5.2)') 'time_error_wave: not solved with ', harmonics(k), &
                ' harmonics at P =', load
             cycle
          end if
-         associate (m => state%measures)
+         associate (m => solution%measures)
             call write_run('wavycon-beale', load, harmonics(k), times, &
                            [m%mean_gap_over_amplitude, m%contact_area_fraction, m%peak_pressure_over_pstar])
          end associate

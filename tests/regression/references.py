@@ -39,11 +39,11 @@ TOLERANCES = {
         "peak_pressure_over_pstar": SOLVED,
         "min_pressure_over_pstar": SOLVED,
         "active_constraints": COUNTED,
-        "pivots": None,  # depends on which of two nearly equal candidates a rounding error puts first
+        "iterations": None,  # depends on which of two nearly equal candidates a rounding error puts first
         "mean_gap_error": SOLVED,  # estimates are differences of the numbers above, on two grids
         "contact_area_error": SOLVED,
         "peak_pressure_error": SOLVED,
-        "kkt_residual": None,  # is a rounding error; `status` says that it is small enough
+        "residual": None,  # is a rounding error; `status` says that it is small enough
     },
     "coefficients": {"i": COUNTED, "j": COUNTED, "A_i": SOLVED, "A_ij": SOLVED},
     "lines": {"line": COUNTED, "pbar_over_pstar": ARITHMETIC, "distance": ARITHMETIC, "x": ARITHMETIC, "y": ARITHMETIC,

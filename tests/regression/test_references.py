@@ -11,7 +11,7 @@ import references  # noqa: E402
 
 SUMMARY = """\
 # wavycon
-#  pbar_over_pstar[-]  mean_gap_over_amplitude[-]  active_constraints[-]  pivots[-]  kkt_residual[-]  status[-]
+#  pbar_over_pstar[-]  mean_gap_over_amplitude[-]  active_constraints[-]  iterations[-]  residual[-]  status[-]
    1.0E-001            4.063305171914782E-001      27                     121        5.1E-016         converged
    5.0E-001            4.936147336729224E-002      13                     44         3.8E-016         converged
 """
@@ -65,7 +65,7 @@ class References(unittest.TestCase):
                               (("converged", "inaccurate"), "status[-] differs"),
                               (("4.063305171914782E-001", "NaN"), "mean_gap_over_amplitude[-] differs"),
                               (("1.0E-001", "1.00000000001E-001"), "pbar_over_pstar[-] differs"),
-                              (("pivots[-]", "pivots[1]"), "its columns are"),
+                              (("iterations[-]", "iterations[1]"), "its columns are"),
                               (("mean_gap_over", "mean_gap_under"), "its columns are")):
             with self.subTest(change):
                 found = self.summary(change)

@@ -48,14 +48,14 @@ def numbers(path):
 def compare(one, other):
     """The largest difference of two tables, of a column's largest number; words and shapes that differ as infinity.
 
-    What is no result but an account of the way there is left out: the residual, of the order of rounding, and pivots."""
+    What is no result but an account of the way there is left out: the residual, of the order of rounding, and iterations."""
     header = [line for line in one.read_text().splitlines() if line.startswith("#")][-1].lstrip("#").split()
     rows, others = numbers(one), numbers(other)
     if len(rows) != len(others) or [len(row) for row in rows] != [len(row) for row in others]:
         return float("inf")
     worst = 0.0
     for column in range(max(len(row) for row in rows)):
-        if column < len(header) and header[column].split("[")[0] in ("pivots", "kkt_residual", "residual"):
+        if column < len(header) and header[column].split("[")[0] in ("iterations", "residual"):
             continue
         pairs = [(row[column], another[column]) for row, another in zip(rows, others) if column < len(row)]
         try:

@@ -5,7 +5,7 @@
 !> answer only the pressure and the mean gap: the gap that it has beside them is one of the things to check.
 module stress_kkt_of_grid
    use, intrinsic :: iso_fortran_env, only: real128
-   use wavycon_contact_state, only: contact_state
+   use wavycon_grid_contact, only: grid_solution
    use wavycon_grid_edge, only: grid_edge
    use wavycon_kinds, only: dp
    use wavycon_surface, only: surface_type
@@ -29,37 +29,37 @@ module stress_kkt_of_grid
 contains
 
    !> Checks an answer between no load and full contact on a grid of the surface's own cell.
-   type(grid_kkt) function check_grid(surface, state) result(kkt)
+   type(grid_kkt) function check_grid(surface, solution) result(kkt)
       type(surface_type), intent(in) :: surface
-      type(contact_state), intent(in) :: state   !! with its edge, of a grid that carries all waves of the surface
+      type(grid_solution), intent(in) :: solution   !! with its edge, of a grid that carries all waves of the surface
 
       real(qp), allocatable :: pressure(:, :), gap(:, :)
       logical, allocatable :: contact(:, :)
       real(qp) :: told
       integer :: i, j, m, n
 
-      if (.not. allocated(state%edge)) return
-      associate (field => state%edge%pressure_or_gap)
+      if (.not. allocated(solution%edge)) return
+      associate (field => solution%edge%pressure_or_gap)
          kkt%well_formed = all(abs(field) <= huge(1.0_dp)) .and. any(field > 0.0_dp)
          if (.not. kkt%well_formed) return
          m = size(field, 1)
          n = size(field, 2)
-         if (state%edge%even) m = 2*m
-         if (state%edge%even .and. n > 1) n = 2*n
+         if (solution%edge%even) m = 2*m
+         if (solution%edge%even .and. n > 1) n = 2*n
          allocate (pressure(m, n), gap(m, n))
          do j = 1, n
             do i = 1, m
-               pressure(i, j) = max(field(state%edge%place(i, 1), state%edge%place(j, 2)), 0.0_dp)
+               pressure(i, j) = max(field(solution%edge%place(i, 1), solution%edge%place(j, 2)), 0.0_dp)
             end do
          end do
          contact = pressure > 0.0_qp
-         kkt%load = relative(sum(pressure)/size(pressure), state%pbar_over_pstar)
+         kkt%load = relative(sum(pressure)/size(pressure), solution%pbar_over_pstar)
 
          call displace(surface, pressure, gap)
          do j = 1, n
             do i = 1, m
-               gap(i, j) = gap(i, j) + undeformed_gap(surface, state%edge, i, j) &
-                           - (1.0_qp - state%measures%mean_gap_over_amplitude)
+               gap(i, j) = gap(i, j) + undeformed_gap(surface, solution%edge, i, j) &
+                           - (1.0_qp - solution%measures%mean_gap_over_amplitude)
             end do
          end do
          kkt%residual = real(sqrt(sum(merge(gap, min(gap, 0.0_qp), contact)**2)/size(gap)), dp)
@@ -68,7 +68,7 @@ contains
          do j = 1, n
             do i = 1, m
                if (contact(i, j)) cycle
-               told = -field(state%edge%place(i, 1), state%edge%place(j, 2))
+               told = -field(solution%edge%place(i, 1), solution%edge%place(j, 2))
                kkt%gap = max(kkt%gap, real(abs(told - max(gap(i, j), 0.0_qp)), dp))
             end do
          end do

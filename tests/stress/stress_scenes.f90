@@ -9,20 +9,20 @@ program stress_scenes
    use stress_random_numbers, only: random_stream
    use wavycon_choose_solver, only: choose_solver
    use wavycon_contact_solver, only: contact_solver
-   use wavycon_contact_state, only: contact_state
+   use wavycon_contact_solution, only: contact_solution
    use wavycon_deck, only: deck_type
    use wavycon_error, only: error_type
-   use wavycon_fitted_frame, only: find_frame, fitted_frame
+   use wavycon_fitted_solution, only: fitted_solution
+   use wavycon_grid_contact, only: grid_solution
    use wavycon_read_deck, only: read_deck
    use wavycon_scene, only: make_scene, scene_type
    implicit none (type, external)
 
    type(random_stream) :: stream
-   type(contact_state) :: state
+   class(contact_solution), allocatable :: solution
    type(deck_type) :: deck
    type(error_type), allocatable :: error
    type(expansion_kkt) :: of_expansion
-   type(fitted_frame) :: frame
    type(grid_kkt) :: of_grid
    type(scene_type) :: scene
    class(contact_solver), allocatable :: solver
@@ -33,29 +33,27 @@ program stress_scenes
    call stop_on(error)
    call make_scene(deck, scene, error)
    call stop_on(error)
-   ! Fields are kept for those who will draw them.
-   deck%output%map = .true.
-   call choose_solver(deck, scene, solver)
-   call find_frame(scene%surface, frame)
+   call choose_solver(deck, scene, .true., solver)
    do i = 1, size(scene%target)
-      call solver%solve(scene%target(i), state)
-      if (allocated(state%fitted)) then
+      call solver%solve(scene%target(i), solution)
+      select type (solution)
+      type is (fitted_solution)
          call stream%start(number(2), i)
-         of_expansion = check_expansion(frame%lattice, state%fitted, stream, number(3))
-         associate (measures => state%measures)
+         of_expansion = check_expansion(solution%lattice, solution%answer, stream, number(3))
+         associate (measures => solution%measures)
             write (*, '(a, "|", es24.16, "|", a, 9("|", es10.2e3))') 'expansion', scene%target(i), &
-               trim(state%status), of_expansion%contact, of_expansion%noise, of_expansion%tension, &
-               of_expansion%overlap, of_expansion%balance, state%kkt_residual, &
+               trim(solution%status), of_expansion%contact, of_expansion%noise, of_expansion%tension, &
+               of_expansion%overlap, of_expansion%balance, solution%residual, &
                measures%mean_gap_error, measures%contact_area_error, measures%peak_pressure_error
          end associate
-      else if (allocated(state%edge)) then
-         of_grid = check_grid(scene%surface, state)
-         write (*, '(a, "|", es24.16, "|", a, 6("|", es10.2e3))') 'grid', scene%target(i), trim(state%status), &
-            of_grid%load, of_grid%residual, of_grid%complementarity, of_grid%gap, state%kkt_residual, &
-            state%measures%mean_gap_over_amplitude
-      else
-         write (*, '(a, "|", es24.16, "|", a)') 'none', scene%target(i), trim(state%status)
-      end if
+      type is (grid_solution)
+         of_grid = check_grid(scene%surface, solution)
+         write (*, '(a, "|", es24.16, "|", a, 6("|", es10.2e3))') 'grid', scene%target(i), trim(solution%status), &
+            of_grid%load, of_grid%residual, of_grid%complementarity, of_grid%gap, solution%residual, &
+            solution%measures%mean_gap_over_amplitude
+      class default
+         write (*, '(a, "|", es24.16, "|", a)') 'none', scene%target(i), trim(solution%status)
+      end select
    end do
 
 contains

@@ -1,0 +1,146 @@
+!> solver = 'auto': the closed form where there is one, otherwise fitted expansions where these exist for the surface, with
+!> grids for loads at which they are not accurate enough, otherwise grids.
+module wavycon_auto_contact
+   use wavycon_closed_form_contact, only: closed_form_contact
+   use wavycon_contact_solution, only: contact_solution
+   use wavycon_contact_solver, only: contact_solver
+   use wavycon_contact_status, only: converged
+   use wavycon_fitted_contact, only: fitted_contact
+   use wavycon_fitted_frame, only: find_frame, fitted_frame
+   use wavycon_grid_contact, only: grid_contact
+   use wavycon_kinds, only: dp
+   use wavycon_solver_progress, only: solver_progress
+   use wavycon_surface, only: no_paper_wave, surface_type
+   implicit none (type, external)
+   private
+
+   public :: auto_contact
+
+   type, extends(contact_solver) :: auto_contact
+      class(contact_solver), allocatable, private :: first     !! tried first
+      type(grid_contact), allocatable, private :: second       !! tried where the first fails or is not accurate enough
+   contains
+      procedure, nopass :: name
+      procedure :: describe
+      procedure :: start
+      procedure :: solve_partial_contact
+      procedure :: show_progress
+      procedure :: coarser_levels
+      procedure :: use_level
+      procedure :: starts_from_last_load
+      procedure :: skip_load
+      procedure :: new_kept_solution
+   end type auto_contact
+
+contains
+
+   pure function name() result(words)
+      character(:), allocatable :: words
+
+      words = 'auto'
+   end function name
+
+   subroutine start(self, surface, accuracy, keep_fields, points)
+      class(auto_contact), intent(out) :: self
+      type(surface_type), intent(in) :: surface
+      real(dp), intent(in) :: accuracy                 !! of mean gap [Delta], contact area fraction, peak pressure [p*]
+      logical, intent(in) :: keep_fields               !! whether solutions keep their fields and edges
+      integer, intent(in), optional :: points(2)       !! of a grid, in place of accuracy; zeros: by accuracy
+
+      type(closed_form_contact), allocatable :: closed_form
+      type(fitted_contact), allocatable :: fitted
+      type(grid_contact), allocatable :: grid
+      type(fitted_frame) :: frame
+      logical :: by_accuracy
+
+      self%surface = surface
+      by_accuracy = .true.
+      if (present(points)) by_accuracy = all(points == 0)
+      call find_frame(surface, frame)
+      if (surface%dimension == 1 .and. surface%paper_wave() /= no_paper_wave) then
+         allocate (closed_form)
+         call closed_form%start(surface)
+         call move_alloc(closed_form, self%first)
+      else if (frame%is_found() .and. by_accuracy) then
+         allocate (fitted, self%second)
+         call fitted%start(surface, accuracy, keep_fields)
+         call self%second%start(surface, accuracy, keep_fields)
+         call move_alloc(fitted, self%first)
+      else
+         allocate (grid)
+         call grid%start(surface, accuracy, keep_fields, points)
+         call move_alloc(grid, self%first)
+      end if
+   end subroutine start
+
+   subroutine solve_partial_contact(self, pbar_over_pstar, solution)
+      class(auto_contact), intent(inout) :: self
+      real(dp), intent(in) :: pbar_over_pstar
+      class(contact_solution), allocatable, intent(out) :: solution
+
+      class(contact_solution), allocatable :: on_grids
+
+      call self%first%solve(pbar_over_pstar, solution)
+      if (.not. allocated(self%second) .or. solution%is_good()) return
+      call self%second%solve(pbar_over_pstar, on_grids)
+      if (on_grids%status == converged .or. on_grids%largest_error() <= solution%largest_error()) &
+         call move_alloc(on_grids, solution)
+   end subroutine solve_partial_contact
+
+   subroutine show_progress(self, progress)
+      class(auto_contact), intent(inout) :: self
+      class(solver_progress), intent(in), pointer :: progress
+
+      call self%first%show_progress(progress)
+      if (allocated(self%second)) call self%second%show_progress(progress)
+   end subroutine show_progress
+
+   integer function coarser_levels(self)
+      class(auto_contact), intent(in) :: self
+
+      coarser_levels = self%first%coarser_levels()
+   end function coarser_levels
+
+   subroutine use_level(self, level)
+      class(auto_contact), intent(inout) :: self
+      integer, intent(in) :: level
+
+      call self%first%use_level(level)
+   end subroutine use_level
+
+   pure logical function starts_from_last_load(self)
+      class(auto_contact), intent(in) :: self
+
+      starts_from_last_load = self%first%starts_from_last_load()
+   end function starts_from_last_load
+
+   !> The next expansion starts from the expansion of this load, even if the grids' solution was the one taken.
+   subroutine skip_load(self, pbar_over_pstar)
+      class(auto_contact), intent(inout) :: self
+      real(dp), intent(in) :: pbar_over_pstar
+
+      class(contact_solution), allocatable :: unused
+
+      if (allocated(self%second)) call self%first%solve(pbar_over_pstar, unused)
+   end subroutine skip_load
+
+   subroutine new_kept_solution(self, solution)
+      class(auto_contact), intent(in) :: self
+      class(contact_solution), allocatable, intent(out) :: solution
+
+      if (allocated(self%second)) then
+         call self%second%new_kept_solution(solution)
+      else
+         call self%first%new_kept_solution(solution)
+      end if
+   end subroutine new_kept_solution
+
+   pure function describe(self) result(words)
+      class(auto_contact), intent(in) :: self
+      character(:), allocatable :: words
+
+      words = self%first%describe()
+      if (allocated(self%second)) words = words//', grids where these cannot'
+   end function describe
+
+end module wavycon_auto_contact

@@ -1,0 +1,217 @@
+!> solver = 'beale': the method of Johnson, Greenwood & Higginson (1985). The pressure is a truncated Fourier series; its
+!> amplitudes minimise the complementary energy by Beale's quadratic programming.
+module wavycon_beale_contact
+   use wavycon_beale, only: beale_solver
+   use wavycon_complementary_energy, only: energy_problem
+   use wavycon_contact_measures, only: measure_series, measuring_intervals
+   use wavycon_contact_solution, only: contact_solution
+   use wavycon_contact_solver, only: contact_solver
+   use wavycon_edge_curves, only: edge_curve, strip_ends, trace_edges, turn_curves
+   use wavycon_fourier_series, only: fourier_series
+   use wavycon_fourier_terms, only: choose_terms, fourier_terms
+   use wavycon_isobar_grid, only: isobar_grid, start_isobar_grid
+   use wavycon_kinds, only: dp
+   use wavycon_line_zeros, only: line_zeros
+   use wavycon_qp_problem, only: qp_problem, qp_solution, qp_status_name
+   use wavycon_series_solution, only: series_solution
+   use wavycon_surface, only: surface_type, turned_paper_wave
+   use wavycon_turned_series, only: to_sum_angles
+   implicit none (type, external)
+   private
+
+   public :: beale_contact, beale_solution
+
+   character(*), parameter :: solver_name = 'beale'
+
+   !> Beale's method starts at this load, or at the load itself if that is higher; the dual pass then goes down to the load.
+   !> Few constraints are active this close to full contact. At a light load Beale's method would start from x = 0 and meet
+   !> nearly dependent sets of neighbouring points near the troughs, which costs more.
+   real(dp), parameter :: starting_load = 0.9_dp
+
+   !> What the solver and its solutions share.
+   type :: series_setup
+      type(fourier_terms) :: terms
+      logical :: turned = .false.                      !! phi and theta are the cell's angles turned by 45 degrees
+      real(dp) :: edge_level = 0.1_dp                  !! isobar taken as the edge of contact [p*]
+   end type series_setup
+
+   type, extends(contact_solver) :: beale_contact
+      type(series_setup) :: setup
+      type(qp_problem) :: problem                      !! at zero load
+      type(beale_solver), private :: solver
+      real(dp), private :: last_load = -1.0_dp         !! of the solution that `solver` holds; negative: none
+   contains
+      procedure, nopass :: name
+      procedure :: describe
+      procedure :: start
+      procedure :: solve_partial_contact
+      procedure :: solve_series
+      procedure :: has_coefficients
+      procedure :: starts_from_last_load
+   end type beale_contact
+
+   type, extends(series_solution) :: beale_solution
+      real(dp), allocatable :: x(:)                    !! amplitudes of the Fourier terms of (p - pbar)/p*
+      type(series_setup) :: setup
+   contains
+      procedure :: pressure
+      procedure :: edge_curves
+      procedure :: coefficients
+   end type beale_solution
+
+contains
+
+   pure function name() result(words)
+      character(:), allocatable :: words
+
+      words = solver_name
+   end function name
+
+   !> Chooses the terms of the series and the points of the constraints.
+   subroutine start(self, surface, harmonics, constraint_points, symmetry, edge_level)
+      class(beale_contact), intent(out) :: self
+      type(surface_type), intent(in) :: surface  !! a wave of the paper
+      integer, intent(in) :: harmonics           !! n >= 1
+      integer, intent(in) :: constraint_points   !! on [0, pi] in each direction, >= 2
+      integer, intent(in) :: symmetry            !! one of the names of wavycon_fourier_terms
+      real(dp), intent(in), optional :: edge_level   !! isobar taken as the edge of contact [p*]; 0.1 if absent
+
+      if (present(edge_level)) self%setup%edge_level = edge_level
+      self%surface = surface
+      self%setup%turned = surface%paper_wave() == turned_paper_wave
+      self%setup%terms = choose_terms(surface%dimension, harmonics, symmetry)
+      self%problem = energy_problem(self%setup%terms, constraint_points, symmetry)
+   end subroutine start
+
+   subroutine solve_partial_contact(self, pbar_over_pstar, solution)
+      class(beale_contact), intent(inout) :: self
+      real(dp), intent(in) :: pbar_over_pstar
+      class(contact_solution), allocatable, intent(out) :: solution
+
+      type(beale_solution), allocatable :: own
+
+      allocate (own)
+      call self%solve_series(pbar_over_pstar, own)
+      call measure_series(pressure_series(own), displacement_series(own), self%setup%edge_level, own%measures)
+      call move_alloc(own, solution)
+   end subroutine solve_partial_contact
+
+   !> Solves for the series alone, without measures.
+   subroutine solve_series(self, pbar_over_pstar, solution)
+      class(beale_contact), intent(inout) :: self
+      real(dp), intent(in) :: pbar_over_pstar       !! 0 < P < 1
+      type(beale_solution), intent(out) :: solution
+
+      type(qp_problem) :: problem
+      type(qp_solution) :: programme
+
+      solution%setup = self%setup
+      solution%pbar_over_pstar = pbar_over_pstar
+      allocate (solution%x(self%setup%terms%count()), source=0.0_dp)
+      if (self%last_load < pbar_over_pstar) then
+         problem = self%problem
+         self%last_load = max(starting_load, pbar_over_pstar)
+         problem%bounds = -self%last_load
+         call self%solver%solve(problem, programme)
+         solution%iterations = programme%pivots
+      end if
+      if (pbar_over_pstar < self%last_load .or. .not. allocated(programme%x)) then
+         call self%solver%pass_to(self%problem%bounds - pbar_over_pstar, programme)
+         self%last_load = pbar_over_pstar
+         solution%iterations = solution%iterations + programme%pivots
+      end if
+
+      solution%status = qp_status_name(programme%status)
+      solution%solver = solver_name
+      solution%residual = programme%kkt_residual
+      if (.not. allocated(programme%x)) return
+      solution%x = programme%x
+      solution%active_constraints = size(programme%active)
+   end subroutine solve_series
+
+   pure logical function has_coefficients(self)
+      class(beale_contact), intent(in) :: self
+
+      associate (unused => self); end associate
+      has_coefficients = .true.
+   end function has_coefficients
+
+   pure logical function starts_from_last_load(self)
+      class(beale_contact), intent(in) :: self
+
+      associate (unused => self); end associate
+      starts_from_last_load = .true.
+   end function starts_from_last_load
+
+   !> p/p* as a series in phi and theta.
+   type(fourier_series) function pressure_series(solution) result(series)
+      type(beale_solution), intent(in) :: solution
+
+      call solution%setup%terms%coefficients(solution%x, series%c)
+      series%c(0, 0) = solution%pbar_over_pstar
+   end function pressure_series
+
+   !> (u - ubar)/Delta, likewise: eqs. (13), (A10).
+   type(fourier_series) function displacement_series(solution) result(series)
+      type(beale_solution), intent(in) :: solution
+
+      integer :: k
+
+      associate (terms => solution%setup%terms)
+         call terms%coefficients([(terms%compliance(k)*solution%x(k), k=1, terms%count())], series%c)
+      end associate
+   end function displacement_series
+
+   subroutine pressure(self, series)
+      class(beale_solution), intent(in) :: self
+      type(fourier_series), intent(out) :: series
+
+      series = pressure_series(self)
+      if (self%setup%turned) series = to_sum_angles(series)
+   end subroutine pressure
+
+   subroutine coefficients(self, surface, series)
+      class(beale_solution), intent(in) :: self
+      type(surface_type), intent(in) :: surface
+      type(fourier_series), intent(out) :: series
+
+      associate (unused => surface); end associate
+      call self%pressure(series)
+   end subroutine coefficients
+
+   !> The isobar p = edge_level p*.
+   subroutine edge_curves(self, surface, curves)
+      class(beale_solution), intent(in) :: self
+      type(surface_type), intent(in) :: surface
+      type(edge_curve), allocatable, intent(out) :: curves(:)
+
+      type(fourier_series) :: series
+      type(isobar_grid) :: grid
+      real(dp), allocatable :: zeros(:)
+
+      series = pressure_series(self)
+      associate (level => self%setup%edge_level, harmonics => self%setup%terms%harmonics)
+         if (surface%dimension == 2) then
+            call start_isobar_grid(grid, series, level, measuring_intervals(harmonics))
+            call trace_edges(grid, curves)
+            if (self%setup%turned) call turn_curves(curves, factor=1.0_dp)
+         else
+            series%c(0, 0) = series%c(0, 0) - level
+            call line_zeros(series%c(:, 0), measuring_intervals(harmonics), zeros)
+            call strip_ends(zeros, sum(series%c) >= 0.0_dp, curves)
+         end if
+      end associate
+   end subroutine edge_curves
+
+   pure function describe(self) result(words)
+      class(beale_contact), intent(in) :: self
+      character(:), allocatable :: words
+
+      character(120) :: line
+
+      write (line, '(3(i0, a))') self%setup%terms%harmonics, ' harmonics (', self%setup%terms%count(), &
+         ' unknowns), ', size(self%problem%bounds), ' constraint points'
+      words = trim(line)
+   end function describe
+
+end module wavycon_beale_contact

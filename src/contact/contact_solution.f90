@@ -1,0 +1,197 @@
+!> The solution at one load.
+!>
+!> Every solver extends `contact_solution`; a caller needs to know nothing of the solver that made one. Positions of fields
+!> and edges are the angles X, Y of the surface's cell.
+module wavycon_contact_solution
+   use wavycon_contact_details, only: contact_details
+   use wavycon_contact_fields, only: contact_fields, series_fields
+   use wavycon_contact_measures, only: contact_measures, unmeasured
+   use wavycon_contact_status, only: full_contact, is_good_status
+   use wavycon_edge_curves, only: edge_curve
+   use wavycon_fourier_series, only: fourier_series
+   use wavycon_kinds, only: dp
+   use wavycon_surface, only: surface_type
+   implicit none (type, external)
+   private
+
+   public :: contact_solution, contact_solution_item, solution_without_contact_edge, no_solution, pack_common, unpack_common
+
+   !> Numbers that pack_kept puts first.
+   integer, parameter, public :: packed_values = 12
+
+   type, abstract :: contact_solution
+      real(dp) :: pbar_over_pstar = 0.0_dp    !! P >= 0, the mean pressure over p*
+      type(contact_measures) :: measures
+      character(12) :: solver = 'none'        !! name of the solver; 'none' if no solver was needed
+      integer :: active_constraints = 0       !! points at which the pressure is held at zero
+      integer :: iterations = 0               !! of the solver; exchanges of variables since the last load for a QP
+      real(dp) :: residual = 0.0_dp           !! relative; of a QP that of the Karush-Kuhn-Tucker conditions
+      character(16) :: status = ''            !! one of wavycon_contact_status, or of wavycon_qp_problem
+   contains
+      procedure :: is_good
+      procedure :: largest_error
+      procedure(fields_of_solution), deferred :: fields
+      procedure(edge_of_solution), deferred :: edge_curves
+      procedure :: coefficients
+      procedure :: details
+      procedure :: is_kept
+      procedure :: pack_kept => pack_common
+      procedure :: unpack_kept => unpack_common
+   end type contact_solution
+
+   abstract interface
+      !> Pressure and displacement. Not allocated if the solver was started without keep_fields.
+      subroutine fields_of_solution(self, surface, answer)
+         import :: contact_fields, contact_solution, surface_type
+         class(contact_solution), intent(in) :: self
+         type(surface_type), intent(in) :: surface             !! that was solved
+         class(contact_fields), allocatable, intent(out) :: answer
+      end subroutine fields_of_solution
+
+      !> The edge of contact: closed curves in 2-D, the two ends of each strip in 1-D. No curves for full contact and for no
+      !> load, nor if the solver was started without keep_fields.
+      subroutine edge_of_solution(self, surface, curves)
+         import :: contact_solution, edge_curve, surface_type
+         class(contact_solution), intent(in) :: self
+         type(surface_type), intent(in) :: surface             !! that was solved
+         type(edge_curve), allocatable, intent(out) :: curves(:)
+      end subroutine edge_of_solution
+   end interface
+
+   !> An element of an array of solutions.
+   type :: contact_solution_item
+      class(contact_solution), allocatable :: solution
+   end type contact_solution_item
+
+   !> Full contact, no load, or no solution at all.
+   type, extends(contact_solution) :: solution_without_contact_edge
+   contains
+      procedure :: fields => uniform_fields
+      procedure :: edge_curves => no_curves
+      procedure :: coefficients => uniform_coefficients
+   end type solution_without_contact_edge
+
+contains
+
+   !> Whether the numbers are as accurate as requested.
+   pure logical function is_good(self)
+      class(contact_solution), intent(in) :: self
+
+      is_good = is_good_status(self%status)
+   end function is_good
+
+   !> The largest of the three error estimates, each in its own unit.
+   pure real(dp) function largest_error(self)
+      class(contact_solution), intent(in) :: self
+
+      associate (measures => self%measures)
+         largest_error = max(measures%mean_gap_error, measures%contact_area_error, measures%peak_pressure_error)
+      end associate
+   end function largest_error
+
+   !> p/p* as the Fourier series that the solver computed, in X and Y. Not allocated (series%c) where the solver has none.
+   subroutine coefficients(self, surface, series)
+      class(contact_solution), intent(in) :: self
+      type(surface_type), intent(in) :: surface      !! that was solved
+      type(fourier_series), intent(out) :: series
+
+      associate (unused => self, unused_too => surface, none => series); end associate
+   end subroutine coefficients
+
+   !> Numbers beyond the summary's.
+   subroutine details(self, answer, found)
+      class(contact_solution), intent(in) :: self
+      type(contact_details), intent(out) :: answer
+      logical, intent(out) :: found                  !! whether the solver has them for this load
+
+      associate (unused => self, none => answer); end associate
+      found = .false.
+   end subroutine details
+
+   !> Whether an interrupted run keeps the solution for its resumption; every other solution is computed again.
+   pure logical function is_kept(self)
+      class(contact_solution), intent(in) :: self
+
+      associate (unused => self); end associate
+      is_kept = .false.
+   end function is_kept
+
+   !> The numbers of the solution in one array, from which unpack_kept restores it. An extension of the type adds its own.
+   pure subroutine pack_common(self, values)
+      class(contact_solution), intent(in) :: self
+      real(dp), allocatable, intent(out) :: values(:)   !! not allocated if there is not enough memory
+
+      associate (measures => self%measures)
+         values = [self%pbar_over_pstar, measures%mean_gap_over_amplitude, measures%approach_over_amplitude, &
+                   measures%contact_area_fraction, measures%peak_pressure_over_pstar, measures%min_pressure_over_pstar, &
+                   measures%mean_gap_error, measures%contact_area_error, measures%peak_pressure_error, &
+                   real([self%active_constraints, self%iterations], dp), self%residual]
+      end associate
+   end subroutine pack_common
+
+   pure subroutine unpack_common(self, values, understood)
+      class(contact_solution), intent(inout) :: self
+      real(dp), intent(in) :: values(:)
+      logical, intent(out) :: understood                !! .false. if these are not the numbers of such a solution
+
+      understood = size(values) >= packed_values
+      if (.not. understood) return
+      self%pbar_over_pstar = values(1)
+      self%measures = contact_measures(values(2), values(3), values(4), values(5), values(6), values(7), values(8), values(9))
+      self%active_constraints = nint(values(10))
+      self%iterations = nint(values(11))
+      self%residual = values(12)
+   end subroutine unpack_common
+
+   !> The solution of a solver that found none.
+   subroutine no_solution(pbar_over_pstar, surface, solver, status, solution)
+      real(dp), intent(in) :: pbar_over_pstar        !! P
+      type(surface_type), intent(in) :: surface
+      character(*), intent(in) :: solver, status     !! why there is none: a name of wavycon_contact_status
+      class(contact_solution), allocatable, intent(out) :: solution
+
+      allocate (solution_without_contact_edge :: solution)
+      solution%pbar_over_pstar = pbar_over_pstar
+      solution%measures = unmeasured(surface%full_contact_peak)
+      solution%solver = solver
+      solution%status = status
+   end subroutine no_solution
+
+   !> Fields of full contact, or zero without load and without a solution.
+   subroutine uniform_fields(self, surface, answer)
+      class(solution_without_contact_edge), intent(in) :: self
+      type(surface_type), intent(in) :: surface
+      class(contact_fields), allocatable, intent(out) :: answer
+
+      type(series_fields), allocatable :: both
+
+      allocate (both)
+      call self%coefficients(surface, both%pressure)
+      both%displacement = both%pressure
+      if (self%status == full_contact) both%displacement = surface%shape
+      call move_alloc(both, answer)
+   end subroutine uniform_fields
+
+   subroutine uniform_coefficients(self, surface, series)
+      class(solution_without_contact_edge), intent(in) :: self
+      type(surface_type), intent(in) :: surface
+      type(fourier_series), intent(out) :: series
+
+      if (self%status == full_contact) then
+         series = surface%full_contact_series(self%pbar_over_pstar)
+      else
+         allocate (series%c, mold=surface%shape%c)
+         series%c = 0.0_dp
+      end if
+   end subroutine uniform_coefficients
+
+   subroutine no_curves(self, surface, curves)
+      class(solution_without_contact_edge), intent(in) :: self
+      type(surface_type), intent(in) :: surface
+      type(edge_curve), allocatable, intent(out) :: curves(:)
+
+      associate (unused => self, unused_too => surface); end associate
+      allocate (curves(0))
+   end subroutine no_curves
+
+end module wavycon_contact_solution

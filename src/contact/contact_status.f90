@@ -1,0 +1,32 @@
+!> The statuses of a solution.
+!>
+!> A quadratic programme that is not solved has the status of wavycon_qp_problem instead, such as 'iteration_limit'.
+module wavycon_contact_status
+   implicit none (type, external)
+   private
+
+   public :: is_good_status
+
+   !> Good: solved to the tolerance; solved in closed form; no solver needed.
+   character(*), parameter, public :: converged = 'converged', closed_form = 'closed_form', &
+                                      full_contact = 'full_contact', no_load = 'no_load'
+   !> The load is not a number.
+   character(*), parameter, public :: not_finite = 'not_finite'
+   !> The error estimate exceeds the accuracy requested.
+   character(*), parameter, public :: not_accurate = 'not_accurate'
+   !> The solver has no solution for this load or this surface.
+   character(*), parameter, public :: not_found = 'not_found'
+   !> There is not enough memory for the grid requested; the numbers, if any, are those of a coarser grid.
+   character(*), parameter, public :: no_memory = 'no_memory'
+
+contains
+
+   !> Whether the numbers of a solution with this status are as accurate as requested.
+   elemental logical function is_good_status(status)
+      character(*), intent(in) :: status
+
+      is_good_status = status == converged .or. status == closed_form .or. status == full_contact .or. &
+                       status == no_load
+   end function is_good_status
+
+end module wavycon_contact_status

@@ -1,0 +1,187 @@
+!> The solution of the fitted expansions at one load: fields, edge and details.
+module wavycon_fitted_solution
+   use wavycon_constants, only: pi
+   use wavycon_contact_details, only: contact_details
+   use wavycon_contact_fields, only: contact_fields
+   use wavycon_contact_solution, only: contact_solution
+   use wavycon_edge_curves, only: edge_curve
+   use wavycon_fitted_answer, only: fitted_answer
+   use wavycon_fitted_details, only: find_fitted_details, fitted_details
+   use wavycon_fitted_fields, only: fitted_fields, start_fitted_fields
+   use wavycon_fitted_frame, only: fitted_frame
+   use wavycon_kinds, only: dp
+   use wavycon_surface, only: surface_type
+   use wavycon_wave_lattice, only: wave_lattice
+   implicit none (type, external)
+   private
+
+   public :: fitted_solution
+
+   type, extends(contact_solution) :: fitted_solution
+      type(fitted_frame) :: frame
+      type(wave_lattice) :: lattice
+      type(fitted_answer) :: answer     !! in the lattice's units
+   contains
+      procedure :: fields
+      procedure :: edge_curves
+      procedure :: details
+   end type fitted_solution
+
+   type, extends(contact_fields) :: fitted_solution_fields
+      real(dp) :: length(2) = 1.0_dp    !! sides of the surface's cell [length]
+      logical :: is_square = .false.    !! whether x and y are equivalent
+      type(fitted_frame) :: frame
+      type(fitted_fields) :: fitted
+   contains
+      procedure :: at
+      procedure :: on_cell
+   end type fitted_solution_fields
+
+   !> Points of an edge in a table.
+   integer, parameter :: edge_points = 256
+
+contains
+
+   subroutine fields(self, surface, answer)
+      class(fitted_solution), intent(in) :: self
+      type(surface_type), intent(in) :: surface
+      class(contact_fields), allocatable, intent(out) :: answer
+
+      type(fitted_solution_fields), allocatable :: own
+
+      allocate (own)
+      own%length = surface%length
+      own%is_square = self%lattice%square
+      own%frame = self%frame
+      call start_fitted_fields(own%fitted, self%lattice, self%answer)
+      call move_alloc(own, answer)
+   end subroutine fields
+
+   subroutine at(self, x, y, pressure, displacement)
+      class(fitted_solution_fields), intent(inout) :: self
+      real(dp), intent(in) :: x, y
+      real(dp), intent(out) :: pressure, displacement
+
+      complex(dp) :: place
+      real(dp) :: gap
+
+      associate (length => self%length)
+         place = self%frame%place(length(1)*x/(2*pi), length(2)*y/(2*pi))
+      end associate
+      call self%fitted%at(place, pressure, displacement, gap)
+      pressure = pressure*self%frame%pressure_unit
+   end subroutine at
+
+   !> Points that are equivalent by mirror symmetry, by the diagonals of a square cell or by the second crest are evaluated
+   !> once.
+   subroutine on_cell(self, intervals, dimension, pressure, displacement)
+      class(fitted_solution_fields), intent(inout) :: self
+      integer, intent(in) :: intervals, dimension
+      real(dp), allocatable, intent(out) :: pressure(:, :), displacement(:, :)
+
+      integer :: k, l, image(2)
+
+      associate (unused => dimension); end associate
+      allocate (pressure(0:intervals, 0:intervals), displacement(0:intervals, 0:intervals))
+      do l = 0, intervals
+         do k = 0, intervals
+            image = first_image(k, l)
+            if (all(image == [k, l])) then
+               call self%at(2*pi*k/intervals, 2*pi*l/intervals, pressure(k, l), displacement(k, l))
+            else
+               pressure(k, l) = pressure(image(1), image(2))
+               displacement(k, l) = displacement(image(1), image(2))
+            end if
+         end do
+      end do
+
+   contains
+
+      !> The first of the points equivalent to this one.
+      pure function first_image(i, j) result(first)
+         integer, intent(in) :: i, j
+         integer :: first(2)
+
+         integer :: other(2)
+
+         first = ordered([min(i, intervals - i), min(j, intervals - j)])
+         if (self%frame%crests == 2 .and. mod(intervals, 2) == 0) then
+            other = ordered(intervals/2 - first)
+            if (other(2) < first(2) .or. (other(2) == first(2) .and. other(1) < first(1))) first = other
+         end if
+      end function first_image
+
+      pure function ordered(point)
+         integer, intent(in) :: point(2)
+         integer :: ordered(2)
+
+         ordered = point
+         if (self%is_square .and. point(2) > point(1)) ordered = point([2, 1])
+      end function ordered
+
+   end subroutine on_cell
+
+   !> A closed curve about each crest or, above merging, about each trough.
+   subroutine edge_curves(self, surface, curves)
+      class(fitted_solution), intent(in) :: self
+      type(surface_type), intent(in) :: surface
+      type(edge_curve), allocatable, intent(out) :: curves(:)
+
+      complex(dp) :: centre, edge(edge_points), to_surface
+      type(fitted_fields) :: fields
+      integer :: i, k, turned
+
+      call start_fitted_fields(fields, self%lattice, self%answer)
+      to_surface = self%frame%side/self%frame%turn
+      edge = (fields%edge(edge_points) - fields%centre)*to_surface
+      ! The contact lies on the left of the curve.
+      if (self%answer%island) edge = edge(edge_points:1:-1)
+      ! The second of two islands is the first one rotated by 180 degrees; the second half of a cell is the first one
+      ! translated.
+      allocate (curves(self%frame%crests*fields%places))
+      do k = 1, size(curves)
+         turned = merge(-1, 1, k > self%frame%crests)
+         centre = turned*fields%centre*to_surface
+         associate (length => surface%length, places => [(mod(i, edge_points) + 1, i=0, edge_points)], &
+                    half_cells => modulo(k - 1, self%frame%crests))
+            curves(k)%phi = in_cell(2*pi*centre%re/length(1) + pi*half_cells) + 2*pi*turned*edge(places)%re/length(1)
+            curves(k)%theta = in_cell(2*pi*centre%im/length(2) + pi*half_cells) + 2*pi*turned*edge(places)%im/length(2)
+         end associate
+      end do
+
+   contains
+
+      !> The equivalent angle between 0 and 2 pi.
+      pure real(dp) function in_cell(angle)
+         real(dp), intent(in) :: angle
+
+         !> Keeps angles of 0 or 2 pi, less rounding, from changing by 2 pi.
+         real(dp), parameter :: rounding = 1e-9_dp
+
+         in_cell = angle - 2*pi*floor(angle/(2*pi) + rounding)
+      end function in_cell
+
+   end subroutine edge_curves
+
+   subroutine details(self, answer, found)
+      class(fitted_solution), intent(in) :: self
+      type(contact_details), intent(out) :: answer
+      logical, intent(out) :: found
+
+      type(fitted_details) :: own
+      real(dp) :: energy_unit
+
+      call find_fitted_details(self%lattice, self%answer, own)
+      found = .true.
+      energy_unit = self%frame%pressure_unit/self%lattice%area
+      answer = contact_details( &
+               trough_gap=own%trough_gap, trough_gap_error=own%trough_gap_error, &
+               saddle_gap=own%saddle_gap, saddle_gap_error=own%saddle_gap_error, &
+               saddle_pressure=own%saddle_pressure*self%frame%pressure_unit, &
+               saddle_pressure_error=own%saddle_pressure_error*self%frame%pressure_unit, &
+               energy=self%answer%energy*energy_unit, energy_error=self%answer%energy_error*energy_unit, &
+               perimeter=self%answer%perimeter*self%frame%side, &
+               perimeter_error=self%answer%perimeter_error*self%frame%side, degree=self%answer%degree)
+   end subroutine details
+
+end module wavycon_fitted_solution
