@@ -50,7 +50,7 @@ module wavycon_contact_tuning
    !> Half width, in steps, of a contact whose peak the polynomial does not resolve: its edge may lie between the first
    !> and the second point from the crest.
    real(dp), parameter, public :: unresolved_width = 1.5_dp
-   !> A point whose pressure is less than that of a neighbour over this may have a gap beside it that lies between points.
+   !> A point whose pressure is less than that of a neighbour over this may have a gap beside it, between the points.
    real(dp), parameter, public :: opening_ratio = 2.0_dp
    !> The least relative error of mean gap and peak pressure over that of the area. Both converge faster than the area,
    !> but not by much more than this.
