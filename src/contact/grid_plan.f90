@@ -96,6 +96,9 @@ contains
    end function finest
 
    !> The next number of points whose Fourier transform is fast: 1, 3 or 5 times a power of two.
+   !>
+   !> With the least power p of two that 5 p reaches the number, the candidates are 5 p, 4 p and 3 p, and below
+   !> them, of the numbers up to 5, 2 and 1.
    elemental integer function fast_size(number)
       integer, intent(in) :: number   !! >= 1
 
@@ -106,6 +109,7 @@ contains
          power = 2*power
       end do
       fast_size = 5*power
+      if (4*power >= number) fast_size = 4*power
       if (3*power >= number) fast_size = 3*power
       if (2*power >= number) fast_size = 2*power
       if (power >= number) fast_size = power

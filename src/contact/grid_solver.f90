@@ -204,7 +204,9 @@ contains
          self%more_sums(j) = dot_product(self%residual(:, j), self%image(:, j))
       end do
       descent = sum(self%sums)
-      beta = max((descent - sum(self%more_sums))/max(self%descent, tiny(self%descent)), 0.0_dp)
+      ! After a contact of one point, which has no direction, the search starts afresh.
+      beta = 0.0_dp
+      if (self%descent > tiny(self%descent)) beta = max((descent - sum(self%more_sums))/self%descent, 0.0_dp)
       self%descent = descent
       !$omp parallel do num_threads(self%threads)
       do j = 1, size(gap, 2)
