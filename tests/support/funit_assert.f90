@@ -1,6 +1,7 @@
 !> The assertions: expected value first, actual value second.
 !>
 !> Ranks are 0, 1 or 2; a scalar expected value is compared with every element, of which there must be one.
+!> Conditions of assertTrue and assertFalse are scalars or vectors.
 !> The arithmetic raises no floating-point exception, so that a failure is reported in builds that trap them.
 module funit_assert
    use, intrinsic :: iso_fortran_env, only: dp => real64
@@ -32,6 +33,15 @@ module funit_assert
    interface assertGreaterThanOrEqual
       procedure :: greater_equal_real, greater_equal_integer
    end interface assertGreaterThanOrEqual
+
+   ! No array of rank 2, as in pFUnit.
+   interface assertTrue
+      procedure :: true_scalar, true_vector
+   end interface assertTrue
+
+   interface assertFalse
+      procedure :: false_scalar, false_vector
+   end interface assertFalse
 
    character(*), parameter :: newline = new_line('a')
    character(*), parameter :: indent = newline//'      '
@@ -159,21 +169,37 @@ contains
          integer_text(len(expected))//' and '//integer_text(len(actual)), message, location)
    end subroutine equal_string
 
-   subroutine assertTrue(condition, message, location)
-      logical, intent(in) :: condition(..)
+   subroutine true_scalar(condition, message, location)
+      logical, intent(in) :: condition
       character(*), intent(in), optional :: message
       type(SourceLocation), intent(in) :: location
 
       call check_logicals('assertTrue', .true., condition, message, location)
-   end subroutine assertTrue
+   end subroutine true_scalar
 
-   subroutine assertFalse(condition, message, location)
-      logical, intent(in) :: condition(..)
+   subroutine true_vector(condition, message, location)
+      logical, intent(in) :: condition(:)
+      character(*), intent(in), optional :: message
+      type(SourceLocation), intent(in) :: location
+
+      call check_logicals('assertTrue', .true., condition, message, location)
+   end subroutine true_vector
+
+   subroutine false_scalar(condition, message, location)
+      logical, intent(in) :: condition
       character(*), intent(in), optional :: message
       type(SourceLocation), intent(in) :: location
 
       call check_logicals('assertFalse', .false., condition, message, location)
-   end subroutine assertFalse
+   end subroutine false_scalar
+
+   subroutine false_vector(condition, message, location)
+      logical, intent(in) :: condition(:)
+      character(*), intent(in), optional :: message
+      type(SourceLocation), intent(in) :: location
+
+      call check_logicals('assertFalse', .false., condition, message, location)
+   end subroutine false_vector
 
    subroutine assertIsFinite(x, message, location)
       real(dp), intent(in) :: x

@@ -1,7 +1,7 @@
 !> Runs the tests of an executable and reports them.
 module funit_runner
-   use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_int
    use, intrinsic :: iso_fortran_env, only: output_unit
+   use early_exit, only: allow_exit, refuse_early_exit
    use funit_exception, only: SourceLocation, anyExceptions, exception, take_assertion_count, &
       take_exceptions, throw
    implicit none (type, external)
@@ -29,20 +29,7 @@ module funit_runner
       procedure :: add
    end type TestSuite
 
-   interface
-      integer(c_int) function c_atexit(handler) bind(c, name='atexit')
-         import :: c_funptr, c_int
-         type(c_funptr), value :: handler
-      end function c_atexit
-
-      subroutine c_exit_at_once(status) bind(c, name='_exit')
-         import :: c_int
-         integer(c_int), value :: status
-      end subroutine c_exit_at_once
-   end interface
-
    integer :: tests_run = 0, tests_failed = 0, empty_suites = 0
-   logical :: ended = .false.
 
 contains
 
@@ -64,7 +51,7 @@ contains
 
    !> To be called first.
    subroutine begin_tests()
-      if (c_atexit(c_funloc(refuse_early_exit)) /= 0) error stop 'funit: atexit failed'
+      call refuse_early_exit()
    end subroutine begin_tests
 
    !> Runs every test of a suite; a suite without tests counts as a failure.
@@ -85,7 +72,7 @@ contains
 
    !> Ends the program: with status 0 if there was a test and none failed, else 1.
    subroutine end_tests()
-      ended = .true.
+      call allow_exit()
       if (tests_run == 0) then
          write (output_unit, '(a)') 'FAILED: no test was run'
       else if (tests_failed > 0 .or. empty_suites > 0) then
@@ -137,13 +124,5 @@ contains
          end if
       end do
    end subroutine run_test
-
-   !> Runs when the process ends: a test that stops the program, even with status 0, has not passed.
-   subroutine refuse_early_exit() bind(c)
-      if (ended) return
-      write (output_unit, '(/, a)') 'FAILED: a test stopped the program'
-      flush (output_unit)
-      call c_exit_at_once(1_c_int)
-   end subroutine refuse_early_exit
 
 end module funit_runner

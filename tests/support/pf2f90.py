@@ -27,8 +27,9 @@ OPERANDS = {       # operands before the keywords, whether tolerance= is allowed
     'assertFail': (0, False, False),
 }
 PROCEDURES = ('test', 'before', 'after')
-# What pFUnit 4.14 makes visible by `use funit` (besides assert*) or declares in its suite functions:
-# a test module that declares such a name does not compile there.
+# What pFUnit 4.14 makes visible by `use funit` besides assert*. A test module that declares such a name does not
+# compile there. Nor does one whose procedure has a local variable of such a name and passes it on before it sets it:
+# gfortran 12 then takes it for pFUnit's generic or type.
 FORBIDDEN = set("""
     abstractmatcher abstracttestparameter all_of allof any_of anyexceptions anyof array_with_size
     basetestrunner catch catchnext contains_string debuglistener disable empty_array ends_with equal_to
@@ -37,10 +38,12 @@ FORBIDDEN = set("""
     istrueorfalse keep_all listenerpointer loadtests_interface matchable matcherdescription namefilter
     near not output_unit parallelcontext parameterizedtestcase predicate relatively_near remoterunner
     resultprinter robustrunner run serialcontext sourcelocation starts_with stringcontains
-    stringdescription stringendswith stringstartswith stub subject suite t taplistener test testannotation
+    stringdescription stringendswith stringstartswith stub subject taplistener test testannotation
     testcase testlistener testlistenervector testmethod testresult testrunner testsuite throw
     timeoutannotation trim_all true wascalled wascalledonce wasnotcalled whitespaceoptions xmlprinter
 """.split())
+# What pFUnit declares in its suite functions, which use the whole test module. Local names do not meet these.
+FORBIDDEN_IN_MODULE = {'suite', 't'}
 
 PLAIN_SUBROUTINE = re.compile(r'\s*subroutine\s+(\w+)\s*(\(\s*\))?\s*$')
 PROCEDURE = re.compile(r'(?!\s*end\b)(?:[\w()=*,: ]+\s|\s*)(?:subroutine|function)\s+(\w+)', re.I)
@@ -91,13 +94,29 @@ def split_arguments(text):
 
 
 def declared_names(code):
-    """Names after the '::' of a declaration."""
-    names, depth = '', 0
-    for char in code.partition('::')[2]:
+    """The names that a declaration declares; none if the statement has no '::' outside of parentheses."""
+    outside, depth = '', 0
+    for char in code:
         depth += (char in '([') - (char in ')]')
         if depth == 0 and char not in ')]':
-            names += char
-    return [name.partition('=')[0].strip().lower() for name in names.split(',')]
+            outside += char
+    if re.match(r'\s*use\b', code, re.I):
+        return []
+    names = outside.partition('::')[2].split(',')
+    return [name.partition('=')[0].strip().lower() for name in names if name.strip()]
+
+
+def statements(codes):
+    """(number of the first line, text) of every statement, with continued lines joined."""
+    first, text = 0, ''
+    for number, code in enumerate(codes, 1):
+        first = first or number
+        text += code.strip().lstrip('&') if text else code
+        if text.endswith('&'):
+            text = text[:-1]
+        elif code or not text:
+            yield first, text
+            first, text = 0, ''
 
 
 class TestFile:
@@ -159,7 +178,7 @@ class TestFile:
             self.refuse(modules[0] if modules else 1, "the module must have 'use funit', once and whole")
 
         in_block = in_procedures = False  # a block: a type definition or an interface
-        for number, code in enumerate(codes, 1):
+        for number, code in statements(codes):
             if re.match(r'\s*end\s*(?:type|interface)\b', code, re.I):
                 in_block = False
             elif in_block:
@@ -174,16 +193,23 @@ class TestFile:
             elif match := re.match(r'\s*(?:abstract\s+)?interface\b\s*(\w*)', code, re.I):
                 in_block = True
                 self.check_names(number, [match[1].lower()])
-            elif not in_procedures:
-                if re.match(r'\s*private\b', code, re.I):
-                    self.refuse(number, 'a test module is not private: its suite function lies outside')
-                elif '::' in code and not re.match(r'\s*use\b', code, re.I):
-                    self.check_names(number, declared_names(code))
+            elif in_procedures:
+                if not re.match(r'[^:]*,\s*parameter\b', code, re.I):  # a named constant compiles
+                    self.check_local_names(number, declared_names(code))
+            elif re.match(r'\s*private\b', code, re.I):
+                self.refuse(number, 'a test module is not private: its suite function lies outside')
+            else:
+                self.check_names(number, declared_names(code))
 
     def check_names(self, number, names):
         for name in names:
-            if name in FORBIDDEN or name.startswith('assert'):
+            if name in FORBIDDEN | FORBIDDEN_IN_MODULE or name.startswith('assert'):
                 self.refuse(number, f"a test module cannot declare '{name}': pFUnit has that name")
+
+    def check_local_names(self, number, names):
+        for name in names:
+            if name in FORBIDDEN or name.startswith('assert'):
+                self.refuse(number, f"rename the variable '{name}': pFUnit has that name, and gfortran mixes them up")
 
     def check_line(self, number, line):
         if len(line) >= LINE_LIMIT:

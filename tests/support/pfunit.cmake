@@ -9,6 +9,20 @@ else()
   message(STATUS "wavycon: pFUnit not found, tests use the stand-in in tests/support")
   include(${CMAKE_CURRENT_LIST_DIR}/standin.cmake)
 endif()
+include(${CMAKE_CURRENT_LIST_DIR}/test_properties.cmake)
+
+# wavycon_add_pf_test(name label source.pf [library ...]): one test program and its ctest.
+function(wavycon_add_pf_test name label source)
+  if(PFUNIT_FOUND)
+    # pFUnit alone would pass a program that a test stopped with status 0.
+    add_pfunit_ctest(${name} TEST_SOURCES ${source} LINK_LIBRARIES early_exit ${ARGN}
+      EXTRA_USE early_exit EXTRA_INITIALIZE refuse_early_exit EXTRA_FINALIZE allow_exit)
+  else()
+    add_pfunit_ctest(${name} TEST_SOURCES ${source} LINK_LIBRARIES ${ARGN})
+  endif()
+  target_compile_options(${name} PRIVATE ${wavycon_test_flags})
+  wavycon_test_properties(${name} ${label})
+endfunction()
 
 # wavycon_add_pf_tests(label): each test_<subject>.pf of this directory is a ctest <label>.<subject>.
 # The directory is searched, so that no file can be forgotten.
@@ -19,18 +33,13 @@ function(wavycon_add_pf_tests label)
   endif()
   foreach(source IN LISTS sources)
     string(REGEX REPLACE "^test_(.*)\\.pf$" "${label}.\\1" name ${source})
-    add_pfunit_ctest(${name} TEST_SOURCES ${source} LINK_LIBRARIES wavycon::wavycon LABELS ${label})
-    target_compile_options(${name} PRIVATE ${wavycon_test_flags})
-    if(PFUNIT_FOUND)
-      # pFUnit alone would pass a program without tests, and one that a test stopped with status 0.
-      set_tests_properties(${name} PROPERTIES PASS_REGULAR_EXPRESSION "OK\n \\([1-9][0-9]* tests?\\)")
-    endif()
+    wavycon_add_pf_test(${name} ${label} ${source} wavycon::wavycon)
   endforeach()
   if(PFUNIT_FOUND)
     # What the stand-in's preprocessor would refuse is an error here too.
     add_test(NAME ${label}.pf_subset
       COMMAND Python3::Interpreter ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/pf2f90.py --check ${sources}
       WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
-    set_tests_properties(${label}.pf_subset PROPERTIES LABELS ${label})
+    wavycon_test_properties(${label}.pf_subset ${label})
   endif()
 endfunction()

@@ -1,4 +1,5 @@
 # The stand-in for pFUnit's add_pfunit_ctest, as far as wavycon uses it.
+# N.B. It links early_exit by itself; pFUnit is given it by EXTRA_INITIALIZE and EXTRA_FINALIZE.
 
 # wavycon_standin_executable(name source.pf ...): the test program alone, without a ctest.
 function(wavycon_standin_executable name)
@@ -32,9 +33,9 @@ function(wavycon_standin_executable name)
   target_link_libraries(${name} funit)
 endfunction()
 
-# add_pfunit_ctest(name TEST_SOURCES source.pf ... [LINK_LIBRARIES ...] [LABELS ...]): program and ctest.
+# add_pfunit_ctest(name TEST_SOURCES source.pf ... [LINK_LIBRARIES ...]): program and ctest.
 function(add_pfunit_ctest name)
-  cmake_parse_arguments(PARSE_ARGV 1 PF "" "" "TEST_SOURCES;LINK_LIBRARIES;LABELS")
+  cmake_parse_arguments(PARSE_ARGV 1 PF "" "" "TEST_SOURCES;LINK_LIBRARIES")
   if(NOT PF_TEST_SOURCES)
     message(FATAL_ERROR "add_pfunit_ctest(${name}): no TEST_SOURCES")
   endif()
@@ -44,5 +45,4 @@ function(add_pfunit_ctest name)
   wavycon_standin_executable(${name} ${PF_TEST_SOURCES})
   target_link_libraries(${name} ${PF_LINK_LIBRARIES})
   add_test(NAME ${name} COMMAND ${name})
-  set_tests_properties(${name} PROPERTIES LABELS "${PF_LABELS}")
 endfunction()

@@ -29,7 +29,7 @@ contains
 
    @test
    subroutine first()
-      integer :: a, test
+      integer :: a, t
       a = 1
       @assertEqual(1, a, message='a(1), b')
    end subroutine first
@@ -56,6 +56,15 @@ REFUSED = [
     ('forbidden function', {13: '   end subroutine prepare\n   pure integer function stub()'},
      14, "cannot declare 'stub'"),
     ('forbidden assertion', {16: '   subroutine assertNear()'}, 16, "cannot declare 'assertnear'"),
+    ('forbidden variable of the suite', {6: '   integer :: t'}, 6, "cannot declare 't'"),
+    ('forbidden local variable', {17: '      integer :: a, near'}, 17, "rename the variable 'near'"),
+    ('forbidden local array', {17: '      integer, allocatable :: a(:, :), Is(:)'}, 17, "rename the variable 'is'"),
+    ('forbidden local object', {17: '      type(x) :: a, every = x(1, 2)'}, 17, "rename the variable 'every'"),
+    ('forbidden dummy argument', {21: '   subroutine show(run)\n      real, intent(in) :: run\n   end subroutine'},
+     22, "rename the variable 'run'"),
+    ('forbidden local assertion', {17: '      logical :: a, assertTrue'}, 17, "rename the variable 'asserttrue'"),
+    ('forbidden in a continuation', {17: '      integer :: a, & ! why\n\n         & b, &\n         stub'},
+     17, "rename the variable 'stub'"),
     ('no test', {15: ''}, 22, 'has no @test'),
     ('test above blank', {15: '   @test\n'}, 16, 'directly above a plain subroutine'),
     ('test above comment', {15: '   @test\n   !> Why.'}, 16, 'directly above a plain subroutine'),
@@ -144,6 +153,9 @@ class Preprocessor(unittest.TestCase):
       private
       integer :: is
    end type plain'''
+        lines[16] = '''\
+      integer, parameter :: near(2) = [1, 2]
+      integer :: a = size([integer :: 1, not(2)]), b(not(-3))'''
         self.translate(lines)
 
     def test_longest_line(self):

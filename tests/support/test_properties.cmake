@@ -1,0 +1,11 @@
+# What no test may print, whatever its exit status. The undefined behaviour sanitizer reports an error and goes on;
+# pFUnit finds nothing wrong with a program that has no tests.
+# N.B. No test of a program has a PASS_REGULAR_EXPRESSION: with one CTest ignores the exit status.
+set(wavycon_failure_words
+  "ERROR: [A-Za-z]+Sanitizer" "SUMMARY: [A-Za-z]+Sanitizer" "runtime error:" "OK\n \\(0 tests\\)")
+
+# wavycon_test_properties(name label): a test passes if its exit status is 0 and it prints none of these words.
+function(wavycon_test_properties name label)
+  set_property(TEST ${name} PROPERTY LABELS ${label})
+  set_property(TEST ${name} APPEND PROPERTY FAIL_REGULAR_EXPRESSION ${wavycon_failure_words})
+endfunction()
