@@ -54,7 +54,7 @@ contains
       status = exit_fine
       call log%start(quiet)
       results%deck = deck
-      results%directory = trim(deck%output%directory)
+      results%directory = deck%output%text('directory')
       call move_alloc(scene, results%scene)
       call choose_solver(deck, results%scene, results%contact)
       call log%show_scene(results)
@@ -73,7 +73,7 @@ contains
       hidden = count(results%states%status == converged .and. &
                      results%states%measures%contact_area_fraction <= 0.0_dp)
       if (hidden > 0) call log%say('note: at '//integer_text(hidden)//' loads no pressure reaches edge_level = '// &
-                                   short_number(deck%method%edge_level)// &
+                                   short_number(deck%method%real('edge_level'))// &
                                    ' p*, so that their contact area shows as 0')
 
       call write_tables(results, error)
@@ -83,11 +83,11 @@ contains
       if (bad > 0) status = exit_not_converged
       if (results%scene%p_star <= 0.0_dp) call log%say('the surface is flat: there is only a summary')
       call log%say_timed('tables written')
-      call log%say('results: '//escaped(results%directory)//'/'//trim(deck%scene%case)//'.summary.dat')
+      call log%say('results: '//escaped(results%directory)//'/'//deck%scene%text('case')//'.summary.dat')
       if (bad == 0) then
-         call log%say(trim(deck%scene%case)//': all '//integer_text(size(results%states))//' loads solved')
+         call log%say(deck%scene%text('case')//': all '//integer_text(size(results%states))//' loads solved')
       else
-         call log%say(trim(deck%scene%case)//': '//integer_text(bad)//' of '//integer_text(size(results%states))// &
+         call log%say(deck%scene%text('case')//': '//integer_text(bad)//' of '//integer_text(size(results%states))// &
                       ' loads NOT solved as asked, see the status column')
       end if
    end subroutine run_scene
@@ -129,10 +129,10 @@ contains
                           ': the output directory cannot be made: '//escaped(failure))
          return
       end if
-      call file%open(results%directory, trim(results%deck%scene%case)//'.resolved.nml')
+      call file%open(results%directory, results%deck%scene%text('case')//'.resolved.nml')
       if (file%is_open()) then
          deck = results%deck
-         if (allocated(results%scene%map)) deck%surface%file = results%scene%map%path
+         if (allocated(results%scene%map)) call deck%surface_values%set('file', results%scene%map%path)
          call write_resolved_deck(deck, file%unit, status, message)
          if (status /= 0) call file%note_trouble(message)
       end if
@@ -147,12 +147,12 @@ contains
 
       call write_summary_table(results, error)
       if (results%scene%p_star <= 0.0_dp) return
-      call write_if(results%deck%output%lines, write_lines_table)
-      call write_if(results%deck%output%map, write_map_table)
-      call write_if(results%deck%output%contours, write_contour_table)
-      call write_if(results%deck%output%coefficients, write_coefficients_table)
-      call write_if(results%deck%output%theory, write_theory_table)
-      call write_if(results%deck%output%details, write_details_table)
+      call write_if(results%deck%output%logical('lines'), write_lines_table)
+      call write_if(results%deck%output%logical('map'), write_map_table)
+      call write_if(results%deck%output%logical('contours'), write_contour_table)
+      call write_if(results%deck%output%logical('coefficients'), write_coefficients_table)
+      call write_if(results%deck%output%logical('theory'), write_theory_table)
+      call write_if(results%deck%output%logical('details'), write_details_table)
 
    contains
 

@@ -51,7 +51,7 @@ contains
       type(results_type), intent(in) :: results
       character(:), allocatable :: name
 
-      name = results%directory//'/'//trim(results%deck%scene%case)//'.checkpoint'
+      name = results%directory//'/'//results%deck%scene%text('case')//'.checkpoint'
    end function checkpoint_name
 
    !> The name of a file that this process alone uses, until it is renamed or removed.
@@ -60,7 +60,7 @@ contains
       character(*), intent(in) :: kind
       character(:), allocatable :: name
 
-      name = results%directory//'/.'//trim(results%deck%scene%case)//'.'//kind//'.'//integer_text(process_id())// &
+      name = results%directory//'/.'//results%deck%scene%text('case')//'.'//kind//'.'//integer_text(process_id())// &
          '.part'
    end function working_name
 
@@ -293,7 +293,7 @@ contains
       if (status /= 0) return
       deck = results%deck
       deck%path = ''
-      deck%output%directory = ''
+      call deck%output%set('directory', '')
       call write_resolved_deck(deck, unit, status)
       close (unit, iostat=status)
       call read_deck_text(working, resolved, error)

@@ -43,7 +43,7 @@ contains
       real(dp) :: approach
       integer :: k, l, n
 
-      n = results%deck%output%points_per_wavelength
+      n = results%deck%output%integer('points_per_wavelength')
       associate (surface => results%scene%surface)
          approach = results%states(load)%measures%approach_over_amplitude
          call results%contact%fields(results%states(load), fields)

@@ -33,16 +33,17 @@ contains
       character(*), intent(in) :: kind
       type(output_file), intent(out) :: file
 
-      call file%open(self%directory, trim(self%deck%scene%case)//'.'//kind//'.dat')
+      call file%open(self%directory, self%deck%scene%text('case')//'.'//kind//'.dat')
       call file%put('# wavycon '//version//' ('//revision//')')
       call file%put('# deck: '//escaped(self%deck%path))
-      if (self%deck%scene%title /= '') call file%put('# title: '//escaped(trim(self%deck%scene%title)))
+      if (self%deck%scene%text('title') /= '') &
+         call file%put('# title: '//escaped(self%deck%scene%text('title')))
       associate (surface => self%scene%surface, method => self%deck%method)
-         call file%put('# surface: '//trim(self%deck%surface%kind)// &
+         call file%put('# surface: '//self%deck%surface_values%text('kind')// &
                        ', Delta[length] = '//exact_number(surface%amplitude)//cell_sides())
          call file%put('# material: e_star[pressure] = '//exact_number(self%scene%e_star)// &
                        ', p*[pressure] = '//exact_number(self%scene%p_star))
-         call file%put('# method: '//trim(method%solver)//', '//self%contact%describe()//edge_level())
+         call file%put('# method: '//method%text('solver')//', '//self%contact%describe()//edge_level())
       end associate
 
    contains
@@ -60,8 +61,8 @@ contains
          character(:), allocatable :: words
 
          words = ''
-         if (self%deck%method%solver == 'beale') &
-            words = ', edge_level[p*] = '//exact_number(self%deck%method%edge_level)
+         if (self%deck%method%text('solver') == 'beale') &
+            words = ', edge_level[p*] = '//exact_number(self%deck%method%real('edge_level'))
       end function edge_level
 
    end subroutine open_table

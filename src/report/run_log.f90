@@ -85,8 +85,8 @@ contains
       associate (deck => results%deck, scene => results%scene)
          call self%say('wavycon '//version//' ('//revision//')')
          call self%say('deck      '//escaped(deck%path))
-         if (deck%scene%title /= '') call self%say('title     '//escaped(trim(deck%scene%title)))
-         call self%say('surface   '//trim(deck%surface%kind)//', Delta = '// &
+         if (deck%scene%text('title') /= '') call self%say('title     '//escaped(deck%scene%text('title')))
+         call self%say('surface   '//deck%surface_values%text('kind')//', Delta = '// &
                        short_number(scene%surface%amplitude)// &
                        ' [length], cell '//cell_of(scene%surface)//' [length]')
          if (allocated(scene%map)) call self%say('map       '//integer_text(scene%map%points(1))//' x '// &
@@ -98,7 +98,7 @@ contains
                        short_number(scene%p_star)//' [pressure]')
          call self%say('loads     '//integer_text(size(scene%target))//', '//target_words(scene%loads_by)// &
                        ' from '//short_number(minval(scene%target))//' to '//short_number(maxval(scene%target)))
-         call self%say('method    '//trim(deck%method%solver)//', '//results%contact%describe())
+         call self%say('method    '//deck%method%text('solver')//', '//results%contact%describe())
       end associate
    end subroutine show_scene
 

@@ -8,6 +8,7 @@ module wavycon_choose_solver
    use wavycon_fourier_contact, only: fourier_contact
    use wavycon_grid_contact, only: grid_contact
    use wavycon_kinds, only: dp
+   use wavycon_method_group, only: given_grid_points
    use wavycon_scene, only: scene_type
    use wavycon_surface, only: no_paper_wave
    implicit none (type, external)
@@ -28,15 +29,15 @@ contains
       type(fitted_frame) :: frame
       logical :: auto, keep_fields
 
-      auto = deck%method%solver == 'auto'
-      keep_fields = deck%output%lines .or. deck%output%map .or. deck%output%contours
+      auto = deck%method%text('solver') == 'auto'
+      keep_fields = deck%output%logical('lines') .or. deck%output%logical('map') .or. deck%output%logical('contours')
       associate (method => deck%method, surface => scene%surface)
-         if (deck%method%solver == 'fitted' .or. auto) call find_frame(surface, frame)
-         if (method%solver == 'beale') then
+         if (method%text('solver') == 'fitted' .or. auto) call find_frame(surface, frame)
+         if (method%text('solver') == 'beale') then
             allocate (fourier_contact :: solver)
          else if (auto .and. surface%dimension == 1 .and. surface%paper_wave() /= no_paper_wave) then
             allocate (closed_form_contact :: solver)
-         else if (frame%covered .and. all(method%grid_points == 0)) then
+         else if (frame%covered .and. all(given_grid_points(method) == 0)) then
             allocate (fitted_contact :: solver)
          else
             allocate (grid_contact :: solver)
@@ -44,15 +45,15 @@ contains
 
          select type (solver)
          type is (fourier_contact)
-            call solver%start(surface, method%harmonics, method%constraint_points, scene%symmetry, &
-                              method%edge_level)
+            call solver%start(surface, method%integer('harmonics'), method%integer('constraint_points'), scene%symmetry, &
+                              method%real('edge_level'))
          type is (closed_form_contact)
             call solver%start(surface)
          type is (grid_contact)
-            call solver%start(surface, method%accuracy, keep_fields, points=grid_asked_for())
+            call solver%start(surface, method%real('accuracy'), keep_fields, points=grid_asked_for())
          type is (fitted_contact)
-            call solver%start(surface, method%accuracy, with_grids=auto, &
-                              keep_fields=keep_fields .or. deck%output%details)
+            call solver%start(surface, method%real('accuracy'), with_grids=auto, &
+                              keep_fields=keep_fields .or. deck%output%logical('details'))
          end select
       end associate
 
@@ -62,8 +63,8 @@ contains
       pure function grid_asked_for() result(points)
          integer :: points(2)
 
-         points = deck%method%grid_points
-         if (all(points == 0) .and. .not. deck%method%accuracy > 0.0_dp) points = scene%surface%points
+         points = given_grid_points(deck%method)
+         if (all(points == 0) .and. .not. deck%method%real('accuracy') > 0.0_dp) points = scene%surface%points
       end function grid_asked_for
 
    end subroutine choose_solver

@@ -34,7 +34,7 @@ program stress_scenes
    call make_scene(deck, scene, error)
    call stop_on(error)
    ! Fields are kept for those who will draw them.
-   deck%output%map = .true.
+   call deck%output%set('map', .true.)
    call choose_solver(deck, scene, solver)
    call find_frame(scene%surface, frame)
    do i = 1, size(scene%target)
