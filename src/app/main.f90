@@ -88,14 +88,15 @@ contains
       if (worst /= exit_fine) call finish(worst)
 
       do i = 1, size(decks)
-         if (allocated(command_line%output)) decks(i)%deck%output%directory = plain_directory(command_line%output)
+         if (allocated(command_line%output)) &
+            call decks(i)%deck%output%set('directory', plain_directory(command_line%output))
          do j = 1, i - 1
-            if (decks(i)%deck%scene%case /= decks(j)%deck%scene%case) cycle
-            if (decks(i)%deck%output%directory /= decks(j)%deck%output%directory) cycle
+            if (decks(i)%deck%scene%text('case') /= decks(j)%deck%scene%text('case')) cycle
+            if (decks(i)%deck%output%text('directory') /= decks(j)%deck%output%text('directory')) cycle
             call fatal_error(error, exit_bad_input, escaped(decks(j)%deck%path)//' and '// &
                              escaped(decks(i)%deck%path)// &
-                             ' would write the same files: both are case '//trim(decks(i)%deck%scene%case)// &
-                             ' in '//escaped(trim(decks(i)%deck%output%directory))//'. Give them different cases.')
+                             ' would write the same files: both are case '//decks(i)%deck%scene%text('case')// &
+                             ' in '//escaped(decks(i)%deck%output%text('directory'))//'. Give them different cases.')
             call stop_on(error)
          end do
       end do

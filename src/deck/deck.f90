@@ -1,12 +1,15 @@
-!> A deck: everything that a deck file says, checked, with every default filled in.
+!> A deck: the values of its groups, checked, with every default set, and the surface that it describes.
 module wavycon_deck
+   use wavycon_group_values, only: group_values
    use wavycon_key_table, only: key_group_type
-   use wavycon_load_group, only: load_group_type, load_table
-   use wavycon_material_group, only: material_group_type, material_table
-   use wavycon_method_group, only: method_group_type, method_table
-   use wavycon_output_group, only: output_group_type, output_table
-   use wavycon_scene_group, only: scene_group_type, scene_table
-   use wavycon_surface_group, only: surface_group_type, surface_table
+   use wavycon_load_group, only: load_table
+   use wavycon_map_statistics, only: map_statistics
+   use wavycon_material_group, only: material_table
+   use wavycon_method_group, only: method_table
+   use wavycon_output_group, only: output_table
+   use wavycon_scene_group, only: scene_table
+   use wavycon_surface, only: surface_type
+   use wavycon_surface_group, only: surface_table
    implicit none (type, external)
    private
 
@@ -17,13 +20,10 @@ module wavycon_deck
       method_number = 5, output_number = 6, number_of_groups = 6
 
    type :: deck_type
-      character(:), allocatable :: path  !! the deck's file, as the caller named it
-      type(scene_group_type) :: scene
-      type(material_group_type) :: material
-      type(surface_group_type) :: surface
-      type(load_group_type) :: load
-      type(method_group_type) :: method
-      type(output_group_type) :: output
+      character(:), allocatable :: path            !! the deck's file, as the caller named it
+      type(group_values) :: scene, material, surface_values, load, method, output
+      type(surface_type), allocatable :: surface   !! `make_scene` moves it into the scene
+      type(map_statistics), allocatable :: map     !! of a height map; moved likewise
    end type deck_type
 
 contains

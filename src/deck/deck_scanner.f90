@@ -1,47 +1,32 @@
-!> Takes the text of a deck apart into groups, their entries `key = values`, and the words of these.
+!> Arranges the tokens of a deck into groups and their entries `key = values`.
 !>
-!> What the words mean is not looked at here. Every step costs time in proportion to the length of the text,
-!> whatever bytes it holds.
+!> What the words mean is not looked at here. What does not fit the grammar is reported and left out.
 module wavycon_deck_scanner
    use wavycon_deck_text, only: deck_text_type
+   use wavycon_deck_tokens, only: is_broken_word, is_comma, is_equals, is_group, is_slash, is_word, quotes, &
+      starts_entry, token_type, tokenise
    use wavycon_plain_text, only: excerpt, integer_text, lower_case
    use wavycon_problems, only: problem_list_type
    implicit none (type, external)
    private
 
-   public :: scan_type, token_type, entry_type, group_type, scan_deck
+   public :: scan_type, entry_type, scan_deck, start_scan, read_group, read_values
 
-   !> What a token is. A group token is '&' and the name; a broken word has a quote that nothing closes.
-   integer, parameter, public :: is_word = 1, is_broken_word = 2, is_equals = 3, is_comma = 4, is_slash = 5, &
-      is_group = 6
-
-   !> Smallest piece of a deck: the bytes `first` to `last` of its text.
-   type :: token_type
-      integer :: kind = 0, first = 0, last = 0
-   end type token_type
+   !> Tokens, groups and entries of a deck; more are no deck. The longest list of loads takes 200000 tokens.
+   integer, parameter, public :: most_tokens = 1000000, most_groups = 100, most_entries = 1000
 
    !> `key = values`.
    type :: entry_type
-      integer :: group = 0                      !! number of the group that it stands in
-      integer :: key = 0                        !! token of the key
+      integer :: group = 0                        !! number of the group that it stands in
+      integer :: key = 0                          !! token of the key
       integer :: first_value = 1, last_value = 0  !! tokens of the values and of the commas among them
    end type entry_type
 
-   !> `&name entries /`.
-   type :: group_type
-      integer :: name = 0  !! its token
-   end type group_type
-
    type :: scan_type
       type(token_type), allocatable :: tokens(:)
-      type(group_type), allocatable :: groups(:)   !! in the order of the deck
+      integer, allocatable :: groups(:)            !! tokens of the groups' names, in the order of the deck
       type(entry_type), allocatable :: entries(:)  !! in the order of the deck
    end type scan_type
-
-   character(*), parameter :: blanks = ' '//achar(9)//achar(10)//achar(13)
-   character(*), parameter :: line_ends = achar(10)//achar(13)
-   character(*), parameter :: quotes = '"'''
-   character(*), parameter :: word_ends = blanks//'=,/!&'
 
 contains
 
@@ -51,256 +36,193 @@ contains
       type(scan_type), intent(out) :: scan
       type(problem_list_type), intent(inout) :: problems
 
+      integer :: t
+
+      call start_scan(text, scan, problems)
+      t = 1
+      do while (t <= size(scan%tokens) .and. .not. problems%is_full())
+         if (scan%tokens(t)%kind /= is_group .or. is_old_end(text, scan%tokens(t))) then
+            call report_outside(text, scan%tokens, t, problems)
+            t = next_group(scan%tokens, t + 1)
+         else if (size(scan%groups) == most_groups) then
+            call problems%add(scan%tokens(t)%first, 'a deck has at most '//integer_text(most_groups)// &
+               ' groups: what follows is not read')
+            exit
+         else
+            call read_group(text, scan, t, problems)
+         end if
+      end do
+   end subroutine scan_deck
+
+   !> Cuts the text into tokens, without groups and entries yet.
+   subroutine start_scan(text, scan, problems)
+      type(deck_text_type), intent(in) :: text
+      type(scan_type), intent(out) :: scan
+      type(problem_list_type), intent(inout) :: problems
+
       integer :: number
 
       call tokenise(text%content, number)
-      allocate (scan%tokens(number))
+      allocate (scan%tokens(min(number, most_tokens)), scan%groups(0), scan%entries(0))
       call tokenise(text%content, number, scan%tokens)
-      call arrange(text, scan, problems)
-   end subroutine scan_deck
+      if (number > most_tokens) call problems%add(scan%tokens(most_tokens)%first, &
+         'a deck has at most '//integer_text(most_tokens)//' words and separators: what follows is not read')
+   end subroutine start_scan
 
-   !> Counts the tokens, or stores them where there is room for them.
-   pure subroutine tokenise(content, number, tokens)
-      character(*), intent(in) :: content
-      integer, intent(out) :: number
-      type(token_type), intent(inout), optional :: tokens(:)
-
-      integer :: kind, last, place
-
-      number = 0
-      place = 1
-      do while (place <= len(content))
-         last = place
-         select case (content(place:place))
-         case (' ', achar(9), achar(10), achar(13))
-            place = place + 1
-            cycle
-         case ('!')
-            last = end_before(content, place, line_ends)
-            place = last + 1
-            cycle
-         case ('=')
-            kind = is_equals
-         case (',')
-            kind = is_comma
-         case ('/')
-            kind = is_slash
-         case ('&')
-            kind = is_group
-            last = end_before(content, place + 1, word_ends)
-         case default
-            call find_word_end(content, place, last, kind)
-         end select
-         number = number + 1
-         if (present(tokens)) tokens(number) = token_type(kind, place, last)
-         place = last + 1
-      end do
-   end subroutine tokenise
-
-   !> The last place before any byte of a set, looking from a place on.
-   pure integer function end_before(content, place, set)
-      character(*), intent(in) :: content, set
-      integer, intent(in) :: place
-
-      end_before = scan(content(place:), set)
-      if (end_before == 0) then
-         end_before = len(content)
-      else
-         end_before = place + end_before - 2
-      end if
-   end function end_before
-
-   !> The end of a word: a closing quote, or what comes before the next separator. A quote must be closed on
-   !> its line.
-   pure subroutine find_word_end(content, place, last, kind)
-      character(*), intent(in) :: content
-      integer, intent(in) :: place
-      integer, intent(out) :: last, kind
-
-      character(1) :: quote
-
-      kind = is_word
-      last = end_before(content, place, word_ends//quotes)
-      if (last == len(content)) return
-      quote = content(last + 1:last + 1)
-      if (index(quotes, quote) == 0) return
-      do
-         last = end_before(content, last + 2, quote//line_ends)
-         if (last == len(content)) exit
-         if (content(last + 1:last + 1) /= quote) exit
-         last = last + 1
-         if (last == len(content)) return
-         if (content(last + 1:last + 1) /= quote) return
-      end do
-      kind = is_broken_word
-   end subroutine find_word_end
-
-   !> Sorts the tokens into groups and entries.
-   subroutine arrange(text, scan, problems)
+   !> Takes a group, from its name to the '/' that closes it.
+   subroutine read_group(text, scan, t, problems)
       type(deck_text_type), intent(in) :: text
       type(scan_type), intent(inout) :: scan
+      integer, intent(inout) :: t   !! token of the group's name; then the token behind the group
       type(problem_list_type), intent(inout) :: problems
 
-      type(group_type), allocatable :: groups(:)
-      type(entry_type), allocatable :: entries(:)
-      logical :: inside, quote_is_open
-      integer :: group, entries_found, t
+      logical :: quote_is_open
+      integer :: name
 
-      allocate (groups(count(scan%tokens%kind == is_group)), entries(count(scan%tokens%kind == is_equals)))
-      group = 0
-      entries_found = 0
-      inside = .false.
+      name = t
+      scan%groups = [scan%groups, name]
       quote_is_open = .false.
-      t = 1
+      t = t + 1
       do while (t <= size(scan%tokens))
-         if (problems%is_full()) exit
+         if (problems%is_full()) return
          associate (token => scan%tokens(t))
-            if (token%kind == is_group) then
-               if (inside) then
-                  call report_open_group(token%first)
-               else if (is_old_end(token)) then
-                  call report_outside(t)
-               end if
-               inside = .not. is_old_end(token)
-               quote_is_open = .false.
-               if (inside) then
-                  group = group + 1
-                  groups(group)%name = t
-               end if
+            if (token%kind == is_slash) then
                t = t + 1
-            else if (.not. inside) then
-               call report_outside(t)
-               do while (t <= size(scan%tokens))
-                  if (scan%tokens(t)%kind == is_group) exit
-                  t = t + 1
-               end do
-            else if (token%kind == is_slash) then
-               inside = .false.
-               t = t + 1
-            else if (begins_entry(scan%tokens, t)) then
-               entries_found = entries_found + 1
-               entries(entries_found)%group = group
-               entries(entries_found)%key = t
-               t = t + 2
-               call take_values(entries(entries_found))
+               return
+            else if (token%kind == is_group) then
+               if (.not. quote_is_open) call problems%add(token%first, "expected the '/' that closes "// &
+                  shown(text, scan%tokens(name))//' of line '// &
+                  integer_text(text%line_of(scan%tokens(name)%first)))
+               if (is_old_end(text, token)) t = t + 1
+               return
+            else if (size(scan%entries) == most_entries) then
+               call problems%add(token%first, 'a deck has at most '//integer_text(most_entries)// &
+                  ' keys: what follows is not read')
+               t = size(scan%tokens) + 1
+               return
+            else if (starts_entry(scan%tokens, t)) then
+               call read_entry(text, scan, t, quote_is_open, problems)
             else
-               call problems%add(token%first, "expected 'key = value', found '"// &
-                  excerpt(text%content(token%first:token%last))//"'")
+               call problems%add(token%first, "expected 'key = value', found '"//shown(text, token)//"'")
                quote_is_open = quote_is_open .or. token%kind == is_broken_word
-               t = t + 1
-               do while (t <= size(scan%tokens))
-                  if (scan%tokens(t)%kind == is_group .or. scan%tokens(t)%kind == is_slash) exit
-                  if (begins_entry(scan%tokens, t)) exit
-                  t = t + 1
-               end do
+               t = next_in_group(scan%tokens, t + 1)
             end if
          end associate
       end do
-      if (inside .and. t > size(scan%tokens)) call report_open_group(0)
-      scan%groups = groups(:group)
-      scan%entries = entries(:entries_found)
+      ! Where a quote is open the '/' is likely to be behind it: no second problem.
+      if (.not. quote_is_open) call problems%add(scan%tokens(name)%first, shown(text, scan%tokens(name))// &
+         " is not closed: no '/' up to the end of the deck")
+   end subroutine read_group
 
-   contains
+   !> Takes an entry of the last group.
+   subroutine read_entry(text, scan, t, quote_is_open, problems)
+      type(deck_text_type), intent(in) :: text
+      type(scan_type), intent(inout) :: scan
+      integer, intent(inout) :: t                !! token of the key; then the token behind the entry
+      logical, intent(inout) :: quote_is_open    !! set where a quote is not closed
+      type(problem_list_type), intent(inout) :: problems
 
-      !> Whether a group token is '&end', which closed a group before Fortran 90 and does no longer.
-      pure logical function is_old_end(token)
-         type(token_type), intent(in) :: token
+      type(entry_type) :: entry
 
-         ! Most names are longer: decks may have a million groups.
-         is_old_end = token%last - token%first + 1 == len('&end')
-         if (is_old_end) is_old_end = lower_case(text%content(token%first:token%last)) == '&end'
-      end function is_old_end
+      entry%group = size(scan%groups)
+      entry%key = t
+      entry%first_value = t + 2
+      t = t + 2
+      call read_values(text, scan%tokens, t, quote_is_open, problems)
+      entry%last_value = t - 1
+      scan%entries = [scan%entries, entry]
+   end subroutine read_entry
 
-      !> Takes the words and commas that follow 'key ='; token t is the first.
-      subroutine take_values(entry)
-         type(entry_type), intent(inout) :: entry
+   !> Takes the words and commas that follow 'key =', up to the next entry, group or '/'.
+   subroutine read_values(text, tokens, t, quote_is_open, problems)
+      type(deck_text_type), intent(in) :: text
+      type(token_type), intent(in) :: tokens(:)
+      integer, intent(inout) :: t                !! the token behind the '='; then the token behind the values
+      logical, intent(inout) :: quote_is_open    !! set where a quote is not closed
+      type(problem_list_type), intent(inout) :: problems
 
-         logical :: wants_value
+      logical :: wants_value
 
-         entry%first_value = t
-         wants_value = .true.
-         do while (t <= size(scan%tokens))
-            associate (token => scan%tokens(t))
-               select case (token%kind)
-               case (is_comma)
-                  if (wants_value) call problems%add(token%first, 'no value before this comma')
-                  wants_value = .true.
-               case (is_equals)
-                  call problems%add(token%first, "'=' in place of a value")
-               case (is_word, is_broken_word)
-                  if (token%kind == is_broken_word) then
-                     call problems%add(open_quote(token), &
-                        'this quote is not closed on its line; within a text a quote is doubled')
-                     quote_is_open = .true.
-                  else if (scan%tokens(t - 1)%kind == is_word .and. &
-                           scan%tokens(t - 1)%last == token%first - 1) then
-                     call problems%add(token%first, 'expected a blank or a comma behind the quote')
-                  end if
-                  if (begins_entry(scan%tokens, t)) exit
-                  wants_value = .false.
-               case default
-                  exit
-               end select
-            end associate
-            t = t + 1
-         end do
-         entry%last_value = t - 1
-      end subroutine take_values
-
-      !> The place of the quote that is not closed in a broken word.
-      pure integer function open_quote(token)
-         type(token_type), intent(in) :: token
-
-         open_quote = token%first
-         do while (index(quotes, text%content(open_quote:open_quote)) == 0)
-            open_quote = open_quote + 1
-         end do
-      end function open_quote
-
-      !> A group without its '/'. Where a quote is open the '/' is likely to be behind it: no second problem.
-      subroutine report_open_group(place)
-         integer, intent(in) :: place  !! of the '&' that follows; 0 if the deck ends
-
-         if (quote_is_open) return
-         associate (name => scan%tokens(groups(group)%name))
-            if (place == 0) then
-               call problems%add(name%first, excerpt(text%content(name%first:name%last))// &
-                  " is not closed: no '/' up to the end of the deck")
-            else
-               call problems%add(place, "expected the '/' that closes "// &
-                  excerpt(text%content(name%first:name%last))//' of line '// &
-                  integer_text(text%line_of(name%first)))
-            end if
+      wants_value = .true.
+      do while (t <= size(tokens))
+         associate (token => tokens(t))
+            select case (token%kind)
+            case (is_comma)
+               if (wants_value) call problems%add(token%first, 'no value before this comma')
+               wants_value = .true.
+            case (is_equals)
+               call problems%add(token%first, "'=' in place of a value")
+            case (is_word)
+               if (tokens(t - 1)%kind == is_word .and. tokens(t - 1)%last == token%first - 1) &
+                  call problems%add(token%first, 'expected a blank or a comma behind the quote')
+               if (starts_entry(tokens, t)) return
+               wants_value = .false.
+            case (is_broken_word)
+               call problems%add(token%first - 1 + scan(text%content(token%first:token%last), quotes), &
+                  'this quote is not closed on its line; within a text a quote is doubled')
+               quote_is_open = .true.
+               wants_value = .false.
+            case default
+               return
+            end select
          end associate
-      end subroutine report_open_group
+         t = t + 1
+      end do
+   end subroutine read_values
 
-      !> Text outside a group, at token t: outside is all up to the next '&'.
-      subroutine report_outside(t)
-         integer, intent(in) :: t
+   !> Reports text outside a group, at token t.
+   subroutine report_outside(text, tokens, t, problems)
+      type(deck_text_type), intent(in) :: text
+      type(token_type), intent(in) :: tokens(:)
+      integer, intent(in) :: t
+      type(problem_list_type), intent(inout) :: problems
 
-         associate (token => scan%tokens(t))
-            if (t > 1) then
-               if (scan%tokens(t - 1)%kind == is_slash .and. scan%tokens(t - 1)%last == token%first - 1) then
-                  call problems%add(token%first, "text after the '/' that ends the group; "// &
-                     "a '/' in a value is read as text only between quotes")
-                  return
-               end if
-            end if
-            call problems%add(token%first, "'"//excerpt(text%content(token%first:token%last))// &
-               "' stands outside of any group: a group begins with &name and ends with '/'")
-         end associate
-      end subroutine report_outside
+      if (t > 1) then
+         if (tokens(t - 1)%kind == is_slash .and. tokens(t - 1)%last == tokens(t)%first - 1) then
+            call problems%add(tokens(t)%first, "text after the '/' that ends the group; "// &
+               "a '/' in a value is read as text only between quotes")
+            return
+         end if
+      end if
+      call problems%add(tokens(t)%first, "'"//shown(text, tokens(t))// &
+         "' stands outside of any group: a group begins with &name and ends with '/'")
+   end subroutine report_outside
 
-   end subroutine arrange
-
-   !> Whether a token is a word followed by '='.
-   pure logical function begins_entry(tokens, t)
+   !> The first token, from t on, that names a group; one behind the last if there is none.
+   pure integer function next_group(tokens, t) result(next)
       type(token_type), intent(in) :: tokens(:)
       integer, intent(in) :: t
 
-      begins_entry = .false.
-      if (t == size(tokens)) return
-      begins_entry = tokens(t)%kind == is_word .and. tokens(t + 1)%kind == is_equals
-   end function begins_entry
+      do next = t, size(tokens)
+         if (tokens(next)%kind == is_group) exit
+      end do
+   end function next_group
+
+   !> The first token, from t on, at which a group can be read on; one behind the last if there is none.
+   pure integer function next_in_group(tokens, t) result(next)
+      type(token_type), intent(in) :: tokens(:)
+      integer, intent(in) :: t
+
+      do next = t, size(tokens)
+         if (any(tokens(next)%kind == [is_group, is_slash]) .or. starts_entry(tokens, next)) exit
+      end do
+   end function next_in_group
+
+   !> Whether a token is '&end', which closed a group before Fortran 90 and no longer does.
+   pure logical function is_old_end(text, token)
+      type(deck_text_type), intent(in) :: text
+      type(token_type), intent(in) :: token
+
+      is_old_end = lower_case(text%content(token%first:token%last)) == '&end'
+   end function is_old_end
+
+   !> A token as messages show it.
+   pure function shown(text, token) result(words)
+      type(deck_text_type), intent(in) :: text
+      type(token_type), intent(in) :: token
+      character(:), allocatable :: words
+
+      words = excerpt(text%content(token%first:token%last))
+   end function shown
 
 end module wavycon_deck_scanner

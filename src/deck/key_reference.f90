@@ -2,7 +2,7 @@
 module wavycon_key_reference
    use wavycon_deck, only: deck_tables
    use wavycon_key_table, only: allowed_values, key_group_type, key_type
-   use wavycon_text_buffer, only: text_buffer_type
+   use wavycon_plain_text, only: newline
    implicit none (type, external)
    private
 
@@ -16,35 +16,34 @@ contains
    function key_reference() result(reference)
       character(:), allocatable :: reference
 
-      type(text_buffer_type) :: buffer
       type(key_group_type), allocatable :: tables(:)
       integer :: i, k
 
+      reference = ''
       tables = deck_tables()
-      call add_wrapped(buffer, 0, &
+      call add_wrapped(reference, 0, &
          "A deck consists of Fortran namelist groups, '&group key = value ... /', "// &
          "in any order; '!' begins a comment. A group or key may be left out unless it says required. "// &
          'Lengths may be in any one unit and pressures in any one unit.')
-      call buffer%add_line('')
-      call add_wrapped(buffer, 0, 'Loads are mean pressures pbar over the nominal area. p* is the mean '// &
+      reference = reference//newline
+      call add_wrapped(reference, 0, 'Loads are mean pressures pbar over the nominal area. p* is the mean '// &
          'pressure that just closes the gap everywhere: pi e_star amplitude/wavelength for wave_1d, '// &
          'sqrt(2) times that for wave_2d of one wavelength, pi e_star times the sum of both '// &
          'amplitude/wavelength for crossed_1d. '// &
          'pbar_over_pstar = pbar/p* runs from 0, first touch, to 1, complete contact; above 1 the '// &
          'contact stays complete.')
       do i = 1, size(tables)
-         call buffer%add_line('')
-         call add_wrapped(buffer, 0, '&'//trim(tables(i)%name)//'   '//trim(tables(i)%meaning)// &
+         reference = reference//newline
+         call add_wrapped(reference, 0, '&'//trim(tables(i)%name)//'   '//trim(tables(i)%meaning)// &
             trim(merge(' (required)', '           ', tables(i)%required)))
          do k = 1, size(tables(i)%keys)
-            call add_key(buffer, tables(i)%keys(k))
+            call add_key(reference, tables(i)%keys(k))
          end do
       end do
-      reference = buffer%text()
    end function key_reference
 
-   subroutine add_key(buffer, key)
-      type(text_buffer_type), intent(inout) :: buffer
+   subroutine add_key(reference, key)
+      character(:), allocatable, intent(inout) :: reference
       type(key_type), intent(in) :: key
 
       integer, parameter :: name_width = 24
@@ -56,13 +55,13 @@ contains
       if (key%unit /= '') line = line//' ['//trim(key%unit)//']'
       if (key%default /= '') line = line//'; default '//trim(key%default)
       if (key%required) line = line//'; required'
-      call add_wrapped(buffer, name_width + 3, line, head='   '//name)
-      call add_wrapped(buffer, name_width + 3, trim(key%meaning))
+      call add_wrapped(reference, name_width + 3, line, head='   '//name)
+      call add_wrapped(reference, name_width + 3, trim(key%meaning))
    end subroutine add_key
 
    !> Adds a text as lines that begin with blanks and break between words.
-   subroutine add_wrapped(buffer, indent, text, head)
-      type(text_buffer_type), intent(inout) :: buffer
+   subroutine add_wrapped(reference, indent, text, head)
+      character(:), allocatable, intent(inout) :: reference
       integer, intent(in) :: indent
       character(*), intent(in) :: text
       character(*), intent(in), optional :: head   !! of the first line, in place of its blanks
@@ -77,7 +76,7 @@ contains
          last = len(text)
          if (last - first >= widest_line - indent) &
             last = first - 1 + index(text(first:first + widest_line - indent), ' ', back=.true.)
-         call buffer%add_line(start//trim(text(first:last)))
+         reference = reference//start//trim(text(first:last))//newline
          start = repeat(' ', indent)
          first = last + 1
       end do

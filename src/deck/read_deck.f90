@@ -1,23 +1,24 @@
-!> From a deck file to a deck, or to the complete list of what is wrong with it.
+!> Reads a deck file into a deck, or into the complete list of what is wrong with it.
 !>
-!> The text is scanned first, because a compiler's own namelist errors mislead: a misspelt group reads as the
-!> end of the file, a repeated key or an empty value as nothing at all. What passes is read with NAMELIST, so
-!> that it means what it means to any Fortran program; then the values are checked against each other.
+!> The text is scanned by own code, because a compiler's own NAMELIST errors mislead: a misspelt group reads as the end
+!> of the file, a repeated key or an empty value as nothing at all. Words mean what they mean to NAMELIST.
 module wavycon_read_deck
    use wavycon_deck, only: deck_tables, deck_type, load_number, material_number, method_number, &
       number_of_groups, output_number, scene_number, surface_number
+   use wavycon_deck_groups, only: take_groups
    use wavycon_deck_scanner, only: scan_deck, scan_type
    use wavycon_deck_text, only: deck_text_type, read_deck_text
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
-   use wavycon_group_input, only: group_input_type, take_groups
-   use wavycon_load_group, only: read_load_group
-   use wavycon_material_group, only: read_material_group
-   use wavycon_method_group, only: read_method_group
-   use wavycon_output_group, only: read_output_group
+   use wavycon_group_values, only: group_values
+   use wavycon_load_group, only: check_load_group
+   use wavycon_material_group, only: check_material_group
+   use wavycon_method_group, only: check_method_group
+   use wavycon_output_group, only: check_output_group
    use wavycon_plain_text, only: escaped
-   use wavycon_problems, only: problem_list_type, problem_report
-   use wavycon_scene_group, only: read_scene_group
-   use wavycon_surface_group, only: read_surface_group, surface_dimension, surface_is_paper_wave
+   use wavycon_problem_report, only: problem_report
+   use wavycon_problems, only: problem_list_type
+   use wavycon_scene_group, only: check_scene_group
+   use wavycon_surface_group, only: check_surface_group, make_surface
    implicit none (type, external)
    private
 
@@ -27,8 +28,8 @@ contains
 
    !> Reads a deck file.
    !>
-   !> Errors: `exit_file_trouble` if the file is not there or cannot be read, `exit_bad_input` with a report
-   !> of all problems if what it holds is no deck.
+   !> Errors: exit_file_trouble if the deck or its height map cannot be read, exit_bad_input with a report of all
+   !> problems if the file is no deck, exit_bad_input if the height map is none.
    subroutine read_deck(path, deck, error)
       character(*), intent(in) :: path
       type(deck_type), intent(out) :: deck  !! to be used only if there is no error
@@ -41,40 +42,55 @@ contains
       call parse_deck(text, deck, error)
    end subroutine read_deck
 
-   !> Reads a deck from its text. Errors: `exit_bad_input`.
+   !> Reads a deck from its text. Errors: as `read_deck`.
    subroutine parse_deck(text, deck, error)
       type(deck_text_type), intent(in) :: text
       type(deck_type), intent(out) :: deck  !! to be used only if there is no error
       type(error_type), allocatable, intent(out) :: error
 
-      type(group_input_type) :: inputs(number_of_groups)
+      type(group_values) :: groups(number_of_groups)
       type(problem_list_type) :: problems
       type(scan_type) :: scan
-      integer :: dimension
-      logical :: paper_wave
 
       call scan_deck(text, scan, problems)
       if (size(scan%tokens) == 0) then
          call fatal_error(error, exit_bad_input, escaped(text%path)//': the deck is empty')
          return
       end if
-      call take_groups(text, scan, deck_tables(), inputs, problems)
-
+      call take_groups(text, scan, deck_tables(), groups, problems)
       deck%path = text%path
-      call read_scene_group(inputs(scene_number), text%path, deck%scene, problems)
-      call read_material_group(inputs(material_number), deck%material, problems)
-      call read_surface_group(inputs(surface_number), deck%surface, problems)
-      call read_load_group(inputs(load_number), deck%load, problems)
-      dimension = 0
-      if (deck%surface%kind /= '') dimension = surface_dimension(deck%surface)
-      ! What is said of an unknown surface would only mislead.
-      paper_wave = dimension == 0 .or. surface_is_paper_wave(deck%surface)
-      call read_method_group(inputs(method_number), dimension, paper_wave, deck%surface%kind == 'file', &
-                             deck%method, problems)
-      call read_output_group(inputs(output_number), trim(deck%scene%case), trim(deck%method%solver), paper_wave, &
-                             deck%output, problems)
+      deck%scene = groups(scene_number)
+      deck%material = groups(material_number)
+      deck%surface_values = groups(surface_number)
+      deck%load = groups(load_number)
+      deck%method = groups(method_number)
+      deck%output = groups(output_number)
 
-      if (problems%number > 0) call fatal_error(error, exit_bad_input, problem_report(problems, text))
+      call check_scene_group(deck%scene, problems)
+      call check_material_group(deck%material, problems)
+      call read_surface(deck, problems, error)
+      call check_load_group(deck%load, problems)
+      call check_method_group(deck%method, deck%surface_values%text('kind'), deck%surface, problems)
+      call check_output_group(deck%output, deck%scene%text('case'), deck%method%text('solver'), deck%surface, problems)
+      ! Before any trouble with a height map: the deck must be corrected first.
+      if (problems%number > 0) then
+         if (allocated(error)) deallocate (error)
+         call fatal_error(error, exit_bad_input, problem_report(problems, text))
+      end if
    end subroutine parse_deck
+
+   !> Checks &surface and makes the surface if there are no problems. Errors: as `make_surface`.
+   subroutine read_surface(deck, problems, error)
+      type(deck_type), intent(inout) :: deck
+      type(problem_list_type), intent(inout) :: problems
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: before
+
+      before = problems%number
+      call check_surface_group(deck%surface_values, problems)
+      if (problems%number > before .or. deck%surface_values%any_bad()) return
+      call make_surface(deck%surface_values, deck%surface, deck%map, error)
+   end subroutine read_surface
 
 end module wavycon_read_deck

@@ -1,39 +1,108 @@
-!> Writes a deck with every key that applies and the value in effect: read again, it gives the same run.
+!> The resolved deck: every key that applies with the value in effect. Read again, it gives the same run.
 module wavycon_resolved_deck
    use wavycon_deck, only: deck_type
-   use wavycon_deck_writer, only: deck_writer_type
-   use wavycon_load_group, only: write_load_group
-   use wavycon_material_group, only: write_material_group
-   use wavycon_method_group, only: write_method_group
-   use wavycon_output_group, only: write_output_group
-   use wavycon_plain_text, only: escaped
-   use wavycon_scene_group, only: write_scene_group
-   use wavycon_surface_group, only: surface_dimension, write_surface_group
+   use wavycon_group_values, only: group_values
+   use wavycon_key_table, only: allowed_values, integer_value, key_type, logical_value, real_value
+   use wavycon_kinds, only: dp
+   use wavycon_plain_text, only: escaped, exact_number, integer_text, newline, quoted
    implicit none (type, external)
    private
 
-   public :: write_resolved_deck
+   public :: write_resolved_deck, resolved_deck_text
 
 contains
 
    subroutine write_resolved_deck(deck, unit, iostat, iomsg)
       type(deck_type), intent(in) :: deck  !! as read
       integer, intent(in) :: unit          !! open for formatted writing
-      integer, intent(out), optional :: iostat          !! of the first write that failed, 0 if none
-      character(*), intent(inout), optional :: iomsg    !! its words
+      integer, intent(out), optional :: iostat          !! 0 if all was written
+      character(*), intent(inout), optional :: iomsg    !! why not
 
-      type(deck_writer_type) :: writer
+      character(200) :: message
+      integer :: status
 
-      writer = deck_writer_type(unit)
-      call writer%put_comment(escaped(deck%path)//' with the value in effect of every key that applies.')
-      call write_scene_group(deck%scene, writer)
-      call write_material_group(deck%material, writer)
-      call write_surface_group(deck%surface, writer)
-      call write_load_group(deck%load, writer)
-      call write_method_group(deck%method, surface_dimension(deck%surface), writer)
-      call write_output_group(deck%output, writer)
-      if (present(iostat)) iostat = writer%status
-      if (present(iomsg) .and. writer%status /= 0) iomsg = writer%message
+      write (unit, '(a)', iostat=status, iomsg=message) resolved_deck_text(deck)
+      if (present(iostat)) iostat = status
+      if (present(iomsg) .and. status /= 0) iomsg = message
    end subroutine write_resolved_deck
+
+   !> The resolved deck: lines, the last without a newline.
+   function resolved_deck_text(deck) result(text)
+      type(deck_type), intent(in) :: deck  !! as read
+      character(:), allocatable :: text
+
+      text = '! '//escaped(deck%path)//' with the value in effect of every key that applies.'
+      text = text//group_text(deck%scene)//group_text(deck%material)//group_text(deck%surface_values)// &
+         group_text(deck%load)//group_text(deck%method)//group_text(deck%output)
+   end function resolved_deck_text
+
+   !> A group, each line with a newline before it.
+   function group_text(values) result(text)
+      type(group_values), intent(in) :: values
+      character(:), allocatable :: text
+
+      integer :: k
+
+      text = newline//'&'//trim(values%table%name)//'   ! '//trim(values%table%meaning)
+      do k = 1, size(values%table%keys)
+         if (values%in_effect(trim(values%table%keys(k)%name))) text = text//key_text(values, values%table%keys(k))
+      end do
+      text = text//newline//'/'
+   end function group_text
+
+   !> "key = value   ! [unit] allowed values", and a line for each further value.
+   !>
+   !> N.B. No commas between the values: gfortran's NAMELIST takes one with a comment behind it for a value left out.
+   function key_text(values, key) result(text)
+      type(group_values), intent(in) :: values
+      type(key_type), intent(in) :: key
+      character(:), allocatable :: text
+
+      character(:), allocatable :: comment, name
+      real(dp), allocatable :: numbers(:)
+
+      name = trim(key%name)
+      comment = '   ! '
+      if (key%unit /= '') comment = comment//'['//trim(key%unit)//'] '
+      comment = comment//allowed_values(key)
+      text = newline//'   '//name//' = '
+      select case (key%kind)
+      case (real_value)
+         numbers = values%reals(name)
+         text = text//exact_number(numbers(1))//comment//further_lines(numbers, .false.)
+      case (integer_value)
+         numbers = real(values%integers(name), dp)
+         text = text//integer_text(nint(numbers(1)))//comment//further_lines(numbers, .true.)
+      case (logical_value)
+         text = text//trim(merge('.true. ', '.false.', values%logical(name)))//comment
+      case default
+         text = text//quoted(values%text(name))//comment
+      end select
+   end function key_text
+
+   !> All numbers but the first, each on a line of its own.
+   pure function further_lines(numbers, are_integers) result(text)
+      real(dp), intent(in) :: numbers(:)
+      logical, intent(in) :: are_integers
+      character(:), allocatable :: text
+
+      integer, parameter :: most_bytes = 32   !! of a line
+      character(:), allocatable :: line, room
+      integer :: i, used
+
+      ! Appending to `text` 100000 times would copy it as often.
+      allocate (character(most_bytes*size(numbers)) :: room)
+      used = 0
+      do i = 2, size(numbers)
+         if (are_integers) then
+            line = newline//'      '//integer_text(nint(numbers(i)))
+         else
+            line = newline//'      '//exact_number(numbers(i))
+         end if
+         room(used + 1:used + len(line)) = line
+         used = used + len(line)
+      end do
+      text = room(:used)
+   end function further_lines
 
 end module wavycon_resolved_deck

@@ -1,25 +1,16 @@
-!> The &scene group: what the case is called.
+!> The &scene group: the name of the case.
 module wavycon_scene_group
-   use wavycon_deck_writer, only: deck_writer_type
-   use wavycon_group_input, only: group_input_type
+   use wavycon_group_values, only: group_values
    use wavycon_key_table, only: key_group, key_group_type, text_key
    use wavycon_problems, only: problem_list_type
    implicit none (type, external)
    private
 
-   public :: scene_group_type, scene_table, read_scene_group, write_scene_group
+   public :: scene_table, check_scene_group
 
    integer, parameter :: longest_name = 200
-
-   !> What &scene says.
-   type :: scene_group_type
-      character(longest_name) :: title = ''  !! one line for the heads of tables and for plots
-      character(longest_name) :: case = ''   !! stem of the result files' names; never empty in a deck read
-   end type scene_group_type
-
    character(*), parameter :: plain = 'abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.'
-   character(*), parameter :: plain_in_words = &
-      "letters, digits, '_', '-' and '.', the first neither '-' nor '.'"
+   character(*), parameter :: plain_in_words = "letters, digits, '_', '-' and '.', the first neither '-' nor '.'"
 
 contains
 
@@ -34,45 +25,21 @@ contains
             ". The deck's name is that of its file without '.nml'.", longest_name)])
    end function scene_table
 
-   !> Reads the group; a case that is not given takes its name from the deck's file.
-   subroutine read_scene_group(input, path, group, problems)
-      type(group_input_type), intent(in) :: input
-      character(*), intent(in) :: path  !! of the deck
-      type(scene_group_type), intent(out) :: group
+   !> A case that is not given is named after the deck's file.
+   subroutine check_scene_group(values, problems)
+      type(group_values), intent(inout) :: values
       type(problem_list_type), intent(inout) :: problems
 
-      character(longest_name) :: title, case, message
-      integer :: status
-      namelist /scene/ title, case
-
-      title = group%title
-      case = group%case
-      read (input%record, nml=scene, iostat=status, iomsg=message)
-      if (status /= 0) call problems%add(input%place, trim(message))
-      group%title = title
-      group%case = case
-
-      if (input%is_bad('case')) return
-      if (input%has('case')) then
-         if (.not. is_plain_name(trim(case))) call problems%add(input%place_of('case'), &
-            'case must be a plain file name of '//plain_in_words)
-      else if (is_plain_name(stem(path))) then
-         group%case = stem(path)
-      else
-         call problems%add(input%place, "the deck's file name cannot serve as the name of the case ("// &
+      if (values%is_bad('case')) return
+      if (.not. values%has('case') .and. .not. is_plain_name(stem(values%deck_path))) then
+         call problems%add(values%place, "the deck's file name cannot serve as the name of the case ("// &
             plain_in_words//"): give case in &scene")
+         return
       end if
-   end subroutine read_scene_group
-
-   subroutine write_scene_group(group, writer)
-      type(scene_group_type), intent(in) :: group
-      type(deck_writer_type), intent(inout) :: writer
-
-      call writer%open_group(scene_table())
-      call writer%put('title', group%title)
-      call writer%put('case', group%case)
-      call writer%close_group()
-   end subroutine write_scene_group
+      call values%set_default('case', stem(values%deck_path))
+      if (.not. is_plain_name(values%text('case'))) call values%complain(problems, 'case', &
+         'case must be a plain file name of '//plain_in_words)
+   end subroutine check_scene_group
 
    pure logical function is_plain_name(name)
       character(*), intent(in) :: name

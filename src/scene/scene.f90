@@ -7,9 +7,10 @@ module wavycon_scene
    use wavycon_fitted_frame, only: find_frame, fitted_frame
    use wavycon_fourier_terms, only: choose_terms, fourier_terms, symmetry_diagonal, symmetry_full, symmetry_none
    use wavycon_kinds, only: dp
-   use wavycon_load_group, only: by_contact_area, by_mean_gap, by_pressure, largest_pbar_over_pstar
+   use wavycon_load_group, only: by_contact_area, by_mean_gap, by_pressure, given_loads, largest_pbar_over_pstar
+   use wavycon_map_statistics, only: map_statistics
+   use wavycon_material_group, only: plane_strain_modulus
    use wavycon_plain_text, only: escaped, integer_text, short_number
-   use wavycon_scene_surface, only: map_statistics, surface_of_deck
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
@@ -17,7 +18,7 @@ module wavycon_scene
    public :: scene_type, make_scene, target_words
 
    type :: scene_type
-      type(surface_type) :: surface
+      type(surface_type), allocatable :: surface
       type(map_statistics), allocatable :: map      !! of a height map
       real(dp) :: e_star = 1.0_dp                   !! plane-strain modulus [pressure]
       real(dp) :: p_star = 0.0_dp                   !! p*, mean pressure that just closes the gap [pressure]
@@ -29,18 +30,18 @@ module wavycon_scene
 
 contains
 
-   !> Makes the scene of a deck. Errors: exit_bad_input for loads that the surface cannot have and for a bad height
-   !> map, exit_file_trouble for one that cannot be read.
+   !> Makes the scene of a deck. Errors: exit_bad_input for loads that the surface cannot have and for a method that it
+   !> does not allow.
    subroutine make_scene(deck, scene, error)
-      type(deck_type), intent(in) :: deck
+      type(deck_type), intent(inout) :: deck   !! its surface and map move into the scene: they may be large
       type(scene_type), intent(out) :: scene
       type(error_type), allocatable, intent(out) :: error
 
-      call surface_of_deck(deck, scene%surface, scene%map, error)
-      if (allocated(error)) return
-      scene%e_star = deck%material%e_star
+      call move_alloc(deck%surface, scene%surface)
+      call move_alloc(deck%map, scene%map)
+      scene%e_star = plane_strain_modulus(deck%material)
       scene%p_star = scene%surface%full_contact_pressure(scene%e_star)
-      select case (deck%method%symmetry)
+      select case (deck%method%text('symmetry'))
       case ('none')
          scene%symmetry = symmetry_none
       case ('diagonal')
@@ -57,30 +58,22 @@ contains
       type(scene_type), intent(inout) :: scene
       type(error_type), allocatable, intent(out) :: error
 
+      character(:), allocatable :: key
+      real(dp), allocatable :: loads(:)
       real(dp) :: worst
 
-      scene%loads_by = deck%load%given_by()
+      call given_loads(deck%load, key, scene%loads_by, loads)
       if (scene%loads_by /= by_pressure .and. scene%p_star <= 0.0_dp) then
          call fatal_error(error, exit_bad_input, escaped(deck%path)// &
                           ': the surface is flat: it has neither a gap nor a part in contact to ask for')
          return
       end if
-      if (allocated(deck%load%mean_gap_over_amplitude)) then
-         allocate (scene%target, source=deck%load%mean_gap_over_amplitude)
-      else if (allocated(deck%load%contact_area_fraction)) then
-         allocate (scene%target, source=deck%load%contact_area_fraction)
-      else if (allocated(deck%load%mean_gap)) then
-         worst = maxval(deck%load%mean_gap)
-         if (worst > scene%surface%amplitude) then
-            call fatal_error(error, exit_bad_input, escaped(deck%path)//': mean_gap = '//short_number(worst)// &
-                             ' is more than the mean gap before load, '//short_number(scene%surface%amplitude)// &
-                             '. Do the units of the lengths agree?')
-            return
-         end if
-         allocate (scene%target, source=deck%load%mean_gap/scene%surface%amplitude)
-      else if (allocated(deck%load%mean_pressure)) then
-         allocate (scene%mean_pressure, source=deck%load%mean_pressure)
-         worst = maxval(scene%mean_pressure)
+      worst = maxval(loads)
+      select case (key)
+      case ('pbar_over_pstar')
+         scene%mean_pressure = scene%p_star*loads
+         if (scene%p_star <= 0.0_dp) loads = in_p_star(scene%mean_pressure, scene%p_star)
+      case ('mean_pressure')
          ! Before the division, which may overflow.
          if (scene%p_star > 0.0_dp .and. worst > largest_pbar_over_pstar*scene%p_star) then
             call fatal_error(error, exit_bad_input, escaped(deck%path)//': mean_pressure = '// &
@@ -90,12 +83,18 @@ contains
                              '. Do its unit and that of e_star agree, and those of the lengths?')
             return
          end if
-         allocate (scene%target, source=in_p_star(scene%mean_pressure, scene%p_star))
-      else
-         allocate (scene%mean_pressure, source=scene%p_star*deck%load%pbar_over_pstar)
-         allocate (scene%target, source=deck%load%pbar_over_pstar)
-         if (scene%p_star <= 0.0_dp) scene%target = in_p_star(scene%mean_pressure, scene%p_star)
-      end if
+         scene%mean_pressure = loads
+         loads = in_p_star(loads, scene%p_star)
+      case ('mean_gap')
+         if (worst > scene%surface%amplitude) then
+            call fatal_error(error, exit_bad_input, escaped(deck%path)//': mean_gap = '//short_number(worst)// &
+                             ' is more than the mean gap before load, '//short_number(scene%surface%amplitude)// &
+                             '. Do the units of the lengths agree?')
+            return
+         end if
+         loads = loads/scene%surface%amplitude
+      end select
+      call move_alloc(loads, scene%target)
    end subroutine take_loads
 
    !> What the loads are given by, as a heading.
@@ -126,20 +125,20 @@ contains
       type(fitted_frame) :: frame
       integer, allocatable :: k(:), l(:)
 
-      if (deck%method%solver == 'fitted' .and. scene%surface%amplitude > 0.0_dp) then
+      if (deck%method%text('solver') == 'fitted' .and. scene%surface%amplitude > 0.0_dp) then
          call find_frame(scene%surface, frame)
          if (.not. frame%is_found()) call fatal_error(error, exit_bad_input, escaped(deck%path)// &
             ": solver = 'fitted' knows "// &
             'wave_2d with wavelengths up to 3:1, crossed_1d with waves not too unlike and hexagonal, not this '// &
-            trim(deck%surface%kind)//". Give 'auto' or 'grid'.")
+            deck%surface_values%text('kind')//". Give 'auto' or 'grid'.")
       end if
-      if (deck%method%solver /= 'beale') return
-      terms = choose_terms(scene%surface%dimension, deck%method%harmonics, scene%symmetry)
-      call choose_points(scene%surface%dimension, deck%method%constraint_points, scene%symmetry, k, l)
+      if (deck%method%text('solver') /= 'beale') return
+      terms = choose_terms(scene%surface%dimension, deck%method%integer('harmonics'), scene%symmetry)
+      call choose_points(scene%surface%dimension, deck%method%integer('constraint_points'), scene%symmetry, k, l)
       if (real(terms%count(), dp)*size(k) > most_elements) &
          call fatal_error(error, exit_bad_input, escaped(deck%path)//': harmonics = '// &
-                          integer_text(deck%method%harmonics)//' and constraint_points = '// &
-                          integer_text(deck%method%constraint_points)//' make '//integer_text(terms%count())// &
+                          integer_text(deck%method%integer('harmonics'))//' and constraint_points = '// &
+                          integer_text(deck%method%integer('constraint_points'))//' make '//integer_text(terms%count())// &
                           ' unknowns and '//integer_text(size(k))//' constraints: too many for the memory. '// &
                           'Give fewer constraint_points (harmonics + 1 serve well), or a symmetry.')
    end subroutine check_method

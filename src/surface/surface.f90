@@ -36,6 +36,7 @@ module wavycon_surface
       procedure :: displacement_of
       procedure :: full_contact_series
       procedure :: paper_wave
+      procedure :: is_paper_wave
       procedure :: paper_wavelength
       procedure :: paper_angles
       procedure :: has_smaller_cell
@@ -235,6 +236,15 @@ contains
       end function is_wave
 
    end function paper_wave
+
+   !> Whether it is a wave of the paper or, as one of amplitude 0, a flat surface on such a wave's cell.
+   pure logical function is_paper_wave(self)
+      class(surface_type), intent(in) :: self
+
+      is_paper_wave = self%paper_wave() /= no_paper_wave
+      if (.not. self%amplitude > 0.0_dp) is_paper_wave = all(self%points == 0) .and. &
+         (self%dimension == 1 .or. is_square(self))
+   end function is_paper_wave
 
    !> lambda of phi and theta [length].
    pure real(dp) function paper_wavelength(self)

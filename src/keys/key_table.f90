@@ -1,6 +1,6 @@
-!> Tables of the keys of each namelist group: what a value may be, its default and its meaning.
+!> Tables of the keys of each namelist group: name, type, bounds, default, unit and meaning.
 !>
-!> The checks of a deck, the key reference and the comments of resolved decks are all made from these tables.
+!> Decks are checked, the key reference printed and resolved decks commented from these tables alone.
 module wavycon_key_table
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: integer_text, short_number
@@ -8,29 +8,31 @@ module wavycon_key_table
    private
 
    public :: key_type, key_group_type, real_key, integer_key, logical_key, text_key, choice_key
-   public :: key_group, key_index, key_names, group_names, allowed_values
+   public :: key_group, key_index, key_names, group_names, allowed_values, in_quotes, listed
 
-   !> What a value may be.
+   !> Types of values.
    integer, parameter, public :: real_value = 1, integer_value = 2, logical_value = 3, text_value = 4, &
       choice_value = 5
 
-   !> A number of a deck is 0 or of a size between these, so that products of a few of them neither overflow
-   !> nor underflow.
+   !> A number of a deck is 0 or between these in size, so that products of a few of them neither overflow nor
+   !> underflow.
    real(dp), parameter, public :: smallest_number = 1.0e-90_dp, largest_number = 1.0e90_dp
 
-   integer, parameter :: name_length = 24, choice_length = 12, most_choices = 6
+   integer, parameter :: name_length = 24, choice_length = 12, most_choices = 12
+   integer, parameter, public :: meaning_length = 640
 
    type :: key_type
       character(name_length) :: name = ''
       integer :: kind = real_value
-      character(320) :: meaning = ''
-      character(40) :: default = ''                      !! as in a deck, or in words; empty if there is none
+      character(meaning_length) :: meaning = ''
+      !> As in a deck; in words where it depends on other keys: then the group's check sets it. Empty: no default.
+      character(40) :: default = ''
       character(24) :: unit = ''                         !! empty for what is no quantity
-      logical :: required = .false.                      !! in any deck
+      logical :: required = .false.                      !! wherever the key applies
       real(dp) :: least = -largest_number, most = largest_number
-      logical :: above = .false., below = .false.        !! whether `least` and `most` themselves are out
+      logical :: above = .false., below = .false.        !! whether `least` and `most` themselves are excluded
       integer :: most_values = 1                         !! more than 1: a list
-      integer :: longest = 0                             !! of a text [byte]
+      integer :: longest = 0                             !! bytes of a text
       logical :: may_be_blank = .false.                  !! of a text
       integer :: number_of_choices = 0
       character(choice_length) :: choices(most_choices) = ''   !! the first number_of_choices count
@@ -60,11 +62,12 @@ contains
    end function key_group
 
    !> A key whose value is a number or, with most_values, a list of numbers.
-   pure function real_key(name, default, unit, meaning, least, most, above, below, most_values) result(key)
+   pure function real_key(name, default, unit, meaning, least, most, above, below, most_values, required) result(key)
       character(*), intent(in) :: name, default, unit, meaning
       real(dp), intent(in), optional :: least, most    !! bounds that a value may have
-      real(dp), intent(in), optional :: above, below   !! bounds that it must stay clear of
+      real(dp), intent(in), optional :: above, below   !! bounds that it must not have
       integer, intent(in), optional :: most_values
+      logical, intent(in), optional :: required
       type(key_type) :: key
 
       key%name = name
@@ -79,13 +82,15 @@ contains
       key%above = present(above)
       key%below = present(below)
       if (present(most_values)) key%most_values = most_values
+      if (present(required)) key%required = required
    end function real_key
 
    !> A key whose value is an integer from least to most or, with most_values, a list of them.
-   pure function integer_key(name, default, meaning, least, most, most_values) result(key)
+   pure function integer_key(name, default, meaning, least, most, most_values, required) result(key)
       character(*), intent(in) :: name, default, meaning
       integer, intent(in) :: least, most
       integer, intent(in), optional :: most_values
+      logical, intent(in), optional :: required
       type(key_type) :: key
 
       key%name = name
@@ -95,6 +100,7 @@ contains
       key%least = real(least, dp)
       key%most = real(most, dp)
       if (present(most_values)) key%most_values = most_values
+      if (present(required)) key%required = required
    end function integer_key
 
    pure function logical_key(name, default, meaning) result(key)
@@ -107,10 +113,10 @@ contains
       key%meaning = meaning
    end function logical_key
 
-   pure function text_key(name, default, meaning, longest, may_be_blank) result(key)
+   pure function text_key(name, default, meaning, longest, may_be_blank, required) result(key)
       character(*), intent(in) :: name, default, meaning
       integer, intent(in) :: longest
-      logical, intent(in), optional :: may_be_blank
+      logical, intent(in), optional :: may_be_blank, required
       type(key_type) :: key
 
       key%name = name
@@ -119,6 +125,7 @@ contains
       key%meaning = meaning
       key%longest = longest
       if (present(may_be_blank)) key%may_be_blank = may_be_blank
+      if (present(required)) key%required = required
    end function text_key
 
    !> A key whose value is one of a few words.
@@ -164,8 +171,6 @@ contains
       type(key_type), intent(in) :: key
       character(:), allocatable :: words
 
-      integer :: i
-
       select case (key%kind)
       case (real_value)
          words = 'a number'
@@ -180,12 +185,7 @@ contains
       case (text_value)
          words = 'text in quotes, at most '//integer_text(key%longest)//' bytes'
       case (choice_value)
-         words = "'"//trim(key%choices(1))//"'"
-         do i = 2, key%number_of_choices
-            if (i < key%number_of_choices) words = words//','
-            if (i == key%number_of_choices) words = words//' or'
-            words = words//" '"//trim(key%choices(i))//"'"
-         end do
+         words = listed(in_quotes(key%choices(:key%number_of_choices)), ' or ')
       end select
    end function allowed_values
 
@@ -202,5 +202,31 @@ contains
          words = words//trim(merge(' < ', ' <=', key%below))//' '//short_number(key%most)
       end if
    end function bounds
+
+   !> "'name'"
+   elemental function in_quotes(name) result(words)
+      character(*), intent(in) :: name
+      character(len(name) + 2) :: words
+
+      words = "'"//trim(name)//"'"
+   end function in_quotes
+
+   !> "a, b, c" or, with a last separator such as ' and ', "a, b and c".
+   pure function listed(names, last) result(words)
+      character(*), intent(in) :: names(:)              !! at least one; blanks at their ends are left out
+      character(*), intent(in), optional :: last
+      character(:), allocatable :: words
+
+      integer :: i
+
+      words = trim(names(1))
+      do i = 2, size(names)
+         if (present(last) .and. i == size(names)) then
+            words = words//last//trim(names(i))
+         else
+            words = words//', '//trim(names(i))
+         end if
+      end do
+   end function listed
 
 end module wavycon_key_table

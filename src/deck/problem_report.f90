@@ -1,51 +1,17 @@
-!> The problems found in a deck, kept until all are known and then reported at once.
-module wavycon_problems
+!> The report of the problems in a deck.
+module wavycon_problem_report
    use wavycon_deck_text, only: deck_text_type
-   use wavycon_plain_text, only: character_count, escaped, integer_text, is_continuation
-   use wavycon_text_buffer, only: text_buffer_type
+   use wavycon_plain_text, only: character_count, escaped, integer_text, is_continuation, newline
+   use wavycon_problems, only: problem_list_type
    implicit none (type, external)
    private
 
-   public :: problem_list_type, problem_report
+   public :: problem_report
 
-   !> Whoever sees this many goes back to the deck anyway.
+   !> Problems in a report; whoever sees this many goes back to the deck anyway.
    integer, parameter, public :: most_printed = 50
-   !> Enough of them to stop looking for more: bounds time and memory on a file that is no deck at all.
-   integer, parameter, public :: most_kept = 1000
-
-   type :: problem_type
-      integer :: place = 0  !! in the deck's text; 0 means the deck as a whole
-      character(:), allocatable :: words
-   end type problem_type
-
-   type :: problem_list_type
-      integer :: number = 0
-      type(problem_type), allocatable, private :: items(:)
-   contains
-      procedure :: add
-      procedure :: is_full
-   end type problem_list_type
 
 contains
-
-   !> Adds a problem, unless the list is full.
-   pure subroutine add(self, place, words)
-      class(problem_list_type), intent(inout) :: self
-      integer, intent(in) :: place       !! where in the deck's text; 0 means the deck as a whole
-      character(*), intent(in) :: words  !! what is wrong, what was expected
-
-      if (self%is_full()) return
-      if (.not. allocated(self%items)) allocate (self%items(most_kept))
-      self%number = self%number + 1
-      self%items(self%number)%place = place
-      self%items(self%number)%words = words
-   end subroutine add
-
-   pure logical function is_full(self)
-      class(problem_list_type), intent(in) :: self
-
-      is_full = self%number >= most_kept
-   end function is_full
 
    !> All the problems in the order of their places, numbered, each with its line and a caret.
    pure function problem_report(problems, text) result(report)
@@ -53,31 +19,33 @@ contains
       type(deck_text_type), intent(in) :: text
       character(:), allocatable :: report  !! lines, the last without a newline
 
-      type(text_buffer_type) :: buffer
       character(:), allocatable :: total
       integer :: i, left, order(problems%number)
 
       order = in_order(problems)
-      total = integer_text(problems%number)
-      if (problems%is_full()) total = 'at least '//total
+      total = at_least(problems)//integer_text(problems%number)
+      report = ''
       do i = 1, min(problems%number, most_printed)
          associate (problem => problems%items(order(i)))
-            if (i > 1) call buffer%add_line('')
-            call buffer%add(escaped(text%path)//':')
-            if (problem%place > 0) call buffer%add(position(text, problem%place))
-            call buffer%add(' error '//integer_text(i)//' of '//total//': '//problem%words)
-            if (problem%place > 0) call add_line_and_caret(buffer, text, problem%place)
+            if (i > 1) report = report//newline
+            report = report//escaped(text%path)//':'
+            if (problem%place > 0) report = report//position(text, problem%place)
+            report = report//' error '//integer_text(i)//' of '//total//': '//problem%words
+            if (problem%place > 0) report = report//newline//line_and_caret(text, problem%place)
          end associate
       end do
       left = problems%number - most_printed
-      if (left > 0) then
-         call buffer%add_line('')
-         call buffer%add('and ')
-         if (problems%is_full()) call buffer%add('at least ')
-         call buffer%add(integer_text(left)//' more')
-      end if
-      report = buffer%text()
+      if (left > 0) report = report//newline//'and '//at_least(problems)//integer_text(left)//' more'
    end function problem_report
+
+   !> A full list took no more: there may be more problems than it holds.
+   pure function at_least(problems) result(words)
+      type(problem_list_type), intent(in) :: problems
+      character(:), allocatable :: words
+
+      words = ''
+      if (problems%is_full()) words = 'at least '
+   end function at_least
 
    !> Numbers that sort the problems by place; those of equal places stay in their order.
    pure function in_order(problems) result(order)
@@ -111,10 +79,10 @@ contains
    end function position
 
    !> The line with a caret below the place. Of a long line only the neighbourhood of the place is shown.
-   pure subroutine add_line_and_caret(buffer, text, place)
-      type(text_buffer_type), intent(inout) :: buffer
+   pure function line_and_caret(text, place) result(words)
       type(deck_text_type), intent(in) :: text
       integer, intent(in) :: place
+      character(:), allocatable :: words
 
       integer, parameter :: longest_line = 100, most_before = 60, most_after = 40, narrowest_number = 4
       character(:), allocatable :: after, before, number
@@ -143,9 +111,8 @@ contains
 
       number = integer_text(line)
       number = repeat(' ', max(0, narrowest_number - len(number)))//number
-      call buffer%add_line('')
-      call buffer%add_line(number//' | '//trim(before//after))
-      call buffer%add(repeat(' ', len(number))//' | '//repeat(' ', character_count(before))//'^')
-   end subroutine add_line_and_caret
+      words = number//' | '//trim(before//after)//newline// &
+         repeat(' ', len(number))//' | '//repeat(' ', character_count(before))//'^'
+   end function line_and_caret
 
-end module wavycon_problems
+end module wavycon_problem_report

@@ -1,0 +1,45 @@
+!> Decimal numbers as decks and height maps write them.
+module wavycon_decimal_number
+   use, intrinsic :: iso_c_binding, only: c_null_char
+   use wavycon_kinds, only: dp
+   use wavycon_system, only: parse_number
+   implicit none (type, external)
+   private
+
+   public :: read_decimal
+
+   !> A number of more bytes is taken for a mistake.
+   integer, parameter :: longest_number = 100
+
+contains
+
+   !> Reads a sign, digits with at most one point, and an exponent with the letter e or d.
+   !>
+   !> N.B. Fortran reads 1+3 as 1e3 too. Here that is no number: it is more likely a sum, which decks do not have.
+   !> N.B. A number that is too large signals overflow; the caller switches off traps of it.
+   subroutine read_decimal(word, value, is_number)
+      character(*), intent(in) :: word
+      real(dp), intent(out) :: value      !! the nearest double: infinity, or 0, for what is out of range
+      logical, intent(out) :: is_number   !! whether the whole word is a number
+
+      character(longest_number + 1) :: number
+      integer :: i
+
+      value = 0.0_dp
+      is_number = .false.
+      if (len(word) == 0 .or. len(word) > longest_number) return
+      number = word
+      do i = 1, len(word)
+         select case (word(i:i))
+         case ('0':'9', '+', '-', '.', 'e', 'E')
+         case ('d', 'D')
+            number(i:i) = 'e'
+         case default
+            return
+         end select
+      end do
+      number(len(word) + 1:len(word) + 1) = c_null_char
+      is_number = parse_number(number, value) == len(word)
+   end subroutine read_decimal
+
+end module wavycon_decimal_number

@@ -1,0 +1,418 @@
+!> What one group of one deck says: for each key of the group's table the deck's value, or else its default.
+module wavycon_group_values
+   use wavycon_assertion, only: assert
+   use wavycon_key_table, only: choice_value, integer_value, key_group_type, key_index, logical_value, real_value, &
+      text_value
+   use wavycon_key_values, only: read_value, word_value
+   use wavycon_kinds, only: dp
+   use wavycon_problems, only: problem_list_type
+   implicit none (type, external)
+   private
+
+   public :: group_values
+
+   !> What is known of one key. Reals and integers are in `numbers`, texts and choices in `text`.
+   type :: key_entry
+      integer :: place = 0                     !! byte of the deck's text where the key stands; 0 if it is absent
+      logical :: is_bad = .false.              !! given, but its value cannot be used
+      logical :: applies = .true.              !! whether the resolved deck shows it
+      logical :: has_value = .false.
+      real(dp), allocatable :: numbers(:)
+      logical :: flag = .false.
+      character(:), allocatable :: text
+   end type key_entry
+
+   !> A key that is not in the table is a programming error: a Debug build stops, any other build takes the neutral
+   !> value: false, 0, an empty list or text.
+   type :: group_values
+      type(key_group_type) :: table
+      character(:), allocatable :: deck_path   !! the deck's file, as the caller named it
+      integer :: place = 0                     !! byte of the deck's text where '&name' stands; 0 if it is absent
+      type(key_entry), allocatable, private :: entries(:)   !! one for each key of the table
+   contains
+      procedure :: start
+      procedure :: note_key
+      procedure :: note_bad
+      procedure :: take
+      procedure :: has
+      procedure :: is_bad
+      procedure :: any_bad
+      procedure :: place_of
+      procedure :: in_effect
+      procedure :: leave_out
+      procedure :: real => get_real
+      procedure :: reals
+      procedure :: integer => get_integer
+      procedure :: integers
+      procedure :: logical => get_logical
+      procedure :: text
+      procedure, private :: set_flag
+      procedure, private :: set_integers
+      procedure, private :: set_text
+      generic :: set => set_flag, set_integers, set_text
+      procedure, private :: default_real
+      procedure, private :: default_reals
+      procedure, private :: default_integer
+      procedure, private :: default_integers
+      procedure, private :: default_text
+      generic :: set_default => default_real, default_reals, default_integer, default_integers, default_text
+      procedure :: complain
+      procedure :: require
+      procedure :: forbid
+      procedure, private :: find
+   end type group_values
+
+contains
+
+   !> Starts with the defaults of the table. Defaults in words have no value until `set_default` gives one.
+   subroutine start(self, table, deck_path)
+      class(group_values), intent(out) :: self
+      type(key_group_type), intent(in) :: table
+      character(*), intent(in) :: deck_path
+
+      type(word_value) :: value
+      character(:), allocatable :: trouble
+      integer :: k
+
+      self%table = table
+      self%deck_path = deck_path
+      allocate (self%entries(size(table%keys)))
+      do k = 1, size(table%keys)
+         if (table%keys(k)%default == '') cycle
+         call read_value(table%keys(k), trim(table%keys(k)%default), value, trouble)
+         if (.not. allocated(trouble)) call take_value(self%entries(k), value, [value%number])
+      end do
+   end subroutine start
+
+   !> Notes that the deck gives a key. `take` or `note_bad` follows with its value.
+   pure subroutine note_key(self, key, place)
+      class(group_values), intent(inout) :: self
+      character(*), intent(in) :: key
+      integer, intent(in) :: place   !! byte of the deck's text
+
+      integer :: k
+
+      k = self%find(key)
+      if (k > 0) self%entries(k)%place = place
+   end subroutine note_key
+
+   !> Notes that the deck's value of a key cannot be used: the default stays in effect.
+   pure subroutine note_bad(self, key)
+      class(group_values), intent(inout) :: self
+      character(*), intent(in) :: key
+
+      integer :: k
+
+      k = self%find(key)
+      if (k > 0) self%entries(k)%is_bad = .true.
+   end subroutine note_bad
+
+   !> Takes the deck's value of a key in place of the default.
+   pure subroutine take(self, key, value, numbers)
+      class(group_values), intent(inout) :: self
+      character(*), intent(in) :: key
+      type(word_value), intent(in) :: value   !! the flag or text; of a list any of its words
+      real(dp), intent(in) :: numbers(:)      !! the values of a real or integer key, repeats expanded
+
+      integer :: k
+
+      k = self%find(key)
+      if (k > 0) call take_value(self%entries(k), value, numbers)
+   end subroutine take
+
+   pure subroutine take_value(entry, value, numbers)
+      type(key_entry), intent(inout) :: entry
+      type(word_value), intent(in) :: value
+      real(dp), intent(in) :: numbers(:)
+
+      entry%has_value = .true.
+      entry%numbers = numbers
+      entry%flag = value%flag
+      if (allocated(value%text)) entry%text = value%text
+   end subroutine take_value
+
+   !> Whether the deck gives a key.
+   pure logical function has(self, key)
+      class(group_values), intent(in) :: self
+      character(*), intent(in) :: key
+
+      has = .false.
+      associate (k => self%find(key))
+         if (k > 0) has = self%entries(k)%place > 0
+      end associate
+   end function has
+
+   !> Whether a key was given a value that cannot be used: then checks that depend on it would mislead.
+   pure logical function is_bad(self, key)
+      class(group_values), intent(in) :: self
+      character(*), intent(in) :: key
+
+      is_bad = .false.
+      associate (k => self%find(key))
+         if (k > 0) is_bad = self%entries(k)%is_bad
+      end associate
+   end function is_bad
+
+   !> Whether any key is bad.
+   pure logical function any_bad(self)
+      class(group_values), intent(in) :: self
+
+      any_bad = any(self%entries%is_bad)
+   end function any_bad
+
+   !> Where a problem with a key is shown: at the key, or at the group where the key is absent.
+   pure integer function place_of(self, key)
+      class(group_values), intent(in) :: self
+      character(*), intent(in) :: key
+
+      place_of = 0
+      associate (k => self%find(key))
+         if (k > 0) place_of = self%entries(k)%place
+      end associate
+      if (place_of == 0) place_of = self%place
+   end function place_of
+
+   !> Whether a key has a value and has not been left out.
+   pure logical function in_effect(self, key)
+      class(group_values), intent(in) :: self
+      character(*), intent(in) :: key
+
+      in_effect = .false.
+      associate (k => self%find(key))
+         if (k > 0) in_effect = self%entries(k)%has_value .and. self%entries(k)%applies
+      end associate
+   end function in_effect
+
+   !> Leaves a key out of the resolved deck: it means nothing beside the other values of this deck.
+   pure subroutine leave_out(self, key)
+      class(group_values), intent(inout) :: self
+      character(*), intent(in) :: key
+
+      integer :: k
+
+      k = self%find(key)
+      if (k > 0) self%entries(k)%applies = .false.
+   end subroutine leave_out
+
+   !> The value of a real key; of a list its first.
+   pure real(dp) function get_real(self, key) result(number)
+      class(group_values), intent(in) :: self
+      character(*), intent(in) :: key
+
+      number = first_of(self, key, [real_value])
+   end function get_real
+
+   !> The values of a real key.
+   pure function reals(self, key) result(numbers)
+      class(group_values), intent(in) :: self
+      character(*), intent(in) :: key
+      real(dp), allocatable :: numbers(:)
+
+      integer :: k
+
+      k = self%find(key, [real_value])
+      if (k > 0) then
+         if (allocated(self%entries(k)%numbers)) numbers = self%entries(k)%numbers
+      end if
+      if (.not. allocated(numbers)) allocate (numbers(0))
+   end function reals
+
+   !> The value of an integer key; of a list its first.
+   pure integer function get_integer(self, key) result(number)
+      class(group_values), intent(in) :: self
+      character(*), intent(in) :: key
+
+      number = nint(first_of(self, key, [integer_value]))
+   end function get_integer
+
+   !> The values of an integer key.
+   pure function integers(self, key) result(numbers)
+      class(group_values), intent(in) :: self
+      character(*), intent(in) :: key
+      integer, allocatable :: numbers(:)
+
+      integer :: k
+
+      k = self%find(key, [integer_value])
+      if (k > 0) then
+         if (allocated(self%entries(k)%numbers)) numbers = nint(self%entries(k)%numbers)
+      end if
+      if (.not. allocated(numbers)) allocate (numbers(0))
+   end function integers
+
+   !> The first number of a key; 0 if it has none.
+   pure real(dp) function first_of(self, key, kinds) result(number)
+      class(group_values), intent(in) :: self
+      character(*), intent(in) :: key
+      integer, intent(in) :: kinds(:)   !! types that the key may have
+
+      integer :: k
+
+      number = 0.0_dp
+      k = self%find(key, kinds)
+      if (k == 0) return
+      if (.not. allocated(self%entries(k)%numbers)) return
+      if (size(self%entries(k)%numbers) > 0) number = self%entries(k)%numbers(1)
+   end function first_of
+
+   !> The value of a logical key.
+   pure logical function get_logical(self, key) result(flag)
+      class(group_values), intent(in) :: self
+      character(*), intent(in) :: key
+
+      flag = .false.
+      associate (k => self%find(key, [logical_value]))
+         if (k > 0) flag = self%entries(k)%flag
+      end associate
+   end function get_logical
+
+   !> The value of a text or choice key, without blanks at its end; empty if it has none.
+   pure function text(self, key) result(words)
+      class(group_values), intent(in) :: self
+      character(*), intent(in) :: key
+      character(:), allocatable :: words
+
+      integer :: k
+
+      words = ''
+      k = self%find(key, [text_value, choice_value])
+      if (k == 0) return
+      if (allocated(self%entries(k)%text)) words = self%entries(k)%text
+   end function text
+
+   !> Sets a value, whatever the deck says.
+   pure subroutine set_flag(self, key, flag)
+      class(group_values), intent(inout) :: self
+      character(*), intent(in) :: key
+      logical, intent(in) :: flag
+
+      integer :: k
+
+      k = self%find(key, [logical_value])
+      if (k > 0) call take_value(self%entries(k), word_value(flag=flag), [real(dp) ::])
+   end subroutine set_flag
+
+   pure subroutine set_integers(self, key, numbers)
+      class(group_values), intent(inout) :: self
+      character(*), intent(in) :: key
+      integer, intent(in) :: numbers(:)
+
+      integer :: k
+
+      k = self%find(key, [integer_value])
+      if (k > 0) call take_value(self%entries(k), word_value(), real(numbers, dp))
+   end subroutine set_integers
+
+   pure subroutine set_text(self, key, words)
+      class(group_values), intent(inout) :: self
+      character(*), intent(in) :: key
+      character(*), intent(in) :: words
+
+      integer :: k
+
+      k = self%find(key, [text_value, choice_value])
+      if (k == 0) return
+      self%entries(k)%has_value = .true.
+      self%entries(k)%text = trim(words)
+   end subroutine set_text
+
+   !> Sets the default of a key that depends on other values. It has no effect on a key that the deck gives well.
+   pure subroutine default_reals(self, key, numbers)
+      class(group_values), intent(inout) :: self
+      character(*), intent(in) :: key
+      real(dp), intent(in) :: numbers(:)
+
+      integer :: k
+
+      k = self%find(key, [real_value])
+      if (k == 0 .or. gives(self, key)) return
+      call take_value(self%entries(k), word_value(), numbers)
+   end subroutine default_reals
+
+   pure subroutine default_real(self, key, number)
+      class(group_values), intent(inout) :: self
+      character(*), intent(in) :: key
+      real(dp), intent(in) :: number
+
+      call self%set_default(key, [number])
+   end subroutine default_real
+
+   pure subroutine default_integers(self, key, numbers)
+      class(group_values), intent(inout) :: self
+      character(*), intent(in) :: key
+      integer, intent(in) :: numbers(:)
+
+      if (.not. gives(self, key)) call self%set(key, numbers)
+   end subroutine default_integers
+
+   pure subroutine default_integer(self, key, number)
+      class(group_values), intent(inout) :: self
+      character(*), intent(in) :: key
+      integer, intent(in) :: number
+
+      call self%set_default(key, [number])
+   end subroutine default_integer
+
+   pure subroutine default_text(self, key, words)
+      class(group_values), intent(inout) :: self
+      character(*), intent(in) :: key
+      character(*), intent(in) :: words
+
+      if (.not. gives(self, key)) call self%set(key, words)
+   end subroutine default_text
+
+   !> Whether the deck gives a key a good value.
+   pure logical function gives(self, key)
+      class(group_values), intent(in) :: self
+      character(*), intent(in) :: key
+
+      gives = self%has(key) .and. .not. self%is_bad(key)
+   end function gives
+
+   !> Adds a problem at the place of a key.
+   pure subroutine complain(self, problems, key, words)
+      class(group_values), intent(in) :: self
+      type(problem_list_type), intent(inout) :: problems
+      character(*), intent(in) :: key
+      character(*), intent(in) :: words   !! what is wrong, what was expected
+
+      call problems%add(self%place_of(key), words)
+   end subroutine complain
+
+   !> Adds a problem for a key that was given without another that it needs.
+   pure subroutine require(self, problems, key, other)
+      class(group_values), intent(in) :: self
+      type(problem_list_type), intent(inout) :: problems
+      character(*), intent(in) :: key, other
+
+      if (self%has(key) .and. .not. self%has(other)) &
+         call self%complain(problems, key, key//' needs '//other//' beside it')
+   end subroutine require
+
+   !> Adds a problem for a key that was given together with another that contradicts it.
+   pure subroutine forbid(self, problems, key, other, advice)
+      class(group_values), intent(in) :: self
+      type(problem_list_type), intent(inout) :: problems
+      character(*), intent(in) :: key, other
+      character(*), intent(in) :: advice  !! what to give instead
+
+      if (self%has(key) .and. self%has(other)) &
+         call problems%add(max(self%place_of(key), self%place_of(other)), &
+            key//' and '//other//' contradict each other: '//advice)
+   end subroutine forbid
+
+   !> The number of a key in the table; 0 if it is not there or has another type.
+   pure integer function find(self, key, kinds) result(k)
+      class(group_values), intent(in) :: self
+      character(*), intent(in) :: key
+      integer, intent(in), optional :: kinds(:)   !! types that the key may have; any if not given
+
+      k = 0
+      if (allocated(self%table%keys)) k = key_index(self%table%keys, key)
+      if (k > 0 .and. present(kinds)) then
+         if (all(kinds /= self%table%keys(k)%kind)) k = 0
+      end if
+      call assert(k > 0, 'no key '//key//' of this type in &'//trim(self%table%name))
+   end function find
+
+end module wavycon_group_values

@@ -1,0 +1,229 @@
+!> The value that a word of a deck stands for, or what is wrong with the word.
+module wavycon_key_values
+   use, intrinsic :: ieee_exceptions, only: ieee_get_status, ieee_overflow, ieee_set_halting_mode, ieee_set_status, &
+      ieee_status_type
+   use wavycon_decimal_number, only: read_decimal
+   use wavycon_key_table, only: allowed_values, choice_value, integer_value, key_type, largest_number, &
+      logical_value, real_value, smallest_number, text_value
+   use wavycon_kinds, only: dp
+   use wavycon_nearest_name, only: did_you_mean
+   use wavycon_plain_text, only: excerpt, integer_text, is_printable, lower_case, unquoted
+   implicit none (type, external)
+   private
+
+   public :: word_value, read_value
+
+   !> What a word stands for: by the type of its key a number, a flag or a text.
+   type :: word_value
+      integer :: repeats = 1                 !! r of 'r*value'
+      real(dp) :: number = 0.0_dp            !! of reals and integers
+      logical :: flag = .false.
+      character(:), allocatable :: text      !! of texts and choices, without the quotes
+   end type word_value
+
+   character(*), parameter :: digits = '0123456789'
+   character(*), parameter :: true_words(*) = ['.true.', 'true  ', '.t.   ', 't     ']
+   character(*), parameter :: false_words(*) = ['.false.', 'false  ', '.f.    ', 'f      ']
+
+contains
+
+   !> Reads one word: 'value', or 'r*value' for r values.
+   subroutine read_value(key, word, value, trouble)
+      type(key_type), intent(in) :: key
+      character(*), intent(in) :: word                    !! as in the deck, quotes included
+      type(word_value), intent(out) :: value
+      character(:), allocatable, intent(out) :: trouble   !! what is wrong; not allocated if the word is good
+
+      integer :: start
+
+      call split_repeat(word, value%repeats, start)
+      if (value%repeats < 1) then
+         trouble = trim(key%name)//": '"//excerpt(word)//"' must be a count, '*' and a value"
+         value%repeats = 1
+         return
+      end if
+      associate (rest => word(start:))
+         select case (key%kind)
+         case (real_value)
+            call read_real(key, rest, value%number, trouble)
+         case (integer_value)
+            call read_integer(key, rest, value%number, trouble)
+         case (logical_value)
+            value%flag = any(lower_case(rest) == true_words)
+            if (.not. value%flag .and. all(lower_case(rest) /= false_words)) trouble = must_be(key, rest)
+         case (text_value)
+            call read_text(key, rest, value%text, trouble)
+         case (choice_value)
+            call read_choice(key, rest, value%text, trouble)
+         end select
+      end associate
+   end subroutine read_value
+
+   !> Takes 'r*' off the front of a word.
+   pure subroutine split_repeat(word, repeats, start)
+      character(*), intent(in) :: word
+      integer, intent(out) :: repeats  !! 1 where there is no 'r*'; 0 if r is out of range or no value follows
+      integer, intent(out) :: start    !! of the value
+
+      integer, parameter :: most_digits = 7
+      integer :: star, status
+
+      repeats = 1
+      start = 1
+      star = verify(word, digits)
+      if (star < 2) return
+      if (word(star:star) /= '*') return
+      start = star + 1
+      repeats = 0
+      if (star - 1 > most_digits .or. start > len(word)) return
+      read (word(:star - 1), *, iostat=status) repeats
+      if (status /= 0) repeats = 0
+   end subroutine split_repeat
+
+   subroutine read_real(key, word, number, trouble)
+      type(key_type), intent(in) :: key
+      character(*), intent(in) :: word
+      real(dp), intent(out) :: number
+      character(:), allocatable, intent(out) :: trouble
+
+      logical :: is_number
+
+      call read_without_traps(word, number, is_number)
+      if (.not. is_number) then
+         trouble = must_be(key, word)
+      else if (abs(number) > largest_number .or. (abs(number) < smallest_number .and. .not. is_zero(word))) then
+         trouble = must_be(key, word)//'; numbers may be 0 or from 1e-90 to 1e90 in size'
+      else if (.not. within(key, number)) then
+         trouble = must_be(key, word)
+      end if
+   end subroutine read_real
+
+   !> Whether all digits of a number before its exponent are 0: 1e-999 is not zero, though it is read as zero.
+   pure logical function is_zero(number)
+      character(*), intent(in) :: number
+
+      integer :: letter
+
+      letter = scan(number, 'eEdD')
+      if (letter == 0) letter = len(number) + 1
+      is_zero = scan(number(:letter - 1), '123456789') == 0
+   end function is_zero
+
+   subroutine read_integer(key, word, number, trouble)
+      type(key_type), intent(in) :: key
+      character(*), intent(in) :: word
+      real(dp), intent(out) :: number   !! exact: integers of decks are far below 2^53
+      character(:), allocatable, intent(out) :: trouble
+
+      logical :: is_number
+
+      call read_without_traps(word, number, is_number)
+      if (is_number) is_number = verify(word, digits//'+-') == 0 .and. within(key, number)
+      if (.not. is_number) trouble = must_be(key, word)
+   end subroutine read_integer
+
+   !> Reads a number; 1e999 is bad input, not an exception, in builds that trap overflow.
+   subroutine read_without_traps(word, number, is_number)
+      character(*), intent(in) :: word
+      real(dp), intent(out) :: number
+      logical, intent(out) :: is_number
+
+      type(ieee_status_type) :: floating_point
+
+      call ieee_get_status(floating_point)
+      call ieee_set_halting_mode(ieee_overflow, .false.)
+      call read_decimal(word, number, is_number)
+      call ieee_set_status(floating_point)
+   end subroutine read_without_traps
+
+   pure logical function within(key, number)
+      type(key_type), intent(in) :: key
+      real(dp), intent(in) :: number
+
+      within = number >= key%least .and. number <= key%most
+      if (key%above) within = within .and. number > key%least
+      if (key%below) within = within .and. number < key%most
+   end function within
+
+   pure subroutine read_text(key, word, text, trouble)
+      type(key_type), intent(in) :: key
+      character(*), intent(in) :: word
+      character(:), allocatable, intent(out) :: text      !! without blanks at its end
+      character(:), allocatable, intent(out) :: trouble
+
+      if (.not. is_constant(word)) then
+         trouble = must_be(key, word)
+         return
+      end if
+      text = unquoted(word)
+      if (len(text) > key%longest) then
+         trouble = trim(key%name)//' must be at most '//integer_text(key%longest)//' bytes long, got '// &
+            integer_text(len(text))
+      else if (.not. is_printable(text)) then
+         trouble = trim(key%name)//' must be ASCII or UTF-8 text without control characters'
+      else if (len_trim(text) == 0 .and. .not. key%may_be_blank) then
+         trouble = trim(key%name)//' must not be blank'
+      end if
+      text = trim(text)
+   end subroutine read_text
+
+   pure subroutine read_choice(key, word, text, trouble)
+      type(key_type), intent(in) :: key
+      character(*), intent(in) :: word
+      character(:), allocatable, intent(out) :: text
+      character(:), allocatable, intent(out) :: trouble
+
+      text = word
+      associate (choices => key%choices(:key%number_of_choices))
+         if (is_constant(word)) then
+            text = unquoted(word)
+            if (len(text) <= len(choices) .and. any(choices == text)) return
+         else if (any(choices == lower_case(word))) then
+            trouble = trim(key%name)//" must be in quotes: '"//lower_case(word)//"'"
+            return
+         end if
+         trouble = must_be(key, word)//did_you_mean(lower_case(text), choices, "'", "'")
+      end associate
+   end subroutine read_choice
+
+   !> Whether a word is nothing but one character constant.
+   pure logical function is_constant(word)
+      character(*), intent(in) :: word
+
+      integer :: i
+
+      is_constant = .false.
+      if (len(word) < 2) return
+      if (scan(word(1:1), '"''') == 0) return
+      i = 2
+      do while (i <= len(word))
+         if (word(i:i) == word(1:1)) then
+            if (i == len(word)) exit
+            if (word(i + 1:i + 1) /= word(1:1)) return
+            i = i + 1
+         end if
+         i = i + 1
+      end do
+      is_constant = i == len(word)
+   end function is_constant
+
+   !> "key must be ..., got ..."
+   pure function must_be(key, value) result(words)
+      type(key_type), intent(in) :: key
+      character(*), intent(in) :: value
+      character(:), allocatable :: words
+
+      type(key_type) :: one
+
+      one = key
+      one%most_values = 1
+      words = trim(key%name)//' must be '//allowed_values(one)
+      if (key%most_values > 1) words = 'each value of '//words
+      if (is_constant(value)) then
+         words = words//', got the text '//excerpt(value)
+      else
+         words = words//", got '"//excerpt(value)//"'"
+      end if
+   end function must_be
+
+end module wavycon_key_values

@@ -1,0 +1,117 @@
+!> A height map from a file.
+module wavycon_height_map
+   use wavycon_error, only: error_type, exit_bad_input, fatal_error
+   use wavycon_group_values, only: group_values
+   use wavycon_height_map_file, only: height_map_type, read_height_map
+   use wavycon_key_table, only: choice_key, key_type, largest_number, real_key, smallest_number, text_key
+   use wavycon_kinds, only: dp
+   use wavycon_map_statistics, only: map_statistics, statistics_of
+   use wavycon_plain_text, only: escaped, short_number
+   use wavycon_surface, only: surface_of_points, surface_type
+   use wavycon_surface_keys, only: length_x_key, length_y_key
+   use wavycon_surface_kind, only: surface_kind
+   use wavycon_system, only: full_path, path_absent, path_kind
+   implicit none (type, external)
+   private
+
+   public :: height_map_kind
+
+   type, extends(surface_kind) :: height_map_kind
+   contains
+      procedure, nopass :: name
+      procedure, nopass :: meaning
+      procedure, nopass :: keys
+      procedure, nopass :: set_defaults
+      procedure, nopass :: make
+   end type height_map_kind
+
+   integer, parameter :: longest_path = 1000
+
+contains
+
+   function name() result(words)
+      character(:), allocatable :: words
+
+      words = 'file'
+   end function name
+
+   function meaning() result(words)
+      character(:), allocatable :: words
+
+      words = 'a height map'
+   end function meaning
+
+   function keys() result(rows)
+      type(key_type), allocatable :: rows(:)
+
+      rows = [ &
+         length_x_key(), length_y_key(), &
+         text_key('file', '', &
+            'a periodic map of heights, upwards to the other body; looked for beside the deck, then where the '// &
+            "program is started. The last row and column are the cell's last, not copies of the first.", &
+            longest_path, required=.true.), &
+         choice_key('file_format', "'auto'", &
+            "'matrix', a row of heights for each y; 'xyz', lines of x, y, z on a regular grid, which give the sides "// &
+            "of the cell too; 'auto', xyz if all lines have three numbers.", [character(6) :: 'auto', 'matrix', 'xyz']), &
+         real_key('height_scale', '1.0', 'length', 'one unit of its heights.', above=0.0_dp)]
+   end function keys
+
+   subroutine set_defaults(values)
+      type(group_values), intent(inout) :: values
+
+      call values%set_default('length_y', values%real('length_x'))
+   end subroutine set_defaults
+
+   !> Reads the map. Errors: exit_file_trouble if the file cannot be read, exit_bad_input if it is no map.
+   subroutine make(values, surface, map, error)
+      type(group_values), intent(in) :: values
+      type(surface_type), intent(out) :: surface
+      type(map_statistics), allocatable, intent(out) :: map
+      type(error_type), allocatable, intent(out) :: error
+
+      type(height_map_type) :: heights
+      character(:), allocatable :: map_of, path
+      real(dp) :: length(2)
+
+      path = place_of_map(values%deck_path, values%text('file'))
+      map_of = ' (the height map of '//escaped(values%deck_path)//')'
+      call read_height_map(path, values%text('file_format'), heights, error)
+      if (allocated(error)) then
+         error%message = error%message//map_of
+         return
+      end if
+      length = [values%real('length_x'), values%real('length_y')]
+      associate (height => heights%height, step => heights%step)
+         if (all(step > 0.0_dp)) length = step*shape(height)
+         if (step(1) > 0.0_dp .and. size(height, 2) == 1) length = step(1)*size(height, 1)
+         if (maxval(height) <= minval(height)) then
+            ! Equal heights less their mean, which is rounded, would be no flat surface.
+            height = 0.0_dp
+         else
+            height = values%real('height_scale')*(height - sum(height)/size(height))
+         end if
+         associate (largest => maxval(abs(height)))
+            if (largest > largest_number .or. (largest < smallest_number .and. largest > 0.0_dp)) then
+               call fatal_error(error, exit_bad_input, escaped(path)//': the heights over their mean, times '// &
+                                'height_scale, are up to '//short_number(largest)//' [length]: lengths may be '// &
+                                'from '//short_number(smallest_number)//' to '//short_number(largest_number)//map_of)
+               return
+            end if
+         end associate
+      end associate
+      surface = surface_of_points(length, heights%height)
+      map = statistics_of(heights%height, heights%format, full_path(path))
+   end subroutine make
+
+   !> The file is looked for beside the deck, then where the program was started.
+   function place_of_map(deck_path, file) result(path)
+      character(*), intent(in) :: deck_path, file
+      character(:), allocatable :: path
+
+      path = deck_path(:index(deck_path, '/', back=.true.))//file
+      if (file(1:1) == '/') path = file
+      if (path_kind(path) /= path_absent) return
+      if (path_kind(file) /= path_absent) path = file
+   end function place_of_map
+
+end module wavycon_height_map

@@ -1,0 +1,32 @@
+!> Keys that several kinds of surface read.
+module wavycon_surface_keys
+   use wavycon_key_table, only: key_type, real_key
+   use wavycon_kinds, only: dp
+   implicit none (type, external)
+   private
+
+   public :: amplitude_key, wavelength_key, length_x_key, length_y_key
+
+contains
+
+   pure type(key_type) function amplitude_key(meaning) result(key)
+      character(*), intent(in) :: meaning
+
+      key = real_key('amplitude', '1.0', 'length', meaning, least=0.0_dp)
+   end function amplitude_key
+
+   pure type(key_type) function wavelength_key(meaning) result(key)
+      character(*), intent(in) :: meaning
+
+      key = real_key('wavelength', '1.0', 'length', meaning, above=0.0_dp)
+   end function wavelength_key
+
+   pure type(key_type) function length_x_key() result(key)
+      key = real_key('length_x', '1.0', 'length', 'side of the periodic cell along x.', above=0.0_dp)
+   end function length_x_key
+
+   pure type(key_type) function length_y_key() result(key)
+      key = real_key('length_y', 'length_x', 'length', 'side of the periodic cell along y.', above=0.0_dp)
+   end function length_y_key
+
+end module wavycon_surface_keys
