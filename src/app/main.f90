@@ -4,11 +4,12 @@ program wavycon_main
    use wavycon_command_line, only: command_line_type, help_text, read_command_line
    use wavycon_deck, only: deck_type
    use wavycon_error, only: error_type, exit_bad_input, exit_fine, fatal_error
+   use wavycon_make_scene, only: make_scene
    use wavycon_output_group, only: plain_directory
    use wavycon_plain_text, only: escaped
    use wavycon_read_deck, only: read_deck
    use wavycon_run_scene, only: run_scene
-   use wavycon_scene, only: make_scene, scene_type
+   use wavycon_scene, only: scene_type
    use wavycon_system, only: outlive_file_size_limit
    use wavycon_threads, only: set_threads
    use wavycon_version, only: revision, version
@@ -22,14 +23,12 @@ program wavycon_main
       end subroutine c_exit
    end interface
 
-   !> A deck that has been checked, and what it describes.
-   type :: checked_deck
-      type(deck_type) :: deck
+   type :: scene_item
       type(scene_type), allocatable :: scene
-   end type checked_deck
+   end type scene_item
 
    type(command_line_type) :: command_line
-   type(checked_deck), allocatable :: decks(:)
+   type(scene_item), allocatable :: scenes(:)
    type(error_type), allocatable :: error
    integer :: i, status, worst
 
@@ -44,19 +43,19 @@ program wavycon_main
       call finish(exit_fine)
    end if
 
-   call read_decks(command_line, decks)
+   call read_decks(command_line, scenes)
    if (command_line%check) then
-      do i = 1, size(decks)
-         if (.not. command_line%quiet) write (output_unit, '(a)') escaped(decks(i)%deck%path)//': the deck is fine'
+      do i = 1, size(scenes)
+         if (.not. command_line%quiet) write (output_unit, '(a)') escaped(scenes(i)%scene%deck_path)//': the deck is fine'
       end do
       call finish(exit_fine)
    end if
 
    call set_threads(command_line%threads)
    worst = exit_fine
-   do i = 1, size(decks)
+   do i = 1, size(scenes)
       if (i > 1 .and. .not. command_line%quiet) write (output_unit, '(a)') ''
-      call run_scene(decks(i)%deck, decks(i)%scene, command_line%quiet, command_line%resume, status, error)
+      call run_scene(scenes(i)%scene, command_line%quiet, command_line%resume, status, error)
       call stop_on(error)
       worst = max(worst, status)
    end do
@@ -65,20 +64,23 @@ program wavycon_main
 contains
 
    !> Reads all decks before any is run; the problems of all of them are shown.
-   subroutine read_decks(command_line, decks)
+   subroutine read_decks(command_line, scenes)
       type(command_line_type), intent(in) :: command_line
-      type(checked_deck), allocatable, intent(out) :: decks(:)
+      type(scene_item), allocatable, intent(out) :: scenes(:)
 
+      type(deck_type) :: deck
       type(error_type), allocatable :: error
       integer :: i, j, worst
 
-      allocate (decks(size(command_line%decks)))
+      allocate (scenes(size(command_line%decks)))
       worst = exit_fine
-      do i = 1, size(decks)
-         call read_deck(command_line%decks(i)%path, decks(i)%deck, error)
+      do i = 1, size(scenes)
+         call read_deck(command_line%decks(i)%path, deck, error)
          if (.not. allocated(error)) then
-            allocate (decks(i)%scene)
-            call make_scene(decks(i)%deck, decks(i)%scene, error)
+            if (allocated(command_line%output)) &
+               call deck%output%set('directory', plain_directory(command_line%output))
+            allocate (scenes(i)%scene)
+            call make_scene(deck, scenes(i)%scene, error)
          end if
          if (allocated(error)) then
             write (error_unit, '(a)') error%message
@@ -87,16 +89,14 @@ contains
       end do
       if (worst /= exit_fine) call finish(worst)
 
-      do i = 1, size(decks)
-         if (allocated(command_line%output)) &
-            call decks(i)%deck%output%set('directory', plain_directory(command_line%output))
+      do i = 1, size(scenes)
          do j = 1, i - 1
-            if (decks(i)%deck%scene%text('case') /= decks(j)%deck%scene%text('case')) cycle
-            if (decks(i)%deck%output%text('directory') /= decks(j)%deck%output%text('directory')) cycle
-            call fatal_error(error, exit_bad_input, escaped(decks(j)%deck%path)//' and '// &
-                             escaped(decks(i)%deck%path)// &
-                             ' would write the same files: both are case '//decks(i)%deck%scene%text('case')// &
-                             ' in '//escaped(decks(i)%deck%output%text('directory'))//'. Give them different cases.')
+            associate (one => scenes(j)%scene, other => scenes(i)%scene)
+               if (one%case /= other%case .or. one%directory /= other%directory) cycle
+               call fatal_error(error, exit_bad_input, escaped(one%deck_path)//' and '//escaped(other%deck_path)// &
+                                ' would write the same files: both are case '//other%case//' in '// &
+                                escaped(other%directory)//'. Give them different cases.')
+            end associate
             call stop_on(error)
          end do
       end do

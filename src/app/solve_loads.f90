@@ -7,9 +7,9 @@ module wavycon_solve_loads
    use wavycon_find_load, only: solve_for_contact_area, solve_for_mean_gap
    use wavycon_gsl, only: gsl_sort_index
    use wavycon_kinds, only: dp
-   use wavycon_load_group, only: by_contact_area, by_mean_gap, by_pressure
    use wavycon_results, only: results_type
    use wavycon_run_log, only: log_progress, run_log
+   use wavycon_scene, only: by_contact_area, by_mean_gap, by_pressure
    use wavycon_solver_progress, only: solver_progress
    implicit none (type, external)
    private
@@ -55,7 +55,7 @@ contains
 
    subroutine solve_one(solver, loads_by, target, solution)
       class(contact_solver), intent(inout) :: solver
-      integer, intent(in) :: loads_by     !! a name of wavycon_load_group
+      integer, intent(in) :: loads_by     !! a name of wavycon_scene
       real(dp), intent(in) :: target      !! P, G or the contact area fraction
       class(contact_solution), allocatable, intent(inout) :: solution
 

@@ -1,16 +1,20 @@
 !> solver = 'auto': the closed form where there is one, otherwise fitted expansions where these exist for the surface, with
 !> grids for loads at which they are not accurate enough, otherwise grids.
 module wavycon_auto_contact
-   use wavycon_closed_form_contact, only: closed_form_contact
+   use wavycon_closed_form_contact, only: closed_form_contact, closed_form_exists
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver
    use wavycon_contact_status, only: converged
    use wavycon_fitted_contact, only: fitted_contact
    use wavycon_fitted_frame, only: find_frame, fitted_frame
    use wavycon_grid_contact, only: grid_contact
+   use wavycon_group_values, only: group_values
+   use wavycon_key_table, only: key_type
    use wavycon_kinds, only: dp
+   use wavycon_problems, only: problem_list_type
+   use wavycon_solver_keys, only: accuracy_key, check_grid_points, grid_points_key, points_of_grid, set_grid_defaults
    use wavycon_solver_progress, only: solver_progress
-   use wavycon_surface, only: no_paper_wave, surface_type
+   use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
 
@@ -21,6 +25,12 @@ module wavycon_auto_contact
       type(grid_contact), allocatable, private :: second       !! tried where the first fails or is not accurate enough
    contains
       procedure, nopass :: name
+      procedure, nopass :: meaning
+      procedure, nopass :: keys
+      procedure, nopass :: is_default_for
+      procedure, nopass :: set_defaults => set_grid_defaults
+      procedure, nopass :: check
+      procedure :: start_from_keys
       procedure :: describe
       procedure :: start
       procedure :: solve_partial_contact
@@ -40,6 +50,45 @@ contains
       words = 'auto'
    end function name
 
+   pure function meaning() result(words)
+      character(:), allocatable :: words
+
+      words = "the closed form where there is one, otherwise 'fitted' where its expansions exist, with 'grid' for loads at "// &
+              "which these are not accurate enough, otherwise 'grid'"
+   end function meaning
+
+   function keys() result(rows)
+      type(key_type), allocatable :: rows(:)
+
+      rows = [accuracy_key(), grid_points_key()]
+   end function keys
+
+   !> For every surface that no other solver is the default for.
+   logical function is_default_for(surface)
+      type(surface_type), intent(in) :: surface
+
+      associate (unused => surface); end associate
+      is_default_for = .true.
+   end function is_default_for
+
+   subroutine check(values, surface, problems)
+      type(group_values), intent(in) :: values
+      type(surface_type), intent(in) :: surface
+      type(problem_list_type), intent(inout) :: problems
+
+      associate (unused => surface); end associate
+      call check_grid_points(values, problems)
+   end subroutine check
+
+   subroutine start_from_keys(self, surface, values, keep_fields)
+      class(auto_contact), intent(inout) :: self
+      type(surface_type), intent(in) :: surface
+      type(group_values), intent(in) :: values
+      logical, intent(in) :: keep_fields
+
+      call self%start(surface, values%real('accuracy'), keep_fields, points_of_grid(values, surface))
+   end subroutine start_from_keys
+
    subroutine start(self, surface, accuracy, keep_fields, points)
       class(auto_contact), intent(out) :: self
       type(surface_type), intent(in) :: surface
@@ -57,7 +106,7 @@ contains
       by_accuracy = .true.
       if (present(points)) by_accuracy = all(points == 0)
       call find_frame(surface, frame)
-      if (surface%dimension == 1 .and. surface%paper_wave() /= no_paper_wave) then
+      if (closed_form_exists(surface)) then
          allocate (closed_form)
          call closed_form%start(surface)
          call move_alloc(closed_form, self%first)

@@ -3,18 +3,24 @@
 module wavycon_beale_contact
    use wavycon_beale, only: beale_solver
    use wavycon_complementary_energy, only: energy_problem
+   use wavycon_constraint_points, only: choose_points
    use wavycon_contact_measures, only: measure_series, measuring_intervals
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver
    use wavycon_edge_curves, only: edge_curve, strip_ends, trace_edges, turn_curves
    use wavycon_fourier_series, only: fourier_series
-   use wavycon_fourier_terms, only: choose_terms, fourier_terms
+   use wavycon_fourier_terms, only: choose_terms, fourier_terms, symmetry_diagonal, symmetry_full, symmetry_none
+   use wavycon_group_values, only: group_values
    use wavycon_isobar_grid, only: isobar_grid, start_isobar_grid
+   use wavycon_key_table, only: choice_key, integer_key, key_type, real_key
    use wavycon_kinds, only: dp
    use wavycon_line_zeros, only: line_zeros
+   use wavycon_plain_text, only: integer_text, short_number
+   use wavycon_problems, only: problem_list_type
    use wavycon_qp_problem, only: qp_problem, qp_solution, qp_status_name
    use wavycon_series_solution, only: series_solution
    use wavycon_surface, only: surface_type, turned_paper_wave
+   use wavycon_surface_kinds, only: paper_waves
    use wavycon_turned_series, only: to_sum_angles
    implicit none (type, external)
    private
@@ -35,6 +41,13 @@ module wavycon_beale_contact
       real(dp) :: edge_level = 0.1_dp                  !! isobar taken as the edge of contact [p*]
    end type series_setup
 
+   !> The paper's numbers, for 1-D and 2-D waves.
+   integer, parameter :: default_harmonics(2) = [10, 9], default_constraint_points(2) = [26, 27]
+   !> Bounds of the time and memory that a slip of the hand can cost, for 1-D and 2-D waves.
+   integer, parameter :: most_harmonics = 60, most_constraint_points(2) = [6001, 601]
+   !> Of the matrix of the constraints, of which a handful of copies are held: 160 MB each.
+   real(dp), parameter :: most_elements = 2.0e7_dp
+
    type, extends(contact_solver) :: beale_contact
       type(series_setup) :: setup
       type(qp_problem) :: problem                      !! at zero load
@@ -42,10 +55,20 @@ module wavycon_beale_contact
       real(dp), private :: last_load = -1.0_dp         !! of the solution that `solver` holds; negative: none
    contains
       procedure, nopass :: name
+      procedure, nopass :: meaning
+      procedure, nopass :: keys
+      procedure, nopass :: refusal
+      procedure, nopass :: is_default_for
+      procedure, nopass :: set_defaults
+      procedure, nopass :: check
+      procedure, nopass :: advice
+      procedure :: start_from_keys
       procedure :: describe
       procedure :: start
       procedure :: solve_partial_contact
       procedure :: solve_series
+      procedure :: has_error_estimates
+      procedure :: why_no_area
       procedure :: has_coefficients
       procedure :: starts_from_last_load
    end type beale_contact
@@ -66,6 +89,128 @@ contains
 
       words = solver_name
    end function name
+
+   pure function meaning() result(words)
+      character(:), allocatable :: words
+
+      words = "the paper's truncated series by Beale's method, for its waves; their default"
+   end function meaning
+
+   function keys() result(rows)
+      type(key_type), allocatable :: rows(:)
+
+      rows = [ &
+         integer_key('harmonics', '9 (2-D), 10 (1-D)', 'highest harmonic of the pressure, in each direction.', &
+            1, most_harmonics), &
+         integer_key('constraint_points', '27 (2-D), 26 (1-D)', &
+            'equally spaced points on half a wavelength, ends included, in each direction, at which the pressure is '// &
+            'constrained to be >= 0. More than harmonics; at most 601 in 2-D.', 2, maxval(most_constraint_points)), &
+         choice_key('symmetry', "'full'", &
+            "in 2-D, symmetry of the pressure. 'full': alike in x and y and at both crests (29 unknowns, 196 points by "// &
+            "default); 'diagonal': at both crests (49, 378); 'none' (99, 729).", ['full    ', 'diagonal', 'none    ']), &
+         real_key('edge_level', '0.1', 'p*', 'the isobar that is taken as the edge of contact.', &
+            above=0.0_dp, below=1.0_dp)]
+   end function keys
+
+   function refusal(surface) result(words)
+      type(surface_type), intent(in) :: surface
+      character(:), allocatable :: words
+
+      words = ''
+      if (.not. surface%is_paper_wave()) words = 'is for the waves of the paper: '//paper_waves()
+   end function refusal
+
+   logical function is_default_for(surface)
+      type(surface_type), intent(in) :: surface
+
+      is_default_for = surface%is_paper_wave()
+   end function is_default_for
+
+   subroutine set_defaults(values, surface)
+      type(group_values), intent(inout) :: values
+      type(surface_type), intent(in) :: surface
+
+      call values%set_default('harmonics', default_harmonics(surface%dimension))
+      call values%set_default('constraint_points', default_constraint_points(surface%dimension))
+      if (surface%dimension == 1) call values%leave_out('symmetry')
+   end subroutine set_defaults
+
+   subroutine check(values, surface, problems)
+      type(group_values), intent(in) :: values
+      type(surface_type), intent(in) :: surface
+      type(problem_list_type), intent(inout) :: problems
+
+      type(fourier_terms) :: terms
+      integer, allocatable :: k(:), l(:)
+      integer :: harmonics, points
+
+      if (surface%dimension == 1 .and. values%has('symmetry')) call values%complain(problems, 'symmetry', &
+         'symmetry means nothing in 1-D: leave it out')
+      if (values%is_bad('harmonics') .or. values%is_bad('constraint_points')) return
+      harmonics = values%integer('harmonics')
+      points = values%integer('constraint_points')
+      if (points > most_constraint_points(surface%dimension)) then
+         call values%complain(problems, 'constraint_points', 'constraint_points must be at most '// &
+            integer_text(most_constraint_points(surface%dimension))//' in '//integer_text(surface%dimension)// &
+            '-D, got '//integer_text(points))
+      else if (points <= harmonics) then
+         call problems%add(max(values%place_of('harmonics'), values%place_of('constraint_points')), &
+            'constraint_points must be more than harmonics, got '//integer_text(points)// &
+            by_default('constraint_points')//' and '//integer_text(harmonics)//by_default('harmonics'))
+      else if (.not. values%is_bad('symmetry')) then
+         terms = choose_terms(surface%dimension, harmonics, symmetry_of(values))
+         call choose_points(surface%dimension, points, symmetry_of(values), k, l)
+         if (real(terms%count(), dp)*size(k) > most_elements) &
+            call values%complain(problems, 'constraint_points', 'harmonics = '//integer_text(harmonics)// &
+               ' and constraint_points = '//integer_text(points)//' make '//integer_text(terms%count())// &
+               ' unknowns and '//integer_text(size(k))//' constraints: too many for the memory. Give fewer '// &
+               'constraint_points (harmonics + 1 serve well), or a symmetry')
+      end if
+
+   contains
+
+      function by_default(key) result(words)
+         character(*), intent(in) :: key
+         character(:), allocatable :: words
+
+         words = ''
+         if (.not. values%has(key)) words = ' (the default)'
+      end function by_default
+
+   end subroutine check
+
+   function advice(key) result(words)
+      character(*), intent(in) :: key
+      character(:), allocatable :: words
+
+      words = ''
+      if (key == 'accuracy') words = ': its series has no error estimate'
+      if (key == 'grid_points') words = ': it has harmonics and constraint_points'
+   end function advice
+
+   pure integer function symmetry_of(values) result(symmetry)
+      type(group_values), intent(in) :: values
+
+      select case (values%text('symmetry'))
+      case ('none')
+         symmetry = symmetry_none
+      case ('diagonal')
+         symmetry = symmetry_diagonal
+      case default
+         symmetry = symmetry_full
+      end select
+   end function symmetry_of
+
+   subroutine start_from_keys(self, surface, values, keep_fields)
+      class(beale_contact), intent(inout) :: self
+      type(surface_type), intent(in) :: surface
+      type(group_values), intent(in) :: values
+      logical, intent(in) :: keep_fields
+
+      associate (fields_are_always_kept => keep_fields); end associate
+      call self%start(surface, values%integer('harmonics'), values%integer('constraint_points'), symmetry_of(values), &
+                      values%real('edge_level'))
+   end subroutine start_from_keys
 
    !> Chooses the terms of the series and the points of the constraints.
    subroutine start(self, surface, harmonics, constraint_points, symmetry, edge_level)
@@ -128,6 +273,21 @@ contains
       solution%x = programme%x
       solution%active_constraints = size(programme%active)
    end subroutine solve_series
+
+   !> A truncated series has none.
+   pure logical function has_error_estimates(self)
+      class(beale_contact), intent(in) :: self
+
+      associate (unused => self); end associate
+      has_error_estimates = .false.
+   end function has_error_estimates
+
+   function why_no_area(self) result(words)
+      class(beale_contact), intent(in) :: self
+      character(:), allocatable :: words
+
+      words = 'no pressure reaches edge_level = '//short_number(self%setup%edge_level)//' p*'
+   end function why_no_area
 
    pure logical function has_coefficients(self)
       class(beale_contact), intent(in) :: self
@@ -211,7 +371,7 @@ contains
 
       write (line, '(3(i0, a))') self%setup%terms%harmonics, ' harmonics (', self%setup%terms%count(), &
          ' unknowns), ', size(self%problem%bounds), ' constraint points'
-      words = trim(line)
+      words = trim(line)//', edge_level[p*] = '//short_number(self%setup%edge_level)
    end function describe
 
 end module wavycon_beale_contact

@@ -8,6 +8,8 @@ module wavycon_closed_form_contact
    use wavycon_fourier_series, only: fourier_series
    use wavycon_dundurs, only: dundurs_coefficients
    use wavycon_edge_curves, only: edge_curve, strip_ends
+   use wavycon_group_values, only: group_values
+   use wavycon_key_table, only: key_type
    use wavycon_kinds, only: dp
    use wavycon_kuznetsov, only: kuznetsov_mean_gap_over_amplitude
    use wavycon_series_solution, only: series_solution
@@ -16,7 +18,7 @@ module wavycon_closed_form_contact
    implicit none (type, external)
    private
 
-   public :: closed_form_contact
+   public :: closed_form_contact, closed_form_exists
 
    character(*), parameter :: solver_name = 'closed_form'
 
@@ -27,6 +29,10 @@ module wavycon_closed_form_contact
    type, extends(contact_solver) :: closed_form_contact
    contains
       procedure, nopass :: name
+      procedure, nopass :: meaning
+      procedure, nopass :: keys
+      procedure, nopass :: refusal
+      procedure :: start_from_keys
       procedure :: describe
       procedure :: start
       procedure :: solve_partial_contact
@@ -45,6 +51,43 @@ contains
 
       words = solver_name
    end function name
+
+   pure function meaning() result(words)
+      character(:), allocatable :: words
+
+      words = "Westergaard's solution of the 1-D wave"
+   end function meaning
+
+   function keys() result(rows)
+      type(key_type), allocatable :: rows(:)
+
+      allocate (rows(0))
+   end function keys
+
+   function refusal(surface) result(words)
+      type(surface_type), intent(in) :: surface
+      character(:), allocatable :: words
+
+      words = ''
+      if (.not. closed_form_exists(surface)) words = 'is for the 1-D wave'
+   end function refusal
+
+   !> Whether a surface is the 1-D wave of the paper.
+   pure logical function closed_form_exists(surface)
+      type(surface_type), intent(in) :: surface
+
+      closed_form_exists = surface%dimension == 1 .and. surface%is_paper_wave()
+   end function closed_form_exists
+
+   subroutine start_from_keys(self, surface, values, keep_fields)
+      class(closed_form_contact), intent(inout) :: self
+      type(surface_type), intent(in) :: surface
+      type(group_values), intent(in) :: values
+      logical, intent(in) :: keep_fields
+
+      associate (there_are_none => values, fields_need_no_memory => keep_fields); end associate
+      call self%start(surface)
+   end subroutine start_from_keys
 
    subroutine start(self, surface)
       class(closed_form_contact), intent(out) :: self

@@ -4,7 +4,10 @@ module wavycon_contact_solver
    use wavycon_contact_measures, only: full_contact_measures
    use wavycon_contact_solution, only: contact_solution, solution_without_contact_edge
    use wavycon_contact_status, only: full_contact, no_load, not_finite
+   use wavycon_group_values, only: group_values
+   use wavycon_key_table, only: key_type
    use wavycon_kinds, only: dp
+   use wavycon_problems, only: problem_list_type
    use wavycon_solver_progress, only: solver_progress
    use wavycon_surface, only: surface_type
    implicit none (type, external)
@@ -17,10 +20,20 @@ module wavycon_contact_solver
       type(surface_type) :: surface
       class(solver_progress), pointer :: progress => null()   !! shown the progress within a load, if associated
    contains
-      procedure(name_of_solver), deferred, nopass :: name
+      procedure(words_interface), deferred, nopass :: name
+      procedure(words_interface), deferred, nopass :: meaning
+      procedure(keys_interface), deferred, nopass :: keys
+      procedure, nopass :: refusal => no_refusal
+      procedure, nopass :: is_default_for => never
+      procedure, nopass :: set_defaults => no_defaults
+      procedure, nopass :: check => no_check
+      procedure, nopass :: advice => no_advice
+      procedure(start_interface), deferred :: start_from_keys
       procedure(words_of_solver), deferred :: describe
       procedure :: solve
       procedure(solve_load), deferred :: solve_partial_contact
+      procedure :: has_error_estimates
+      procedure :: why_no_area
       procedure :: has_coefficients
       procedure :: has_details
       procedure :: show_progress
@@ -32,10 +45,25 @@ module wavycon_contact_solver
    end type contact_solver
 
    abstract interface
-      !> The name in decks and tables.
-      pure function name_of_solver() result(name)
-         character(:), allocatable :: name
-      end function name_of_solver
+      !> `name`: in decks and tables, at most 12 characters. `meaning`: one clause for the key reference.
+      pure function words_interface() result(words)
+         character(:), allocatable :: words
+      end function words_interface
+
+      !> The keys of &method that the solver reads, besides `solver`.
+      function keys_interface() result(keys)
+         import :: key_type
+         type(key_type), allocatable :: keys(:)
+      end function keys_interface
+
+      !> Starts the solver as the keys of a deck say.
+      subroutine start_interface(self, surface, values, keep_fields)
+         import :: contact_solver, group_values, surface_type
+         class(contact_solver), intent(inout) :: self
+         type(surface_type), intent(in) :: surface     !! that is not refused
+         type(group_values), intent(in) :: values      !! of &method, without problems
+         logical, intent(in) :: keep_fields            !! whether fields, edges or details of solutions will be needed
+      end subroutine start_interface
 
       !> The discretisation, for the log and the heads of tables.
       pure function words_of_solver(self) result(words)
@@ -54,6 +82,48 @@ module wavycon_contact_solver
    end interface
 
 contains
+
+   !> `refusal`: why the solver cannot solve a surface, such as 'is for profiles'; empty if it can.
+   function no_refusal(surface) result(words)
+      type(surface_type), intent(in) :: surface
+      character(:), allocatable :: words
+
+      associate (unused => surface); end associate
+      words = ''
+   end function no_refusal
+
+   !> `is_default_for`: whether a deck that names no solver gets this one. The first in the list that says so is taken.
+   logical function never(surface)
+      type(surface_type), intent(in) :: surface
+
+      associate (unused => surface); end associate
+      never = .false.
+   end function never
+
+   !> `set_defaults`: sets the defaults that depend on the surface and leaves out keys that mean nothing for it.
+   subroutine no_defaults(values, surface)
+      type(group_values), intent(inout) :: values
+      type(surface_type), intent(in) :: surface
+
+      associate (unused => values, unused_too => surface); end associate
+   end subroutine no_defaults
+
+   !> `check`: reports values that contradict each other or the surface.
+   subroutine no_check(values, surface, problems)
+      type(group_values), intent(in) :: values           !! after `set_defaults`
+      type(surface_type), intent(in) :: surface
+      type(problem_list_type), intent(inout) :: problems
+
+      associate (unused => values, unused_too => surface, also_unused => problems); end associate
+   end subroutine no_check
+
+   !> `advice`: what to add to "key is a key of 'a', not of 'b'", such as ': it has no grid'.
+   function no_advice(key) result(words)
+      character(*), intent(in) :: key
+      character(:), allocatable :: words
+
+      words = key(:0)
+   end function no_advice
 
    !> Solves and measures one load. The solution is always allocated and has a status.
    subroutine solve(self, pbar_over_pstar, solution)
@@ -76,6 +146,23 @@ contains
          solution%status = no_load
       end if
    end subroutine solve
+
+   !> Whether the measures of its solutions have error estimates.
+   pure logical function has_error_estimates(self)
+      class(contact_solver), intent(in) :: self
+
+      associate (unused => self); end associate
+      has_error_estimates = .true.
+   end function has_error_estimates
+
+   !> Why a converged solution may show no contact area, such as 'no pressure reaches 0.1 p*'; empty if it always shows one.
+   function why_no_area(self) result(words)
+      class(contact_solver), intent(in) :: self
+      character(:), allocatable :: words
+
+      associate (unused => self); end associate
+      words = ''
+   end function why_no_area
 
    !> Whether every solution has the coefficients of a pressure series that the solver computed.
    pure logical function has_coefficients(self)

@@ -4,11 +4,14 @@ module wavycon_fitted_contact
    use wavycon_contact_solution, only: contact_solution, no_solution
    use wavycon_contact_solver, only: contact_solver
    use wavycon_contact_status, only: converged, not_accurate, not_found
-   use wavycon_fitted_frame, only: find_frame, fitted_frame, make_lattice
+   use wavycon_fitted_frame, only: find_frame, fitted_frame, make_lattice, surfaces_with_frames
    use wavycon_fitted_solution, only: fitted_solution
    use wavycon_fitted_solver, only: fitted_answer, fitted_less_exact, fitted_solved, solve_fitted
+   use wavycon_group_values, only: group_values
+   use wavycon_key_table, only: key_type
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: short_number
+   use wavycon_solver_keys, only: accuracy_key
    use wavycon_surface, only: surface_type
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
@@ -26,6 +29,11 @@ module wavycon_fitted_contact
       type(fitted_answer), private :: last         !! of the last load that was solved
    contains
       procedure, nopass :: name
+      procedure, nopass :: meaning
+      procedure, nopass :: keys
+      procedure, nopass :: refusal
+      procedure, nopass :: advice
+      procedure :: start_from_keys
       procedure :: describe
       procedure :: start
       procedure :: solve_partial_contact
@@ -40,6 +48,47 @@ contains
 
       words = solver_name
    end function name
+
+   pure function meaning() result(words)
+      character(:), allocatable :: words
+
+      words = 'expansions fitted to the edge of contact, of spots or of open islands'
+   end function meaning
+
+   function keys() result(rows)
+      type(key_type), allocatable :: rows(:)
+
+      rows = [accuracy_key()]
+   end function keys
+
+   function refusal(surface) result(words)
+      type(surface_type), intent(in) :: surface
+      character(:), allocatable :: words
+
+      type(fitted_frame) :: frame
+
+      call find_frame(surface, frame)
+      words = ''
+      ! A flat surface has no contact to solve.
+      if (.not. frame%is_found() .and. surface%amplitude > 0.0_dp) words = 'has expansions for '//surfaces_with_frames()
+   end function refusal
+
+   function advice(key) result(words)
+      character(*), intent(in) :: key
+      character(:), allocatable :: words
+
+      words = ''
+      if (key == 'grid_points') words = ': it has no grid'
+   end function advice
+
+   subroutine start_from_keys(self, surface, values, keep_fields)
+      class(fitted_contact), intent(inout) :: self
+      type(surface_type), intent(in) :: surface
+      type(group_values), intent(in) :: values
+      logical, intent(in) :: keep_fields
+
+      call self%start(surface, values%real('accuracy'), keep_fields)
+   end subroutine start_from_keys
 
    subroutine start(self, surface, accuracy, keep_fields)
       class(fitted_contact), intent(out) :: self

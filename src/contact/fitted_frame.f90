@@ -8,7 +8,7 @@ module wavycon_fitted_frame
    implicit none (type, external)
    private
 
-   public :: fitted_frame, find_frame, make_lattice
+   public :: fitted_frame, find_frame, make_lattice, surfaces_with_frames
 
    !> Lattices that expansions exist for.
    integer, parameter :: no_lattice = 0, square = 1, rectangular = 2, rhombic = 3, hexagonal = 4
@@ -109,6 +109,14 @@ contains
       end function has_only
 
    end subroutine find_frame
+
+   !> The surfaces that have a frame, in words.
+   pure function surfaces_with_frames() result(words)
+      character(:), allocatable :: words
+
+      words = "the paper's wave, also with two wavelengths up to 3:1, for crossed waves with crest curvatures up to 50:1 "// &
+              'and for three equal waves at 60 degrees'
+   end function surfaces_with_frames
 
    !> Whether there are expansions for the surface.
    pure logical function is_found(self)

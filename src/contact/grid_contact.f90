@@ -15,10 +15,14 @@ module wavycon_grid_contact
    use wavycon_grid_cascade, only: cascade_answer, solve_by_cascade
    use wavycon_grid_edge, only: grid_edge, grid_strip_edges, start_grid_edge
    use wavycon_grid_transform, only: grid_transform
+   use wavycon_group_values, only: group_values
+   use wavycon_key_table, only: key_type
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: integer_text, short_number
+   use wavycon_problems, only: problem_list_type
    use wavycon_qp_problem, only: qp_iteration_limit, qp_status_name
    use wavycon_series_solution, only: series_solution
+   use wavycon_solver_keys, only: accuracy_key, check_grid_points, grid_points_key, points_of_grid, set_grid_defaults
    use wavycon_surface, only: surface_type
    use wavycon_turned_series, only: to_half_angles
    implicit none (type, external)
@@ -36,6 +40,11 @@ module wavycon_grid_contact
       type(surface_type), private :: solved                  !! the surface on the cell that is solved
    contains
       procedure, nopass :: name
+      procedure, nopass :: meaning
+      procedure, nopass :: keys
+      procedure, nopass :: set_defaults => set_grid_defaults
+      procedure, nopass :: check
+      procedure :: start_from_keys
       procedure :: describe
       procedure :: start
       procedure :: solve_partial_contact
@@ -65,6 +74,36 @@ contains
 
       words = solver_name
    end function name
+
+   pure function meaning() result(words)
+      character(:), allocatable :: words
+
+      words = 'ever finer grids until mean gap, area and peak pressure are accurate'
+   end function meaning
+
+   function keys() result(rows)
+      type(key_type), allocatable :: rows(:)
+
+      rows = [accuracy_key(), grid_points_key()]
+   end function keys
+
+   subroutine check(values, surface, problems)
+      type(group_values), intent(in) :: values
+      type(surface_type), intent(in) :: surface
+      type(problem_list_type), intent(inout) :: problems
+
+      associate (unused => surface); end associate
+      call check_grid_points(values, problems)
+   end subroutine check
+
+   subroutine start_from_keys(self, surface, values, keep_fields)
+      class(grid_contact), intent(inout) :: self
+      type(surface_type), intent(in) :: surface
+      type(group_values), intent(in) :: values
+      logical, intent(in) :: keep_fields
+
+      call self%start(surface, values%real('accuracy'), keep_fields, points_of_grid(values, surface))
+   end subroutine start_from_keys
 
    subroutine start(self, surface, accuracy, keep_fields, points)
       class(grid_contact), intent(out) :: self

@@ -4,13 +4,11 @@ module wavycon_load_group
    use wavycon_key_table, only: integer_key, key_group, key_group_type, real_key
    use wavycon_kinds, only: dp
    use wavycon_problems, only: problem_list_type
+   use wavycon_scene, only: by_contact_area, by_mean_gap, by_pressure
    implicit none (type, external)
    private
 
    public :: load_table, check_load_group, given_loads
-
-   !> What the loads are given by.
-   integer, parameter, public :: by_pressure = 1, by_mean_gap = 2, by_contact_area = 3
 
    !> Contact is complete at 1; a load beyond this is a mistake, most likely of units.
    real(dp), parameter, public :: largest_pbar_over_pstar = 1.0e6_dp

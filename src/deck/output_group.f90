@@ -1,10 +1,11 @@
 !> The &output group: which files are written, and where.
 module wavycon_output_group
    use wavycon_group_values, only: group_values
-   use wavycon_key_table, only: integer_key, key_group, key_group_type, logical_key, text_key
+   use wavycon_key_table, only: integer_key, key_group, key_group_type, key_type, logical_key, text_key
    use wavycon_problems, only: problem_list_type
+   use wavycon_solver_list, only: get_solvers, solver_item
    use wavycon_surface, only: surface_type
-   use wavycon_surface_kinds, only: paper_waves
+   use wavycon_tables, only: all_tables, table_item
    implicit none (type, external)
    private
 
@@ -18,17 +19,20 @@ contains
    function output_table() result(table)
       type(key_group_type) :: table
 
+      type(table_item), allocatable :: tables(:)
+      type(key_type), allocatable :: rows(:)
+      integer :: i
+
+      call all_tables(tables)
+      allocate (rows(0))
+      do i = 1, size(tables)
+         if (tables(i)%table%key() == '') cycle
+         rows = [rows, logical_key(tables(i)%table%key(), '.false.', tables(i)%table%meaning())]
+      end do
       table = key_group('output', 'which files are written, and where', [ &
          text_key('directory', "'outputs/<case>'", &
             'Where the results go, relative to where the program is started; made if it is not there.', &
-            longest_directory), &
-         logical_key('lines', '.false.', 'Pressures and gaps along lines.'), &
-         logical_key('map', '.false.', 'Pressures and gaps over the whole cell.'), &
-         logical_key('contours', '.false.', 'The edge of contact as closed curves.'), &
-         logical_key('coefficients', '.false.', 'The Fourier coefficients of the pressure.'), &
-         logical_key('theory', '.false.', 'The closed forms beside the numbers.'), &
-         logical_key('details', '.false.', "Of solver = 'fitted': gaps at trough and saddle, energy, perimeter "// &
-            "and the summary's numbers, each with its error estimate."), &
+            longest_directory), rows, &
          integer_key('points_per_wavelength', '128', 'Points of lines and maps along a side of the cell.', &
                      8, 4096)])
    end function output_table
@@ -41,15 +45,26 @@ contains
       type(surface_type), allocatable, intent(in) :: surface   !! not allocated if it has problems
       type(problem_list_type), intent(inout) :: problems
 
+      type(solver_item), allocatable :: solvers(:)
+      type(table_item), allocatable :: tables(:)
+      character(:), allocatable :: key, refusal
+      integer :: i, k
+
       call values%set_default('directory', 'outputs/'//case)
       call values%set('directory', plain_directory(values%text('directory')))
-      if (values%logical('coefficients') .and. solver /= 'beale') call values%complain(problems, 'coefficients', &
-         "coefficients are those of the series of solver = 'beale'; '"//solver//"' has none")
-      if (values%logical('details') .and. solver /= 'fitted') call values%complain(problems, 'details', &
-         "details are those of the expansions of solver = 'fitted'; '"//solver//"' has none for every load")
-      if (.not. values%logical('theory') .or. .not. allocated(surface)) return
-      if (.not. surface%is_paper_wave()) call values%complain(problems, 'theory', &
-         'theory is known of the waves of the paper alone: '//paper_waves())
+      if (.not. allocated(surface)) return
+      call get_solvers(solvers)
+      call all_tables(tables)
+      do k = 1, size(solvers)
+         if (solvers(k)%solver%name() /= solver) cycle
+         do i = 1, size(tables)
+            key = tables(i)%table%key()
+            if (key == '') cycle
+            if (.not. values%logical(key)) cycle
+            refusal = tables(i)%table%refusal(solvers(k)%solver, surface)
+            if (refusal /= '') call values%complain(problems, key, key//' cannot be written: '//refusal)
+         end do
+      end do
    end subroutine check_output_group
 
    !> The name of a directory without needless './' and '/', so that one place has one name.

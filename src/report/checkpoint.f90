@@ -47,7 +47,7 @@ contains
       type(results_type), intent(in) :: results
       character(:), allocatable :: name
 
-      name = results%directory//'/'//trim(results%deck%scene%case)//'.checkpoint'
+      name = results%scene%directory//'/'//results%scene%case//'.checkpoint'
    end function checkpoint_name
 
    !> Creates the checkpoint of a run with the solutions that are known already; it replaces that of an earlier run. A
@@ -60,7 +60,7 @@ contains
       integer :: clock(8), load, status
 
       self%name = checkpoint_name(results)
-      self%name_now = results%directory//'/.'//trim(results%deck%scene%case)//'.checkpoint.'// &
+      self%name_now = results%scene%directory//'/.'//results%scene%case//'.checkpoint.'// &
                       integer_text(process_id())//'.part'
       call date_and_time(values=clock)
       call system_clock(self%run(3))
@@ -266,7 +266,7 @@ contains
       character(20) :: number
 
       write (number, '(i0)') surface_checksum(results%scene%surface)
-      text = 'wavycon '//version//' ('//revision//')'//newline//'surface '//trim(number)//newline//results%resolved_deck
+      text = 'wavycon '//version//' ('//revision//')'//newline//'surface '//trim(number)//newline//results%scene%essence
    end function description
 
    !> Errors: exit_bad_input where what was solved is not what is to be solved.

@@ -8,6 +8,7 @@ module wavycon_coefficients_table
    use wavycon_output_file, only: output_file
    use wavycon_results, only: results_type
    use wavycon_surface, only: surface_type
+   use wavycon_solver_list, only: solvers_with_coefficients
    use wavycon_table, only: table_type
    implicit none (type, external)
    private
@@ -44,7 +45,8 @@ contains
 
       associate (unused => self, unused_too => surface); end associate
       words = ''
-      if (.not. solver%has_coefficients()) words = "the pressure of solver = '"//solver%name()//"' is not a Fourier series"
+      if (.not. solver%has_coefficients()) words = "solver = '"//solver%name()//"' has no series of given length; "// &
+         solvers_with_coefficients()//' has'
    end function refusal
 
    !> Errors: exit_file_trouble.

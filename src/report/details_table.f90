@@ -9,6 +9,7 @@ module wavycon_details_table
    use wavycon_plain_text, only: exact_number
    use wavycon_results, only: results_type
    use wavycon_surface, only: surface_type
+   use wavycon_solver_list, only: solvers_with_details
    use wavycon_table, only: table_type
    implicit none (type, external)
    private
@@ -55,7 +56,8 @@ contains
 
       associate (unused => self, unused_too => surface); end associate
       words = ''
-      if (.not. solver%has_details()) words = "solver = '"//solver%name()//"' does not compute them for every load"
+      if (.not. solver%has_details()) words = "solver = '"//solver%name()//"' does not compute them for every load; "// &
+         solvers_with_details()//' does'
    end function refusal
 
    pure logical function needs_fields(self)

@@ -72,7 +72,7 @@ contains
       integer :: load, line
 
       call results%open_table('lines', file)
-      if (.not. results%deck%output%logical('theory')) then
+      if (.not. results%scene%output%logical('theory')) then
          call file%put_columns(columns)
       else if (results%scene%surface%dimension == 1) then
          call file%put_columns([columns, columns_1d])
@@ -97,23 +97,23 @@ contains
       class(contact_fields), intent(inout) :: fields   !! of the load
 
       real(dp), allocatable :: beside(:)
-      real(dp) :: dundurs(results%deck%method%integer('harmonics')), start(2), way(2), angles(2), phi, theta, p, u, load_p
+      real(dp) :: dundurs(series_terms(results)), start(2), way(2), angles(2), phi, theta, p, u, load_p
       integer :: k, intervals
 
       load_p = results%loads(load)%solution%pbar_over_pstar
       dundurs = 0.0_dp
-      if (results%deck%output%logical('theory') .and. results%scene%surface%dimension == 1) &
+      if (results%scene%output%logical('theory') .and. results%scene%surface%dimension == 1) &
          dundurs = dundurs_coefficients(load_p, size(dundurs))
-      intervals = results%deck%output%integer('points_per_wavelength')
+      intervals = results%scene%output%integer('points_per_wavelength')
       associate (surface => results%scene%surface)
          start = surface%crest
          if (surface%shape%is_even() .and. all(abs(start) <= 0.0_dp)) intervals = intervals/2
-         way = 2*pi*[1, merge(1, 0, line == 2)]/results%deck%output%integer('points_per_wavelength')
+         way = 2*pi*[1, merge(1, 0, line == 2)]/results%scene%output%integer('points_per_wavelength')
          do k = 0, intervals
             angles = start + k*way
             call surface%paper_angles(angles(1), angles(2), phi, theta)
             call fields%at(angles(1), angles(2), p, u)
-            if (.not. results%deck%output%logical('theory')) then
+            if (.not. results%scene%output%logical('theory')) then
                beside = [real(dp) ::]
             else if (surface%dimension == 1) then
                beside = [westergaard_pressure_over_pstar(phi/2, load_p), &
@@ -134,6 +134,16 @@ contains
          end do
       end associate
    end subroutine put_line
+
+   !> Terms of the Dundurs series: those of the solver's series, else those of the paper.
+   pure integer function series_terms(results)
+      type(results_type), intent(in) :: results
+
+      integer, parameter :: terms_of_the_paper = 10
+
+      series_terms = terms_of_the_paper
+      if (results%scene%method%in_effect('harmonics')) series_terms = results%scene%method%integer('harmonics')
+   end function series_terms
 
    !> Distance from the nearest crest of the wave (21) over its wavelength.
    pure real(dp) function nearest_crest(phi, theta)

@@ -72,7 +72,7 @@ contains
       real(dp) :: approach
       integer :: k, l, n
 
-      n = results%deck%output%points_per_wavelength
+      n = results%scene%output%integer('points_per_wavelength')
       associate (surface => results%scene%surface, solution => results%loads(load)%solution)
          approach = solution%measures%approach_over_amplitude
          call solution%fields(surface, fields)

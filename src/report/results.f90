@@ -2,7 +2,6 @@
 module wavycon_results
    use wavycon_contact_solution, only: contact_solution_item
    use wavycon_contact_solver, only: contact_solver
-   use wavycon_deck, only: deck_type
    use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
    use wavycon_plain_text, only: escaped, exact_number, integer_text
@@ -14,11 +13,8 @@ module wavycon_results
    public :: results_type
 
    type :: results_type
-      type(deck_type) :: deck
       type(scene_type), allocatable :: scene
       class(contact_solver), allocatable :: solver
-      character(:), allocatable :: directory                 !! of the tables
-      character(:), allocatable :: resolved_deck             !! the deck with every key's value in effect
       type(contact_solution_item), allocatable :: loads(:)   !! in the deck's order
    contains
       procedure :: open_table
@@ -34,16 +30,16 @@ contains
       character(*), intent(in) :: kind
       type(output_file), intent(out) :: file
 
-      call file%open(self%directory, trim(self%deck%scene%case)//'.'//kind//'.dat')
+      call file%open(self%scene%directory, self%scene%case//'.'//kind//'.dat')
       call file%put('# wavycon '//version//' ('//revision//')')
-      call file%put('# deck: '//escaped(self%deck%path))
-      if (self%deck%scene%title /= '') call file%put('# title: '//escaped(trim(self%deck%scene%title)))
-      associate (surface => self%scene%surface, method => self%deck%method)
-         call file%put('# surface: '//trim(self%deck%surface%kind)// &
+      call file%put('# deck: '//escaped(self%scene%deck_path))
+      if (self%scene%title /= '') call file%put('# title: '//escaped(self%scene%title))
+      associate (surface => self%scene%surface)
+         call file%put('# surface: '//self%scene%surface_kind// &
                        ', Delta[length] = '//exact_number(surface%amplitude)//cell_sides())
          call file%put('# material: e_star[pressure] = '//exact_number(self%scene%e_star)// &
                        ', p*[pressure] = '//exact_number(self%scene%p_star))
-         call file%put('# method: '//trim(method%solver)//', '//self%solver%describe()//edge_level())
+         call file%put('# method: '//self%solver%name()//', '//self%solver%describe())
       end associate
 
    contains
@@ -55,15 +51,6 @@ contains
          if (self%scene%surface%dimension == 2) &
             words = words//', cell_y[length] = '//exact_number(self%scene%surface%length(2))
       end function cell_sides
-
-      !> The isobar taken as the edge of contact, of the solver that needs one.
-      function edge_level() result(words)
-         character(:), allocatable :: words
-
-         words = ''
-         if (self%deck%method%solver == 'beale') &
-            words = ', edge_level[p*] = '//exact_number(self%deck%method%edge_level)
-      end function edge_level
 
    end subroutine open_table
 

@@ -82,11 +82,11 @@ contains
       type(results_type), intent(in) :: results
 
       if (self%quiet) return
-      associate (deck => results%deck, scene => results%scene)
+      associate (scene => results%scene)
          call self%say('wavycon '//version//' ('//revision//')')
-         call self%say('deck      '//escaped(deck%path))
-         if (deck%scene%title /= '') call self%say('title     '//escaped(trim(deck%scene%title)))
-         call self%say('surface   '//trim(deck%surface%kind)//', Delta = '// &
+         call self%say('deck      '//escaped(scene%deck_path))
+         if (scene%title /= '') call self%say('title     '//escaped(scene%title))
+         call self%say('surface   '//scene%surface_kind//', Delta = '// &
                        short_number(scene%surface%amplitude)// &
                        ' [length], cell '//cell_of(scene%surface)//' [length]')
          if (allocated(scene%map)) call self%say('map       '//integer_text(scene%map%points(1))//' x '// &
@@ -98,7 +98,7 @@ contains
                        short_number(scene%p_star)//' [pressure]')
          call self%say('loads     '//integer_text(size(scene%target))//', '//target_words(scene%loads_by)// &
                        ' from '//short_number(minval(scene%target))//' to '//short_number(maxval(scene%target)))
-         call self%say('method    '//trim(deck%method%solver)//', '//results%solver%describe())
+         call self%say('method    '//results%solver%name()//', '//results%solver%describe())
       end associate
    end subroutine show_scene
 

@@ -57,7 +57,7 @@ contains
       integer :: i
 
       call results%open_table('summary', file)
-      with_errors = results%deck%method%text('solver') /= 'beale'
+      with_errors = results%solver%has_error_estimates()
       call file%put_columns([character(40) :: columns, error_columns(:merge(size(error_columns), 0, with_errors)), &
                              'status[-]'])
       do i = 1, size(results%loads)

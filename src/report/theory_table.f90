@@ -19,7 +19,8 @@ module wavycon_theory_table
    use wavycon_penny_crack, only: penny_crack_contact_area_fraction, penny_crack_mean_gap_over_amplitude, &
                                   penny_crack_radius_over_wavelength
    use wavycon_results, only: results_type
-   use wavycon_surface, only: no_paper_wave, surface_type
+   use wavycon_surface, only: surface_type
+   use wavycon_surface_kinds, only: paper_waves
    use wavycon_table, only: table_type
    use wavycon_westergaard, only: westergaard_contact_area_fraction, westergaard_peak_pressure_over_pstar
    implicit none (type, external)
@@ -65,8 +66,7 @@ contains
 
       associate (unused => self, unused_too => solver); end associate
       words = ''
-      if (surface%paper_wave() == no_paper_wave) words = 'closed forms exist only for the waves of the paper: wave_1d, '// &
-         'wave_2d with one wavelength, crossed_1d with equal waves'
+      if (.not. surface%is_paper_wave()) words = 'closed forms exist only for the waves of the paper: '//paper_waves()
    end function refusal
 
    !> Errors: exit_file_trouble.

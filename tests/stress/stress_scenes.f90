@@ -7,7 +7,6 @@ program stress_scenes
    use stress_kkt_of_expansion, only: check_expansion, expansion_kkt
    use stress_kkt_of_grid, only: check_grid, grid_kkt
    use stress_random_numbers, only: random_stream
-   use wavycon_choose_solver, only: choose_solver
    use wavycon_contact_solver, only: contact_solver
    use wavycon_contact_solution, only: contact_solution
    use wavycon_deck, only: deck_type
@@ -15,7 +14,9 @@ program stress_scenes
    use wavycon_fitted_solution, only: fitted_solution
    use wavycon_grid_contact, only: grid_solution
    use wavycon_read_deck, only: read_deck
-   use wavycon_scene, only: make_scene, scene_type
+   use wavycon_make_scene, only: make_scene
+   use wavycon_solver_list, only: start_solver
+   use wavycon_scene, only: scene_type
    implicit none (type, external)
 
    type(random_stream) :: stream
@@ -33,7 +34,7 @@ program stress_scenes
    call stop_on(error)
    call make_scene(deck, scene, error)
    call stop_on(error)
-   call choose_solver(deck, scene, .true., solver)
+   call start_solver(scene%surface, scene%method, .true., solver)
    do i = 1, size(scene%target)
       call solver%solve(scene%target(i), solution)
       select type (solution)

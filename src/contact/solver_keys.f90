@@ -1,0 +1,69 @@
+!> Keys of &method that several solvers read.
+module wavycon_solver_keys
+   use wavycon_group_values, only: group_values
+   use wavycon_key_table, only: integer_key, key_type, real_key
+   use wavycon_kinds, only: dp
+   use wavycon_problems, only: problem_list_type
+   use wavycon_surface, only: surface_type
+   implicit none (type, external)
+   private
+
+   public :: accuracy_key, check_grid_points, grid_points_key, points_of_grid, set_grid_defaults
+
+contains
+
+   pure type(key_type) function accuracy_key() result(key)
+      key = real_key('accuracy', '1e-3', '-', &
+         'largest error allowed of mean gap [amplitude], contact area fraction and peak pressure [p*]; of expansions with '// &
+         'lines, map, contours or details also of the gap at a trough. A load that misses it has the status not_accurate.', &
+         least=1.0e-12_dp, most=0.1_dp)
+   end function accuracy_key
+
+   pure type(key_type) function grid_points_key() result(key)
+      key = integer_key('grid_points', '', &
+         'in place of accuracy: points of the cell along x and y of the one grid to solve; one number for both. Even '// &
+         'numbers. For a file the default is its own grid. Errors are estimated for multiples of 4 from 64 points a side; '// &
+         'for others the summary shows the largest possible errors.', 8, 8192, most_values=2)
+   end function grid_points_key
+
+   !> The grid in effect, along x and y: that of the deck or, without an accuracy, that which the surface was given on. Zeros
+   !> if the accuracy decides.
+   pure function points_of_grid(values, surface) result(points)
+      type(group_values), intent(in) :: values     !! of &method
+      type(surface_type), intent(in) :: surface
+      integer :: points(2)
+
+      points = 0
+      associate (given => values%integers('grid_points'))
+         if (size(given) > 0) points = given(1)
+         if (size(given) > 1) points(2) = given(2)
+      end associate
+      if (all(points == 0) .and. .not. values%real('accuracy') > 0.0_dp) points = surface%points
+   end function points_of_grid
+
+   !> Where a grid is given, or the surface was given on one, there is no default accuracy.
+   subroutine set_grid_defaults(values, surface)
+      type(group_values), intent(inout) :: values
+      type(surface_type), intent(in) :: surface
+
+      integer :: points(2)
+
+      if (values%has('grid_points') .and. .not. values%is_bad('grid_points')) then
+         points = points_of_grid(values, surface)
+         call values%set('grid_points', points(:surface%dimension))
+      end if
+      if (values%has('accuracy') .or. .not. (values%has('grid_points') .or. all(surface%points > 0))) return
+      call values%set_default('accuracy', 0.0_dp)
+      call values%leave_out('accuracy')
+   end subroutine set_grid_defaults
+
+   subroutine check_grid_points(values, problems)
+      type(group_values), intent(in) :: values
+      type(problem_list_type), intent(inout) :: problems
+
+      call values%forbid(problems, 'accuracy', 'grid_points', 'give the one or the other')
+      if (any(mod(values%integers('grid_points'), 2) /= 0)) call values%complain(problems, 'grid_points', &
+         'grid_points must be even: of surfaces with mirror symmetry half of them are solved each way')
+   end subroutine check_grid_points
+
+end module wavycon_solver_keys

@@ -1,0 +1,108 @@
+!> The scene that a deck describes.
+module wavycon_make_scene
+   use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_value
+   use wavycon_deck, only: deck_type
+   use wavycon_error, only: error_type, exit_bad_input, fatal_error
+   use wavycon_kinds, only: dp
+   use wavycon_load_group, only: given_loads, largest_pbar_over_pstar
+   use wavycon_material_group, only: plane_strain_modulus
+   use wavycon_plain_text, only: escaped, short_number
+   use wavycon_resolved_deck, only: resolved_deck_text
+   use wavycon_scene, only: by_pressure, scene_type
+   implicit none (type, external)
+   private
+
+   public :: make_scene
+
+contains
+
+   !> Makes the scene. Errors: exit_bad_input for loads that the surface cannot have.
+   subroutine make_scene(deck, scene, error)
+      type(deck_type), intent(inout) :: deck   !! its surface and map, which may be large, move into the scene
+      type(scene_type), intent(out) :: scene
+      type(error_type), allocatable, intent(out) :: error
+
+      type(deck_type) :: essence
+
+      call move_alloc(deck%surface, scene%surface)
+      call move_alloc(deck%map, scene%map)
+      scene%e_star = plane_strain_modulus(deck%material)
+      scene%p_star = scene%surface%full_contact_pressure(scene%e_star)
+      call take_loads(deck, scene, error)
+      if (allocated(error)) return
+      scene%deck_path = deck%path
+      scene%title = deck%scene%text('title')
+      scene%case = deck%scene%text('case')
+      scene%directory = deck%output%text('directory')
+      scene%surface_kind = deck%surface_values%text('kind')
+      scene%method = deck%method
+      scene%output = deck%output
+      essence = deck
+      essence%path = ''
+      call essence%output%set('directory', '')
+      scene%essence = resolved_deck_text(essence)
+      essence = deck
+      ! A copy of the resolved deck in another directory must find the map.
+      if (allocated(scene%map)) call essence%surface_values%set('file', scene%map%path)
+      scene%resolved_deck = resolved_deck_text(essence)
+   end subroutine make_scene
+
+   !> Errors: exit_bad_input.
+   subroutine take_loads(deck, scene, error)
+      type(deck_type), intent(in) :: deck
+      type(scene_type), intent(inout) :: scene
+      type(error_type), allocatable, intent(out) :: error
+
+      character(:), allocatable :: key
+      real(dp), allocatable :: loads(:)
+      real(dp) :: worst
+
+      call given_loads(deck%load, key, scene%loads_by, loads)
+      if (scene%loads_by /= by_pressure .and. scene%p_star <= 0.0_dp) then
+         call fatal_error(error, exit_bad_input, escaped(deck%path)// &
+                          ': the surface is flat: it has neither a gap nor a part in contact to ask for')
+         return
+      end if
+      worst = maxval(loads)
+      select case (key)
+      case ('pbar_over_pstar')
+         scene%mean_pressure = scene%p_star*loads
+         if (scene%p_star <= 0.0_dp) loads = in_p_star(scene%mean_pressure, scene%p_star)
+      case ('mean_pressure')
+         ! Before the division, which may overflow.
+         if (scene%p_star > 0.0_dp .and. worst > largest_pbar_over_pstar*scene%p_star) then
+            call fatal_error(error, exit_bad_input, escaped(deck%path)//': mean_pressure = '// &
+                             short_number(worst)// &
+                             ' is more than '//short_number(largest_pbar_over_pstar)//' times p* = '// &
+                             short_number(scene%p_star)// &
+                             '. Do its unit and that of e_star agree, and those of the lengths?')
+            return
+         end if
+         scene%mean_pressure = loads
+         loads = in_p_star(loads, scene%p_star)
+      case ('mean_gap')
+         if (worst > scene%surface%amplitude) then
+            call fatal_error(error, exit_bad_input, escaped(deck%path)//': mean_gap = '//short_number(worst)// &
+                             ' is more than the mean gap before load, '//short_number(scene%surface%amplitude)// &
+                             '. Do the units of the lengths agree?')
+            return
+         end if
+         loads = loads/scene%surface%amplitude
+      end select
+      call move_alloc(loads, scene%target)
+   end subroutine take_loads
+
+   !> A mean pressure over p*. On a flat surface p* = 0 and any pressure is full contact: none at all is p* itself.
+   elemental real(dp) function in_p_star(mean_pressure, p_star)
+      real(dp), intent(in) :: mean_pressure, p_star   !! both >= 0
+
+      if (p_star > 0.0_dp) then
+         in_p_star = mean_pressure/p_star
+      else if (mean_pressure > 0.0_dp) then
+         in_p_star = ieee_value(1.0_dp, ieee_positive_inf)
+      else
+         in_p_star = 1.0_dp
+      end if
+   end function in_p_star
+
+end module wavycon_make_scene
