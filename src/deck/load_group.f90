@@ -9,10 +9,10 @@ module wavycon_load_group
 
    public :: load_table, check_load_group, given_loads
 
-   !> What the loads are given by.
+   !> The quantity that a deck gives in place of a load.
    integer, parameter, public :: by_pressure = 1, by_mean_gap = 2, by_contact_area = 3
 
-   !> Contact is complete at 1; a load beyond this is a mistake, most likely of units.
+   !> Contact is complete at 1; a larger load than this is a mistake, most likely of units.
    real(dp), parameter, public :: largest_pbar_over_pstar = 1.0e6_dp
 
    integer, parameter :: most_loads = 100000
@@ -37,7 +37,8 @@ contains
          real_key('mean_pressure', '', 'unit of e_star', 'Mean pressures, over the nominal area.', &
             least=0.0_dp, most_values=most_loads), &
          real_key('mean_gap_over_amplitude', '', '-', &
-            'Mean gaps over the mean gap before load, which is the amplitude of a wave; the program finds their loads.', &
+            'Mean gaps over the mean gap before load, which is the amplitude of a wave; the program finds their '// &
+            'loads.', &
             least=0.0_dp, most=1.0_dp, most_values=most_loads), &
          real_key('mean_gap', '', 'length', 'Mean gaps; the program finds their loads.', least=0.0_dp, &
             most_values=most_loads), &

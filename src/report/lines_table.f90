@@ -68,7 +68,8 @@ contains
       class(contact_fields), intent(inout) :: fields   !! of the load
 
       real(dp), allocatable :: beside(:)
-      real(dp) :: dundurs(results%deck%method%integer('harmonics')), start(2), way(2), angles(2), phi, theta, p, u, load_p
+      real(dp) :: dundurs(results%deck%method%integer('harmonics'))
+      real(dp) :: start(2), way(2), angles(2), phi, theta, p, u, load_p
       integer :: k, intervals
 
       load_p = results%states(load)%pbar_over_pstar

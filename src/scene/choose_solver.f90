@@ -45,8 +45,8 @@ contains
 
          select type (solver)
          type is (fourier_contact)
-            call solver%start(surface, method%integer('harmonics'), method%integer('constraint_points'), scene%symmetry, &
-                              method%real('edge_level'))
+            call solver%start(surface, method%integer('harmonics'), method%integer('constraint_points'), &
+                              scene%symmetry, method%real('edge_level'))
          type is (closed_form_contact)
             call solver%start(surface)
          type is (grid_contact)

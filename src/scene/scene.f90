@@ -22,7 +22,7 @@ module wavycon_scene
       type(map_statistics), allocatable :: map      !! of a height map
       real(dp) :: e_star = 1.0_dp                   !! plane-strain modulus [pressure]
       real(dp) :: p_star = 0.0_dp                   !! p*, mean pressure that just closes the gap [pressure]
-      integer :: loads_by = by_pressure             !! what the loads are given by: a name of wavycon_load_group
+      integer :: loads_by = by_pressure             !! given quantity: by_pressure, by_mean_gap or by_contact_area
       real(dp), allocatable :: target(:)            !! in the deck's order: P, G or the contact area fraction
       real(dp), allocatable :: mean_pressure(:)     !! [pressure]; allocated where loads are given by pressure
       integer :: symmetry = symmetry_full           !! of the Fourier terms
@@ -52,7 +52,8 @@ contains
       call take_loads(deck, scene, error)
    end subroutine make_scene
 
-   !> Errors: exit_bad_input.
+   !> Takes the loads and converts them to p*, Delta and area fractions. Errors: exit_bad_input for loads that the
+   !> surface cannot have.
    subroutine take_loads(deck, scene, error)
       type(deck_type), intent(in) :: deck
       type(scene_type), intent(inout) :: scene
@@ -97,9 +98,9 @@ contains
       call move_alloc(loads, scene%target)
    end subroutine take_loads
 
-   !> What the loads are given by, as a heading.
+   !> The given quantity as a heading.
    pure function target_words(loads_by) result(words)
-      integer, intent(in) :: loads_by   !! a name of wavycon_load_group
+      integer, intent(in) :: loads_by   !! by_pressure, by_mean_gap or by_contact_area
       character(:), allocatable :: words
 
       select case (loads_by)
@@ -112,14 +113,14 @@ contains
       end select
    end function target_words
 
-   !> Refuses a series whose constraint matrix would fill the memory, and fitted expansions of a surface that they
-   !> do not know. Errors: exit_bad_input.
+   !> Refuses a series whose constraint matrix would fill the memory, and a surface that has no fitted expansions.
+   !> Errors: exit_bad_input.
    subroutine check_method(deck, scene, error)
       type(deck_type), intent(in) :: deck
       type(scene_type), intent(in) :: scene
       type(error_type), allocatable, intent(out) :: error
 
-      !> Elements of the matrix, of which a handful of copies are held: 160 MB each.
+      !> Elements of the matrix: 160 MB, of which the solver holds several copies.
       real(dp), parameter :: most_elements = 2.0e7_dp
       type(fourier_terms) :: terms
       type(fitted_frame) :: frame
@@ -138,12 +139,13 @@ contains
       if (real(terms%count(), dp)*size(k) > most_elements) &
          call fatal_error(error, exit_bad_input, escaped(deck%path)//': harmonics = '// &
                           integer_text(deck%method%integer('harmonics'))//' and constraint_points = '// &
-                          integer_text(deck%method%integer('constraint_points'))//' make '//integer_text(terms%count())// &
-                          ' unknowns and '//integer_text(size(k))//' constraints: too many for the memory. '// &
+                          integer_text(deck%method%integer('constraint_points'))//' make '// &
+                          integer_text(terms%count())//' unknowns and '//integer_text(size(k))// &
+                          ' constraints: too many for the memory. '// &
                           'Give fewer constraint_points (harmonics + 1 serve well), or a symmetry.')
    end subroutine check_method
 
-   !> A mean pressure over p*. On a flat surface p* = 0 and any pressure is full contact: none at all is p* itself.
+   !> A mean pressure over p*. On a flat surface p* = 0 and any pressure is full contact: zero pressure counts as p*.
    elemental real(dp) function in_p_star(mean_pressure, p_star)
       real(dp), intent(in) :: mean_pressure, p_star   !! both >= 0
 

@@ -220,7 +220,8 @@ contains
       else if (behind > 0) then
          if (commas == 1 .and. first - behind == 1) tight = first
          is_loose = is_loose .or. commas == 0
-         if (tight > 0 .and. is_loose) trouble = "is '"//excerpt(line(word_start(line, tight - 2):word_end(line, tight)))// &
+         if (tight > 0 .and. is_loose) trouble = "is '"// &
+            excerpt(line(word_start(line, tight - 2):word_end(line, tight)))// &
             "' a number with a decimal comma? Write a point, or separate all numbers of a line by commas alone"
       end if
    end subroutine check_gap
