@@ -28,7 +28,7 @@ contains
       value = 0.0_dp
       is_number = .false.
       if (len(word) == 0 .or. len(word) > longest_number) return
-      number = word
+      number(:len(word)) = word
       do i = 1, len(word)
          select case (word(i:i))
          case ('0':'9', '+', '-', '.', 'e', 'E')

@@ -22,13 +22,13 @@ module wavycon_group_values
       character(:), allocatable :: text
    end type key_entry
 
-   !> A key that is not in the table is a programming error: a Debug build stops, any other build takes the neutral
-   !> value: false, 0, an empty list or text.
+   !> A key that is not in the table, or has another type, is a programming error: a Debug build stops, any other build
+   !> takes the neutral value false, 0, or an empty list or text.
    type :: group_values
       type(key_group_type) :: table
       character(:), allocatable :: deck_path   !! the deck's file, as the caller named it
       integer :: place = 0                     !! byte of the deck's text where '&name' stands; 0 if it is absent
-      type(key_entry), allocatable, private :: entries(:)   !! one for each key of the table
+      type(key_entry), allocatable, private :: entries(:)   !! of the keys of the table; 0 is the neutral one
    contains
       procedure :: start
       procedure :: note_key
@@ -76,9 +76,11 @@ contains
 
       self%table = table
       self%deck_path = deck_path
-      allocate (self%entries(size(table%keys)))
-      do k = 1, size(table%keys)
-         if (table%keys(k)%default == '') cycle
+      allocate (self%entries(0:size(table%keys)))
+      do k = 0, size(table%keys)
+         allocate (self%entries(k)%numbers(0))
+         self%entries(k)%text = ''
+         if (k == 0) cycle
          call read_value(table%keys(k), trim(table%keys(k)%default), value, trouble)
          if (.not. allocated(trouble)) call take_value(self%entries(k), value, [value%number])
       end do
@@ -136,21 +138,15 @@ contains
       class(group_values), intent(in) :: self
       character(*), intent(in) :: key
 
-      has = .false.
-      associate (k => self%find(key))
-         if (k > 0) has = self%entries(k)%place > 0
-      end associate
+      has = self%entries(self%find(key))%place > 0
    end function has
 
-   !> Whether a key was given a value that cannot be used: then checks that depend on it would mislead.
+   !> Whether a key was given a value that cannot be used: checks that depend on it would mislead.
    pure logical function is_bad(self, key)
       class(group_values), intent(in) :: self
       character(*), intent(in) :: key
 
-      is_bad = .false.
-      associate (k => self%find(key))
-         if (k > 0) is_bad = self%entries(k)%is_bad
-      end associate
+      is_bad = self%entries(self%find(key))%is_bad
    end function is_bad
 
    !> Whether any key is bad.
@@ -165,10 +161,7 @@ contains
       class(group_values), intent(in) :: self
       character(*), intent(in) :: key
 
-      place_of = 0
-      associate (k => self%find(key))
-         if (k > 0) place_of = self%entries(k)%place
-      end associate
+      place_of = self%entries(self%find(key))%place
       if (place_of == 0) place_of = self%place
    end function place_of
 
@@ -177,9 +170,8 @@ contains
       class(group_values), intent(in) :: self
       character(*), intent(in) :: key
 
-      in_effect = .false.
-      associate (k => self%find(key))
-         if (k > 0) in_effect = self%entries(k)%has_value .and. self%entries(k)%applies
+      associate (entry => self%entries(self%find(key)))
+         in_effect = entry%has_value .and. entry%applies
       end associate
    end function in_effect
 
@@ -194,12 +186,12 @@ contains
       if (k > 0) self%entries(k)%applies = .false.
    end subroutine leave_out
 
-   !> The value of a real key; of a list its first.
+   !> The value of a real key; of a list its first, 0 if it has none.
    pure real(dp) function get_real(self, key) result(number)
       class(group_values), intent(in) :: self
       character(*), intent(in) :: key
 
-      number = first_of(self, key, [real_value])
+      number = first_of(self%entries(self%find(key, [real_value]))%numbers)
    end function get_real
 
    !> The values of a real key.
@@ -208,21 +200,15 @@ contains
       character(*), intent(in) :: key
       real(dp), allocatable :: numbers(:)
 
-      integer :: k
-
-      k = self%find(key, [real_value])
-      if (k > 0) then
-         if (allocated(self%entries(k)%numbers)) numbers = self%entries(k)%numbers
-      end if
-      if (.not. allocated(numbers)) allocate (numbers(0))
+      numbers = self%entries(self%find(key, [real_value]))%numbers
    end function reals
 
-   !> The value of an integer key; of a list its first.
+   !> The value of an integer key; of a list its first, 0 if it has none.
    pure integer function get_integer(self, key) result(number)
       class(group_values), intent(in) :: self
       character(*), intent(in) :: key
 
-      number = nint(first_of(self, key, [integer_value]))
+      number = nint(first_of(self%entries(self%find(key, [integer_value]))%numbers))
    end function get_integer
 
    !> The values of an integer key.
@@ -231,28 +217,15 @@ contains
       character(*), intent(in) :: key
       integer, allocatable :: numbers(:)
 
-      integer :: k
-
-      k = self%find(key, [integer_value])
-      if (k > 0) then
-         if (allocated(self%entries(k)%numbers)) numbers = nint(self%entries(k)%numbers)
-      end if
-      if (.not. allocated(numbers)) allocate (numbers(0))
+      numbers = nint(self%entries(self%find(key, [integer_value]))%numbers)
    end function integers
 
-   !> The first number of a key; 0 if it has none.
-   pure real(dp) function first_of(self, key, kinds) result(number)
-      class(group_values), intent(in) :: self
-      character(*), intent(in) :: key
-      integer, intent(in) :: kinds(:)   !! types that the key may have
+   !> The first of some numbers; 0 if there are none.
+   pure real(dp) function first_of(numbers)
+      real(dp), intent(in) :: numbers(:)
 
-      integer :: k
-
-      number = 0.0_dp
-      k = self%find(key, kinds)
-      if (k == 0) return
-      if (.not. allocated(self%entries(k)%numbers)) return
-      if (size(self%entries(k)%numbers) > 0) number = self%entries(k)%numbers(1)
+      first_of = 0.0_dp
+      if (size(numbers) > 0) first_of = numbers(1)
    end function first_of
 
    !> The value of a logical key.
@@ -260,10 +233,7 @@ contains
       class(group_values), intent(in) :: self
       character(*), intent(in) :: key
 
-      flag = .false.
-      associate (k => self%find(key, [logical_value]))
-         if (k > 0) flag = self%entries(k)%flag
-      end associate
+      flag = self%entries(self%find(key, [logical_value]))%flag
    end function get_logical
 
    !> The value of a text or choice key, without blanks at its end; empty if it has none.
@@ -272,24 +242,16 @@ contains
       character(*), intent(in) :: key
       character(:), allocatable :: words
 
-      integer :: k
-
-      words = ''
-      k = self%find(key, [text_value, choice_value])
-      if (k == 0) return
-      if (allocated(self%entries(k)%text)) words = self%entries(k)%text
+      words = self%entries(self%find(key, [text_value, choice_value]))%text
    end function text
 
-   !> Sets a value, whatever the deck says.
+   !> `set`: sets a value, whatever the deck says.
    pure subroutine set_flag(self, key, flag)
       class(group_values), intent(inout) :: self
       character(*), intent(in) :: key
       logical, intent(in) :: flag
 
-      integer :: k
-
-      k = self%find(key, [logical_value])
-      if (k > 0) call take_value(self%entries(k), word_value(flag=flag), [real(dp) ::])
+      call put(self, self%find(key, [logical_value]), flag=flag)
    end subroutine set_flag
 
    pure subroutine set_integers(self, key, numbers)
@@ -297,36 +259,23 @@ contains
       character(*), intent(in) :: key
       integer, intent(in) :: numbers(:)
 
-      integer :: k
-
-      k = self%find(key, [integer_value])
-      if (k > 0) call take_value(self%entries(k), word_value(), real(numbers, dp))
+      call put(self, self%find(key, [integer_value]), numbers=real(numbers, dp))
    end subroutine set_integers
 
    pure subroutine set_text(self, key, words)
       class(group_values), intent(inout) :: self
-      character(*), intent(in) :: key
-      character(*), intent(in) :: words
+      character(*), intent(in) :: key, words
 
-      integer :: k
-
-      k = self%find(key, [text_value, choice_value])
-      if (k == 0) return
-      self%entries(k)%has_value = .true.
-      self%entries(k)%text = trim(words)
+      call put(self, self%find(key, [text_value, choice_value]), words=words)
    end subroutine set_text
 
-   !> Sets the default of a key that depends on other values. It has no effect on a key that the deck gives well.
+   !> `set_default`: sets the default of a key that depends on other values. The deck's value goes before it.
    pure subroutine default_reals(self, key, numbers)
       class(group_values), intent(inout) :: self
       character(*), intent(in) :: key
       real(dp), intent(in) :: numbers(:)
 
-      integer :: k
-
-      k = self%find(key, [real_value])
-      if (k == 0 .or. gives(self, key)) return
-      call take_value(self%entries(k), word_value(), numbers)
+      if (.not. gives(self, key)) call put(self, self%find(key, [real_value]), numbers=numbers)
    end subroutine default_reals
 
    pure subroutine default_real(self, key, number)
@@ -355,11 +304,25 @@ contains
 
    pure subroutine default_text(self, key, words)
       class(group_values), intent(inout) :: self
-      character(*), intent(in) :: key
-      character(*), intent(in) :: words
+      character(*), intent(in) :: key, words
 
       if (.not. gives(self, key)) call self%set(key, words)
    end subroutine default_text
+
+   !> Sets what is given of the value of key number k; nothing for the neutral entry.
+   pure subroutine put(self, k, numbers, flag, words)
+      class(group_values), intent(inout) :: self
+      integer, intent(in) :: k
+      real(dp), intent(in), optional :: numbers(:)
+      logical, intent(in), optional :: flag
+      character(*), intent(in), optional :: words
+
+      if (k == 0) return
+      self%entries(k)%has_value = .true.
+      if (present(numbers)) self%entries(k)%numbers = numbers
+      if (present(flag)) self%entries(k)%flag = flag
+      if (present(words)) self%entries(k)%text = trim(words)
+   end subroutine put
 
    !> Whether the deck gives a key a good value.
    pure logical function gives(self, key)
@@ -401,14 +364,13 @@ contains
             key//' and '//other//' contradict each other: '//advice)
    end subroutine forbid
 
-   !> The number of a key in the table; 0 if it is not there or has another type.
+   !> The number of a key in the table; 0, the neutral entry, if it is not there or has another type.
    pure integer function find(self, key, kinds) result(k)
       class(group_values), intent(in) :: self
       character(*), intent(in) :: key
       integer, intent(in), optional :: kinds(:)   !! types that the key may have; any if not given
 
-      k = 0
-      if (allocated(self%table%keys)) k = key_index(self%table%keys, key)
+      k = key_index(self%table%keys, key)
       if (k > 0 .and. present(kinds)) then
          if (all(kinds /= self%table%keys(k)%kind)) k = 0
       end if

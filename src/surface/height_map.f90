@@ -51,8 +51,9 @@ contains
             "program is started. The last row and column are the cell's last, not copies of the first.", &
             longest_path, required=.true.), &
          choice_key('file_format', "'auto'", &
-            "'matrix', a row of heights for each y; 'xyz', lines of x, y, z on a regular grid, which give the sides "// &
-            "of the cell too; 'auto', xyz if all lines have three numbers.", [character(6) :: 'auto', 'matrix', 'xyz']), &
+            "'matrix', a row of heights for each y; 'xyz', lines of x, y, z on a regular grid, from which the "// &
+            "sides of the cell follow; 'auto', xyz if all lines have three numbers.", &
+            [character(6) :: 'auto', 'matrix', 'xyz']), &
          real_key('height_scale', '1.0', 'length', 'one unit of its heights.', above=0.0_dp)]
    end function keys
 
@@ -85,7 +86,7 @@ contains
          if (all(step > 0.0_dp)) length = step*shape(height)
          if (step(1) > 0.0_dp .and. size(height, 2) == 1) length = step(1)*size(height, 1)
          if (maxval(height) <= minval(height)) then
-            ! Equal heights less their mean, which is rounded, would be no flat surface.
+            ! The mean is rounded: equal heights less their mean would not be flat.
             height = 0.0_dp
          else
             height = values%real('height_scale')*(height - sum(height)/size(height))

@@ -12,14 +12,14 @@ module wavycon_height_map_file
 
    public :: height_map_type, read_height_map
 
-   !> A periodic map: the last row and column are not copies of the first.
+   !> Heights of a periodic cell: the last row and column are not copies of the first.
    type :: height_map_type
       real(dp), allocatable :: height(:, :)   !! as in the file, shape (M, N): along x, along y; N = 1 for a profile
-      real(dp) :: step(2) = 0.0_dp            !! between points; zero, where the file does not tell
+      real(dp) :: step(2) = 0.0_dp            !! between points along x and y; 0 where the file does not give it
       character(6) :: format = ''             !! 'matrix' or 'xyz'
    end type height_map_type
 
-   !> Points along a side; fewer are no surface, more would not fit the memory.
+   !> Points along a side: fewer make no surface, more do not fit the memory of most machines.
    integer, parameter :: least_points = 4, most_points = 8192
    integer, parameter :: most_bytes = 2000000000
 
@@ -34,7 +34,7 @@ contains
 
       type(number_table), target :: table
 
-      ! A pipe may keep one waiting, a device never end, and neither can be read again from the resolved deck.
+      ! A pipe may block, a device may never end, and the resolved deck could read neither again.
       if (path_kind(path) == path_device) then
          call fatal_error(error, exit_file_trouble, escaped(path)//': this is a pipe or a device, not a file')
          return
@@ -58,12 +58,12 @@ contains
       if (.not. allocated(error)) call check_size(path, map, error)
    end subroutine read_height_map
 
-   !> Whether there is the memory to make a map and its surface, beyond that of the numbers read: once it has begun
-   !> there is no way to say that it lacks.
+   !> Whether the memory suffices for a map and its surface besides the numbers read. Later failures to allocate could
+   !> not be reported.
    logical function there_is_room(heights)
       integer, intent(in) :: heights   !! of the map
 
-      !> Numbers for each height: the map, the waves of the surface and their copies, the transforms' own.
+      !> Numbers for each height: the map, the Fourier coefficients and their copies, the work space of the transforms.
       integer(int64), parameter :: copies = 5
       real(dp), allocatable :: room(:)
       integer :: status
@@ -72,7 +72,7 @@ contains
       there_is_room = status == 0
    end function there_is_room
 
-   !> A row a line. Errors: exit_bad_input for rows of unlike length.
+   !> Takes a map with a row of heights on each line. Errors: exit_bad_input for rows of unequal length.
    subroutine take_matrix(table, map, error)
       type(number_table), intent(in) :: table
       type(height_map_type), intent(inout) :: map
@@ -91,13 +91,14 @@ contains
       map%height = reshape(table%values, [columns, table%rows()])
    end subroutine take_matrix
 
-   !> A point a line, x or y running first. Errors: exit_bad_input for what is no regular grid.
+   !> Takes a map with x, y and z on each line; either x or y varies first. Errors: exit_bad_input if the points form no
+   !> regular grid.
    subroutine take_points(table, map, error)
       type(number_table), intent(in), target :: table
       type(height_map_type), intent(inout) :: map
       type(error_type), allocatable, intent(out) :: error
 
-      !> Of a step: coordinates are often rounded.
+      !> Fraction of a step: coordinates are often rounded.
       real(dp), parameter :: tolerance = 0.01_dp
       real(dp), pointer :: xyz(:, :)
       integer :: fast, i, j, k, m, n, slow
@@ -146,8 +147,7 @@ contains
       else
          map%height = transpose(reshape(xyz(3, :), [m, n]))
       end if
-      ! The cell runs on in the same direction as the points, so that a falling coordinate mirrors nothing but the
-      ! origin.
+      ! Falling coordinates are taken as rising: the map is mirrored, which changes no pressure or gap but its place.
       map%step = abs(map%step)
 
    contains
@@ -162,13 +162,14 @@ contains
 
    end subroutine take_points
 
-   !> How many coordinates follow each other in steps, and the mean step: the rounding of a single one would add up.
+   !> Counts the coordinates that follow each other in equal steps. The step is their mean: the rounding of a single one
+   !> would add up.
    pure subroutine take_steps(coordinate, number, step)
       real(dp), intent(in) :: coordinate(:)   !! shape (n), n >= 2
       integer, intent(out) :: number          !! >= 2
       real(dp), intent(out) :: step
 
-      !> Of the first step.
+      !> Fraction of the first step.
       real(dp), parameter :: tolerance = 0.1_dp
 
       step = coordinate(2) - coordinate(1)

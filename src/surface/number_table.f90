@@ -1,21 +1,20 @@
 !> Lines of numbers from a file.
 !>
-!> What stands behind a '#' and empty lines are left out; numbers are parted by blanks, tabs, commas or
-!> semicolons, and written as in a deck. Lines end in LF, CR LF or CR.
+!> Comments from '#' to the end of their line and lines without numbers are left out. Numbers are separated by blanks,
+!> tabs, commas or semicolons, and written as in a deck. Lines end in LF, CR LF or CR.
 module wavycon_number_table
    use, intrinsic :: ieee_exceptions, only: ieee_get_status, ieee_overflow, ieee_set_halting_mode, &
       ieee_set_status, ieee_status_type
-   use, intrinsic :: iso_c_binding, only: c_null_char
+   use wavycon_decimal_number, only: read_decimal
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_file_bytes, only: byte_order_mark, read_file
    use wavycon_key_table, only: largest_number
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: escaped, excerpt, integer_text, lower_case, short_number
-   use wavycon_system, only: parse_number
    implicit none (type, external)
    private
 
-   public :: number_table, read_number_table
+   public :: number_table, read_number_table, next_line, read_line
 
    type :: number_table
       character(:), allocatable :: path  !! as the user named the file
@@ -28,8 +27,6 @@ module wavycon_number_table
    end type number_table
 
    character(*), parameter :: line_feed = achar(10), carriage_return = achar(13), tab = achar(9)
-   !> A number written with more bytes than this is a slip.
-   integer, parameter :: longest_number = 100
 
 contains
 
@@ -48,8 +45,9 @@ contains
       length = self%first(row + 1) - self%first(row)
    end function length
 
-   !> Reads a file. Errors: exit_file_trouble if it cannot be read, exit_bad_input for what is no number that a
-   !> deck could have, for numbers left out between commas, for what may be a decimal comma, and if there is none.
+   !> Reads a file. Errors: exit_file_trouble if it cannot be read; exit_bad_input for a word that is no number or a
+   !> number too large for a deck, for numbers left out between commas, for a possible decimal comma, and for a file
+   !> without numbers.
    subroutine read_number_table(path, most_bytes, table, error)
       character(*), intent(in) :: path
       integer, intent(in) :: most_bytes   !! a larger file is not read
@@ -76,7 +74,7 @@ contains
       call ieee_set_status(floating_point)
    end subroutine read_number_table
 
-   !> How many numbers and lines with numbers there can be: remarks count too.
+   !> Upper bounds of the number of numbers and of lines with numbers: comments count too.
    pure subroutine count_words(content, words, lines)
       character(*), intent(in) :: content
       integer, intent(out) :: words, lines
@@ -91,7 +89,7 @@ contains
       do place = 1, len(content)
          if (is_gap(content(place:place))) then
             behind_gap = .true.
-            if (content(place:place) == line_feed .or. content(place:place) == carriage_return) new_line = .true.
+            if (is_line_end(content(place:place))) new_line = .true.
             cycle
          end if
          if (behind_gap) words = words + 1
@@ -107,162 +105,162 @@ contains
       type(number_table), intent(inout) :: table   !! with room for the numbers
       type(error_type), allocatable, intent(out) :: error
 
-      real(dp) :: value
-      integer :: behind, line, place, rows, values
-      integer :: blanks, commas, semicolons   !! since the last number, or the start of the line
-      integer :: tight   !! place of a number on this line that a comma alone parts from the one before; 0 if none
-      logical :: loose   !! two numbers on this line have no comma between them
       character(:), allocatable :: trouble
+      integer :: behind, first, last, line, rows, used, used_before
 
       rows = 0
-      values = 0
-      line = 1
-      call begin_line()
-      place = 1
+      used = 0
+      line = 0
+      behind = 1
       if (index(content(:min(len(content), len(byte_order_mark))), byte_order_mark) == 1) &
-         place = len(byte_order_mark) + 1
-      do while (place <= len(content))
-         select case (content(place:place))
-         case (' ', tab)
-            blanks = blanks + 1
-         case (',')
-            commas = commas + 1
-         case (';')
-            semicolons = semicolons + 1
-         case (line_feed)
-            line = line + 1
-            call begin_line()
-         case (carriage_return)
-            if (content(place:min(place + 1, len(content))) /= carriage_return//line_feed) then
-               line = line + 1
-               call begin_line()
-            end if
-         case ('#')
-            do while (place < len(content))
-               if (scan(content(place + 1:place + 1), line_feed//carriage_return) > 0) exit
-               place = place + 1
-            end do
-         case default
-            behind = place + 1
-            do while (behind <= len(content))
-               if (is_gap(content(behind:behind)) .or. content(behind:behind) == '#') exit
-               behind = behind + 1
-            end do
-            call take_word(content(place:behind - 1), value, trouble)
-            if (.not. allocated(trouble)) call check_gap()
-            if (allocated(trouble)) then
-               call fatal_error(error, exit_bad_input, escaped(table%path)//':'//integer_text(line)//': '//trouble)
-               return
-            end if
-            call append()
-            place = behind - 1
-         end select
-         place = place + 1
+         behind = len(byte_order_mark) + 1
+      do while (behind <= len(content))
+         line = line + 1
+         call next_line(content, behind, first, last)
+         used_before = used
+         call read_line(content(first:last), table%values, used, trouble)
+         if (allocated(trouble)) then
+            call fatal_error(error, exit_bad_input, escaped(table%path)//':'//integer_text(line)//': '//trouble)
+            return
+         end if
+         if (used == used_before) cycle
+         rows = rows + 1
+         table%line(rows) = line
+         table%first(rows) = used_before + 1
       end do
-      if (values == 0) then
+      if (used == 0) then
          call fatal_error(error, exit_bad_input, escaped(table%path)//': there are no numbers in this file')
          return
       end if
-      table%first(rows + 1) = values + 1
-      if (values < size(table%values)) table%values = table%values(:values)
+      table%first(rows + 1) = used + 1
+      if (used < size(table%values)) table%values = table%values(:used)
       if (rows < size(table%line)) then
          table%first = table%first(:rows + 1)
          table%line = table%line(:rows)
       end if
-
-   contains
-
-      subroutine begin_line()
-         blanks = 0
-         commas = 0
-         semicolons = 0
-         tight = 0
-         loose = .false.
-      end subroutine begin_line
-
-      !> Looks at what parts a number from the one before it.
-      subroutine check_gap()
-         if (commas + semicolons > merge(0, 1, starts_line())) then
-            trouble = "a number is left out before '"//excerpt(content(place:behind - 1))//"'"
-            return
-         end if
-         if (.not. starts_line()) then
-            if (commas == 1 .and. blanks == 0) tight = place
-            loose = loose .or. commas == 0
-            if (tight > 0 .and. loose) trouble = "is '"//tight_pair()//"' a number with a decimal comma? "// &
-               'Write a point, or part all numbers of a line by commas alone'
-         end if
-         blanks = 0
-         commas = 0
-         semicolons = 0
-      end subroutine check_gap
-
-      !> The numbers before and behind a comma.
-      function tight_pair() result(pair)
-         character(:), allocatable :: pair
-
-         integer :: from, to
-
-         from = tight - 2
-         do while (from > 1)
-            if (is_gap(content(from - 1:from - 1))) exit
-            from = from - 1
-         end do
-         to = tight
-         do while (to < len(content))
-            if (is_gap(content(to + 1:to + 1)) .or. content(to + 1:to + 1) == '#') exit
-            to = to + 1
-         end do
-         pair = excerpt(content(from:to))
-      end function tight_pair
-
-      !> Whether the number at hand is the first of its line.
-      logical function starts_line()
-         starts_line = rows == 0
-         if (rows > 0) starts_line = table%line(rows) /= line
-      end function starts_line
-
-      subroutine append()
-         if (starts_line()) then
-            rows = rows + 1
-            table%line(rows) = line
-            table%first(rows) = values + 1
-         end if
-         values = values + 1
-         table%values(values) = value
-      end subroutine append
-
    end subroutine take_numbers
 
-   !> The number that a word is.
-   subroutine take_word(word, value, trouble)
+   !> The next line, without its comment.
+   pure subroutine next_line(content, behind, first, last)
+      character(*), intent(in) :: content
+      integer, intent(inout) :: behind        !! place of the line; then the place of the line behind it
+      integer, intent(out) :: first, last     !! bytes of the line; last < first if it is empty
+
+      first = behind
+      do behind = first, len(content)
+         if (is_line_end(content(behind:behind)) .or. content(behind:behind) == '#') exit
+      end do
+      last = behind - 1
+      do behind = behind, len(content)
+         if (is_line_end(content(behind:behind))) exit
+      end do
+      if (content(behind:min(behind + 1, len(content))) == carriage_return//line_feed) behind = behind + 1
+      behind = behind + 1
+   end subroutine next_line
+
+   !> Adds the numbers of a line to those before them.
+   subroutine read_line(line, values, used, trouble)
+      character(*), intent(in) :: line         !! without comment and line end
+      real(dp), intent(inout) :: values(:)     !! with room for the numbers
+      integer, intent(inout) :: used           !! how many of the values there are
+      character(:), allocatable, intent(out) :: trouble   !! what is wrong; not allocated if the line is good
+
+      integer :: behind                !! the number before, place behind its last byte; 0 at the start of the line
+      integer :: first, last, tight
+      logical :: is_loose
+
+      behind = 0
+      tight = 0
+      is_loose = .false.
+      do
+         call next_word(line, max(behind, 1), first, last)
+         if (first > len(line)) return
+         call read_number(line(first:last), values, used, trouble)
+         if (.not. allocated(trouble)) call check_gap(line, behind, first, tight, is_loose, trouble)
+         if (allocated(trouble)) return
+         behind = last + 1
+      end do
+   end subroutine read_line
+
+   !> The next word from a place on; first > len(line) if there is none.
+   pure subroutine next_word(line, place, first, last)
+      character(*), intent(in) :: line
+      integer, intent(in) :: place
+      integer, intent(out) :: first, last
+
+      do first = place, len(line)
+         if (.not. is_gap(line(first:first))) exit
+      end do
+      do last = first, len(line)
+         if (is_gap(line(last:last))) exit
+      end do
+      last = last - 1
+   end subroutine next_word
+
+   !> Reports numbers left out between commas, and what may be a decimal comma: on one line a comma without blanks
+   !> around it, and numbers without a comma between them.
+   pure subroutine check_gap(line, behind, first, tight, is_loose, trouble)
+      character(*), intent(in) :: line
+      integer, intent(in) :: behind         !! place behind the number before; 0 at the start of the line
+      integer, intent(in) :: first          !! place of the number behind the gap
+      integer, intent(inout) :: tight       !! place of a number that only a comma separates from the one before; or 0
+      logical, intent(inout) :: is_loose    !! whether two numbers have no comma between them
+      character(:), allocatable, intent(out) :: trouble
+
+      integer :: commas, place, separators
+
+      commas = 0
+      separators = 0
+      do place = max(behind, 1), first - 1
+         if (line(place:place) == ',') commas = commas + 1
+         if (line(place:place) == ',' .or. line(place:place) == ';') separators = separators + 1
+      end do
+      if (separators > merge(0, 1, behind == 0)) then
+         trouble = "a number is left out before '"//excerpt(line(first:word_end(line, first)))//"'"
+      else if (behind > 0) then
+         if (commas == 1 .and. first - behind == 1) tight = first
+         is_loose = is_loose .or. commas == 0
+         if (tight > 0 .and. is_loose) trouble = "is '"// &
+            excerpt(line(word_start(line, tight - 2):word_end(line, tight)))// &
+            "' a number with a decimal comma? Write a point, or separate all numbers of a line by commas alone"
+      end if
+   end subroutine check_gap
+
+   !> First and last place of the word that a place is in.
+   pure integer function word_start(line, place)
+      character(*), intent(in) :: line
+      integer, intent(in) :: place
+
+      do word_start = place, 2, -1
+         if (is_gap(line(word_start - 1:word_start - 1))) exit
+      end do
+      word_start = max(word_start, 1)
+   end function word_start
+
+   pure integer function word_end(line, place)
+      character(*), intent(in) :: line
+      integer, intent(in) :: place
+
+      do word_end = place, len(line) - 1
+         if (is_gap(line(word_end + 1:word_end + 1))) exit
+      end do
+   end function word_end
+
+   !> Adds the number that a word is.
+   subroutine read_number(word, values, used, trouble)
       character(*), intent(in) :: word
-      real(dp), intent(out) :: value
-      character(:), allocatable, intent(out) :: trouble   !! what is wrong; not allocated if all is well
+      real(dp), intent(inout) :: values(:)
+      integer, intent(inout) :: used
+      character(:), allocatable, intent(out) :: trouble
 
-      character(longest_number + 1) :: number
-      integer :: i
+      logical :: is_number
 
-      value = 0.0_dp
-      if (len(word) <= longest_number) then
-         number = word
-         do i = 1, len(word)
-            select case (word(i:i))
-            case ('0':'9', '+', '-', '.', 'e', 'E')
-            case ('d', 'D')
-               number(i:i) = 'e'
-            case default
-               exit
-            end select
-         end do
-         if (i > len(word)) then
-            number(i:i) = c_null_char
-            if (parse_number(number, value) == len(word)) then
-               if (.not. abs(value) <= largest_number) trouble = "'"//excerpt(word)//"' is too large: numbers "// &
-                  'may be up to '//short_number(largest_number)//' in size'
-               return
-            end if
-         end if
+      used = used + 1
+      call read_decimal(word, values(used), is_number)
+      if (is_number .and. abs(values(used)) <= largest_number) return
+      if (is_number) then
+         trouble = "'"//excerpt(word)//"' is too large: numbers may be up to "//short_number(largest_number)//' in size'
+         return
       end if
       select case (lower_case(word(merge(2, 1, scan(word(1:1), '+-') == 1):)))
       case ('nan', 'inf', 'infinity')
@@ -270,9 +268,16 @@ contains
       case default
          trouble = "'"//excerpt(word)//"' is no number"
       end select
-   end subroutine take_word
+   end subroutine read_number
 
-   !> Whether a byte parts numbers.
+   !> Whether a byte ends a line.
+   elemental logical function is_line_end(byte)
+      character(1), intent(in) :: byte
+
+      is_line_end = byte == line_feed .or. byte == carriage_return
+   end function is_line_end
+
+   !> Whether a byte separates numbers.
    elemental logical function is_gap(byte)
       character(1), intent(in) :: byte
 
