@@ -1,4 +1,4 @@
-!> The largest value of a field.
+!> The largest value of a Fourier series.
 module wavycon_series_peak
    use wavycon_constants, only: pi
    use wavycon_fourier_series, only: fourier_series
@@ -10,10 +10,11 @@ module wavycon_series_peak
 
    public :: find_peak
 
-   !> Points to the shortest wave, from the best of which Newton's method climbs to the peak.
+   !> Points to the shortest wave. Newton's method climbs from the highest.
    integer, parameter :: points_per_wave = 16
-   !> Crests are tried until none that is left can be higher: between the points of a plane a field may be larger by
-   !> this factor (Ehlich & Zeller, Math. Z. 86 (1964) 41-44). Of many as high, as along a line, so many are tried.
+   !> Crests are tried until no other can be higher: between the points the largest modulus of a series of two
+   !> variables may be larger by this factor (Ehlich & Zeller, Math. Z. 86 (1964) 41-44). Of many equal crests, as along
+   !> a line, at most so many are tried.
    real(dp), parameter :: most_between = 1.0_dp/cos(pi/points_per_wave)**2
    integer, parameter :: most_crests = 10
 
@@ -27,12 +28,13 @@ module wavycon_series_peak
 
 contains
 
+   !> Finds the largest value and its place.
    subroutine find_peak(series, peak, place)
       type(fourier_series), intent(in) :: series
       real(dp), intent(out) :: peak
       real(dp), intent(out) :: place(2)   !! X, Y [rad]; the origin, if the field is largest there too
 
-      !> Of values on the points that pass for equal, over the largest: sums of up to thousands of waves.
+      !> Values that differ by less than this fraction of the largest are equal: sums of up to thousands of waves.
       real(dp), parameter :: rounding = 1e-12_dp
 
       type(grid_transform) :: transform
@@ -61,26 +63,26 @@ contains
             peak = found
             place = crest
          end if
-         call take_out(values, best)
+         call remove_crest(values, best)
          best = maxloc(values)
          if (values(best(1), best(2)) + hidden <= peak) exit
       end do
    end subroutine find_peak
 
-   !> Takes out the points about a crest, less than half the shortest wave away.
-   pure subroutine take_out(values, place)
+   !> Removes the points about a crest, less than half the shortest wave away.
+   pure subroutine remove_crest(values, place)
       real(dp), intent(inout) :: values(:, :)
       integer, intent(in) :: place(2)
 
-      integer, parameter :: reach = points_per_wave/2 - 1
+      integer, parameter :: half_width = points_per_wave/2 - 1
       integer :: i, j
 
-      do j = place(2) - reach, place(2) + reach
-         do i = place(1) - reach, place(1) + reach
+      do j = place(2) - half_width, place(2) + half_width
+         do i = place(1) - half_width, place(1) + half_width
             values(modulo(i - 1, size(values, 1)) + 1, modulo(j - 1, size(values, 2)) + 1) = -huge(1.0_dp)
          end do
       end do
-   end subroutine take_out
+   end subroutine remove_crest
 
    pure real(dp) function height(self, place)
       class(series_hill), intent(in) :: self
