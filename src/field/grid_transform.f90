@@ -15,7 +15,7 @@ module wavycon_grid_transform
    implicit none (type, external)
    private
 
-   public :: grid_transform
+   public :: grid_transform, point_angle
 
    type :: grid_transform
       integer :: points(2) = 0                     !! M, N
@@ -210,7 +210,7 @@ contains
       class(grid_transform), intent(in) :: self
       integer, intent(in) :: i
 
-      x_angle = merge(pi*(i - 0.5_dp), 2*pi*(i - 1), self%even)/self%points(1)
+      x_angle = point_angle(i, self%points(1), self%even)
    end function x_angle
 
    !> Y of the points with second index j [rad].
@@ -218,8 +218,17 @@ contains
       class(grid_transform), intent(in) :: self
       integer, intent(in) :: j
 
-      y_angle = merge(pi*(j - 0.5_dp), 2*pi*(j - 1), self%even)/self%points(2)
+      y_angle = point_angle(j, self%points(2), self%even)
    end function y_angle
+
+   !> The angle of a point of the grid, or of its continuation, in one direction [rad].
+   elemental real(dp) function point_angle(i, points, even)
+      integer, intent(in) :: i         !! any
+      integer, intent(in) :: points    !! M or N, >= 1
+      logical, intent(in) :: even      !! whether the points are those of a quarter of the cell
+
+      point_angle = merge(pi*(i - 0.5_dp), 2*pi*(i - 1), even)/points
+   end function point_angle
 
    subroutine finish(self)
       type(grid_transform), intent(inout) :: self

@@ -7,6 +7,7 @@
 module wavycon_grid_edge
    use wavycon_constants, only: pi
    use wavycon_contact_edge, only: contact_edge, corner_k, corner_l, edge_point
+   use wavycon_grid_transform, only: point_angle
    use wavycon_kinds, only: dp
    use wavycon_line_zeros, only: length_inside
    implicit none (type, external)
@@ -60,7 +61,7 @@ contains
       class(grid_edge), intent(in) :: edge
       integer, intent(in) :: k, direction
 
-      angle = merge(pi*(k - 0.5_dp), 2*pi*(k - 1), edge%even)/size(edge%pressure_or_gap, direction)
+      angle = point_angle(k, size(edge%pressure_or_gap, direction), edge%even)
    end function angle
 
    !> The index of the grid's point of which a point of the plane is the image.

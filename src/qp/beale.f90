@@ -57,7 +57,7 @@ module wavycon_beale
 
 contains
 
-   !> Solves (Q1). `solution%status` tells how it ended; the number of pivots is limited.
+   !> Solves (Q1). Ends in any case: `solution%status` is one of the statuses of wavycon_qp_problem.
    subroutine solve(self, problem, solution, pivot_limit)
       class(beale_solver), intent(out) :: self
       type(qp_problem), intent(in) :: problem
@@ -262,7 +262,7 @@ contains
    subroutine move_free(table, least_index, step, leaving)
       type(table_type), intent(inout) :: table
       logical, intent(in) :: least_index  !! of slacks that vanish together, take that of the first constraint
-      real(dp), intent(out) :: step       !! fraction of the way to the minimum, 0 .. 1
+      real(dp), intent(out) :: step       !! fraction of the distance to the minimum, 0 .. 1
       integer, intent(out) :: leaving     !! the place in `basic` of the slack that vanishes, 0 if none does
 
       real(dp) :: rates(table%basic_count), slowest, fastest
