@@ -32,10 +32,12 @@ module wavycon_grid_cascade
 
 contains
 
+   !> Solves for one mean pressure, to an accuracy or on a given grid and its coarser ones. The sequence ends early
+   !> where a grid does not fit into memory (`out_of_memory`) or its iteration does not converge (`state%converged`).
    subroutine solve_by_cascade(surface, mean_pressure, accuracy, points, answer, progress)
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: mean_pressure           !! P in (0, 1)
-      real(dp), intent(in) :: accuracy                !! of all three values, absolute; 0 for that of `points` alone
+      real(dp), intent(in) :: accuracy                !! of all three values, absolute, >= 0
       integer, intent(in) :: points(2)                !! of the last grid's whole cell; zeros: the accuracy decides
       type(cascade_answer), intent(out) :: answer
       class(solver_progress), intent(in), optional :: progress   !! is called after each grid

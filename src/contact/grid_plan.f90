@@ -24,7 +24,7 @@ contains
    !> Plans the grids of a surface.
    !>
    !> N.B. A height map is a sum of waves down to twice the step of its own points. Coarser grids leave the shortest
-   !> waves out, and the map's own grid bears them with no points to spare: no change up to there contains their
+   !> waves out, and the map's own grid has only two points to each of them: no change up to there contains their
    !> error. So the first trusted grid has half the step of the map's.
    pure type(grid_plan) function plan_grids(surface, points) result(plan)
       type(surface_type), intent(in) :: surface

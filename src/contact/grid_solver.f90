@@ -3,7 +3,8 @@
 !> Conjugate gradients on the points in contact, whose set is updated in each iteration, after Polonsky & Keer
 !> (Wear 231 (1999) 206-219), with three changes: the residual is preconditioned by the inverse of S, restricted to
 !> the contact; the search is not restarted when the set changes, but uses Polak & Ribiere's factor where that is
-!> positive (restarts take twice the iterations on rough surfaces); and points enter the contact at zero pressure.
+!> positive (restarts take up to 1.5 times the iterations on a rough surface); and points enter the contact at zero
+!> pressure.
 !> On a regular wave seven iterations or so, started from a coarser grid's solution, gain six digits on any grid.
 !> Numbers (C..) are the equations of README.md in this directory.
 !>
@@ -36,7 +37,7 @@ module wavycon_grid_solver
       logical(c_bool), allocatable :: contact(:, :)
       real(dp), allocatable :: residual(:, :)    !! r: the gap in contact, zero outside
       real(dp), allocatable :: direction(:, :)   !! d, of the pressure: zero mean, zero outside the contact
-      real(dp), allocatable :: image(:, :)       !! z, the preconditioned residual; then Sd
+      real(dp), allocatable :: image(:, :)       !! in turn r, z (the preconditioned residual), d and Sd
       integer :: contact_points = 0
       real(dp) :: approach = 1.0_dp              !! of the mean planes, over Delta
       real(dp) :: descent = 1.0_dp               !! (g, z) of the last direction

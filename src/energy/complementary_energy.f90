@@ -1,12 +1,12 @@
 !> Kalker's principle for a wavy surface, as a quadratic programme.
 !>
 !> The pressure p >= 0 of the given mean minimises the complementary energy (Johnson, Greenwood & Higginson 1985,
-!> eqs. 1, 2). In the amplitudes x_k of the Fourier terms that is, to a constant and a factor,
+!> eqs. 1, 2). But for a constant and a factor it is, in the amplitudes x_k of the Fourier terms (E6), (E7),
 !>
 !>     f' = 1/2 sum_k w_k c_k x_k^2 - x_1    (eqs. 17, 26)   with   sum_k x_k t_k >= -P at the points (18, 27),
 !>
 !> w_k the weight, c_k the compliance of term t_k, x_1 the amplitude of the term of the surface's shape.
-!> The unconstrained minimum x_1 = 1 is full contact.
+!> The unconstrained minimum x_1 = 1 is full contact. Numbers (E..) are the equations of README.md in this directory.
 module wavycon_complementary_energy
    use wavycon_constraint_points, only: choose_points, term_values
    use wavycon_fourier_terms, only: fourier_terms
@@ -19,11 +19,11 @@ module wavycon_complementary_energy
 
 contains
 
-   !> The quadratic programme of some terms at zero load: its bounds are b = 0 and move as -P.
+   !> The quadratic programme of some terms at zero load. Its bounds are b = 0, at the load P they are b = -P.
    type(qp_problem) function energy_problem(terms, points_per_side, symmetry) result(problem)
       type(fourier_terms), intent(in) :: terms
       integer, intent(in) :: points_per_side   !! N >= 2 constraint points on [0, pi]
-      integer, intent(in) :: symmetry          !! the terms'
+      integer, intent(in) :: symmetry          !! that of the terms
 
       integer, allocatable :: k(:), l(:)
       integer :: t, n

@@ -1,6 +1,7 @@
-!> The elastic half-space on a periodic grid: displacement from pressure and back.
+!> The elastic half-space on a periodic grid: displacement from pressure and pressure from displacement, eq. (E9) of
+!> README.md in this directory.
 !>
-!> A harmonic of wavelength w has  p = stiffness u/w  (Johnson, Greenwood & Higginson 1985, App. 1).
+!> A harmonic of wavelength w satisfies  p = stiffness u/w  (Johnson, Greenwood & Higginson 1985, App. 1).
 module wavycon_compliance_operator
    use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
@@ -12,7 +13,7 @@ module wavycon_compliance_operator
    public :: compliance_operator
 
    type :: compliance_operator
-      integer :: transform_pairs = 0               !! made so far
+      integer :: transform_pairs = 0               !! number of applications so far
       type(grid_transform) :: transform
       real(dp), private :: stiffness = 1.0_dp
       real(dp), allocatable, private :: square_x(:), square_y(:)   !! squared frequencies of the spectrum's indices
@@ -35,7 +36,7 @@ contains
       self%square_y = surface%frequency(0, self%transform%wave_y)**2
    end subroutine start
 
-   !> From a pressure [p*] to its u - ubar [Delta], in place.
+   !> From a pressure [p*] to its displacement u - ubar [Delta], in place.
    subroutine displacement(self, field)
       class(compliance_operator), intent(inout) :: self
       real(dp), intent(inout), contiguous :: field(:, :)   !! shape (M, N)
@@ -43,7 +44,7 @@ contains
       call apply(self, field, stiff=.false.)
    end subroutine displacement
 
-   !> From a displacement [Delta] to its p - pbar [p*], in place.
+   !> From a displacement [Delta] to its pressure p - pbar [p*], in place.
    subroutine pressure(self, field)
       class(compliance_operator), intent(inout) :: self
       real(dp), intent(inout), contiguous :: field(:, :)   !! shape (M, N)
@@ -80,7 +81,7 @@ contains
          else
             weight = 1.0_dp/(weight*self%stiffness*self%transform%factor)
          end if
-         ! The mean is no part of either field.
+         ! The mean is left out of both fields.
          if (column == 1) weight(1) = 0.0_dp
          if (self%transform%even) then
             self%transform%cosines(:, column) = weight*self%transform%cosines(:, column)

@@ -1,6 +1,6 @@
 !> The points at which the pressure must not be negative.
 !>
-!> N points, equally spaced on [0, pi] with both ends, in each direction: a grid that symmetry cuts down.
+!> N points, equally spaced on [0, pi] with both ends, in each direction: a grid that symmetry reduces.
 !> N = 27 gives the counts of Johnson, Greenwood & Higginson (1985): 729 points, 378 in the triangle
 !> phi + theta <= pi, 196 in the triangle phi <= theta <= pi - phi between the crest, the trough and the saddle.
 module wavycon_constraint_points
@@ -18,7 +18,7 @@ contains
    pure subroutine choose_points(dimension, points_per_side, symmetry, k, l)
       integer, intent(in) :: dimension                !! 1 or 2
       integer, intent(in) :: points_per_side          !! N >= 2
-      integer, intent(in) :: symmetry                 !! as the terms'; no matter in 1-D
+      integer, intent(in) :: symmetry                 !! that of the terms; not used in 1-D
       integer, allocatable, intent(out) :: k(:), l(:) !! in 0 .. N-1; l = 0 in 1-D
 
       integer :: all_k(points_per_side**dimension), all_l(points_per_side**dimension)

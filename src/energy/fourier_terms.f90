@@ -1,9 +1,9 @@
-!> The terms of the pressure's Fourier series that the symmetry of the scene leaves.
+!> The terms of the pressure's Fourier series that symmetry does not make zero or equal.
 !>
 !> 1-D (Johnson, Greenwood & Higginson 1985, eq. 12):  (p - pbar)/p* = sum_i A_i cos(i phi),  i = 1..n.
-!> 2-D (eq. 25):  (p - pbar)/p* = sum_ij A_ij cos(i phi) cos(j theta),  i, j = 0..n,  A_00 = 0, of which
-!>    'none'      keeps all,
-!>    'diagonal'  those with i + j even: phi, theta -> pi - phi, pi - theta changes nothing,
+!> 2-D (eq. 25):  (p - pbar)/p* = sum_ij A_ij cos(i phi) cos(j theta),  i, j = 0..n,  A_00 = 0. The symmetry
+!>    'none'      keeps all terms,
+!>    'diagonal'  keeps those with i + j even: phi, theta -> pi - phi, pi - theta leaves the surface as it is,
 !>    'full'      also sets A_ij = A_ji: one unknown stands for both.
 module wavycon_fourier_terms
    use wavycon_constants, only: sqrt2
@@ -13,7 +13,7 @@ module wavycon_fourier_terms
 
    public :: fourier_terms, choose_terms
 
-   !> What symmetry is used.
+   !> The symmetry that is used.
    integer, parameter, public :: symmetry_none = 0, symmetry_diagonal = 1, symmetry_full = 2
 
    !> Terms k = 1..size(i). Term k is cos(i phi) cos(j theta), and the same with i and j exchanged where `paired`.
@@ -36,7 +36,7 @@ contains
    pure type(fourier_terms) function choose_terms(dimension, harmonics, symmetry) result(terms)
       integer, intent(in) :: dimension  !! 1 or 2
       integer, intent(in) :: harmonics  !! n >= 1
-      integer, intent(in) :: symmetry   !! one of the names above; no matter in 1-D
+      integer, intent(in) :: symmetry   !! one of the names above; not used in 1-D
 
       integer :: i, j, k
       integer :: all_i((harmonics + 1)**2), all_j((harmonics + 1)**2)
@@ -68,8 +68,7 @@ contains
       count_terms = size(self%i)
    end function count_terms
 
-   !> Displacement over pressure of a term, in Delta and p*: 1/i in 1-D (eq. 13), sqrt2/(i^2 + j^2)^1/2 in 2-D
-   !> (A10).
+   !> Displacement over pressure of a term [Delta/p*]: 1/i in 1-D (eq. 13), sqrt2/(i^2 + j^2)^1/2 in 2-D (A10).
    elemental real(dp) function compliance(self, k)
       class(fourier_terms), intent(in) :: self
       integer, intent(in) :: k   !! 1 .. count
@@ -81,8 +80,8 @@ contains
       end if
    end function compliance
 
-   !> Mean square of a term over the cell, over that of the surface's own wave: doubled where i or j is zero (the
-   !> star of eq. 26), doubled where the term stands for two.
+   !> Mean square of a term over the cell, over that of the surface's own wave (E5): doubled where i or j is zero (the
+   !> star of eq. 26), doubled again where the term stands for two.
    elemental real(dp) function weight(self, k)
       class(fourier_terms), intent(in) :: self
       integer, intent(in) :: k   !! 1 .. count

@@ -9,7 +9,7 @@ module wavycon_fourier_series
    public :: fourier_series, cosine_table, evaluate_line, folded
 
    !> f(X, Y) = sum_ij  c_ij cos iX cos jY + cs_ij cos iX sin jY + sc_ij sin iX cos jY + ss_ij sin iX sin jY.
-   !> Even fields, which mirror themselves in X = 0 and Y = 0, have the first sum alone. In 1-D j = 0 alone.
+   !> An even field, f(-X, Y) = f(X, -Y) = f(X, Y), has the first term only. In 1-D j = 0 only.
    type :: fourier_series
       real(dp), allocatable :: c(:, :)   !! shape (0:m, 0:n)
       real(dp), allocatable :: cs(:, :), sc(:, :), ss(:, :)   !! of the same shape; not allocated for an even field
@@ -47,7 +47,7 @@ contains
       end do
    end function at
 
-   !> An even field on a quarter of the cell, at X = pi k/N, Y = pi l/N, k, l = 0..N (l = 0 alone in 1-D).
+   !> An even field on a quarter of the cell, at X = pi k/N, Y = pi l/N, k, l = 0..N (l = 0 only in 1-D).
    pure subroutine evaluate_on_grid(self, intervals, values)
       class(fourier_series), intent(in) :: self
       integer, intent(in) :: intervals                     !! N >= 1
@@ -61,7 +61,7 @@ contains
                         cosine_table(intervals, ubound(self%c, 2)), values)
    end subroutine evaluate_on_grid
 
-   !> Any field on the whole cell, at X = 2 pi k/N, Y = 2 pi l/N, k, l = 0..N (l = 0 alone in 1-D).
+   !> Any field on the whole cell, at X = 2 pi k/N, Y = 2 pi l/N, k, l = 0..N (l = 0 only in 1-D).
    pure subroutine evaluate_on_cell(self, intervals, values)
       class(fourier_series), intent(in) :: self
       integer, intent(in) :: intervals                     !! N >= 1
@@ -112,8 +112,8 @@ contains
                  y, size(y, 1), 1.0_dp, values, size(x, 1))
    end subroutine add_products
 
-   !> cos(i pi k/N), k = 0..N, i = 0..n. The angle is reduced in whole numbers, so that the symmetries of the cosine
-   !> hold to the last bit and high harmonics are as exact as low ones.
+   !> cos(i pi k/N), k = 0..N, i = 0..n. The angle is reduced in integers, so that the symmetries of the cosine hold to
+   !> the last bit and high harmonics are as accurate as low ones.
    pure function cosine_table(intervals, harmonics) result(table)
       integer, intent(in) :: intervals   !! N >= 1
       integer, intent(in) :: harmonics   !! n >= 0
@@ -136,8 +136,7 @@ contains
       end do
    end function cosine_table
 
-   !> The node of 0..N, phi = pi k/N, at which an even field has the value that it has at any node of the whole
-   !> line.
+   !> The node of 0..N, phi = pi k/N, at which an even field has the same value as at any given node of the line.
    elemental integer function folded(k, intervals)
       integer, intent(in) :: k, intervals
 

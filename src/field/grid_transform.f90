@@ -1,8 +1,8 @@
-!> Fields on the points of a grid and their waves, by FFTW.
+!> Fourier transforms of fields on the points of a grid, by FFTW.
 !>
-!> An even field, which mirrors itself in X = 0 and Y = 0, is known by a quarter of its cell: M x N points at X = pi
-!> (i - 1/2)/M, Y = pi (j - 1/2)/N and a sum of cosines (DCT-II and III). Any other has M x N points on its whole
-!> cell, at X = 2 pi (i - 1)/M, Y = 2 pi (j - 1)/N. N = 1 is a field in one dimension.
+!> An even field, f(-X, Y) = f(X, -Y) = f(X, Y), is given on a quarter of its cell: M x N points at
+!> X = pi (i - 1/2)/M, Y = pi (j - 1/2)/N, and is a sum of cosines (DCT-II and III). Any other field is given at M x N
+!> points of its whole cell, X = 2 pi (i - 1)/M, Y = 2 pi (j - 1)/N. N = 1 for a field in one dimension.
 module wavycon_grid_transform
    use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_double_complex, c_int, c_null_ptr, c_ptr
    use wavycon_constants, only: pi
@@ -15,12 +15,12 @@ module wavycon_grid_transform
    implicit none (type, external)
    private
 
-   public :: grid_transform
+   public :: grid_transform, point_angle
 
    type :: grid_transform
       integer :: points(2) = 0                     !! M, N
       logical :: even = .true.
-      real(dp) :: factor = 1.0_dp                  !! by which there and back multiplies a field
+      real(dp) :: factor = 1.0_dp                  !! `forward` and then `backward` multiply a field by it
       integer, allocatable :: wave_x(:), wave_y(:) !! wave numbers of the spectrum's first and second index
       real(c_double), allocatable :: cosines(:, :)            !! spectrum of an even field, shape (M, N)
       complex(c_double_complex), allocatable :: waves(:, :)   !! spectrum of any other, shape (M/2 + 1, N)
@@ -49,7 +49,7 @@ contains
       self%points = points
       self%even = even
       call use_threads_for_transforms(points(1)*points(2))
-      ! The plans are made from the arrays' sizes and places in memory: their contents are not touched.
+      ! FFTW_ESTIMATE plans from the sizes and the alignment of the arrays and leaves their contents as they are.
       associate (m => points(1), n => points(2), rows => int(points(2), c_int), columns => int(points(1), c_int))
          allocate (field(m, n))
          if (even) then
@@ -72,7 +72,7 @@ contains
       end associate
    end subroutine start
 
-   !> From a field to its spectrum, `cosines` or `waves`.
+   !> Transforms a field to its spectrum, `cosines` or `waves`.
    subroutine forward(self, field)
       class(grid_transform), intent(inout) :: self
       real(c_double), intent(inout), contiguous :: field(:, :)   !! shape (M, N); kept
@@ -87,7 +87,7 @@ contains
       end if
    end subroutine forward
 
-   !> From the spectrum, which is lost, to `factor` times its field.
+   !> Transforms the spectrum, which is overwritten, to `factor` times its field.
    subroutine backward(self, field)
       class(grid_transform), intent(inout) :: self
       real(c_double), intent(out), contiguous :: field(:, :)   !! shape (M, N)
@@ -105,7 +105,7 @@ contains
 
    subroutine execute(self, field, forwards)
       type(grid_transform), intent(inout) :: self
-      real(c_double), intent(inout), contiguous :: field(:, :)   !! where FFTW's vectors may start
+      real(c_double), intent(inout), contiguous :: field(:, :)   !! aligned as the plan's arrays
       logical, intent(in) :: forwards
 
       if (self%even .and. forwards) then
@@ -119,7 +119,7 @@ contains
       end if
    end subroutine execute
 
-   !> The series that takes the values of a field on the points.
+   !> The series that interpolates a field at the points.
    subroutine series(self, field, answer)
       class(grid_transform), intent(inout) :: self
       real(c_double), intent(inout), contiguous :: field(:, :)   !! shape (M, N); kept
@@ -142,7 +142,7 @@ contains
       allocate (answer%c(0:m/2, 0:n/2), answer%cs(0:m/2, 0:n/2), answer%sc(0:m/2, 0:n/2), answer%ss(0:m/2, 0:n/2))
       do l = 0, n/2
          do k = 0, m/2
-            ! Of e^(i(kX + lY)) and e^(i(kX - lY)), which are one where l = 0 and where no other point could tell.
+            ! Of e^(i(kX + lY)) and e^(i(kX - lY)), which are equal for l = 0, and at all points for 2l = N.
             weight = merge(1.0_dp, 2.0_dp, k == 0 .or. 2*k == m)/(real(m, dp)*n)
             up = weight*self%waves(k + 1, l + 1)
             down = 0.0_dp
@@ -159,10 +159,10 @@ contains
       end do
    end subroutine series
 
-   !> A series on the points. Waves shorter than the grid can carry are left out.
+   !> The values of a series at the points. Waves beyond the grid's highest wave number are left out.
    subroutine sample(self, from, field)
       class(grid_transform), intent(inout) :: self
-      type(fourier_series), intent(in) :: from                     !! even, for the points of a quarter
+      type(fourier_series), intent(in) :: from                     !! even, if the points are those of a quarter
       real(c_double), intent(out), contiguous :: field(:, :)       !! shape (M, N)
 
       complex(dp) :: even_part, odd_part
@@ -210,7 +210,7 @@ contains
       class(grid_transform), intent(in) :: self
       integer, intent(in) :: i
 
-      x_angle = merge(pi*(i - 0.5_dp), 2*pi*(i - 1), self%even)/self%points(1)
+      x_angle = point_angle(i, self%points(1), self%even)
    end function x_angle
 
    !> Y of the points with second index j [rad].
@@ -218,8 +218,17 @@ contains
       class(grid_transform), intent(in) :: self
       integer, intent(in) :: j
 
-      y_angle = merge(pi*(j - 0.5_dp), 2*pi*(j - 1), self%even)/self%points(2)
+      y_angle = point_angle(j, self%points(2), self%even)
    end function y_angle
+
+   !> The angle of a point of the grid, or of its continuation, in one direction [rad].
+   elemental real(dp) function point_angle(i, points, even)
+      integer, intent(in) :: i         !! any
+      integer, intent(in) :: points    !! M or N, >= 1
+      logical, intent(in) :: even      !! whether the points are those of a quarter of the cell
+
+      point_angle = merge(pi*(i - 0.5_dp), 2*pi*(i - 1), even)/points
+   end function point_angle
 
    subroutine finish(self)
       type(grid_transform), intent(inout) :: self

@@ -1,7 +1,7 @@
-!> Even fields of a square lattice in axes turned by 45 degrees.
+!> Even fields of a square lattice in axes turned by 45 degrees: X = phi + theta, Y = phi - theta.
 !>
-!> X = phi + theta, Y = phi - theta. A field that is even in both pairs of angles, and in each alike in the two, is
-!> a sum of cos iX cos jY + cos jX cos iY = cos(i+j)phi cos(i-j)theta + cos(i-j)phi cos(i+j)theta.
+!> A field that is even in both pairs of angles, and does not change when the two angles of a pair are exchanged, is a
+!> sum of cos iX cos jY + cos jX cos iY = cos(i+j)phi cos(i-j)theta + cos(i-j)phi cos(i+j)theta.
 module wavycon_turned_series
    use wavycon_fourier_series, only: fourier_series
    use wavycon_kinds, only: dp
@@ -14,19 +14,19 @@ contains
 
    !> From X and Y, the angles of the primitive cell, to phi and theta, those of a cell of twice its area.
    pure type(fourier_series) function to_half_angles(series) result(turned)
-      type(fourier_series), intent(in) :: series   !! in X and Y, alike in both
+      type(fourier_series), intent(in) :: series   !! in X and Y, the same with both exchanged
 
       turned = rearranged(series, 1, sum(ubound(series%c)))
    end function to_half_angles
 
-   !> From phi and theta to X and Y, which takes a field that is also alike at (0, 0) and (pi, pi).
+   !> From phi and theta to X and Y, of a field that has the period (pi, pi) too.
    pure type(fourier_series) function to_sum_angles(series) result(turned)
-      type(fourier_series), intent(in) :: series   !! in phi and theta: terms of odd i + j are zero, or rounding
+      type(fourier_series), intent(in) :: series   !! in phi and theta; terms with odd i + j are zero but for rounding
 
       turned = rearranged(series, 2, sum(ubound(series%c))/2)
    end function to_sum_angles
 
-   !> The terms (i, j) at ((i+j)/d, |i-j|/d) and the other way round.
+   !> The terms (i, j) as terms ((i+j)/d, |i-j|/d) and (|i-j|/d, (i+j)/d), half each.
    pure type(fourier_series) function rearranged(series, divisor, last) result(turned)
       type(fourier_series), intent(in) :: series
       integer, intent(in) :: divisor, last   !! d; the highest harmonic of the result

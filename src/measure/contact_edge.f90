@@ -1,7 +1,7 @@
-!> The edge of contact on a grid of points, of which some are in contact and some not.
+!> The edge of contact on a grid of points, of which some are in contact and some are not.
 !>
-!> Where it crosses a line between two neighbouring points, and how it runs there, is for the extensions to say: an
-!> isobar of a series, or the edge that a solution on the grid itself has.
+!> The extensions compute where the edge crosses the line between two neighbouring points, and its direction there:
+!> as an isobar of a series, or from a solution on the grid itself.
 module wavycon_contact_edge
    use wavycon_kinds, only: dp
    implicit none (type, external)
@@ -13,11 +13,11 @@ module wavycon_contact_edge
    type :: edge_point
       logical :: exists = .false.
       real(dp) :: phi = 0.0_dp, theta = 0.0_dp       !! [rad], in the plane
-      real(dp) :: p_phi = 0.0_dp, p_theta = 0.0_dp   !! across the edge into the contact; zero if not known
+      real(dp) :: p_phi = 0.0_dp, p_theta = 0.0_dp   !! gradient, into the contact; zero if not known
    end type edge_point
 
-   !> Points (k, l) of the whole plane; a cell has the name of its lower left point. Its sides are numbered against
-   !> the clock: 1 from (k, l) to (k+1, l), 2 up, 3 back, 4 down.
+   !> Points (k, l) of the whole plane; a cell has the numbers of its lower left point. Its sides are numbered
+   !> counter-clockwise: 1 from (k, l) to (k+1, l), 2 up, 3 back, 4 down.
    type, abstract :: contact_edge
       integer :: period(2) = 1   !! points to a period of phi and theta
    contains
@@ -35,7 +35,7 @@ module wavycon_contact_edge
          integer, intent(in) :: k, l
       end function point_in_contact
 
-      !> Where a point is.
+      !> The angles of a point.
       pure subroutine angles_of_point(self, k, l, phi, theta)
          import :: contact_edge, dp
          class(contact_edge), intent(in) :: self
@@ -52,14 +52,14 @@ module wavycon_contact_edge
       end function edge_on_side
    end interface
 
-   !> From the lower left point of a cell to the first point of each side; the fifth is the first again.
+   !> Steps from the lower left point of a cell to the first point of each side; the fifth side is the first again.
    integer, parameter, public :: corner_k(5) = [0, 1, 1, 0, 0], corner_l(5) = [0, 0, 1, 1, 0]
 
 contains
 
-   !> The area of a cell in contact [rad^2]. Between two points of the edge it is taken as the cubic curve with the
-   !> directions there, or straight where they are not known. In a cell that the edge enters twice the parts in
-   !> contact are taken as joined.
+   !> The area in contact of one cell [rad^2]. Between two points of the edge the edge is the cubic curve with the
+   !> directions there, or straight where they are not known. In a cell that the edge enters twice the two parts in
+   !> contact are taken as connected.
    pure real(dp) function cell_area(self, k, l) result(area)
       class(contact_edge), intent(in) :: self
       integer, intent(in) :: k, l
@@ -90,7 +90,7 @@ contains
          points(count + 1) = self%side(k, l, number)
          if (points(count + 1)%exists) then
             count = count + 1
-            ! The contact is left behind if the corner before this side is in it.
+            ! Along this side the boundary leaves the contact if its first corner is in contact.
             leaves(count) = corners(number)
          end if
       end do
@@ -102,12 +102,12 @@ contains
       end do
    end function cell_area
 
-   !> Area between the chord from one point of the edge to the next and the cubic curve, on the side of the contact
-   !> (to the left).
+   !> Area between the chord from one point of the edge to the next and the cubic curve, on the side of the contact,
+   !> which is on the left.
    pure real(dp) function lens(from, to)
       type(edge_point), intent(in) :: from, to
 
-      real(dp), parameter :: steepest = 3.0_dp   ! a curve steeper than this against its chord is not resolved
+      real(dp), parameter :: steepest = 3.0_dp   ! a curve steeper than this against its chord is not resolved: straight
       real(dp) :: c_phi, c_theta, slopes(2)
 
       c_phi = to%phi - from%phi

@@ -1,4 +1,4 @@
-!> The numbers of the summary: mean gap, contact area and pressures.
+!> The numbers of a solution's summary: mean gap, contact area and extreme pressures.
 module wavycon_contact_measures
    use wavycon_constants, only: pi
    use wavycon_fourier_series, only: fourier_series
@@ -17,12 +17,12 @@ module wavycon_contact_measures
       real(dp) :: contact_area_fraction = 0.0_dp         !! of the nominal area; 1 by definition from P = 1 on
       real(dp) :: peak_pressure_over_pstar = 0.0_dp      !! largest
       real(dp) :: min_pressure_over_pstar = 0.0_dp       !! smallest; negative between the points of a series
-      real(dp) :: mean_gap_error = 0.0_dp                !! estimated error of the mean gap, in its unit
-      real(dp) :: contact_area_error = 0.0_dp            !! likewise
-      real(dp) :: peak_pressure_error = 0.0_dp           !! likewise
+      real(dp) :: mean_gap_error = 0.0_dp                !! error estimate of the mean gap, in its unit
+      real(dp) :: contact_area_error = 0.0_dp            !! likewise of the contact area
+      real(dp) :: peak_pressure_error = 0.0_dp           !! likewise of the peak pressure
    end type contact_measures
 
-   !> Grid intervals on half a wavelength for areas and extremes, per harmonic and at least.
+   !> Grid intervals on half a wavelength for areas and extremes: so many a harmonic, and at least so many.
    integer, parameter :: intervals_per_harmonic = 8, least_intervals = 64
 
 contains
@@ -45,8 +45,8 @@ contains
                                   min_pressure_over_pstar=pbar_over_pstar - 1.0_dp)
    end function full_contact_measures
 
-   !> What errors of mean gap [Delta], contact area fraction and peak pressure [p*] cannot exceed, so that they
-   !> stand where nothing else is known: all are between zero and one, or the peak of just full contact.
+   !> The largest errors that mean gap [Delta], contact area fraction and peak pressure [p*] can have, given where there
+   !> is no estimate: the values lie between zero and one, the peak below that of just full contact.
    pure function largest_errors(largest) result(errors)
       real(dp), intent(in) :: largest   !! p - P in full contact [p*], of the waves of the paper 1
       real(dp) :: errors(3)
@@ -54,7 +54,7 @@ contains
       errors = [1.0_dp, 1.0_dp, 1.0_dp + largest]
    end function largest_errors
 
-   !> The measures where there is no answer.
+   !> The measures where there is no solution: zeros with the largest errors.
    pure type(contact_measures) function unmeasured(largest) result(measures)
       real(dp), intent(in) :: largest   !! as of largest_errors
 
@@ -65,14 +65,15 @@ contains
                                   peak_pressure_error=errors(3))
    end function unmeasured
 
-   !> Measures the series of a pressure and its displacement. The edge of contact is the isobar p = edge_level p*.
+   !> Measures the series of a pressure and its displacement, eqs. (19), (28) of Johnson, Greenwood & Higginson (1985).
+   !> The edge of contact is the isobar p = edge_level p*.
    subroutine measure_series(pressure, displacement, edge_level, measures)
       type(fourier_series), intent(in) :: pressure       !! p/p*
       type(fourier_series), intent(in) :: displacement   !! (u - ubar)/Delta
       real(dp), intent(in) :: edge_level                !! over p*
       type(contact_measures), intent(out) :: measures
 
-      ! The crest, phi = theta = 0, is in contact: it approaches by its own displacement.
+      ! The crest, phi = theta = 0, is in contact and h = 0 there: the approach is the displacement.
       measures%approach_over_amplitude = sum(displacement%c)
       measures%mean_gap_over_amplitude = 1.0_dp - measures%approach_over_amplitude
       if (size(pressure%c, 2) == 1) then

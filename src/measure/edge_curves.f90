@@ -8,10 +8,10 @@ module wavycon_edge_curves
 
    public :: edge_curve, strip_ends, trace_edges, turn_curves, whole_strips
 
-   !> A curve with the contact on its left. Its last point repeats the first, but for a curve that runs
-   !> through the whole plane: that ends one period on.
+   !> A curve with the contact on its left. Its last point is the first again; that of a curve through the whole plane
+   !> is one period on.
    type :: edge_curve
-      real(dp), allocatable :: phi(:), theta(:)   !! [rad]; not reduced to one cell: the curve is of one piece
+      real(dp), allocatable :: phi(:), theta(:)   !! [rad], not reduced to one cell, so that the curve does not jump
    end type edge_curve
 
 contains
@@ -38,8 +38,8 @@ contains
       end do
    end subroutine trace_edges
 
-   !> The strips of a 1-D contact that lie between some edges in 0..pi, as curves of two points each. Where the
-   !> crest is in contact the first edge and its mirror image bound the strip about it.
+   !> The strips of a 1-D contact between its edges in 0..pi, as curves of two points each. If the crest is in contact
+   !> the first edge and its mirror image bound the strip about it.
    pure subroutine strip_ends(edges, crest_in_contact, curves)
       real(dp), intent(in) :: edges(:)             !! ascending [rad]
       logical, intent(in) :: crest_in_contact
@@ -58,7 +58,7 @@ contains
       end do
    end subroutine strip_ends
 
-   !> Curves in axes turned by 45 degrees: factor times the sum and the difference of the angles.
+   !> Transforms curves to axes turned by 45 degrees: factor times the sum and the difference of the angles.
    pure subroutine turn_curves(curves, factor)
       type(edge_curve), intent(inout) :: curves(:)
       real(dp), intent(in) :: factor
@@ -68,7 +68,7 @@ contains
 
       do i = 1, size(curves)
          associate (x => curves(i)%phi, y => curves(i)%theta)
-            ! Turned round as well, as the new axes are mirrored against the old: the contact stays on the left.
+            ! The new axes mirror the old ones: the points are reversed, so that the contact stays on the left.
             turned = factor*(x(size(x):1:-1) + y(size(y):1:-1))
             y = factor*(x(size(x):1:-1) - y(size(y):1:-1))
             x = turned
@@ -122,7 +122,7 @@ contains
          if (seen(number, wrapped_k, wrapped_l)) exit
          seen(number, wrapped_k, wrapped_l) = .true.
 
-         ! Inside the cell the curve ends on the next edge with a crossing, against the clock (see cell_area).
+         ! The curve leaves the cell through the next side, counter-clockwise, that the edge crosses (see cell_area).
          do
             number = mod(number, 4) + 1
             point = edge%side(k, l, number)
@@ -136,8 +136,8 @@ contains
       allocate (curve%theta, source=theta(:count))
    end subroutine trace
 
-   !> Whether the contact is left along a side of a cell, followed against the clock: a curve with the contact on
-   !> its left enters the cell there.
+   !> Whether the boundary of a cell, followed counter-clockwise, leaves the contact along a side: a curve with the
+   !> contact on its left enters the cell there.
    pure logical function leaves_contact(edge, k, l, number)
       class(contact_edge), intent(in) :: edge
       integer, intent(in) :: k, l, number

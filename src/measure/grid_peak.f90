@@ -1,25 +1,38 @@
-!> The largest pressure of a solution on a grid, between its points.
+!> The largest pressure of a solution on a grid, between its points: eq. (C13) of src/contact/README.md.
 module wavycon_grid_peak
    use wavycon_grid_edge, only: grid_edge
+   use wavycon_hill, only: hill
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
 
    public :: grid_peak_pressure
 
-   !> The polynomial goes through so many points each way, about the step that holds the peak.
+   !> Points of the polynomial each way: the peak lies on the step from 0 to 1.
    integer, parameter :: first = -2, last = 3
+
+   !> The polynomial through 6 x 6 pressures, in steps of the grid. In 1-D all lines are equal.
+   type, extends(hill) :: peak_polynomial
+      real(dp) :: values(first:last, first:last) = 0.0_dp
+      logical :: in_plane = .true.
+   contains
+      procedure :: height
+      procedure :: derivatives
+   end type peak_polynomial
 
 contains
 
-   !> By the polynomial through the points about the largest pressure. At a crest of symmetry that lies midway
-   !> between points it is even.
+   !> The maximum of the polynomial through the points about the largest pressure. At a crest on a mirror line, which
+   !> lies midway between points, the polynomial is even.
    pure subroutine grid_peak_pressure(edge, peak, resolved)
       type(grid_edge), intent(in) :: edge
       real(dp), intent(out) :: peak        !! in the unit of the edge's pressure
       logical, intent(out) :: resolved     !! whether all of these points are in contact
 
-      real(dp) :: values(first:last, first:last), t(2)
+      !> The search leaves the step of the peak by no more than half a step.
+      real(dp), parameter :: margin = 0.5_dp
+      type(peak_polynomial) :: field
+      real(dp) :: place(2)
       integer :: base(2), best(2), i, j, lines
 
       lines = size(edge%pressure_or_gap, 2)
@@ -27,18 +40,18 @@ contains
       base = best
       base(1) = merge(base(1) - 1, base(1), at(base(1) - 1, base(2)) > at(base(1) + 1, base(2)))
       if (lines > 1) base(2) = merge(base(2) - 1, base(2), at(base(1), base(2) - 1) > at(base(1), base(2) + 1))
+      field = peak_polynomial(least=-margin, most=1.0_dp + margin, in_plane=lines > 1)
       do j = first, last
          do i = first, last
-            values(i, j) = at(base(1) + i, merge(base(2) + j, 1, lines > 1))
+            field%values(i, j) = at(base(1) + i, merge(base(2) + j, 1, lines > 1))
          end do
       end do
-      resolved = all(values > 0.0_dp)
-      values = max(values, 0.0_dp)
-      peak = max(maxval(values), 0.0_dp)
+      resolved = all(field%values > 0.0_dp)
+      peak = max(maxval(field%values), 0.0_dp)
       if (.not. resolved) return
-      t = best - base
-      call climb(values, lines > 1, t)
-      peak = max(peak, polynomial(values, t, 0, 0))
+      place = best - base
+      call field%climb(place)
+      peak = max(peak, field%height(place))
 
    contains
 
@@ -50,33 +63,25 @@ contains
 
    end subroutine grid_peak_pressure
 
-   !> Newton's method, a little short of it so that it also climbs to a crest that is the same all along a line.
-   pure subroutine climb(values, in_plane, t)
-      real(dp), intent(in) :: values(first:last, first:last)
-      logical, intent(in) :: in_plane
-      real(dp), intent(inout) :: t(2)   !! 0..1, from one point to the next
+   pure real(dp) function height(self, place)
+      class(peak_polynomial), intent(in) :: self
+      real(dp), intent(in) :: place(2)
 
-      integer, parameter :: most_steps = 10
-      real(dp), parameter :: short = 1e-3_dp
-      real(dp) :: determinant, g(2), h(3), next(2)
-      integer :: i
+      height = polynomial(self%values, place, 0, 0)
+   end function height
 
-      do i = 1, most_steps
-         g = [polynomial(values, t, 1, 0), 0.0_dp]
-         h = [polynomial(values, t, 2, 0), 0.0_dp, 0.0_dp]
-         if (in_plane) then
-            g(2) = polynomial(values, t, 0, 1)
-            h(2:3) = [polynomial(values, t, 1, 1), polynomial(values, t, 0, 2)]
-         end if
-         h([1, 3]) = h([1, 3]) - short*maxval(abs(h))
-         determinant = h(1)*h(3) - h(2)**2
-         if (.not. (determinant > 0.0_dp .and. h(1) < 0.0_dp)) return
-         next = t - [h(3)*g(1) - h(2)*g(2), h(1)*g(2) - h(2)*g(1)]/determinant
-         next = min(max(next, -0.5_dp), 1.5_dp)
-         if (.not. polynomial(values, next, 0, 0) > polynomial(values, t, 0, 0)) return
-         t = next
-      end do
-   end subroutine climb
+   pure subroutine derivatives(self, place, gradient, hessian)
+      class(peak_polynomial), intent(in) :: self
+      real(dp), intent(in) :: place(2)
+      real(dp), intent(out) :: gradient(2), hessian(3)
+
+      gradient = [polynomial(self%values, place, 1, 0), 0.0_dp]
+      hessian = [polynomial(self%values, place, 2, 0), 0.0_dp, 0.0_dp]
+      hessian(3) = hessian(1)
+      if (.not. self%in_plane) return
+      gradient(2) = polynomial(self%values, place, 0, 1)
+      hessian(2:3) = [polynomial(self%values, place, 1, 1), polynomial(self%values, place, 0, 2)]
+   end subroutine derivatives
 
    !> The polynomial through the values, or a derivative of it.
    pure real(dp) function polynomial(values, t, order_x, order_y)

@@ -1,9 +1,9 @@
 !> The isobar p = level of a pressure series as the edge of contact.
 !>
-!> The grid has N intervals on [0, pi] in phi and theta; the series is even and periodic, so that any cell of the
-!> plane is the image of one of these. Where the isobar crosses a grid line the point is solved for exactly, with
-!> the gradient of the pressure there. Between two crossings the curve is taken as the cubic through both with its
-!> tangents: areas are then good to the fourth power of the grid's step, not the second as for a polygon.
+!> The grid has N intervals on [0, pi] in phi and theta. The series is even and periodic, so every cell of the plane is
+!> the image of one of these. Where the isobar crosses a grid line the point is solved for to rounding, and the gradient
+!> of the pressure is computed there. Between two crossings the curve is the cubic through both with its tangents. The
+!> error of areas then falls as the fourth power of the step; with a polygon it would fall as the second.
 module wavycon_isobar_grid
    use wavycon_constants, only: pi
    use wavycon_contact_edge, only: contact_edge, edge_point
@@ -18,7 +18,7 @@ module wavycon_isobar_grid
 
    type, extends(contact_edge) :: isobar_grid
       integer :: intervals = 0                           !! N
-      real(dp), allocatable :: pressure(:, :)            !! minus the level, at the nodes, shape (0:N, 0:N)
+      real(dp), allocatable :: pressure(:, :)            !! p - level at the nodes, shape (0:N, 0:N)
       real(dp), allocatable :: along_phi(:, :)           !! series in phi on the line theta_l, shape (0:n, 0:N)
       real(dp), allocatable :: along_phi_slope(:, :)     !! its derivative across the line
       real(dp), allocatable :: along_theta(:, :)         !! series in theta on the line phi_k, shape (0:n, 0:N)
@@ -162,7 +162,7 @@ contains
       area_fraction = area/pi**2
    end function area_fraction
 
-   !> -1 where folding turns a derivative round.
+   !> The sign of a derivative after `folded`: -1 on the mirror image.
    elemental real(dp) function mirrored(k, intervals)
       integer, intent(in) :: k, intervals
 

@@ -10,7 +10,7 @@ module wavycon_line_zeros
 
 contains
 
-   !> All zeros between 0 and pi, in ascending order, of which no two lie in one interval of a grid.
+   !> The zeros between 0 and pi, ascending: those of the intervals of a grid at whose ends the signs differ.
    pure subroutine line_zeros(c, intervals, zeros)
       real(dp), intent(in) :: c(0:)                        !! sum_i c_i cos(i x), shape (0:n)
       integer, intent(in) :: intervals                     !! of the grid
@@ -32,7 +32,7 @@ contains
       allocate (zeros, source=found(:count))
    end subroutine line_zeros
 
-   !> The length of the parts of a range that are inside, given where inside and outside change.
+   !> The total length of the parts of a range that are inside, given the places where inside and outside change.
    pure real(dp) function length_inside(edges, starts_inside, first, last) result(length)
       real(dp), intent(in) :: edges(:)          !! ascending [rad]
       logical, intent(in) :: starts_inside
@@ -58,10 +58,10 @@ contains
    pure subroutine zero_between(c, start, step, at_start, at_end, x, slope)
       real(dp), intent(in) :: c(0:)                 !! shape (0:n)
       real(dp), intent(in) :: start, step           !! bracket [start, start + step]
-      real(dp), intent(in) :: at_start, at_end      !! values there, of unlike sign
+      real(dp), intent(in) :: at_start, at_end      !! values there, of opposite sign
       real(dp), intent(out) :: x, slope             !! the zero and the derivative there
 
-      integer, parameter :: most_iterations = 60   ! bisection alone would be through by then
+      integer, parameter :: most_iterations = 60   ! enough for bisection alone
       real(dp) :: left, right, value, newton
       integer :: iteration
 

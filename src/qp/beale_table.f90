@@ -1,15 +1,15 @@
-!> Beale's table: the objective and the basic slacks of a quadratic programme written in its non-basic variables,
-!> and the two exchanges of variables.
+!> Beale's table: the objective and the basic slacks of a quadratic programme in terms of its non-basic variables, and
+!> the two exchanges of variables. Numbers (Q..) are the equations of README.md in this directory.
 !>
 !> The non-basic variables are active slacks z >= 0 and variables y that are free of sign. At the table's point all
-!> of them are zero, and
+!> of them are zero, and (Q6), (Q7)
 !>
 !>     F = f + g'z + 1/2 z'Hz + e'y + 1/2 y'y,    s = a + A z + B y.
 !>
-!> N.B. Beale's free variables come one from each exchange (b) and every exchange (a) couples them again. As any
-!> combinations of them serve as well, here they are kept conjugate to each other and to the active slacks (hence
-!> the plain y'y) by a Householder reflection in exchange (a): all of them can then be changed together. A free
-!> variable that becomes basic can never matter again and is dropped, as he does.
+!> N.B. Each exchange (b) adds one of Beale's free variables, and each exchange (a) couples them again. Any basis of
+!> the same space serves as well. Here the free variables are kept conjugate, to each other and to the active slacks
+!> (hence the plain y'y), by a Householder reflection in exchange (a), so that all can be changed together. A free
+!> variable that becomes basic never limits a step and is dropped, as in Beale's method.
 module wavycon_beale_table
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgemm, dgemv, dger, dlarfg, dsymv, dsyr, dtrtri
@@ -20,14 +20,13 @@ module wavycon_beale_table
 
    public :: table_type
 
-   !> A derivative counts as zero when removing it would lower the objective by less than the square of this
-   !> fraction of what the unconstrained minimum does: the rounding of a table just made.
+   !> A derivative counts as zero if it is less than this fraction of that at x = 0, both over the root of the second
+   !> derivative: the rounding of a table just made.
    real(dp), parameter :: derivative_tolerance = 64*epsilon(1.0_dp)
 
-   !> An exchange that leaves less than this fraction of a diagonal element of H leaves too few of its digits.
+   !> An exchange must leave this fraction of each diagonal element of H: with less, too few of its digits are left.
    real(dp), parameter :: least_remainder = 1e-10_dp
 
-   !> The objective and the basic slacks, written in the non-basic variables.
    type :: table_type
       integer :: active_count = 0             !! k, number of active slacks; there are n - k free variables
       integer :: basic_count = 0              !! number of basic slacks
@@ -38,10 +37,10 @@ module wavycon_beale_table
       real(dp), allocatable :: values(:)      !! a, values(1:basic_count)
       real(dp), allocatable :: rows(:, :)     !! (A, B), shape (m, n): row i of basic slack i, columns as `gradient`
       real(dp) :: zero_descent = 0.0_dp       !! |dF/dz|/sqrt(d2F/dz2) below this is rounding
-      integer :: excluded = 0                 !! constraint that the active ones seem to exclude, where there is one
-      real(dp), allocatable :: weights(:)     !! of the active constraints: their sum is the opposite of its normal
-      logical :: drifted = .false.            !! digits of H were lost by cancellation: to be made afresh
-      logical :: may_drift = .false.          !! lost digits are put up with, as long as H stays positive
+      integer :: excluded = 0                 !! constraint that the active ones seem to exclude; 0 if there is none
+      real(dp), allocatable :: weights(:)     !! of the active normals, whose weighted sum is minus the excluded one's
+      logical :: drifted = .false.            !! an exchange was refused as it would lose digits: make the table afresh
+      logical :: accept_drift = .false.       !! allow such exchanges as long as H stays positive
    contains
       procedure :: start
       procedure :: rebuild
@@ -55,7 +54,7 @@ module wavycon_beale_table
 
 contains
 
-   !> The table at x = 0: x = Jy, J'DJ = I.
+   !> The table at x = 0, (Q8) without active constraints: x = Jy, J'DJ = I.
    subroutine start(table, problem, set)
       class(table_type), intent(out) :: table
       type(qp_problem), intent(in) :: problem
@@ -74,7 +73,7 @@ contains
       table%zero_descent = derivative_tolerance*norm2(table%gradient)
    end subroutine start
 
-   !> Moves the bounds; the active slacks stay zero. With z = z' + change the point moves with the active ones.
+   !> Changes the bounds (Q11). The active slacks stay zero: the table's point moves with their constraints.
    subroutine move_bounds(table, change)
       class(table_type), intent(inout) :: table
       real(dp), intent(in) :: change(:)   !! of all bounds, shape (m)
@@ -91,11 +90,11 @@ contains
       call dgemv('N', m_basic, k, 1.0_dp, table%rows, m, shift, 1, 1.0_dp, table%values, 1)
    end subroutine move_bounds
 
-   !> The active slack whose growth lowers the objective fastest, measured by |dF/dz|/sqrt(d2F/dz2) so that no unit
-   !> matters; 0 if none does.
+   !> The active slack whose growth lowers the objective most, measured by |dF/dz|/sqrt(d2F/dz2), which has no unit of
+   !> z; 0 if there is none.
    pure integer function steepest_slack(table, least_index) result(steepest)
       class(table_type), intent(in) :: table
-      logical, intent(in) :: least_index    !! the one of the first constraint that lowers it at all, instead
+      logical, intent(in) :: least_index    !! take the first constraint that lowers it at all instead
 
       real(dp) :: descent, largest
       integer :: i
@@ -104,7 +103,7 @@ contains
       largest = table%zero_descent
       do i = 1, table%active_count
          if (table%gradient(i) >= 0.0_dp) cycle
-         if (table%hessian(i, i) <= 0.0_dp) cycle  ! lost to rounding; a table made afresh will have it
+         if (table%hessian(i, i) <= 0.0_dp) cycle  ! rounding only; positive in a table made afresh
          descent = -table%gradient(i)/sqrt(table%hessian(i, i))
          if (descent <= largest) cycle
          if (least_index) then
@@ -136,7 +135,7 @@ contains
       end if
    end subroutine free_rates
 
-   !> Changes the free variables to the minimum on the active constraints, whatever becomes of the basic slacks.
+   !> Changes the free variables to the minimum on the active constraints. Basic slacks may become negative.
    subroutine move_to_minimum(table)
       class(table_type), intent(inout) :: table
 
@@ -149,7 +148,7 @@ contains
       end associate
    end subroutine move_to_minimum
 
-   !> Exchange (a): a basic slack that has reached zero becomes active in the place of a free variable.
+   !> Exchange (a), (Q9): a basic slack that has reached zero becomes active in the place of a free variable.
    subroutine exchange_with_slack(table, leaving)
       class(table_type), intent(inout) :: table
       integer, intent(in) :: leaving   !! place in `basic`
@@ -170,7 +169,7 @@ contains
       table%rows(leaving, :) = table%rows(last, :)
       table%basic_count = last - 1
 
-      ! Turn the free variables so that the slack depends on one of them alone, with the coefficient beta.
+      ! Reflect the free variables so that the slack depends on the first of them alone, with the coefficient beta.
       call dlarfg(free_count, row(k + 1), row(k + 2:), 1, tau)
       beta = row(k + 1)
       v(1) = 1.0_dp
@@ -192,8 +191,8 @@ contains
       table%active_count = k + 1
    end subroutine exchange_with_slack
 
-   !> Exchange (b): an active slack becomes basic, and the free variable u = dF/dz/sqrt(d2F/dz2) non-basic in its
-   !> place. Where that would cost too many digits nothing is exchanged and the table counts as drifted.
+   !> Exchange (b), (Q10): an active slack becomes basic, and a free variable, the change of dF/dz/sqrt(d2F/dz2), takes
+   !> its place. Where that would lose too many digits nothing is exchanged and `drifted` is set.
    subroutine exchange_with_derivative(table, released)
       class(table_type), intent(inout) :: table
       integer, intent(in) :: released   !! place in `active`
@@ -211,12 +210,12 @@ contains
 
       table%drifted = table%drifted .or. curvature <= 0.0_dp
       do i = 1, k - 1
-         if (table%drifted .or. table%may_drift) exit
+         if (table%drifted .or. table%accept_drift) exit
          table%drifted = table%hessian(i, i) - column(i)*(column(i)/curvature) < least_remainder*table%hessian(i, i)
       end do
       if (table%drifted) return
 
-      ! sqrt(curvature) z_k = u - column'z/sqrt(curvature), z_k left out of z.
+      ! sqrt(curvature) z_k = u - column'z/sqrt(curvature), where z is without z_k.
       call dsyr('U', k - 1, -1.0_dp/curvature, column, 1, table%hessian, n)
       table%gradient(:k - 1) = table%gradient(:k - 1) - table%gradient(k)/curvature*column(:k - 1)
       table%gradient(k) = table%gradient(k)/sqrt(curvature)
@@ -232,7 +231,7 @@ contains
       table%rows(table%basic_count, k + 1:) = 0.0_dp
    end subroutine exchange_with_derivative
 
-   !> Changes places of an active slack and the last one.
+   !> Swaps an active slack with the last one.
    subroutine move_to_last(table, place)
       class(table_type), intent(inout) :: table
       integer, intent(in) :: place
@@ -261,12 +260,12 @@ contains
       end associate
    end subroutine move_to_last
 
-   !> Makes the table afresh at the minimiser on a set of active constraints.
+   !> Makes the table afresh at the minimum on a set of active constraints (Q8).
    subroutine rebuild(table, problem, set, solution)
       class(table_type), intent(inout) :: table
       type(qp_problem), intent(in) :: problem
       type(working_set), intent(in) :: set
-      type(qp_solution), intent(in) :: solution  !! the minimiser on the set
+      type(qp_solution), intent(in) :: solution  !! the minimum on the set
 
       real(dp) :: inverse(size(set%active), size(set%active))
       real(dp) :: to_x(size(problem%linear), size(problem%linear))

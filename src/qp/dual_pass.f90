@@ -1,11 +1,11 @@
-!> From the answer of one quadratic programme to that of another that differs in its bounds alone.
+!> From the solution of one quadratic programme to that of another that differs in its bounds alone.
 !>
-!> The answer is a piecewise linear function of the bounds. With the active constraints kept, some multipliers
-!> may turn negative and some slacks too: the first are released, then the violated constraints are made active one
-!> by one, the multipliers kept from changing sign on the way (the dual method of Goldfarb & Idnani, Math. Program.
-!> 27 (1983) 1-33, on Beale's table and with his two exchanges). Where Beale's own steps keep the slacks from
-!> changing sign and lower the objective, these keep the multipliers and raise it: every full step raises it
-!> strictly and between two of them the active set shrinks, so that no degeneracy makes them recur.
+!> The solution is a piecewise linear function of the bounds. With the same active constraints some multipliers may
+!> become negative, and some slacks. The constraints of such multipliers are released. Then violated constraints are
+!> made active one by one, while no multiplier may change sign: the dual method of Goldfarb & Idnani (Math. Program.
+!> 27 (1983) 1-33) on Beale's table, with his two exchanges. Equations (Q11), (Q12) of README.md in this directory.
+!> Beale's method keeps the slacks >= 0 and lowers the objective; the dual method keeps the multipliers >= 0 and
+!> raises it. Each full step raises it strictly, and between two of them the active set shrinks, so the method ends.
 module wavycon_dual_pass
    use wavycon_beale_table, only: table_type
    use wavycon_kinds, only: dp
@@ -15,16 +15,16 @@ module wavycon_dual_pass
 
    public :: restore_optimum
 
-   !> A slack that is less negative than this fraction of the largest value of any slack is rounding.
+   !> A negative slack smaller than this fraction of the largest slack is rounding.
    real(dp), parameter :: zero_slack = 32*epsilon(1.0_dp)
-   !> An element of a row that is smaller than this fraction of it is rounding: a constraint with no larger ones in
-   !> the free variables depends on the active ones.
+   !> An element of a row that is smaller than this fraction of its norm is rounding. A constraint with no larger
+   !> elements in the free variables depends on the active ones.
    real(dp), parameter :: zero_element = 1e-13_dp
 
 contains
 
-   !> Makes a table optimal whose free variables are at their minimum. If the table drifts on the way it is left as
-   !> it is, to be made afresh from its active constraints.
+   !> Makes a table optimal whose free variables are at their minimum. Returns at once if the table drifts: it is then
+   !> to be made afresh from its active constraints.
    subroutine restore_optimum(table, pivot_limit, pivots, status)
       type(table_type), intent(inout) :: table
       integer, intent(in) :: pivot_limit
@@ -56,8 +56,8 @@ contains
       end do
    end subroutine restore_optimum
 
-   !> Raises the multiplier of a violated constraint until its slack is zero. Active constraints whose multiplier
-   !> vanishes before are released.
+   !> Raises the multiplier of a violated constraint until its slack is zero (Q12). Active constraints whose multipliers
+   !> vanish before are released.
    subroutine make_active(table, constraint, pivot_limit, pivots, status)
       type(table_type), intent(inout) :: table
       integer, intent(in) :: constraint

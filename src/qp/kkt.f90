@@ -1,4 +1,4 @@
-!> The answer of a quadratic programme on a set of active constraints, and its check from the problem's data alone.
+!> The minimum on a set of active constraints, and the Karush-Kuhn-Tucker conditions of a solution.
 module wavycon_kkt
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgemv, dsymv
@@ -9,17 +9,17 @@ module wavycon_kkt
 
    public :: finish_on_active_set, kkt_residual
 
-   !> An answer is accepted when its relative KKT residual is not above this.
+   !> A solution is accepted if its relative KKT residual (Q3) is at most this, some thousand roundings.
    real(dp), parameter, public :: kkt_tolerance = 1e-12_dp
 
 contains
 
-   !> Solves for the minimiser on a set of active constraints and judges it by its KKT residual:
-   !> `qp_converged` or `qp_inaccurate`.
+   !> Computes the minimum on a set of active constraints (Q5) and its KKT residual (Q3). The status is `qp_converged`
+   !> if the residual is within `kkt_tolerance`, otherwise `qp_inaccurate`.
    subroutine finish_on_active_set(problem, set, list, solution)
       type(qp_problem), intent(in) :: problem
-      type(working_set), intent(inout) :: set        !! started; holds the active constraints on return
-      integer, intent(in) :: list(:)                 !! the active constraints
+      type(working_set), intent(inout) :: set        !! started; on return of the active constraints
+      integer, intent(in) :: list(:)                 !! the active constraints; dependent ones are left out
       type(qp_solution), intent(inout) :: solution   !! all but `pivots` is set
 
       call set%assign_active(problem, list)
@@ -31,17 +31,16 @@ contains
       solution%status = merge(qp_converged, qp_inaccurate, solution%kkt_residual <= kkt_tolerance)
    end subroutine finish_on_active_set
 
-   !> Largest relative violation of the Karush-Kuhn-Tucker conditions
+   !> Largest relative violation (Q3) of the Karush-Kuhn-Tucker conditions (Q2)
    !>
    !>     Dx - c = C'y,   Cx >= b,   y >= 0,   y (Cx - b) = 0.
    !>
-   !> Each is measured against the largest of the terms that must cancel in it, so that the number does not
-   !> change with the units of x, of the objective or of the constraints. An exact answer in floating-point
-   !> numbers has a residual of the order of the machine precision.
+   !> Each is divided by the largest of the terms that must cancel in it, so that the units of x, of the objective and
+   !> of the constraints do not matter. The exact solution, rounded, has a residual of some machine precisions.
    real(dp) function kkt_residual(problem, x, active, multipliers) result(residual)
       type(qp_problem), intent(in) :: problem
-      real(dp), intent(in) :: x(:)            !! the claimed answer, shape (n)
-      integer, intent(in) :: active(:)        !! constraints with a multiplier, each named once
+      real(dp), intent(in) :: x(:)            !! the solution to check, shape (n)
+      integer, intent(in) :: active(:)        !! constraints with a multiplier, each once
       real(dp), intent(in) :: multipliers(:)  !! y of the active constraints, shape (size(active))
 
       real(dp) :: gradient(size(x)), term(size(x)), slack(size(problem%bounds))
@@ -62,7 +61,7 @@ contains
       residual = ratio(maxval(abs(gradient)), gradient_scale)
       if (m == 0) return
 
-      ! Each constraint has its own scale, so that one of large units does not hide that another is violated.
+      ! Each constraint has its own scale, so that large units of one do not hide the violation of another.
       slack = -problem%bounds
       call dgemv('T', n, m, 1.0_dp, problem%normals, n, x, 1, 1.0_dp, slack, 1)
       x_size = maxval(abs(x))
@@ -71,7 +70,7 @@ contains
       end do
       if (size(active) == 0) return
 
-      ! A multiplier counts by the force that it puts on the gradient.
+      ! A multiplier is measured by its term in the gradient.
       force = multipliers*maxval(abs(problem%normals(:, active)), dim=1)
       residual = max(residual, ratio(max(0.0_dp, -minval(force)), gradient_scale))
       do i = 1, size(active)
@@ -89,7 +88,7 @@ contains
 
    end function kkt_residual
 
-   !> a/b where 0/0 is no violation.
+   !> a/b, and zero for 0/0.
    pure real(dp) function ratio(a, b)
       real(dp), intent(in) :: a, b  !! b >= 0
 

@@ -1,4 +1,4 @@
-!> The convex quadratic programme  min 1/2 x'Dx - c'x  subject to  Cx >= b,  and its answer.
+!> The convex quadratic programme  minimise 1/2 x'Dx - c'x  subject to  Cx >= b,  and its solution.
 module wavycon_qp_problem
    use wavycon_kinds, only: dp
    implicit none (type, external)
@@ -13,7 +13,7 @@ module wavycon_qp_problem
    integer, parameter, public :: qp_infeasible_start = 3  !! x = 0 does not satisfy Cx >= b
    integer, parameter, public :: qp_not_convex = 4        !! D is not positive definite
    integer, parameter, public :: qp_not_finite = 5        !! NaN or infinity in the problem
-   integer, parameter, public :: qp_inaccurate = 6        !! the answer fails the check of its KKT conditions
+   integer, parameter, public :: qp_inaccurate = 6        !! the KKT residual exceeds its tolerance
 
    !> A problem of n unknowns and m constraints.
    type :: qp_problem
@@ -23,19 +23,19 @@ module wavycon_qp_problem
       real(dp), allocatable :: bounds(:)      !! b, shape (m)
    end type qp_problem
 
-   !> Its answer.
+   !> Its solution.
    type :: qp_solution
       integer :: status = qp_iteration_limit   !! one of the names above
-      integer :: pivots = 0                    !! exchanges of variables that it took
+      integer :: pivots = 0                    !! number of exchanges of variables
       real(dp) :: kkt_residual = huge(1.0_dp)  !! largest relative violation of the KKT conditions
       real(dp), allocatable :: x(:)            !! shape (n)
-      integer, allocatable :: active(:)        !! the constraints that hold with equality and carry the multipliers
-      real(dp), allocatable :: multipliers(:)  !! theirs, in the same order
+      integer, allocatable :: active(:)        !! the active constraints, which hold with equality, shape (k)
+      real(dp), allocatable :: multipliers(:)  !! of the active constraints, in the same order, shape (k)
    end type qp_solution
 
 contains
 
-   !> The name of a status, as it stands in tables.
+   !> The name of a status in tables.
    pure function qp_status_name(status) result(name)
       integer, intent(in) :: status
       character(:), allocatable :: name
@@ -60,8 +60,8 @@ contains
       end select
    end function qp_status_name
 
-   !> The size of the terms of the gradient Dx - c, which cancel where it vanishes; those of Dx among themselves too
-   !> where D is ill-conditioned.
+   !> The largest of the terms D_ij x_j and c_i that cancel in the gradient Dx - c: max(|D||x|, |c|). Where D is
+   !> ill-conditioned they cancel within Dx too.
    pure real(dp) function gradient_terms(problem, x) result(largest)
       type(qp_problem), intent(in) :: problem
       real(dp), intent(in) :: x(:)   !! shape (n)

@@ -1,11 +1,12 @@
-!> The equality-constrained problem of a set of active constraints, factorised by LAPACK.
+!> The minimum on a set of active constraints taken as equations, by factorisations of LAPACK.
 !>
-!> For the active rows C_W the factorisation is  J'DJ = I,  J'C_W' = (R; 0),  R upper triangular
-!> (Goldfarb & Idnani, Math. Program. 27 (1983) 1-33, section 4). With x = Jy the minimiser on C_W x = b_W is
+!> For the active rows C_W the factorisation is  J'DJ = I,  J'C_W' = (R; 0),  R upper triangular (Q4)
+!> (Goldfarb & Idnani, Math. Program. 27 (1983) 1-33, section 4). With x = Jw the minimum on C_W x = b_W is (Q5)
 !>
-!>     y_1 = R^-T b_W,   y_2 = J_2'c,   multipliers = R^-1 (y_1 - J_1'c),
+!>     w_1 = R^-T b_W,   w_2 = J_2'c,   multipliers = R^-1 (w_1 - J_1'c),
 !>
-!> where J_1 holds the first columns of J, as many as there are active constraints.
+!> where J_1 is the first k columns of J, k the number of active constraints. Numbers (Q..) are the equations of
+!> README.md in this directory.
 module wavycon_working_set
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgemm, dgemv, dgeqp3, dormqr, dpotrf, dtrsv, dtrtri
@@ -15,12 +16,12 @@ module wavycon_working_set
 
    public :: working_set
 
-   !> A gradient whose part outside the span of the other active ones is less than this fraction of it counts as
-   !> dependent on them: beyond it that part is rounding.
+   !> A constraint counts as dependent on other active ones if the part of its normal outside their span is less than
+   !> this fraction of it: such a part is rounding.
    real(dp), parameter :: dependence = 1e-13_dp
-   !> For residuals in more digits, where the compiler has them.
+   !> The kind of extended residuals: quadruple precision where the compiler has it.
    integer, parameter :: long = merge(selected_real_kind(30), dp, selected_real_kind(30) > 0)
-   !> Each refinement that is worth its while at least halves the step; it ends with the digits there are.
+   !> Refinement ends earlier, when a step is more than half of the one before: no digits are left to gain.
    integer, parameter :: most_refinements = 10
 
    type :: working_set
@@ -28,7 +29,7 @@ module wavycon_working_set
       real(dp), allocatable :: directions(:, :)      !! J, shape (n, n)
       real(dp), allocatable :: triangle(:, :)        !! R, zero below its diagonal, shape (k, k)
       real(dp), allocatable :: free_directions(:, :) !! J of the empty set, D^-1 = JJ'
-      logical :: careful = .false.                   !! whether `solve` takes residuals in more digits than its own
+      logical :: extended_residuals = .false.        !! whether `solve` refines with residuals of the kind `long`
    contains
       procedure :: start
       procedure :: assign_active
@@ -41,7 +42,7 @@ contains
    subroutine start(self, problem, positive_definite)
       class(working_set), intent(out) :: self
       type(qp_problem), intent(in) :: problem
-      logical, intent(out) :: positive_definite  !! false: D is not, and the set is of no use
+      logical, intent(out) :: positive_definite  !! false: D is not, and the set cannot be used
 
       integer :: i, n, info
 
@@ -57,11 +58,11 @@ contains
       allocate (self%active(0), self%triangle(0, 0))
    end subroutine start
 
-   !> Makes the set from a list. Constraints that depend on the others are left out. `start` must have been called.
+   !> Factorises a set of active constraints (Q4), without those that depend on the others. `start` comes first.
    subroutine assign_active(self, problem, list)
       class(working_set), intent(inout) :: self
       type(qp_problem), intent(in) :: problem
-      integer, intent(in) :: list(:)  !! constraints, each named once
+      integer, intent(in) :: list(:)  !! constraints, each once
 
       real(dp) :: columns(size(problem%linear), size(list)), normals(size(problem%linear), size(list))
       real(dp) :: tau(size(list)), size_of(size(list)), work(64*(size(problem%linear) + size(list) + 1))
@@ -89,10 +90,10 @@ contains
       end do
    end subroutine assign_active
 
-   !> The minimiser on the active constraints and their multipliers.
+   !> The minimum on the active constraints and their multipliers (Q5).
    !>
-   !> N.B. The factors know D by its inverse square root: alone they leave errors of the square root of its
-   !> condition number. Whoever needs more asks for `careful`.
+   !> N.B. The factors contain D as its inverse square root, so errors grow as the square root of its condition number,
+   !> unless `extended_residuals` is set.
    subroutine solve(self, problem, x, multipliers)
       class(working_set), intent(in) :: self
       type(qp_problem), intent(in) :: problem
@@ -100,12 +101,11 @@ contains
       real(dp), intent(out) :: multipliers(:)  !! of the active constraints in the order of `active`, shape (k)
 
       call solve_equations(self, problem%linear, problem%bounds(self%active), x, multipliers)
-      if (self%careful) call refine(self, problem, x, multipliers)
+      if (self%extended_residuals) call refine(self, problem, x, multipliers)
    end subroutine solve
 
-   !> Brings x and the multipliers to all the digits that they can hold, while the steps get shorter: the equations'
-   !> residuals are taken from the problem itself, in more digits, and solved for too (iterative refinement: Higham,
-   !> Accuracy and Stability of Numerical Algorithms, 2nd ed., chapter 12).
+   !> Iterative refinement (Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., chapter 12): the residuals
+   !> of the equations are computed from D, c, C and b with more digits, and solved for, while the steps get shorter.
    subroutine refine(self, problem, x, multipliers)
       class(working_set), intent(in) :: self
       type(qp_problem), intent(in) :: problem

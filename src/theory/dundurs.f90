@@ -1,8 +1,8 @@
-!> The series solution for the one-dimensional wave of Dundurs, Tsai & Keer, cut off after n terms.
+!> The Fourier series of Dundurs, Tsai & Keer for the pressure of the one-dimensional wave, truncated after n terms.
 !>
-!> Its coefficients are the exact Fourier coefficients of Westergaard's pressure (4). The cut-off leaves
-!> small negative pressures: those that Johnson, Greenwood & Higginson (1985) point at in Fig. 2. Pressures
-!> are in p*, p* = pi E* Delta/lambda.
+!> J. Dundurs, K. C. Tsai & L. M. Keer, J. Elasticity 3 (1973) 109-115. The coefficients are the exact Fourier
+!> coefficients of Westergaard's pressure (4). The truncation leaves small negative pressures, which Johnson,
+!> Greenwood & Higginson (1985) show in Fig. 2. Pressures are in p*, p* = pi E* Delta/lambda.
 module wavycon_dundurs
    use, intrinsic :: iso_c_binding, only: c_int
    use wavycon_gsl, only: gsl_sf_legendre_pl_array
@@ -18,8 +18,8 @@ contains
    !>
    !>     A_i = (1/2) integral of P_i + P_{i-1} from c to 1,   c = 1 - 2 pbar/p*,
    !>
-   !> with the Legendre polynomials P_l. Mean pressures outside of 0..p* count as the nearer end: all zero
-   !> before contact; A_1 = 1, the others 0, when it is full.
+   !> with the Legendre polynomials P_l. A mean pressure outside of 0..p* is replaced by the nearer end: all
+   !> coefficients are zero without load; A_1 = 1 and the others are 0 in full contact.
    function dundurs_coefficients(pbar_over_pstar, n) result(a)
       real(dp), intent(in) :: pbar_over_pstar  !! mean pressure [p*]
       integer, intent(in) :: n                 !! number of terms, >= 0
@@ -32,7 +32,7 @@ contains
       integer :: l
 
       c = 1 - 2*min(1.0_dp, max(0.0_dp, pbar_over_pstar))
-      ! The status can be ignored: it is never other than 0 for -1 <= c <= 1.
+      ! The status can be ignored: it is 0 for all -1 <= c <= 1.
       ignored = gsl_sf_legendre_pl_array(int(n + 1, c_int), c, legendre)
       integral(0) = 1 - c
       do l = 1, n

@@ -1,8 +1,8 @@
-!> The two-dimensional wave at light load: each crest a Hertzian point contact on its own.
+!> The two-dimensional wave at light load: each crest is a separate Hertzian point contact.
 !>
 !> The limit pbar -> 0, equation (23) of Johnson, Greenwood & Higginson (1985). A crest has the curvature
 !> 1/R = 4 pi^2 Delta/lambda^2 and bears pbar lambda^2/2, the load on a square of side lambda/sqrt(2). Every
-!> function returns its formula's value for any pbar >= 0, far beyond where it applies; a negative pbar
+!> function returns its formula's value for any pbar >= 0, also where it does not apply; a negative pbar
 !> counts as 0. Pressures are in p* = sqrt(2) pi E* Delta/lambda, lengths in lambda.
 module wavycon_hertz_point
    use wavycon_constants, only: pi, sqrt2
@@ -24,9 +24,9 @@ contains
       a = (3*max(0.0_dp, pbar_over_pstar)/(8*pi))**(1.0_dp/3)/sqrt2
    end function hertz_point_radius_over_wavelength
 
-   !> Share of the nominal area that is in contact, equation (23): 2 pi a^2/lambda^2 = pi (3 P/(8 pi))^(2/3).
+   !> Fraction of the nominal area in contact, equation (23): 2 pi a^2/lambda^2 = pi (3 P/(8 pi))^(2/3).
    !>
-   !> It is 0.76 at pbar = p*, where 1 is exact, and goes on growing above.
+   !> It is 0.76 at pbar = p*, where 1 is exact, and grows further above.
    elemental real(dp) function hertz_point_contact_area_fraction(pbar_over_pstar) result(fraction)
       real(dp), intent(in) :: pbar_over_pstar  !! mean pressure [p*]
 
@@ -48,7 +48,7 @@ contains
       real(dp) :: a
 
       a = hertz_point_radius_over_wavelength(pbar_over_pstar)
-      ! p0/a = 4 sqrt(2), so that no load is divided by.
+      ! p0/a = 4 sqrt(2): written so there is no division by the load.
       p = 4*sqrt2*sqrt(max(0.0_dp, (a - r_over_wavelength)*(a + r_over_wavelength)))
    end function hertz_point_pressure_over_pstar
 

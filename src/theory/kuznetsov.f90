@@ -19,7 +19,7 @@ contains
       else if (pbar_over_pstar >= 1) then
          gap = 0
       else
-         ! In this order the difference keeps its digits up to P = 1, where G is (1 - P)^2/2.
+         ! In this order the difference loses few digits near P = 1, where G is (1 - P)^2/2.
          gap = max(0.0_dp, (1 - pbar_over_pstar) + pbar_over_pstar*log(pbar_over_pstar))
       end if
    end function kuznetsov_mean_gap_over_amplitude

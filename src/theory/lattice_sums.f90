@@ -1,4 +1,4 @@
-!> Sums over the square lattice: what all the other crests, or troughs, do to one of them.
+!> Sums over the square lattice: the effect of all other crests, or troughs, on one of them.
 !>
 !> The crests of h/Delta = 1 - cos(2 pi x/lambda) cos(2 pi y/lambda) form a square lattice of side
 !> s = lambda/sqrt(2); lengths are in s, the origin is left out. In closed form the sum of |n|^(-2 q) over the
@@ -12,14 +12,14 @@ module wavycon_lattice_sums
 
    public :: inverse_distance_sum, inverse_cube_sum
 
-   integer :: m, n  ! of the implied loops below
+   integer :: m, n  ! of the implied loops in the constant
 
    !> Sum of 1/|n| less its mean, 4 zeta(1/2) beta(1/2) = -3.900264920001956: the displacement of one crest
-   !> by unit loads on all the others and the uniform tension that balances all the loads.
+   !> by unit loads on all others and by the uniform tension that balances all loads.
    !>
-   !> An Ewald sum, for the plain one diverges: with the width sqrt(pi) the sums over the lattice and over
-   !> its reciprocal are the same, and both stop at 4 sides, where erfc is below 1e-22. Four
-   !> quadrants m >= 1, n >= 0 make up the lattice.
+   !> An Ewald sum, as the plain sum diverges. With the width sqrt(pi) the sums over the lattice and over its
+   !> reciprocal are equal, and both are truncated at 4 sides, where erfc is below 1e-22. The lattice consists of
+   !> four quadrants m >= 1, n >= 0.
    real(dp), parameter :: inverse_distance_sum = &
       2*4*sum([((erfc(sqrt(pi*(m**2 + n**2)))/sqrt(real(m**2 + n**2, dp)), m=1, 4), n=0, 4)]) - 4
 

@@ -1,16 +1,15 @@
 !> Asymptotes of the two-dimensional wave for pbar -> 0: mean gap and contact area.
 !>
 !> `light_load_mean_gap_one_square` is equation (29) of Johnson, Greenwood & Higginson (1985); the others
-!> correct and extend it. Every function returns its formula's value for any P = pbar/p* >= 0, though none
-!> is of use beyond P = 0.2 or so and the values at P = 1 mean nothing; a negative P counts as 0. The
-!> gap goes below zero from P = 0.24 on by (29), from P = 0.34 on with the lattice's coefficient.
+!> correct and extend it. Every function returns its formula's value for any P = pbar/p* >= 0, but none is useful
+!> above P = 0.2 or so, and values near P = 1 are meaningless; a negative P counts as 0. The gap is negative above
+!> P = 0.24 by (29), above P = 0.34 with the lattice's coefficient.
 !> p* = sqrt(2) pi E* Delta/lambda, gaps are in Delta.
 !>
-!> Where the longer ones come from, with lengths in s = lambda/sqrt(2), a crest at r = 0 and its load P:
-!> about it h/Delta = pi^2 r^2 - (pi^4/4) r^4 + terms in cos(4 theta), and the other crests displace it by P
-!> (S_1 + (S_3/4) r^2 + ...), S_1 and S_3 being the lattice's sums of 1/|n| and 1/|n|^3. A rigid
-!> axisymmetric punch of that shape, with that curvature added, gives load and approach as polynomials in
-!> the radius.
+!> Derivation of the longer ones, with lengths in s = lambda/sqrt(2), a crest at r = 0 and its load P: about the
+!> crest h/Delta = pi^2 r^2 - (pi^4/4) r^4 + terms in cos(4 theta). The other crests displace it by
+!> P (S_1 + (S_3/4) r^2 + ...), S_1 and S_3 the lattice's sums of 1/|n| and 1/|n|^3. A rigid axisymmetric punch of
+!> that shape, with that curvature added, gives load and approach as polynomials in the radius.
 module wavycon_light_load
    use wavycon_constants, only: pi, sqrt2
    use wavycon_hertz_point, only: hertz_point_contact_area_fraction
@@ -26,8 +25,8 @@ contains
 
    !> Mean gap G = 1 - (1/2) (3 pi^2 P)^(2/3) + 4 ln(sqrt(2) + 1) P, equation (29).
    !>
-   !> N.B. The last term stands for the mean pressure on the one square of side lambda/sqrt(2) about the
-   !> crest. The squares farther off are left out, so that it is 10 % too small.
+   !> N.B. The last term is the effect of the mean pressure on the one square of side lambda/sqrt(2) about the crest.
+   !> The other squares are left out, which makes it 10 % too small.
    elemental real(dp) function light_load_mean_gap_one_square(pbar_over_pstar) result(gap)
       real(dp), intent(in) :: pbar_over_pstar  !! mean pressure [p*]
 
@@ -46,8 +45,8 @@ contains
    !>
    !>     + (3 pi^2 P)^(4/3)/120 - (4/15) S_3 (3/(8 pi))^(2/3) P^(5/3);   the error is O(P^2).
    !>
-   !> The first is for the wave's departure from a paraboloid, the second for the curvature that the other
-   !> crests add.
+   !> The first is due to the wave's deviation from a paraboloid, the second to the curvature that the other crests
+   !> add.
    elemental real(dp) function light_load_mean_gap_longer(pbar_over_pstar) result(gap)
       real(dp), intent(in) :: pbar_over_pstar  !! mean pressure [p*]
 
@@ -58,7 +57,7 @@ contains
          - 4*inverse_cube_sum()/15*(3/(8*pi))**(2.0_dp/3)*p**(5.0_dp/3)
    end function light_load_mean_gap_longer
 
-   !> Share of the nominal area that is in contact: (23) times
+   !> Fraction of the nominal area in contact: (23) times
    !>
    !>     1 + (3 pi^2 P)^(2/3)/15 - S_3 P/(6 pi^2);   the error is O(P^2).
    elemental real(dp) function light_load_contact_area_longer(pbar_over_pstar) result(fraction)
@@ -71,7 +70,7 @@ contains
          *(1 + (3*pi**2*p)**(2.0_dp/3)/15 - inverse_cube_sum()*p/(6*pi**2))
    end function light_load_contact_area_longer
 
-   !> Mean gap with each crest on its own, 1 - a^2/(R Delta).
+   !> Mean gap without interaction of the crests, 1 - a^2/(R Delta).
    elemental real(dp) function hertz_gap(pbar_over_pstar) result(gap)
       real(dp), intent(in) :: pbar_over_pstar  !! mean pressure [p*]
 

@@ -1,7 +1,7 @@
-!> The one-dimensional wave near full contact: each open strip a pressurised crack on its own.
+!> The one-dimensional wave near full contact: each open strip is a separate pressurised crack.
 !>
 !> The limit pbar -> p* of Westergaard's solution, equations (9) to (11) of Johnson, Greenwood & Higginson
-!> (1985). The interface has no strength, so that the crack opens until its stress intensity factor is zero.
+!> (1985). The interface has no strength, so the crack opens until its stress intensity factor is zero.
 !> Pressures are in p* = pi E* Delta/lambda, lengths in lambda.
 module wavycon_line_crack
    use wavycon_constants, only: pi
@@ -65,7 +65,7 @@ contains
       b = sqrt(max(0.0_dp, 1 - pbar_over_pstar))/pi
    end function line_crack_half_width_over_wavelength
 
-   !> Share of the nominal area that is in contact, 1 - 2 b/lambda; 1 from pbar = p* on.
+   !> Fraction of the nominal area in contact, 1 - 2 b/lambda; 1 from pbar = p* on.
    elemental real(dp) function line_crack_contact_area_fraction(pbar_over_pstar) result(fraction)
       real(dp), intent(in) :: pbar_over_pstar  !! mean pressure [p*]
 

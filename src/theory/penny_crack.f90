@@ -1,4 +1,4 @@
-!> The two-dimensional wave near full contact: each open island a pressurised penny-shaped crack on its own.
+!> The two-dimensional wave near full contact: each open island is a separate pressurised penny-shaped crack.
 !>
 !> The limit pbar -> p*: equations (24), (30) and Appendix 2 of Johnson, Greenwood & Higginson (1985), after
 !> Sneddon. Pressures are in p* = sqrt(2) pi E* Delta/lambda, openings and gaps in Delta, lengths in lambda.
@@ -70,7 +70,7 @@ contains
 
    !> Opening of a crack of any radius by the pressure (A4): (A6), both faces together; 0 for r >= b.
    !>
-   !> With a radius greater than that of (A7) it is negative next to the edge: such a crack would close there.
+   !> With a radius above that of (A7) it is negative near the edge: such a crack would close there.
    elemental real(dp) function penny_crack_opening_over_amplitude(rho, radius_over_wavelength, &
       pbar_over_pstar) result(opening)
       real(dp), intent(in) :: rho                     !! r/b, >= 0
@@ -87,7 +87,7 @@ contains
 
    !> Volume of a crack of any radius, (A8): the integral of 2 pi r g(r) for r < b, by quadrature.
    !>
-   !> N.B. One crack stands in an area of lambda^2/2: the mean gap in Delta is twice this volume.
+   !> N.B. There is one crack to an area of lambda^2/2: the mean gap in Delta is twice this volume.
    subroutine penny_crack_volume(radius_over_wavelength, pbar_over_pstar, volume_over_amplitude_wavelength2, &
       error)
       real(dp), intent(in) :: radius_over_wavelength              !! b [lambda]; <= 0: no crack
@@ -121,7 +121,7 @@ contains
       b = sqrt(3*max(0.0_dp, 1 - pbar_over_pstar))/(2*pi)
    end function penny_crack_radius_over_wavelength
 
-   !> Share of the nominal area that is in contact, equation (24): 1 - 2 pi b^2/lambda^2
+   !> Fraction of the nominal area in contact, equation (24): 1 - 2 pi b^2/lambda^2
    !> = 1 - (3/(2 pi)) (1 - pbar/p*); 1 from pbar = p* on, 0.52 at pbar = 0.
    elemental real(dp) function penny_crack_contact_area_fraction(pbar_over_pstar) result(fraction)
       real(dp), intent(in) :: pbar_over_pstar  !! mean pressure [p*]

@@ -13,10 +13,9 @@ module wavycon_quadrature
    public :: integrate, integrand
 
    abstract interface
-      !> What is integrated: f(x) for given parameters.
+      !> The integrand f(x) for given parameters.
       !>
-      !> The parameters are an argument, so that no internal procedure, and with it no executable stack, is
-      !> needed.
+      !> The parameters are an argument so that no internal procedure is passed, which would need an executable stack.
       pure real(dp) function integrand(x, parameters)
          import :: dp
          real(dp), intent(in) :: x
@@ -24,13 +23,13 @@ module wavycon_quadrature
       end function integrand
    end interface
 
-   !> What the C callback is handed.
+   !> The data of the C callback.
    type :: callback_data
       procedure(integrand), pointer, nopass :: f => null()
       real(dp), allocatable :: parameters(:)
    end type callback_data
 
-   !> Accuracy asked for: the looser of the two holds. The absolute one is for integrals that vanish.
+   !> Tolerances of the integral: the looser of the two holds. The absolute one is for integrals that vanish.
    real(dp), parameter :: absolute_tolerance = 1.0e-13_dp, relative_tolerance = 1.0e-11_dp
    integer(c_size_t), parameter :: most_intervals = 500
 
@@ -39,7 +38,7 @@ contains
    !> Integral of (x - a)^left_power (b - x)^right_power f(x) over a <= x <= b.
    subroutine integrate(f, parameters, a, b, integral, error, left_power, right_power)
       procedure(integrand) :: f                 !! finite on the whole of a..b, ends included
-      real(dp), intent(in) :: parameters(:)     !! handed to f
+      real(dp), intent(in) :: parameters(:)     !! passed to f
       real(dp), intent(in) :: a, b              !! a < b
       real(dp), intent(out) :: integral         !! 0 if it failed
       type(error_type), allocatable, intent(out) :: error
@@ -58,7 +57,7 @@ contains
       beta = 0
       if (present(left_power)) alpha = left_power
       if (present(right_power)) beta = right_power
-      ! GSL lets a power of -1 pass and divides by zero.
+      ! GSL accepts a power of -1 and divides by zero.
       if (min(alpha, beta) <= -1) then
          call fatal_error(error, exit_not_converged, 'quadrature of a weight that has no integral')
          return
@@ -88,7 +87,7 @@ contains
       call gsl_integration_qaws_table_free(table)
    end subroutine integrate
 
-   !> What GSL calls.
+   !> The function that GSL calls.
    real(c_double) function evaluate(x, params) bind(c, name='wavycon_evaluate_integrand')
       real(c_double), value :: x
       type(c_ptr), value :: params  !! of a callback_data

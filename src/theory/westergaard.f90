@@ -2,7 +2,7 @@
 !>
 !> Equations (4), (5) and (7) of Johnson, Greenwood & Higginson (1985), with p* = pi E* Delta/lambda.
 !> All hold for every mean pressure: a negative one is taken as 0 (no contact), and from pbar = p* on contact
-!> is full. All are even in psi and of period pi. Pressures are in p*, displacements and gaps in Delta,
+!> is full. All are even in psi and have the period pi. Pressures are in p*, displacements and gaps in Delta,
 !> lengths in lambda.
 !>
 !> N.B. psi is half of the angle phi = 2 pi x/lambda of the Fourier series (12).
@@ -19,7 +19,7 @@ module wavycon_westergaard
 
 contains
 
-   !> Contact pressure, equation (4) with (7) put in; in full contact pbar/p* + cos(2 psi).
+   !> Contact pressure, equation (4) with (7) inserted; in full contact pbar/p* + cos(2 psi).
    elemental real(dp) function westergaard_pressure_over_pstar(psi, pbar_over_pstar) result(p)
       real(dp), intent(in) :: psi              !! pi x/lambda, from a crest [rad]
       real(dp), intent(in) :: pbar_over_pstar  !! mean pressure [p*]
@@ -31,7 +31,7 @@ contains
       end if
    end function westergaard_pressure_over_pstar
 
-   !> Pressure at the crest, the highest: 2 (pbar/p*)^(1/2), in full contact pbar/p* + 1.
+   !> Pressure at the crest, the largest: 2 (pbar/p*)^(1/2), in full contact pbar/p* + 1.
    elemental real(dp) function westergaard_peak_pressure_over_pstar(pbar_over_pstar) result(p0)
       real(dp), intent(in) :: pbar_over_pstar  !! mean pressure [p*]
 
@@ -41,8 +41,8 @@ contains
    !> Displacement into the bodies, equations (5a) and (5b), less its mean over the wave; cos(2 psi) in full
    !> contact.
    !>
-   !> That mean is zero fixes the constant of (5): where there is contact u + h = 1 + C, so that the mean
-   !> gap is -C, and C = -G with Kuznetsov's G, equation (20).
+   !> As that mean is zero the constant of (5) is C = -G, with Kuznetsov's mean gap G, equation (20): in contact
+   !> u + h = 1 + C is the approach 1 - G.
    elemental real(dp) function westergaard_displacement_over_amplitude(psi, pbar_over_pstar) result(u)
       real(dp), intent(in) :: psi              !! pi x/lambda, from a crest [rad]
       real(dp), intent(in) :: pbar_over_pstar  !! mean pressure [p*]
@@ -66,7 +66,7 @@ contains
          gap = 0
       else if (s_a > 0) then
          root = sqrt((s - s_a)*(s + s_a))
-         ! asinh(root/s_a) is the logarithm of (5b). Rounding could leave a gap below zero next to the edge.
+         ! asinh(root/s_a) is the logarithm of (5b). Next to the edge rounding could make the gap negative.
          gap = max(0.0_dp, 2*(s*root - s_a**2*asinh(root/s_a)))
       else
          gap = 2*s**2
@@ -80,7 +80,7 @@ contains
       a = asin(sqrt(min(1.0_dp, max(0.0_dp, pbar_over_pstar))))/pi
    end function westergaard_half_width_over_wavelength
 
-   !> Share of the nominal area that is in contact, 2 a/lambda: from 0 to 1.
+   !> Fraction of the nominal area in contact, 2 a/lambda: from 0 to 1.
    elemental real(dp) function westergaard_contact_area_fraction(pbar_over_pstar) result(fraction)
       real(dp), intent(in) :: pbar_over_pstar  !! mean pressure [p*]
 

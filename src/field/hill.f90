@@ -1,0 +1,68 @@
+!> Newton's method for the maximum of a smooth field of two variables.
+module wavycon_hill
+   use wavycon_kinds, only: dp
+   implicit none (type, external)
+   private
+
+   public :: hill
+
+   type, abstract :: hill
+      real(dp) :: least = -huge(1.0_dp), most = huge(1.0_dp)   !! limits of both variables in the search
+   contains
+      procedure(height_at_point), deferred :: height
+      procedure(derivatives_at_point), deferred :: derivatives
+      procedure :: climb
+   end type hill
+
+   abstract interface
+      pure real(dp) function height_at_point(self, place)
+         import :: dp, hill
+         class(hill), intent(in) :: self
+         real(dp), intent(in) :: place(2)
+      end function height_at_point
+
+      pure subroutine derivatives_at_point(self, place, gradient, hessian)
+         import :: dp, hill
+         class(hill), intent(in) :: self
+         real(dp), intent(in) :: place(2)
+         real(dp), intent(out) :: gradient(2)   !! by X, Y
+         real(dp), intent(out) :: hessian(3)    !! by XX, XY, YY; of one variable by XX, 0, by XX
+      end subroutine derivatives_at_point
+   end interface
+
+contains
+
+   !> Climbs from a place to the maximum near it, until a step gains nothing more.
+   !>
+   !> The Hessian is shifted by its largest eigenvalue, where that is positive, and by a little more, so that each step
+   !> goes uphill also near a saddle or at a crest that has the same height all along a line. The latter shortens the
+   !> steps: convergence is linear, by a factor of a thousand a step.
+   pure subroutine climb(self, place)
+      class(hill), intent(in) :: self
+      real(dp), intent(inout) :: place(2)
+
+      integer, parameter :: most_steps = 20
+      real(dp), parameter :: shift = 1e-3_dp   ! over the largest second derivative
+      real(dp) :: determinant, g(2), h(3), largest, next(2), scale, step(2)
+      integer :: i
+
+      do i = 1, most_steps
+         call self%derivatives(place, g, h)
+         ! Squares of curvatures in unlike units may overflow.
+         scale = maxval(abs(h))
+         if (.not. scale > 0.0_dp) return
+         g = g/scale
+         h = h/scale
+         ! The larger eigenvalue: along a line of equal height it is zero but for rounding.
+         largest = 0.5_dp*(h(1) + h(3)) + hypot(0.5_dp*(h(1) - h(3)), h(2))
+         h([1, 3]) = h([1, 3]) - max(largest, 0.0_dp) - shift
+         determinant = h(1)*h(3) - h(2)**2
+         if (.not. determinant > 0.0_dp) return
+         step = [h(3)*g(1) - h(2)*g(2), h(1)*g(2) - h(2)*g(1)]/determinant
+         next = min(max(place - step, self%least), self%most)
+         if (.not. self%height(next) > self%height(place)) return
+         place = next
+      end do
+   end subroutine climb
+
+end module wavycon_hill
