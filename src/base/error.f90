@@ -1,7 +1,7 @@
-!> Errors that travel up to the program, which alone ends the run.
+!> Errors, which procedures return to their callers. Only the main program ends the run.
 !>
-!> A procedure that can fail has a last argument `type(error_type), allocatable, intent(out) :: error`:
-!> allocated means failed.
+!> A procedure that can fail has a last argument `type(error_type), allocatable, intent(out) :: error`. If it is
+!> allocated on return the procedure has failed.
 module wavycon_error
    implicit none (type, external)
    private
@@ -14,20 +14,21 @@ module wavycon_error
    integer, parameter, public :: exit_not_converged = 2
    integer, parameter, public :: exit_file_trouble = 3
 
-   !> What went wrong, in words for the user, and the exit status that it calls for.
+   !> A failure.
    type :: error_type
-      integer :: status = exit_fine
-      character(:), allocatable :: message
+      integer :: status = exit_fine          !! the exit status of the program, one of those above
+      character(:), allocatable :: message   !! for the user
    end type error_type
 
 contains
 
-   !> Raises an error.
+   !> Makes an error.
    pure subroutine fatal_error(error, status, message)
       type(error_type), allocatable, intent(out) :: error
-      integer, intent(in) :: status        !! one of the exit statuses above
+      integer, intent(in) :: status        !! one of the exit statuses above, not exit_fine
       character(*), intent(in) :: message  !! may hold several lines
 
+      if (status == exit_fine) error stop 'fatal_error: exit_fine is not the status of an error'
       allocate (error)
       error%status = status
       error%message = message

@@ -1,4 +1,4 @@
-!> Interface of FFTW, from its own header.
+!> FFTW's own Fortran interface.
 module wavycon_fftw
    use, intrinsic :: iso_c_binding
    implicit none (type, external)

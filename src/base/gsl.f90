@@ -1,6 +1,6 @@
-!> Thin interface to the GNU Scientific Library.
+!> Interfaces of the procedures of the GNU Scientific Library in use.
 !>
-!> The names, arguments and return values are the library's own.
+!> Names, arguments and return values are the library's own.
 module wavycon_gsl
    use, intrinsic :: iso_c_binding, only: c_double, c_funptr, c_int, c_null_funptr, c_null_ptr, c_ptr, &
       c_size_t
@@ -26,7 +26,7 @@ module wavycon_gsl
    type(c_ptr), protected, bind(c, name='gsl_integration_fixed_jacobi') :: gsl_integration_fixed_jacobi
 
    interface
-      !> Legendre polynomials P_0(x) .. P_lmax(x), -1 <= x <= 1; returns 0 if all is well.
+      !> Legendre polynomials P_0(x) .. P_lmax(x), -1 <= x <= 1; returns 0 on success.
       integer(c_int) function gsl_sf_legendre_pl_array(lmax, x, values) &
          bind(c, name='gsl_sf_legendre_Pl_array')
          import :: c_double, c_int
@@ -47,7 +47,7 @@ module wavycon_gsl
          real(c_double), value :: s, q
       end function gsl_sf_hzeta
 
-      !> Room for n intervals of an adaptive quadrature; a null pointer if there is no memory.
+      !> Workspace for n intervals of an adaptive quadrature; a null pointer if there is not enough memory.
       type(c_ptr) function gsl_integration_workspace_alloc(n) bind(c, name='gsl_integration_workspace_alloc')
          import :: c_ptr, c_size_t
          integer(c_size_t), value :: n
@@ -59,7 +59,7 @@ module wavycon_gsl
       end subroutine gsl_integration_workspace_free
 
       !> The weight (x-a)^alpha (b-x)^beta log^mu(x-a) log^nu(b-x), alpha, beta > -1, mu, nu = 0 or 1;
-      !> a null pointer if it cannot be had.
+      !> a null pointer if an argument is out of range or there is not enough memory.
       type(c_ptr) function gsl_integration_qaws_table_alloc(alpha, beta, mu, nu) &
          bind(c, name='gsl_integration_qaws_table_alloc')
          import :: c_double, c_int, c_ptr
@@ -72,7 +72,7 @@ module wavycon_gsl
          type(c_ptr), value :: t
       end subroutine gsl_integration_qaws_table_free
 
-      !> Integral of f times the weight t over a..b, a < b; returns 0 if all is well.
+      !> Integral of f times the weight t over a..b, a < b; returns 0 on success.
       integer(c_int) function gsl_integration_qaws(f, a, b, t, epsabs, epsrel, limit, workspace, &
          result, abserr) bind(c, name='gsl_integration_qaws')
          import :: c_double, c_int, c_ptr, c_size_t, gsl_function
@@ -83,7 +83,8 @@ module wavycon_gsl
          real(c_double), intent(out) :: result, abserr
       end function gsl_integration_qaws
 
-      !> A Gauss rule of n nodes on a..b for one of the library's weights; a null pointer if it cannot be had.
+      !> A Gauss rule of n nodes on a..b for one of the library's weights; a null pointer if an argument is out of range
+      !> or there is not enough memory.
       type(c_ptr) function gsl_integration_fixed_alloc(t, n, a, b, alpha, beta) &
          bind(c, name='gsl_integration_fixed_alloc')
          import :: c_double, c_ptr, c_size_t
@@ -97,24 +98,24 @@ module wavycon_gsl
          type(c_ptr), value :: w
       end subroutine gsl_integration_fixed_free
 
-      !> Of a double[n] that belongs to the rule.
+      !> The nodes, a double[n] that belongs to the rule.
       type(c_ptr) function gsl_integration_fixed_nodes(w) bind(c, name='gsl_integration_fixed_nodes')
          import :: c_ptr
          type(c_ptr), value :: w
       end function gsl_integration_fixed_nodes
 
-      !> Of a double[n] that belongs to the rule.
+      !> The weights, a double[n] that belongs to the rule.
       type(c_ptr) function gsl_integration_fixed_weights(w) bind(c, name='gsl_integration_fixed_weights')
          import :: c_ptr
          type(c_ptr), value :: w
       end function gsl_integration_fixed_weights
 
-      !> Makes errors come back as statuses instead of ending the program; returns the handler before.
+      !> Turns off the error handler, which ends the program; returns the previous handler.
       type(c_funptr) function gsl_set_error_handler_off() bind(c, name='gsl_set_error_handler_off')
          import :: c_funptr
       end function gsl_set_error_handler_off
 
-      !> The order that would sort `n` numbers: `places` counts from 0.
+      !> Indices, from 0, that sort `n` numbers in ascending order.
       pure subroutine gsl_sort_index(places, values, stride, n) bind(c, name='gsl_sort_index')
          import :: c_double, c_size_t
          integer(c_size_t), intent(out) :: places(*)
@@ -125,8 +126,8 @@ module wavycon_gsl
 
 contains
 
-   !> Makes the library's errors come back as statuses and null pointers: its own handler would end the program.
-   !> Whoever calls what can fail calls this first; a second time changes nothing.
+   !> Makes the library return statuses and null pointers on errors; its default handler ends the program.
+   !> To be called before any procedure that can fail; further calls change nothing.
    subroutine return_gsl_errors()
       type(c_funptr) :: previous_handler
 

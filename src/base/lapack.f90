@@ -4,10 +4,8 @@ module wavycon_lapack
    implicit none (type, external)
    private
 
-   public :: dgemv, dger, dsymv, dsyr, dtrsv
-   public :: dgemm
-   public :: dpotrf, dtrtri, dgeqp3, dormqr, dlarfg
-   public :: dgels, dgglse
+   public :: dgemm, dgemv, dger, dsymv, dsyr, dtrsv                           ! BLAS
+   public :: dgels, dgeqp3, dgglse, dlarfg, dormqr, dpotrf, dtrtri            ! LAPACK
 
    interface
       pure subroutine dgemv(trans, m, n, alpha, a, lda, x, incx, beta, y, incy)

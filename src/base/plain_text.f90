@@ -1,4 +1,4 @@
-!> Text for people: lower case, numbers, quotes, and what to do with bytes that no terminal should see.
+!> Text for messages and decks: lower case, numbers, quotes, and escapes for bytes that do not print.
 module wavycon_plain_text
    use wavycon_kinds, only: dp
    implicit none (type, external)
@@ -13,7 +13,7 @@ module wavycon_plain_text
 
 contains
 
-   !> The text with A-Z made small.
+   !> The text with A-Z replaced by a-z.
    pure function lower_case(text) result(lower)
       character(*), intent(in) :: text
       character(:), allocatable :: lower
@@ -26,7 +26,7 @@ contains
       end do
    end function lower_case
 
-   !> An integer without blanks around it.
+   !> An integer in decimal, without blanks.
    pure function integer_text(number) result(text)
       integer, intent(in) :: number
       character(:), allocatable :: text
@@ -45,7 +45,7 @@ contains
       text = rounded(number, 6)
    end function short_number
 
-   !> A number in the fewest digits, of those tried, that read back as the same number.
+   !> A number in 6, 15, 16 or 17 significant digits: the fewest that are read back as the same number.
    pure function exact_number(number) result(text)
       real(dp), intent(in) :: number
       character(:), allocatable :: text
@@ -61,10 +61,10 @@ contains
       end do
    end function exact_number
 
-   !> A number to so many significant digits in as few characters as they need.
+   !> A number rounded to some significant digits, without the zeros that end it.
    pure function rounded(number, digits) result(text)
       real(dp), intent(in) :: number
-      integer, intent(in) :: digits   !! at most 17
+      integer, intent(in) :: digits   !! 1 to 17
       character(:), allocatable :: text
 
       integer, parameter :: least_plain = -4, most_plain = 5   !! powers of ten that need no exponent
@@ -86,7 +86,7 @@ contains
       text = without_final_zeros(trim(adjustl(buffer)))
    end function rounded
 
-   !> A decimal fraction without the zeros that end it, nor a point behind which nothing is left.
+   !> A decimal fraction without the zeros that end it, and without the point if no digit follows it.
    pure function without_final_zeros(fraction) result(text)
       character(*), intent(in) :: fraction   !! with a point
       character(:), allocatable :: text
@@ -110,7 +110,7 @@ contains
       constant = constant//"'"
    end function quoted
 
-   !> The text that a Fortran character constant, in quotes of either kind, stands for.
+   !> The value of a Fortran character constant, in quotes of either kind.
    pure function unquoted(constant) result(text)
       character(*), intent(in) :: constant  !! well formed: the same quote at both ends, doubled inside
       character(:), allocatable :: text
@@ -129,12 +129,12 @@ contains
       text = buffer(:length)
    end function unquoted
 
-   !> Bytes of the printable character, ASCII or UTF-8, that starts at a place; 0 if none does.
+   !> Number of bytes of the printable character, ASCII or UTF-8, that starts at a place; 0 if none starts there.
    pure integer function printable_length(text, place) result(length)
       character(*), intent(in) :: text
-      integer, intent(in) :: place
+      integer, intent(in) :: place   !! 1 to len(text)
 
-      !> The least code of a character of so many bytes: a smaller one in as many is no UTF-8.
+      !> The least code of a character of 1, 2, 3 and 4 bytes: UTF-8 has no smaller one in as many bytes.
       integer, parameter :: least(*) = [0, 128, 2048, 65536]
       integer :: code, i
 
@@ -170,8 +170,8 @@ contains
       if (code < least(length) .or. .not. is_visible(code)) length = 0
    end function printable_length
 
-   !> Whether a character beyond ASCII leaves a terminal as it is and shows: no control character, no mark that
-   !> turns the direction of writing or begins a line, no blank that is not one, nothing that Unicode leaves out.
+   !> Whether a character beyond ASCII is visible on a terminal and does nothing else: not a control character, a mark
+   !> of the direction of writing, an end of line, a blank other than ASCII's, or a code without a character.
    pure logical function is_visible(code)
       integer, intent(in) :: code   !! >= 128
 
@@ -187,14 +187,14 @@ contains
       end select
    end function is_visible
 
-   !> Whether a byte goes on with a UTF-8 character that an earlier one began.
+   !> Whether a byte is the second or a later one of a UTF-8 character.
    elemental logical function is_continuation(byte)
       character(1), intent(in) :: byte
 
       is_continuation = iachar(byte) >= 128 .and. iachar(byte) < 192
    end function is_continuation
 
-   !> Whether a text is ASCII or UTF-8 with no control characters.
+   !> Whether a text is ASCII or UTF-8 whose characters all print.
    pure logical function is_printable(text)
       character(*), intent(in) :: text
 
@@ -210,7 +210,7 @@ contains
       is_printable = .true.
    end function is_printable
 
-   !> The text with tabs as blanks and other bytes that do not print as \xNN.
+   !> The text with tabs replaced by blanks and other bytes that do not print by \xNN.
    pure function escaped(text) result(clean)
       character(*), intent(in) :: text
       character(:), allocatable :: clean
@@ -242,7 +242,7 @@ contains
       clean = buffer(:used)
    end function escaped
 
-   !> A word to name in a message: escaped, and cut if it is long.
+   !> A word for a message: escaped, and cut after 40 bytes.
    pure function excerpt(text) result(short)
       character(*), intent(in) :: text
       character(:), allocatable :: short
@@ -261,7 +261,7 @@ contains
       short = escaped(text(:last))//'...'
    end function excerpt
 
-   !> What the system said, out of an iomsg that may say first "Cannot open file 'name': ".
+   !> The system's message in an iomsg, without gfortran's "Cannot open file 'name': ".
    pure function system_words(message) result(words)
       character(*), intent(in) :: message
       character(:), allocatable :: words

@@ -1,4 +1,4 @@
-/* The few calls to the operating system that Fortran has no word for. */
+/* Calls to the operating system for which Fortran has no statement. */
 #define _XOPEN_SOURCE 700
 #include <errno.h>
 #include <signal.h>
@@ -10,7 +10,7 @@
 #include <sys/types.h>
 #include <unistd.h>
 
-/* 0 nothing there, 1 a directory, 2 a file, 3 a pipe or a device, 4 the system does not say. */
+/* What a path names: 0 nothing, 1 a directory, 2 a file, 3 a pipe or a device, 4 unknown, on an error. */
 int wavycon_path_kind(const char *path)
 {
     struct stat info;
@@ -21,14 +21,14 @@ int wavycon_path_kind(const char *path)
     return S_ISREG(info.st_mode) ? 2 : 3;
 }
 
-/* Bytes of a file, as the system sees it; -1 if there is none. */
+/* Size of a file in bytes; -1 if there is no file. */
 long long wavycon_file_size(const char *path)
 {
     struct stat info;
     return stat(path, &info) == 0 ? (long long)info.st_size : -1;
 }
 
-/* Makes one directory; one that is there already is fine. Returns errno, 0 if all is well. */
+/* Makes one directory, if it does not exist. Returns 0 on success, else errno. */
 int wavycon_make_directory(const char *path)
 {
     if (mkdir(path, 0777) == 0 || (errno == EEXIST && wavycon_path_kind(path) == 1))
@@ -36,7 +36,7 @@ int wavycon_make_directory(const char *path)
     return errno;
 }
 
-/* The file that an interruption removes; empty if there is none. */
+/* The file to be removed if the program is interrupted; empty if there is none. */
 static char unfinished[4096];
 
 static void remove_unfinished(int number)
@@ -47,7 +47,7 @@ static void remove_unfinished(int number)
     raise(number);
 }
 
-/* Takes note of a file, or of none, without being interrupted half way. */
+/* Sets that file, or none (""), with signals blocked. */
 static void note_unfinished(const char *path)
 {
     sigset_t all, before;
@@ -59,8 +59,8 @@ static void note_unfinished(const char *path)
     sigprocmask(SIG_SETMASK, &before, NULL);
 }
 
-/* Removes a file should the program be interrupted, until it is renamed or removed: one file at a time. What is
-   ignored (nohup) stays so. */
+/* Removes a file if the program is interrupted before it is renamed or removed; only the file of the last call. Signals
+   that are ignored (nohup) stay ignored. */
 void wavycon_remove_when_interrupted(const char *path)
 {
     static const int numbers[] = {SIGHUP, SIGINT, SIGTERM};
@@ -92,7 +92,7 @@ int wavycon_remove(const char *path)
     return 0;
 }
 
-/* A file that grows beyond the limit set for it is then an error of the write, as on a full disk, not the end. */
+/* Makes a write beyond the limit on file sizes fail, as on a full disk; by default the signal ends the program. */
 void wavycon_outlive_file_size_limit(void)
 {
     signal(SIGXFSZ, SIG_IGN);
@@ -108,13 +108,13 @@ int wavycon_stdout_is_terminal(void)
     return isatty(STDOUT_FILENO);
 }
 
-/* The words for an errno, cut to fit. */
+/* The message for an errno, cut to fit. */
 void wavycon_error_text(int number, char *text, size_t length)
 {
     snprintf(text, length, "%s", strerror(number));
 }
 
-/* The full name of a file that is there; empty if it has none or it is too long. */
+/* The absolute path of a file; empty if there is no file or the path is too long. */
 void wavycon_full_path(const char *path, char *full, size_t length)
 {
     char *found = realpath(path, NULL);
@@ -173,7 +173,7 @@ long long wavycon_available_memory(void)
     return left < available ? left : available;
 }
 
-/* The number that a text begins with. Returns how many bytes it takes, 0 if it is none. */
+/* Reads the number at the start of a text. Returns its length in bytes, 0 if there is none. */
 size_t wavycon_parse_number(const char *text, double *value)
 {
     char *end;

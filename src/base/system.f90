@@ -1,4 +1,4 @@
-!> Directories, renaming and the terminal: thin wrappers of the C calls in system.c.
+!> Files, memory, signals and the terminal: interfaces of the C functions in system.c.
 module wavycon_system
    use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int, c_long_long, c_null_char, c_size_t
    use, intrinsic :: iso_fortran_env, only: int64
@@ -9,7 +9,7 @@ module wavycon_system
    public :: file_size, full_path, path_kind, make_directories, rename_file, remove_file, remove_when_interrupted
    public :: outlive_file_size_limit, parse_number, process_id, stdout_is_terminal
 
-   !> What `path_kind` can answer.
+   !> Values of `path_kind`.
    integer, parameter, public :: path_absent = 0, path_directory = 1, path_file = 2, path_device = 3, &
                                  path_unknown = 4
 
@@ -59,8 +59,8 @@ module wavycon_system
          import :: c_long_long
       end function c_available_memory
 
-      !> The number that a text begins with. Returns how many bytes it takes, 0 if it is none.
-      !> N.B. One too large is an infinity, and overflow is signalled.
+      !> Reads the number at the start of a text. Returns its length in bytes, 0 if there is none.
+      !> N.B. A number that is too large gives an infinity and signals overflow.
       integer(c_size_t) function parse_number(text, value) bind(c, name='wavycon_parse_number')
          import :: c_char, c_double, c_size_t
          character(kind=c_char), intent(in) :: text(*)   !! ended by a null character
@@ -84,9 +84,10 @@ module wavycon_system
 
 contains
 
-   !> The name of a file from the root on; as it is if that cannot be had.
+   !> The absolute path of a file; the path as it is if the file does not exist or its absolute path is longer than 4095
+   !> bytes.
    function full_path(path) result(full)
-      character(*), intent(in) :: path   !! of a file that is there
+      character(*), intent(in) :: path
       character(:), allocatable :: full
 
       integer, parameter :: longest = 4096
@@ -97,49 +98,50 @@ contains
       if (full == '') full = path
    end function full_path
 
-   !> Whether a path names nothing, a directory, a file or something else (a pipe, a device); unknown, if the system
-   !> refuses to say.
+   !> Whether a path names nothing, a directory, a file or something else (a pipe, a device); unknown if the system
+   !> reports an error.
    integer function path_kind(path)
       character(*), intent(in) :: path
 
       path_kind = int(c_path_kind(path//c_null_char))
    end function path_kind
 
-   !> Bytes of a file that are there; -1 if there is no file.
+   !> Size of a file [byte]; -1 if there is no file.
    !>
-   !> N.B. gfortran 12 answers an `inquire` of a file that it has open with what it means to write.
+   !> N.B. Of a file that it has open, `inquire` of gfortran 12 includes bytes that are not written yet.
    integer(int64) function file_size(path)
       character(*), intent(in) :: path
 
       file_size = int(c_file_size(path//c_null_char), int64)
    end function file_size
 
-   !> Makes a directory and those above it.
+   !> Makes a directory and those above it; directories that exist are no failure.
    subroutine make_directories(path, failure)
       character(*), intent(in) :: path
       character(:), allocatable, intent(out) :: failure
-         !! which part, and what is in the way; not allocated if all is well
+         !! which part of the path failed, and why; not allocated on success
 
       integer :: i, number
 
-      do i = 2, len(path) + 1
+      ! An empty path fails too: there is no such directory.
+      do i = min(2, len(path) + 1), len(path) + 1
          if (i <= len(path)) then
             if (path(i:i) /= '/') cycle
          end if
          number = int(c_make_directory(path(:i - 1)//c_null_char))
          if (number == 0) cycle
          failure = path(:i - 1)//': '//error_text(number)
-         ! The system's word for that is 'File exists'.
+         ! The system would say 'File exists'.
          if (any(path_kind(path(:i - 1)) == [path_file, path_device])) &
             failure = path(:i - 1)//' is a file and no directory'
          return
       end do
    end subroutine make_directories
 
-   !> Renames a file; one that has the new name already is replaced in the same instant.
+   !> Renames a file; a file of the new name is replaced, atomically.
    subroutine rename_file(from, to, failure)
       character(*), intent(in) :: from, to
-      character(:), allocatable, intent(out) :: failure  !! the system's words; not allocated if all is well
+      character(:), allocatable, intent(out) :: failure  !! the system's message; not allocated on success
 
       integer :: number
 
@@ -147,7 +149,7 @@ contains
       if (number /= 0) failure = error_text(number)
    end subroutine rename_file
 
-   !> Removes a file; one that is not there is fine.
+   !> Removes a file, if it exists.
    subroutine remove_file(path)
       character(*), intent(in) :: path
 
@@ -156,16 +158,15 @@ contains
       ignored = int(c_remove(path//c_null_char))
    end subroutine remove_file
 
-   !> Removes a file should the program be interrupted (SIGINT, SIGTERM, SIGHUP) before it is renamed or removed. Of
-   !> one file at a time: a second call forgets the first.
+   !> Removes a file if the program is interrupted (SIGINT, SIGTERM, SIGHUP) before it is renamed or removed. Only the
+   !> file of the last call is removed.
    subroutine remove_when_interrupted(path)
-      character(*), intent(in) :: path
+      character(*), intent(in) :: path   !! at most 4095 bytes; a longer one is ignored
 
       call c_remove_when_interrupted(path//c_null_char)
    end subroutine remove_when_interrupted
 
-   !> Makes a write beyond the limit of a file's size (ulimit -f) an error of that write, as on a full disk, not the
-   !> end of the program.
+   !> Makes a write beyond the limit on file sizes (ulimit -f) fail as on a full disk; otherwise it ends the program.
    subroutine outlive_file_size_limit()
       call c_outlive_file_size_limit()
    end subroutine outlive_file_size_limit
@@ -178,7 +179,7 @@ contains
       available_memory = int(c_available_memory(), int64)
    end function available_memory
 
-   !> This process's number, for names of files that no other process uses.
+   !> The number of this process, for file names that no other process uses.
    integer function process_id()
       process_id = int(c_process_id())
    end function process_id
@@ -188,6 +189,7 @@ contains
       stdout_is_terminal = c_stdout_is_terminal() /= 0
    end function stdout_is_terminal
 
+   !> The system's message of an error.
    function error_text(number) result(text)
       integer, intent(in) :: number  !! an errno
       character(:), allocatable :: text

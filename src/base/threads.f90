@@ -1,4 +1,4 @@
-!> How many threads work on large grids.
+!> The number of threads for large grids.
 module wavycon_threads
    use, intrinsic :: iso_c_binding, only: c_int
    use wavycon_fftw, only: fftw_init_threads, fftw_plan_with_nthreads
@@ -7,7 +7,7 @@ module wavycon_threads
 
    public :: set_threads, threads_for, use_threads_for_transforms
 
-   !> Below so many points a thread costs more than it gains.
+   !> Grids with fewer points are solved by one thread: starting more costs more time than they save.
    integer, parameter :: least_points = 65536
 
    integer :: threads = 1
@@ -15,22 +15,22 @@ module wavycon_threads
 
 contains
 
-   !> Sets the number for all that follows; 1 until then.
+   !> Sets the number of threads from now on; before the first call it is 1.
    subroutine set_threads(number)
-      integer, intent(in) :: number   !! >= 1
+      integer, intent(in) :: number   !! >= 1; a smaller one counts as 1
 
-      threads = number
+      threads = max(1, number)
       if (number > 1 .and. .not. transforms_ready) transforms_ready = fftw_init_threads() /= 0
    end subroutine set_threads
 
-   !> The threads that a grid of some points is worth.
+   !> The number of threads for a grid.
    integer function threads_for(points)
-      integer, intent(in) :: points
+      integer, intent(in) :: points   !! of the grid
 
       threads_for = merge(threads, 1, points >= least_points)
    end function threads_for
 
-   !> Sets the number of threads of the transforms planned from now on.
+   !> Sets the number of threads of the Fourier transforms that are planned from now on.
    subroutine use_threads_for_transforms(points)
       integer, intent(in) :: points   !! of the grid
 
