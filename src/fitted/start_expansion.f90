@@ -1,8 +1,9 @@
-!> Where Gauss-Newton starts from: the asymptotes of light load and of nearly full contact.
+!> First approximations for Gauss-Newton's method: the asymptotes of light load and of nearly full contact.
 module wavycon_start_expansion
    use wavycon_constants, only: pi
    use wavycon_disc_polynomials, only: start_disc_polynomials
    use wavycon_expansion, only: expansion
+   use wavycon_fitted_tuning, only: island_ellipticity_power, spot_ellipticity_power, start_degree
    use wavycon_kinds, only: dp
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
@@ -10,24 +11,19 @@ module wavycon_start_expansion
 
    public :: hertz_spot, crack_island, scaled_to_load
 
-   !> Of the polynomials of a start: enough to follow the load with.
-   integer, parameter :: low_degree = 4
-
 contains
 
-   !> A Hertzian spot, elliptical where the curvatures of the crest differ.
+   !> A Hertzian spot, elliptical where the curvatures of the crest differ; paper, (23).
    function hertz_spot(lattice, load) result(spot)
       type(wave_lattice), intent(in) :: lattice
       real(dp), intent(in) :: load   !! P > 0
       type(expansion) :: spot
 
-      !> Semi-axes of an elliptical contact go roughly as this power of the curvatures, inversely.
-      real(dp), parameter :: ellipticity_power = 0.6_dp
       real(dp) :: curvature(2), radius, ratio
       integer :: i
 
       spot%island = .false.
-      call start_disc_polynomials(spot%basis, lattice%fold, low_degree, 0.5_dp)
+      call start_disc_polynomials(spot%basis, lattice%fold, start_degree, 0.5_dp)
       do i = 1, 2
          curvature(i) = 4*pi**2*sum(lattice%wave(i, :)**2*lattice%amplitude)
       end do
@@ -36,7 +32,7 @@ contains
       allocate (spot%shape%b(0:1))
       spot%shape%b(:) = [radius, 0.0_dp]
       if (lattice%fold == 2) then
-         ratio = (curvature(1)/curvature(2))**ellipticity_power
+         ratio = (curvature(1)/curvature(2))**spot_ellipticity_power
          spot%shape%b(1) = radius*(1.0_dp - ratio)/(1.0_dp + ratio)
       end if
       allocate (spot%c(spot%basis%terms), source=0.0_dp)
@@ -45,19 +41,18 @@ contains
       spot%approach = sqrt(product(curvature))*radius**2
    end function hertz_spot
 
-   !> A penny-shaped crack at each trough, elliptical where the curvatures of the full contact's pressure differ.
+   !> The opening of a penny-shaped crack at a trough, elliptical where the curvatures of the full contact's pressure differ;
+   !> paper, (24) and (A4)-(A8).
    function crack_island(lattice, load) result(island)
       type(wave_lattice), intent(in) :: lattice
-      real(dp), intent(in) :: load  !! P < the pressure that closes the troughs
+      real(dp), intent(in) :: load  !! P < the closing pressure
       type(expansion) :: island
 
-      !> Of a long ellipse the length and the width go as this power of the curvatures, inversely.
-      real(dp), parameter :: ellipticity_power = 0.5_dp
       real(dp) :: curvature(2), missing, radius, ratio
       integer :: i
 
       island%island = .true.
-      call start_disc_polynomials(island%basis, lattice%trough_fold, low_degree, 1.5_dp)
+      call start_disc_polynomials(island%basis, lattice%trough_fold, start_degree, 1.5_dp)
       do i = 1, 2
          curvature(i) = -4*pi**2*sum(lattice%wave(i, :)**2*lattice%pressure*lattice%phase%re)
       end do
@@ -67,33 +62,33 @@ contains
       allocate (island%shape%b(0:1))
       island%shape%b(:) = [radius, 0.0_dp]
       if (lattice%trough_fold == 2) then
-         ratio = (curvature(1)/curvature(2))**ellipticity_power
+         ratio = (curvature(1)/curvature(2))**island_ellipticity_power
          island%shape%b(1) = radius*(1.0_dp - ratio)/(1.0_dp + ratio)
       end if
       allocate (island%c(island%basis%terms), source=0.0_dp)
-      ! The opening is g_0 (1 - rho^2)^(3/2), g_0 = (8/3) b times what is missing.
+      ! The opening is g_0 (1 - rho^2)^(3/2), g_0 = (8/3) b (closing pressure - P), b the radius.
       island%c(1) = 8*missing*radius/3*sqrt(0.4_dp*pi)
    end function crack_island
 
-   !> A guess for another load: sizes go as the asymptotes.
-   function scaled_to_load(lattice, from, old_load, new_load) result(guess)
+   !> An approximation at another load: lengths, pressures and gaps are scaled as in the asymptotes.
+   function scaled_to_load(lattice, from, old_load, new_load) result(scaled)
       type(wave_lattice), intent(in) :: lattice
       type(expansion), intent(in) :: from
       real(dp), intent(in) :: old_load, new_load  !! P
-      type(expansion) :: guess
+      type(expansion) :: scaled
 
       real(dp) :: factor
 
-      guess = from
+      scaled = from
       if (from%island) then
          factor = sqrt((lattice%closing_pressure - new_load)/(lattice%closing_pressure - old_load))
-         guess%c = from%c*factor**3
+         scaled%c = from%c*factor**3
       else
          factor = (new_load/old_load)**(1.0_dp/3)
-         guess%c = from%c*factor
-         guess%approach = from%approach*factor**2
+         scaled%c = from%c*factor
+         scaled%approach = from%approach*factor**2
       end if
-      guess%shape%b = from%shape%b*factor
+      scaled%shape%b = from%shape%b*factor
    end function scaled_to_load
 
 end module wavycon_start_expansion
