@@ -1,7 +1,7 @@
 # shellcheck shell=sh
-# What the scripts fig01.sh ... figA1.sh share: options, the program, the decks, gnuplot. To be sourced.
+# What the scripts of the figures share: options, the program, the decks, gnuplot. To be sourced.
 
-# start_figure NAME TITLE [OPTION...]: reads the options, finds the tree and the program.
+# start_figure NAME TITLE [OPTION...]: reads the options, changes to the top of the tree, finds the program.
 start_figure() {
    figure=$1
    title=$2
@@ -21,7 +21,7 @@ start_figure() {
       *) refuse "unknown format '$format': png, svg or pdf" ;;
    esac
 
-   # A program that is named by a relative path is looked for from where the caller stands, not from the root.
+   # A relative path in WAVYCON starts at the caller's directory, not at the top of the tree.
    wavycon=${WAVYCON-}
    case $wavycon in
       */*) wavycon=$(cd "$(dirname "$wavycon")" && pwd)/$(basename "$wavycon") ;;
@@ -38,10 +38,9 @@ show_help() {
 usage: $(basename "$0") [--format png|svg|pdf] [--help]
 
 Draws $title
-of Johnson, Greenwood & Higginson (1985) into outputs/figures/$figure.FORMAT of the tree, png if
-not said otherwise, from tables that the program writes under outputs/;
-says where the picture is.
-The program is build/wavycon of the tree, or what the variable WAVYCON says.
+of Johnson, Greenwood & Higginson (1985) into outputs/figures/$figure.FORMAT of the tree, by default
+png, from tables that the program writes under outputs/. Prints the name of the picture. The program is
+build/wavycon of the tree, or the one that the variable WAVYCON names.
 EOF
 }
 
@@ -63,14 +62,14 @@ run_decks() {
    done
 }
 
-# header_value CASE TABLE NAME: a number that stands as 'NAME = number' in the head of a table.
+# header_value CASE TABLE NAME: the number of 'NAME = number' in the head of a table.
 header_value() {
    awk -v name="$3 =" '/^#/ && (i = index($0, name)) {
       split(substr($0, i + length(name)), field, ","); print field[1]; exit }' "outputs/$1/$1.$2.dat"
 }
 
-# draw_figure WIDTH HEIGHT [NAME=VALUE...]: draws the gnuplot commands of the standard input, width and height
-# in points of 1/72 inch. The picture appears whole or not at all.
+# draw_figure WIDTH HEIGHT [NAME=VALUE...]: draws the gnuplot commands of the standard input, with width and height in
+# points of 1/72 inch. The picture appears only when it is complete.
 draw_figure() {
    settings="width = $1; height = $2; format = '$format'"
    shift 2
@@ -81,8 +80,7 @@ draw_figure() {
    picture=outputs/figures/$figure.$format
    aside=outputs/figures/.$figure.$$.$format
    trap 'rm -f "$aside"' EXIT
-   # -d: without the user's own gnuplot settings.
-   # In UTF-8 whatever the user's locale, for the signs of the labels.
+   # -d: without the user's own gnuplot settings. UTF-8 in any locale, for the labels.
    LC_ALL=C.UTF-8 gnuplot -d -e "$settings; picture = '$aside'" scripts/figure_style.gp /dev/stdin
    mv "$aside" "$picture"
    printf '%s\n' "$PWD/$picture"

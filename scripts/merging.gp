@@ -1,14 +1,14 @@
-# The load at which neighbouring spots merge, and what is there, from the loads next to it on either side.
+# The load at which neighbouring spots merge, and the values there, from the loads next to it on either side.
 #
 # usage: gnuplot -d -c scripts/merging.gp SURFACE DETAILS LIGHTEST GUESS HEAVIEST
-#    SURFACE: its name for the table. DETAILS: the table of details, Delta = 1. Loads between LIGHTEST and HEAVIEST are
-#    fitted, on the two sides of GUESS, where spots merge.
+#    SURFACE: name for the table. DETAILS: the table of details, with Delta = 1. The fits use the loads between LIGHTEST
+#    and HEAVIEST, below and above GUESS, a first value of the merging load.
 #
-# Towards merging the saddle's gap and, above it, the square of the saddle's pressure vanish as the distance in
-# load does, but for a logarithm: contact is a narrow strip there. With s for either, P is fitted as
-# P_m + s (c_1 + c_2 ln s + c_3 ln^2 s), and the values at distances d from the P_m found from below as
-# v_m + d (c_1 + c_2 ln d + c_3 d). Errors are the changes if c_3 = 0, and of the values what the load's error makes
-# beside.
+# Towards merging the saddle's gap and, above merging, the square of the saddle's pressure vanish in proportion to the
+# distance in load, except for a logarithm, because the contact there is a narrow strip. With s for either, P is fitted
+# as P_m + s (c_1 + c_2 ln s + c_3 ln^2 s). The values at distances d from the P_m found from below are fitted as
+# v_m + d (c_1 + c_2 ln d + c_3 d). Error estimates are the changes for c_3 = 0; those of the values include the effect
+# of the load's error.
 surface = ARG1
 details = ARG2
 lightest = real(ARG3)
@@ -17,14 +17,14 @@ heaviest = real(ARG5)
 set fit quiet logfile '/dev/null' limit 1e-13 maxiter 1000
 set print '-'
 
-# Of s and d, so that the coefficients are of order one.
+# Unit of s and d, so that the coefficients are of order one.
 unit = heaviest - merging
 pick(side, p) = side eq 'below' ? p > lightest && p < merging : p > merging && p < heaviest
 small(side, gap, pressure) = (side eq 'below' ? gap : pressure**2)/unit
 by_saddle(s) = v_m + s*unit*(c_1 + c_2*log(s) + c_3*log(s)**2)
 by_load(d) = v_m + d*(c_1 + c_2*log(d) + c_3*d)
 
-# A fit of a column with and without c_3: sets v_m and its error. Rows count as their distances are small.
+# Fits a column without and with c_3, which sets v_m and its error. Rows at small distances have larger weights.
 fit_both(formula, chosen, column, distance) = sprintf( \
    'do for [free in "c_1,c_2 c_1,c_2,c_3"] { rough = v_m; c_1 = -1.0; c_2 = 0.1; c_3 = free eq "c_1,c_2" ? 0.0 : 0.01; v_m = 0.5;' \
    .' eval "fit %s details using (%s ? %s : NaN):%d:(%s) yerrors via v_m,".free }; error = abs(v_m - rough)', \

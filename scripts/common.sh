@@ -1,0 +1,32 @@
+# shellcheck shell=bash
+# What the bash scripts that build and run the program share. To be sourced.
+
+root=$(CDPATH='' cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd -P)
+build=$root/build
+
+# say WORDS...: a message on standard error, after the script's name.
+say() {
+   echo "${0##*/}: $*" >&2
+}
+
+# answer_help [OPTION...]: prints the script's `usage` and exits if the first option asks for help.
+answer_help() {
+   case ${1-} in
+   -h | --help)
+      usage
+      exit 0
+      ;;
+   esac
+}
+
+# bad_usage [WORDS...]: a message, if there is one, the usage, and exit status 1.
+bad_usage() {
+   if [ $# -gt 0 ]; then say "$*"; fi
+   usage >&2
+   exit 1
+}
+
+# cached PATTERN: the values of the entries of CMake's cache whose names match.
+cached() {
+   sed -n "s/^$1:[A-Z]*=//p" "$build/CMakeCache.txt"
+}

@@ -1,0 +1,187 @@
+#!/usr/bin/env python3
+"""The pages agree with the program: links, decks, keys, columns, and the log that README.md shows.
+
+usage: check_pages.py --program WAVYCON
+
+A block fenced as ```fortran in a page of DECK_PAGES is a whole deck. Each check is also shown a page with a mistake.
+"""
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+MOST_LINES = 110  # of README.md
+DECK_PAGES = ("README.md", "inputs/README.md", "outputs/README.md")
+# Headings of outputs/README.md, each with the table that it explains.
+SECTIONS = {"summary": "The summary", "lines": "Lines", "map": "Map", "contour": "Contours",
+            "coefficients": "Coefficients", "theory": "Theory", "details": "Details"}
+# Decks that together write every table with every column.
+TABLE_DECKS = {
+    "line": "&surface kind = 'wave_1d' /\n&load pbar_over_pstar = 0.5 /\n"
+            "&output lines = t, map = t, contours = t, coefficients = t, theory = t, points_per_wavelength = 8 /\n",
+    "plane": "&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0.5 /\n"
+             "&output lines = t, map = t, contours = t, coefficients = t, theory = t, points_per_wavelength = 8 /\n",
+    "expansion": "&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0.5 /\n"
+                 "&method solver = 'fitted' /\n&output details = t /\n"}
+# Columns of the log that rounding may change.
+ROUNDED = ("pivots", "kkt")
+
+
+def read(page):
+    return (ROOT/page).read_text(encoding="utf-8")
+
+
+def pages():
+    """Every page of the tree, builds and results of runs aside."""
+    return [path for path in sorted(ROOT.rglob("*.md"))
+            if not re.match(r"build|\.|outputs/[^/]+/", path.relative_to(ROOT).as_posix())]
+
+
+def without_fences(text):
+    return re.sub(r"^```.*?^```$", "", text, flags=re.MULTILINE | re.DOTALL)
+
+
+def anchors(text):
+    """The names that GitHub gives to the headings of a page."""
+    headings = re.findall(r"^#+ (.*)$", without_fences(text), re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+def broken_links(path, text):
+    broken = []
+    for target in re.findall(r"\]\(([^)\s]+)\)", without_fences(text)):
+        if re.match(r"[a-z]+:", target):
+            continue
+        place, _, anchor = target.partition("#")
+        file = path.parent/place if place else path
+        if not file.exists() or (anchor and anchor not in anchors(text if not place else file.read_text("utf-8"))):
+            broken.append(target)
+    return broken
+
+
+def decks(text):
+    return re.findall(r"^```fortran\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
+
+
+def section(text, heading):
+    """What stands below a heading of the second level."""
+    found = re.search(rf"^## {re.escape(heading)}\n(.*?)(?=^## |\Z)", text, re.MULTILINE | re.DOTALL)
+    return found[1] if found else ""
+
+
+def explained_columns(text):
+    """Names with units in the first cells of a section's tables."""
+    return {name for cell in re.findall(r"^\| (`[^|]*?) \|", text, re.MULTILINE)
+            for name in re.findall(r"`(\w+\[[^\]`]*\])`", cell)}
+
+
+def named_keys(text):
+    """The keys in the brief reference of README.md, where groups and values of keys are quoted too."""
+    return set(re.findall(r"`(\w+)`", section(text, "Groups and keys")))
+
+
+def keys_of_help(words):
+    return set(re.findall(r"^   (\w+) {1,}\S", words[words.index("&scene"):], re.MULTILINE))
+
+
+def comparable(log):
+    """A log without version, times and what rounding may change."""
+    lines, left_out = [], ()
+    for line in log.splitlines():
+        words = line.split()
+        if re.match(r"wavycon \d|\[ *[\d.]+ s\]", line):
+            continue
+        if words[:1] == ["pbar/p*"]:
+            left_out = [words.index(name) for name in ROUNDED if name in words]
+        elif words and not re.match(r"[\d.]", words[0]):
+            left_out = ()
+        lines.append([word for place, word in enumerate(words) if place not in left_out])
+    return lines
+
+
+class Pages(unittest.TestCase):
+    program = ""
+
+    def run_program(self, *arguments, folder=None):
+        return subprocess.run([self.program, *map(str, arguments)], cwd=folder, capture_output=True, text=True)
+
+    def test_readme_is_short(self):
+        self.assertLessEqual(len(read("README.md").splitlines()), MOST_LINES)
+
+    def test_links(self):
+        self.assertIn(ROOT/"README.md", pages())
+        for path in pages():
+            self.assertEqual([], broken_links(path, path.read_text("utf-8")), path)
+
+    def test_broken_links_are_found(self):
+        text = "## A b\n[1](nowhere.md) [2](README.md) [3](#a-b) [4](#c) [5](README.md#citing) [6](README.md#d)"
+        self.assertEqual(["nowhere.md", "#c", "README.md#d"], broken_links(ROOT/"README.md", text))
+
+    def test_decks(self):
+        with tempfile.TemporaryDirectory() as scratch:
+            deck = pathlib.Path(scratch)/"deck.nml"
+            for page in DECK_PAGES:
+                self.assertGreater(len(decks(read(page))), 0, page)
+                for text in decks(read(page)):
+                    deck.write_text(text)
+                    checked = self.run_program("--check", deck, folder=ROOT/"inputs")
+                    self.assertEqual(0, checked.returncode, f"{page}:\n{text}\n{checked.stderr}")
+
+    def test_each_deck_of_inputs_is_listed(self):
+        listed = section(read("inputs/README.md"), "The decks in this directory")
+        for path in sorted((ROOT/"inputs").iterdir()):
+            if path.suffix in (".nml", ".dat"):
+                self.assertIn(f"`{path.name}`", listed)
+
+    def columns(self):
+        """The columns of each kind of table."""
+        found = {kind: set() for kind in SECTIONS}
+        with tempfile.TemporaryDirectory() as scratch:
+            folder = pathlib.Path(scratch)
+            for name, text in TABLE_DECKS.items():
+                (folder/f"{name}.nml").write_text(text)
+                result = self.run_program(f"{name}.nml", "--quiet", "--output", ".", folder=folder)
+                self.assertEqual(0, result.returncode, result.stderr)
+            for path in folder.glob("*.dat"):
+                head = [line for line in path.read_text().splitlines() if line.startswith("#  ")]
+                self.assertEqual(1, len(head), path.name)
+                found[path.name.split(".")[1]].update(head[0][1:].split())
+        return found
+
+    def test_columns(self):
+        page = read("outputs/README.md")
+        for kind, columns in self.columns().items():
+            self.assertGreater(len(columns), 0, kind)
+            self.assertEqual(columns, explained_columns(section(page, SECTIONS[kind])), kind)
+
+    def test_missing_columns_are_found(self):
+        text = "## Map\n| Column | Meaning |\n|---|---|\n| `x[length]`, `y[length]` | Like `z[-]` |\n## Lines\n| `p[-]` | |\n"
+        self.assertEqual({"x[length]", "y[length]"}, explained_columns(section(text, "Map")))
+
+    def test_keys(self):
+        keys = keys_of_help(self.run_program("--help").stdout)
+        self.assertGreater(len(keys), 40)
+        self.assertEqual(keys, named_keys(read("README.md")))
+
+    def test_missing_keys_are_found(self):
+        text = "## Groups and keys\n| `&surface` | `kind`: `'wave_1d'` (1.0) |\n## More\n`wavelength`\n"
+        self.assertEqual({"kind"}, named_keys(text))
+
+    def test_the_log_in_readme(self):
+        text = read("README.md")
+        shown = re.findall(r"^```\n(deck .*?)^```$", text, re.MULTILINE | re.DOTALL)
+        self.assertEqual(1, len(shown))
+        with tempfile.TemporaryDirectory() as scratch:
+            (pathlib.Path(scratch)/"first.nml").write_text(decks(text)[0])
+            log = self.run_program("first.nml", folder=scratch).stdout
+        self.assertEqual(comparable(log), comparable(shown[0]))
+        self.assertNotEqual(comparable(log), comparable(shown[0].replace("0.556371", "0.556372")))
+
+
+if __name__ == "__main__":
+    Pages.program = str(pathlib.Path(sys.argv.pop(sys.argv.index("--program") + 1)).resolve())
+    sys.argv.remove("--program")
+    unittest.main()
