@@ -6,7 +6,7 @@ module wavycon_method_group
    use wavycon_plain_text, only: integer_text
    use wavycon_problems, only: problem_list_type
    use wavycon_surface, only: surface_type
-   use wavycon_surface_kinds, only: paper_waves
+   use wavycon_surface_kinds, only: is_paper_kind, paper_waves
    implicit none (type, external)
    private
 
@@ -28,10 +28,10 @@ contains
 
       table = key_group('method', 'how the contact is computed', [ &
          choice_key('solver', "'beale', or 'auto'", &
-            "'beale': the paper's truncated series by Beale's method, for its waves; their default. 'grid': ever "// &
-            "finer grids until mean gap, area and peak pressure are accurate. 'fitted': expansions fitted to the "// &
-            "edge of contact, of spots or of open islands. 'auto': the closed form in 1-D where there is one, else "// &
-            "'fitted', and 'grid' where that has no answer.", &
+            "'beale': the paper's truncated series by Beale's method, for its waves, and their default. "// &
+            "'grid': ever finer grids until mean gap, area and peak pressure are accurate. 'fitted': expansions "// &
+            "fitted to the edge of contact, of spots or of open islands. 'auto': the closed form in 1-D where there "// &
+            "is one, else 'fitted', and 'grid' where that has no answer.", &
             [character(6) :: 'beale', 'grid', 'fitted', 'auto']), &
          real_key('accuracy', '1e-3', '-', &
             "Not of 'beale': largest error allowed of mean gap [amplitude], contact area fraction and peak "// &
@@ -60,7 +60,7 @@ contains
    !> Sets the defaults that depend on the surface and checks the keys against the solver.
    subroutine check_method_group(values, kind, surface, problems)
       type(group_values), intent(inout) :: values
-      character(*), intent(in) :: kind                           !! of the surface
+      character(*), intent(in) :: kind                           !! of the surface; empty if the deck gives no good one
       type(surface_type), allocatable, intent(in) :: surface     !! not allocated if it has problems
       type(problem_list_type), intent(inout) :: problems
 
@@ -78,7 +78,8 @@ contains
          call values%set_default('harmonics', default_harmonics(dimension))
          call values%set_default('constraint_points', default_constraint_points(dimension))
       end if
-      call values%set_default('solver', trim(merge('beale', 'auto ', is_paper_wave)))
+      call values%set_default('solver', trim(merge('beale', 'auto ', &
+                                                   is_paper_wave .and. (is_paper_kind(kind) .or. kind == ''))))
       if (.not. values%is_bad('solver')) then
          if (values%text('solver') == 'beale') then
             call check_beale(values, dimension, is_paper_wave, problems)
