@@ -65,7 +65,7 @@ contains
       type(problem_list_type), intent(inout) :: problems
 
       integer :: dimension
-      logical :: is_paper_wave, own_grid
+      logical :: is_paper_wave, own_grid, takes_series
 
       ! Problems with the method that only follow from a bad surface would mislead.
       dimension = 0
@@ -78,8 +78,9 @@ contains
          call values%set_default('harmonics', default_harmonics(dimension))
          call values%set_default('constraint_points', default_constraint_points(dimension))
       end if
-      call values%set_default('solver', trim(merge('beale', 'auto ', &
-                                                   is_paper_wave .and. (is_paper_kind(kind) .or. kind == ''))))
+      takes_series = kind == ''
+      if (.not. takes_series) takes_series = is_paper_kind(kind)
+      call values%set_default('solver', trim(merge('beale', 'auto ', takes_series .and. is_paper_wave)))
       if (.not. values%is_bad('solver')) then
          if (values%text('solver') == 'beale') then
             call check_beale(values, dimension, is_paper_wave, problems)
