@@ -30,8 +30,8 @@ contains
          choice_key('solver', "'beale', or 'auto'", &
             "'beale': the paper's truncated series by Beale's method, for its waves, and their default. "// &
             "'grid': ever finer grids until mean gap, area and peak pressure are accurate. 'fitted': expansions "// &
-            "fitted to the edge of contact, of spots or of open islands. 'auto': the closed form in 1-D where there "// &
-            "is one, else 'fitted', and 'grid' where that has no answer.", &
+            "fitted to the edge of contact, of spots or of open islands. 'auto': the closed form in 1-D where "// &
+            "there is one, else 'fitted', and 'grid' where that has no answer.", &
             [character(6) :: 'beale', 'grid', 'fitted', 'auto']), &
          real_key('accuracy', '1e-3', '-', &
             "Not of 'beale': largest error allowed of mean gap [amplitude], contact area fraction and peak "// &
