@@ -9,7 +9,7 @@ module wavycon_file_bytes
 
    public :: read_file
 
-   !> What some editors begin a text with.
+   !> Byte order mark of UTF-8, with which some editors start a file.
    character(*), parameter, public :: byte_order_mark = char(239)//char(187)//char(191)
 
    character(*), parameter :: no_memory = 'there is not the memory for it'
@@ -54,10 +54,10 @@ contains
 
    end subroutine read_file
 
-   !> All the bytes of a file; a pipe, whose size is not known, is read a byte at a time.
+   !> All the bytes of a file. A pipe is read byte by byte: its size is not known.
    subroutine read_bytes(unit, most, content, status, message)
       integer, intent(in) :: unit, most
-      character(:), allocatable, intent(out) :: content   !! allocated if all is well
+      character(:), allocatable, intent(out) :: content   !! allocated if status is 0
       integer, intent(out) :: status
       character(*), intent(inout) :: message
 

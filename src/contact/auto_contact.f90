@@ -64,10 +64,11 @@ contains
    end function keys
 
    !> For every surface that no other solver is the default for.
-   logical function is_default_for(surface)
+   logical function is_default_for(surface, kind)
       type(surface_type), intent(in) :: surface
+      character(*), intent(in) :: kind
 
-      associate (unused => surface); end associate
+      associate (unused => surface, unused_too => kind); end associate
       is_default_for = .true.
    end function is_default_for
 

@@ -20,7 +20,7 @@ module wavycon_beale_contact
    use wavycon_qp_problem, only: qp_problem, qp_solution, qp_status_name
    use wavycon_series_solution, only: series_solution
    use wavycon_surface, only: surface_type, turned_paper_wave
-   use wavycon_surface_kinds, only: paper_waves
+   use wavycon_surface_kinds, only: is_paper_kind, paper_waves
    use wavycon_turned_series, only: to_sum_angles
    implicit none (type, external)
    private
@@ -120,10 +120,12 @@ contains
       if (.not. surface%is_paper_wave()) words = 'is for the waves of the paper: '//paper_waves()
    end function refusal
 
-   logical function is_default_for(surface)
+   !> A sum of waves that happens to be the paper's wave is solved to an accuracy, as other sums are.
+   logical function is_default_for(surface, kind)
       type(surface_type), intent(in) :: surface
+      character(*), intent(in) :: kind
 
-      is_default_for = surface%is_paper_wave()
+      is_default_for = surface%is_paper_wave() .and. is_paper_kind(kind)
    end function is_default_for
 
    subroutine set_defaults(values, surface)

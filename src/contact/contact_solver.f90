@@ -93,10 +93,11 @@ contains
    end function no_refusal
 
    !> `is_default_for`: whether a deck that names no solver gets this one. The first in the list that says so is taken.
-   logical function never(surface)
+   logical function never(surface, kind)
       type(surface_type), intent(in) :: surface
+      character(*), intent(in) :: kind           !! of the surface, as the deck names it
 
-      associate (unused => surface); end associate
+      associate (unused => surface, unused_too => kind); end associate
       never = .false.
    end function never
 

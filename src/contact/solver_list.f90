@@ -49,8 +49,9 @@ contains
    end subroutine keys_of_solvers
 
    !> The name of the solver of a deck that names none.
-   function default_solver(surface) result(name)
+   function default_solver(surface, kind) result(name)
       type(surface_type), intent(in) :: surface
+      character(*), intent(in) :: kind           !! of the surface, as the deck names it
       character(:), allocatable :: name
 
       type(solver_item), allocatable :: solvers(:)
@@ -59,7 +60,7 @@ contains
       call get_solvers(solvers)
       name = ''
       do i = 1, size(solvers)
-         if (.not. solvers(i)%solver%is_default_for(surface)) cycle
+         if (.not. solvers(i)%solver%is_default_for(surface, kind)) cycle
          name = solvers(i)%solver%name()
          return
       end do

@@ -1,4 +1,4 @@
-!> The text of a deck file, and where in it a byte stands.
+!> The text of a deck file, and the line of each of its bytes.
 module wavycon_deck_text
    use wavycon_error, only: error_type
    use wavycon_file_bytes, only: byte_order_mark, read_file
@@ -7,7 +7,7 @@ module wavycon_deck_text
 
    public :: deck_text_type, read_deck_text
 
-   !> A text and its lines. A place in it is the number of a byte, counted from 1.
+   !> A text and its lines. A place is the number of a byte of the text, counted from 1.
    type :: deck_text_type
       character(:), allocatable :: path        !! as the user named the file
       character(:), allocatable :: content
@@ -23,7 +23,7 @@ module wavycon_deck_text
 
    character(*), parameter :: line_feed = achar(10), carriage_return = achar(13)
 
-   !> A file larger than this is no deck [byte]; the fullest deck allowed is a tenth of it.
+   !> Bytes of a file: a larger one is no deck. The largest useful deck has a tenth of this.
    integer, parameter :: largest = 64*1024*1024
 
 contains

@@ -36,8 +36,9 @@ contains
    end function method_table
 
    !> Sets the defaults that depend on the surface and checks the keys against the solver.
-   subroutine check_method_group(values, surface, problems)
+   subroutine check_method_group(values, kind, surface, problems)
       type(group_values), intent(inout) :: values
+      character(*), intent(in) :: kind                           !! of the surface, as the deck names it
       type(surface_type), allocatable, intent(in) :: surface     !! not allocated if it has problems
       type(problem_list_type), intent(inout) :: problems
 
@@ -48,7 +49,7 @@ contains
 
       call get_solvers(solvers)
       call keys_of_solvers(solvers, alternatives)
-      if (allocated(surface)) call values%set_default('solver', default_solver(surface))
+      if (allocated(surface)) call values%set_default('solver', default_solver(surface, kind))
       if (values%is_bad('solver')) return
       chosen = findloc(alternatives%name == values%text('solver'), .true., dim=1)
       if (chosen == 0) return

@@ -8,7 +8,7 @@ module wavycon_problem_report
 
    public :: problem_report
 
-   !> Problems in a report; whoever sees this many goes back to the deck anyway.
+   !> Problems in a report: more would not help to correct the deck.
    integer, parameter, public :: most_printed = 50
 
 contains
@@ -38,7 +38,7 @@ contains
       if (left > 0) report = report//newline//'and '//at_least(problems)//integer_text(left)//' more'
    end function problem_report
 
-   !> A full list took no more: there may be more problems than it holds.
+   !> 'at least ' if the list is full: there may be more problems than it holds.
    pure function at_least(problems) result(words)
       type(problem_list_type), intent(in) :: problems
       character(:), allocatable :: words
@@ -47,7 +47,7 @@ contains
       if (problems%is_full()) words = 'at least '
    end function at_least
 
-   !> Numbers that sort the problems by place; those of equal places stay in their order.
+   !> The order of the problems by place; problems at one place keep their order.
    pure function in_order(problems) result(order)
       type(problem_list_type), intent(in) :: problems
       integer :: order(problems%number)
@@ -78,7 +78,7 @@ contains
          integer_text(character_count(text%content(text%line_start(line):place - 1)) + 1)//':'
    end function position
 
-   !> The line with a caret below the place. Of a long line only the neighbourhood of the place is shown.
+   !> The line with a caret below the place. A long line is cut around the place.
    pure function line_and_caret(text, place) result(words)
       type(deck_text_type), intent(in) :: text
       integer, intent(in) :: place

@@ -70,7 +70,7 @@ contains
       call check_material_group(deck%material, problems)
       call read_surface(deck, problems, error)
       call check_load_group(deck%load, problems)
-      call check_method_group(deck%method, deck%surface, problems)
+      call check_method_group(deck%method, deck%surface_values%text('kind'), deck%surface, problems)
       call check_output_group(deck%output, deck%scene%text('case'), deck%method%text('solver'), deck%surface, problems)
       ! Before any trouble with a height map: the deck must be corrected first.
       if (problems%number > 0) then

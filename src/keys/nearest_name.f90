@@ -5,16 +5,16 @@ module wavycon_nearest_name
 
    public :: nearest_name, edit_distance, did_you_mean
 
-   !> Longer names than this are no misspelling of anything.
+   !> Letters: a longer name is no misspelling of any.
    integer, parameter :: longest = 40
-   !> As many letters as this begin a name well enough to be its abbreviation.
+   !> Letters that an abbreviation must have.
    integer, parameter :: shortest_abbreviation = 3
 
 contains
 
-   !> Place of the name among those known that is nearest to the one given, or 0 if none is near.
+   !> Number of the known name nearest to the one given; 0 if none is near.
    !>
-   !> Near is at most one slip for every three letters, and one slip in a shorter name; or an abbreviation.
+   !> Near means at most one wrong letter in three, and one in a shorter name; or an abbreviation.
    pure integer function nearest_name(name, known) result(nearest)
       character(*), intent(in) :: name      !! lower case
       character(*), intent(in) :: known(:)  !! lower case, padded with blanks
@@ -53,7 +53,7 @@ contains
       if (nearest > 0) words = '; did you mean '//before//trim(known(nearest))//after//'?'
    end function did_you_mean
 
-   !> Least number of letters put in, left out, changed, or swapped with a neighbour, that turns a into b.
+   !> Edit distance: the least number of insertions, deletions, changes and swaps of neighbours that turn a into b.
    pure integer function edit_distance(a, b) result(distance)
       character(*), intent(in) :: a, b
 

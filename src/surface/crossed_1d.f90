@@ -51,12 +51,12 @@ contains
       type(key_type), allocatable :: rows(:)
 
       rows = [ &
-         real_key('amplitude1', '', 'length', 'the wave along x, on the first block.', least=0.0_dp, &
+         real_key('amplitude1', '', 'length', 'amplitude of the wave along x, on the first block.', least=0.0_dp, &
                   required=.true.), &
-         real_key('wavelength1', '', 'length', 'the wave along x.', above=0.0_dp, required=.true.), &
-         real_key('amplitude2', '', 'length', 'the wave along y, on the second block.', least=0.0_dp, &
+         real_key('wavelength1', '', 'length', 'wavelength along x.', above=0.0_dp, required=.true.), &
+         real_key('amplitude2', '', 'length', 'amplitude of the wave along y, on the second block.', least=0.0_dp, &
                   required=.true.), &
-         real_key('wavelength2', '', 'length', 'the wave along y.', above=0.0_dp, required=.true.)]
+         real_key('wavelength2', '', 'length', 'wavelength along y.', above=0.0_dp, required=.true.)]
    end function keys
 
    subroutine make(values, surface, map, error)

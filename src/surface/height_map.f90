@@ -54,7 +54,7 @@ contains
             "'matrix', a row of heights for each y; 'xyz', lines of x, y, z on a regular grid, from which the "// &
             "sides of the cell follow; 'auto', xyz if all lines have three numbers.", &
             [character(6) :: 'auto', 'matrix', 'xyz']), &
-         real_key('height_scale', '1.0', 'length', 'one unit of its heights.', above=0.0_dp)]
+         real_key('height_scale', '1.0', 'length', "length of one unit of the file's heights.", above=0.0_dp)]
    end function keys
 
    subroutine set_defaults(values)

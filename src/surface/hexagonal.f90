@@ -44,7 +44,7 @@ contains
    function meaning() result(words)
       character(:), allocatable :: words
 
-      words = 'three equal waves at 60 degrees'
+      words = 'three equal waves at 60 degrees to each other'
    end function meaning
 
    function keys() result(rows)
@@ -52,7 +52,7 @@ contains
 
       rows = [ &
          amplitude_key('mean gap before load; 0 is a flat surface.'), &
-         wavelength_key('of each of the three waves.')]
+         wavelength_key('wavelength of each of the three waves.')]
    end function keys
 
    subroutine make(values, surface, map, error)

@@ -11,21 +11,20 @@ module wavycon_surface
 
    public :: surface_type, surface_of_series, surface_of_points, gap_over_amplitude
 
-   !> How the cell lies to the wave of Johnson, Greenwood & Higginson (1985), where the surface is that: eq. (3) or
-   !> (21) in phi = X, theta = Y, or (21) in phi = (X + Y)/2, theta = (X - Y)/2.
+   !> Whether the surface is a wave of Johnson, Greenwood & Higginson (1985), and in which angles. Straight: eq. (3) or
+   !> (21) with phi = X, theta = Y. Turned: eq. (21) with phi = (X + Y)/2, theta = (X - Y)/2.
    integer, parameter, public :: no_paper_wave = 0, straight_paper_wave = 1, turned_paper_wave = 2
 
-   !> h/Delta = 1 - shape(X, Y),  X = 2 pi x/L_x,  Y = 2 pi y/L_y, with a `shape` of mean zero and peak one: the
-   !> surfaces touch first at its peaks, and Delta is the mean gap before load, for the waves of the paper their
-   !> amplitude.
+   !> h/Delta = 1 - shape(X, Y),  X = 2 pi x/L_x,  Y = 2 pi y/L_y. The shape has mean 0 and peak 1: the surfaces first
+   !> touch at its peaks. Delta is the mean gap before load, which is the amplitude of the paper's waves.
    type :: surface_type
       integer :: dimension = 2
       real(dp) :: length(2) = 1.0_dp            !! L_x, L_y, sides of the periodic cell [length]
       real(dp) :: amplitude = 1.0_dp            !! Delta [length], >= 0
       type(fourier_series) :: shape
-      integer :: points(2) = 0                  !! of the grid that it was given on; zeros for a sum of waves
+      integer :: points(2) = 0                  !! of the grid of a height map; zeros for a sum of waves
       real(dp) :: crest(2) = 0.0_dp             !! X, Y of a peak of the shape [rad]
-      real(dp) :: stiffness = 1.0_dp            !! pressure [p*] over displacement [Delta], times its wavelength
+      real(dp) :: stiffness = 1.0_dp            !! pressure [p*] over displacement [Delta] of a wave, times wavelength
       real(dp) :: full_contact_peak = 1.0_dp    !! largest p - pbar in full contact [p*]; the least is -1
       real(dp) :: crest_curvature = 1.0_dp      !! largest sum of the two curvatures over 4 pi^2 Delta [1/length^2]
    contains
@@ -43,7 +42,7 @@ module wavycon_surface
       procedure :: smaller_cell
    end type surface_type
 
-   !> Coefficients of a shape that differ by less are alike: they are sums of a few numbers below one.
+   !> Coefficients of a shape that differ by less are equal: they are sums of a few numbers below 1.
    real(dp), parameter :: rounding = 1e-13_dp
 
 contains
@@ -51,7 +50,7 @@ contains
    !> The surface whose height over its mean plane is a series.
    type(surface_type) function surface_of_series(length, height) result(surface)
       real(dp), intent(in) :: length(2)            !! L_x, L_y [length], > 0
-      type(fourier_series), intent(in) :: height   !! [length]; its mean does not matter
+      type(fourier_series), intent(in) :: height   !! [length]; its mean is ignored
 
       type(fourier_series) :: waves
       real(dp) :: lowest, unused(2)
@@ -62,21 +61,21 @@ contains
       surface%dimension = merge(1, 2, ubound(height%c, 2) == 0)
       call find_peak(waves, surface%amplitude, surface%crest)
       if (.not. surface%amplitude > 0.0_dp) surface%amplitude = 0.0_dp
-      surface%shape = scaled(waves, surface%amplitude)
+      surface%shape = divided(waves, surface%amplitude)
       if (surface%amplitude <= 0.0_dp) return
       waves = weighted(surface, surface%shape, 1)
       call find_peak(waves, surface%full_contact_peak, unused)
-      call find_peak(scaled(waves, -1.0_dp), lowest, unused)
+      call find_peak(divided(waves, -1.0_dp), lowest, unused)
       surface%stiffness = 1.0_dp/lowest
       surface%full_contact_peak = surface%full_contact_peak/lowest
       call find_peak(weighted(surface, surface%shape, 2), surface%crest_curvature, unused)
    end function surface_of_series
 
-   !> The surface that takes given heights on a grid of its whole cell, between whose points it is as smooth as they
-   !> allow. Its peaks are looked for on the points alone.
+   !> The surface through given heights on a grid of its whole cell; between the points it is their Fourier series.
+   !> Crest, peak pressure and curvature are those of the points.
    type(surface_type) function surface_of_points(length, height) result(surface)
       real(dp), intent(in) :: length(2)                      !! L_x, L_y [length], > 0
-      real(dp), intent(inout), contiguous :: height(:, :)    !! [length], shape (M, N), N = 1 for a profile; kept
+      real(dp), intent(inout), contiguous :: height(:, :)    !! [length], shape (M, N), N = 1 for a profile; unchanged
 
       type(grid_transform) :: transform
       type(fourier_series) :: waves
@@ -94,7 +93,7 @@ contains
       best = maxloc(values)
       surface%crest = [transform%x_angle(best(1)), transform%y_angle(best(2))]
       surface%amplitude = maxval(values)
-      surface%shape = scaled(waves, surface%amplitude)
+      surface%shape = divided(waves, surface%amplitude)
       if (surface%amplitude <= 0.0_dp) return
       waves = weighted(surface, surface%shape, 1)
       call transform%sample(waves, values)
@@ -106,7 +105,7 @@ contains
    end function surface_of_points
 
    !> p*, the mean pressure that just closes the gap everywhere: pi E* Delta/lambda in 1-D (eq. 7), sqrt2 times that
-   !> in 2-D (eq. 22); for any surface the depth of its deepest full-contact pressure.
+   !> in 2-D (eq. 22); for any surface the largest tension, p - pbar < 0, of its full-contact pressure.
    elemental real(dp) function full_contact_pressure(self, e_star)
       class(surface_type), intent(in) :: self
       real(dp), intent(in) :: e_star   !! plane-strain modulus E* [pressure]
@@ -144,18 +143,18 @@ contains
       class(surface_type), intent(in) :: self
       type(fourier_series), intent(in) :: displacement
 
-      pressure = scaled(weighted(self, displacement, 1), 1.0_dp/self%stiffness)
+      pressure = divided(weighted(self, displacement, 1), 1.0_dp/self%stiffness)
    end function pressure_of
 
-   !> The other way round.
+   !> The displacement (u - ubar)/Delta of a pressure (p - pbar)/p*: the inverse of `pressure_of`.
    type(fourier_series) function displacement_of(self, pressure) result(displacement)
       class(surface_type), intent(in) :: self
       type(fourier_series), intent(in) :: pressure
 
-      displacement = scaled(weighted(self, pressure, -1), self%stiffness)
+      displacement = divided(weighted(self, pressure, -1), self%stiffness)
    end function displacement_of
 
-   !> p/p* in full contact, eq. (22) of the paper's wave: that of the shape.
+   !> p/p* in full contact, where the displacement is the shape; eq. (22) for the paper's wave.
    type(fourier_series) function full_contact_series(self, pbar_over_pstar) result(pressure)
       class(surface_type), intent(in) :: self
       real(dp), intent(in) :: pbar_over_pstar   !! P >= 1
@@ -164,7 +163,7 @@ contains
       pressure%c(0, 0) = pbar_over_pstar
    end function full_contact_series
 
-   !> A series with each term times a power of its frequency; none is left of its mean.
+   !> A series with each term times a power of its frequency; the mean becomes 0.
    type(fourier_series) function weighted(surface, series, power)
       class(surface_type), intent(in) :: surface
       type(fourier_series), intent(in) :: series
@@ -187,21 +186,21 @@ contains
       end do
    end function weighted
 
-   !> A series over a number; over zero it stays.
-   type(fourier_series) function scaled(series, unit)
+   !> A series divided by a number; unchanged if that is 0.
+   type(fourier_series) function divided(series, unit)
       type(fourier_series), intent(in) :: series
       real(dp), intent(in) :: unit
 
-      scaled = series
+      divided = series
       if (.not. abs(unit) > 0.0_dp) return
-      scaled%c = scaled%c/unit
+      divided%c = divided%c/unit
       if (series%is_even()) return
-      scaled%cs = scaled%cs/unit
-      scaled%sc = scaled%sc/unit
-      scaled%ss = scaled%ss/unit
-   end function scaled
+      divided%cs = divided%cs/unit
+      divided%sc = divided%sc/unit
+      divided%ss = divided%ss/unit
+   end function divided
 
-   !> One of the names above.
+   !> no_paper_wave, straight_paper_wave or turned_paper_wave.
    pure integer function paper_wave(self)
       class(surface_type), intent(in) :: self
 
@@ -216,7 +215,7 @@ contains
 
    contains
 
-      !> Whether the shape is cos iX cos jY, or alike in both angles.
+      !> Whether the shape is cos iX cos jY or, for i /= j, the mean of that and cos jX cos iY.
       pure logical function is_wave(i, j)
          integer, intent(in) :: i, j
 
@@ -237,7 +236,7 @@ contains
 
    end function paper_wave
 
-   !> Whether it is a wave of the paper or, as one of amplitude 0, a flat surface on such a wave's cell.
+   !> Whether it is a wave of the paper. A flat surface on the cell of one counts as a wave of amplitude 0.
    pure logical function is_paper_wave(self)
       class(surface_type), intent(in) :: self
 
@@ -268,8 +267,8 @@ contains
       end if
    end subroutine paper_angles
 
-   !> Whether the surface repeats itself on a square of half the area, turned by 45 degrees, in which it is even and
-   !> alike in both directions.
+   !> Whether the surface is periodic on a square of half the area, turned by 45 degrees, and there even and symmetric
+   !> under exchange of the directions.
    pure logical function has_smaller_cell(self)
       class(surface_type), intent(in) :: self
 
@@ -289,7 +288,7 @@ contains
 
    !> The same surface on that cell: its angles are X + Y and X - Y.
    type(surface_type) function smaller_cell(self) result(surface)
-      class(surface_type), intent(in) :: self   !! that has one
+      class(surface_type), intent(in) :: self   !! has_smaller_cell() is true
 
       surface = self
       surface%shape = to_sum_angles(self%shape)

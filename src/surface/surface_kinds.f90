@@ -11,7 +11,7 @@ module wavycon_surface_kinds
    implicit none (type, external)
    private
 
-   public :: surface_kind_item, get_surface_kinds, keys_of_kinds, paper_waves
+   public :: surface_kind_item, get_surface_kinds, keys_of_kinds, paper_waves, is_paper_kind
 
    type :: surface_kind_item
       class(surface_kind), allocatable :: kind
@@ -78,5 +78,19 @@ contains
          words = words//condition
       end do
    end function paper_waves
+
+   !> Whether a kind makes waves of the paper by its form. A sum may be one too; that only its surface shows.
+   logical function is_paper_kind(name)
+      character(*), intent(in) :: name   !! of a kind; any other text is none
+
+      type(surface_kind_item), allocatable :: kinds(:)
+      integer :: i
+
+      call get_surface_kinds(kinds)
+      is_paper_kind = .false.
+      do i = 1, size(kinds)
+         if (kinds(i)%kind%name() == name) is_paper_kind = kinds(i)%kind%paper_wave_if() /= ''
+      end do
+   end function is_paper_kind
 
 end module wavycon_surface_kinds

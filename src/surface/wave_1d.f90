@@ -50,7 +50,7 @@ contains
 
       rows = [ &
          amplitude_key('mean gap before load, half the height from trough to crest; 0 is a flat surface.'), &
-         wavelength_key('along x.')]
+         wavelength_key('wavelength along x.')]
    end function keys
 
    subroutine make(values, surface, map, error)

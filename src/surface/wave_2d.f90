@@ -52,7 +52,7 @@ contains
 
       rows = [ &
          amplitude_key('mean gap before load, half the height from trough to crest; 0 is a flat surface.'), &
-         wavelength_key('along x.'), &
+         wavelength_key('wavelength along x.'), &
          real_key('wavelength_y', 'wavelength', 'length', 'wavelength along y.', above=0.0_dp)]
    end function keys
 

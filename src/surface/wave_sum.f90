@@ -32,15 +32,15 @@ module wavycon_wave_sum
 
 contains
 
-   !> h = Delta - sum_q a_q cos(m_q X + n_q Y - phase_q), X = 2 pi x/L_x, Y = 2 pi y/L_y, with the Delta that lets
-   !> the surfaces just touch.
+   !> h = Delta - sum_q a_q cos(m_q X + n_q Y - phase_q), X = 2 pi x/L_x, Y = 2 pi y/L_y. Delta is the largest value of
+   !> the sum, so that the surfaces just touch.
    type(surface_type) function wave_sum(length, a, m, n, phase) result(surface)
       real(dp), intent(in) :: length(2)      !! L_x, L_y [length], > 0
       real(dp), intent(in) :: a(:)           !! [length], of either sign
       integer, intent(in) :: m(:), n(:)      !! not both zero; in one dimension all n = 0
       real(dp), intent(in) :: phase(:)       !! [rad]
 
-      !> Of a sum of sines over that of all amplitudes: what is left of waves that cancel.
+      !> Sine coefficients below this fraction of the sum of all amplitudes are rounding errors of waves that cancel.
       real(dp), parameter :: rounding = 1e-15_dp
       type(fourier_series) :: waves
       integer :: k, l, q
@@ -85,11 +85,12 @@ contains
          real_key('amplitudes', '', 'length', &
             'the height is the sum of amplitudes cos(2 pi (waves_x x/length_x + waves_y y/length_y) - phases).', &
             most_values=most_waves, required=.true.), &
-         integer_key('waves_x', '', 'number of waves in the cell along x, of each amplitude.', &
+         integer_key('waves_x', '', 'number of periods of each wave in the cell along x; may be negative.', &
             -highest_wave, highest_wave, most_values=most_waves, required=.true.), &
-         integer_key('waves_y', '0', 'number of waves in the cell along y. If all are 0 the surface is a profile.', &
+         integer_key('waves_y', '0', &
+            'number of periods of each wave in the cell along y. If all are 0 the surface is a profile.', &
             -highest_wave, highest_wave, most_values=most_waves), &
-         real_key('phases', '0', 'degree', 'the phase of each wave.', least=-360.0_dp, most=360.0_dp, &
+         real_key('phases', '0', 'degree', 'phase of each wave.', least=-360.0_dp, most=360.0_dp, &
             most_values=most_waves)]
    end function keys
 
