@@ -3,7 +3,7 @@
 !> Conjugate gradients on the points in contact, whose set is updated in each iteration, after Polonsky & Keer
 !> (Wear 231 (1999) 206-219), with three changes: the residual is preconditioned by the inverse of S, restricted to
 !> the contact; the search is not restarted when the set changes, but uses Polak & Ribiere's factor where that is
-!> positive (restarts take up to 1.5 times the iterations on a rough surface); and points enter the contact at zero
+!> positive (restarts take up to 1.5 times the iterations on rough surfaces); and points enter the contact at zero
 !> pressure.
 !> On a regular wave seven iterations or so, started from a coarser grid's solution, gain six digits on any grid.
 !> Numbers (C..) are the equations of README.md in this directory.
