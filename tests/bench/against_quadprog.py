@@ -16,12 +16,12 @@ import numpy
 import quadprog
 
 HARMONICS, POINTS = 9, 27
-BLOCK = 20  # solves of one before the other takes its turn: the first finds the other's data in the cache
-AGREEMENT = 1e-9  # largest difference of the two answers, far above the rounding of either
+BLOCK = 20  # solves by one program in a row: the first of them starts with a cold cache
+AGREEMENT = 1e-9  # largest difference of the two solutions, far above rounding
 
 
 class Wavycon:
-    """The program that solves on demand, and its quadratic programme."""
+    """The program bench_single_solves and its quadratic programme."""
 
     def __init__(self, program):
         self.process = subprocess.Popen(
@@ -35,7 +35,7 @@ class Wavycon:
         return numpy.array(self.process.stdout.readline().split(), dtype=float)
 
     def solve(self, load, count):
-        """Status and pivots, times [ms], answer."""
+        """Status and pivots, times [ms], solution."""
         self.process.stdin.write(f'{load!r} {count}\n')
         self.process.stdin.flush()
         status, pivots = self.process.stdout.readline().split()
@@ -43,7 +43,7 @@ class Wavycon:
 
 
 def time_quadprog(matrices, count):
-    """Times [ms] and the last answer."""
+    """Times [ms] and the last solution."""
     times = []
     for _ in range(count):
         before = time.perf_counter()

@@ -1,5 +1,5 @@
-!> Measures the boundary-fitted expansions of the two-dimensional and of the hexagonal wave: the time of one load, from
-!> nothing, to six and to ten digits, and its errors; and that of a sweep.
+!> Measures the boundary-fitted expansions of the two-dimensional and of the hexagonal wave: time and errors of one
+!> load, without a start, to six and to ten digits; and the time of a sweep.
 program bench_expansions
    use, intrinsic :: iso_fortran_env, only: output_unit
    use samples, only: clock_ms, sample_set
@@ -12,10 +12,10 @@ program bench_expansions
    real(dp), parameter :: loads(8, 2) = reshape( &
       [0.01_dp, 0.05_dp, 0.1_dp, 0.2_dp, 0.3_dp, 0.5_dp, 0.7_dp, 0.9_dp, &
        0.01_dp, 0.1_dp, 0.3_dp, 0.5_dp, 0.7_dp, 0.75_dp, 0.8_dp, 0.9_dp], [8, 2])
-   !> Solves of one load at one accuracy, of which the median counts; at most so many milliseconds.
+   !> Solves of one load at one accuracy, of which the median is reported, and their time limit [ms].
    integer, parameter :: repeats = 25
    real(dp), parameter :: enough = 2000.0_dp
-   !> Loads of the sweep, at even distances between 0 and 1.
+   !> Loads of the sweep, equidistant between 0 and 1.
    integer, parameter :: sweep = 99
 
    character(9), parameter :: names(2) = [character(9) :: 'wave_2d', 'hexagonal']

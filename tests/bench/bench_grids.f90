@@ -14,7 +14,7 @@ program bench_grids
    implicit none (type, external)
 
    real(dp), parameter :: accuracies(*) = [1e-2_dp, 1e-3_dp, 1e-4_dp]
-   !> Solves of one load at one accuracy, of which the median counts.
+   !> Solves of one load at one accuracy, of which the median is reported.
    integer, parameter :: repeats = 5
 
    type(surface_type) :: whole, wave

@@ -2,8 +2,8 @@
 !>
 !>    bench_paper_method REFERENCE SECONDS
 !>
-!> REFERENCE is a table with P and G in its first two columns, SECONDS the time to be spent on each
-!> comparison. What is compared is run in turns, so that what else the machine does falls on all of it alike.
+!> REFERENCE is a table with P and G in its first two columns, SECONDS the time for each comparison. The methods
+!> run in turns, so that other load of the machine affects all of them alike.
 !> The tables go to standard output as blocks for gnuplot (two empty lines before each but the first).
 program bench_paper_method
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
@@ -12,7 +12,7 @@ program bench_paper_method
                       qp_solution, qp_status_name, symmetry_diagonal, symmetry_full, wave_2d
    implicit none (type, external)
 
-   !> A way to solve for one load, its times at the load under test and its last answer.
+   !> A method to solve for one load, its times at that load and its last solution.
    type :: contender
       integer :: harmonics, points, symmetry
       logical :: straight = .false.      !! by Beale's method from x = 0 at the load itself
@@ -21,20 +21,20 @@ program bench_paper_method
       type(beale_solution) :: solution
    end type contender
 
-   !> Fewest rounds of a comparison, however long they take.
+   !> Least number of rounds of a comparison, however long they take.
    integer, parameter :: least_rounds = 3
-   !> Solves of a contender when it is its turn: the first of them finds the others' data in the cache.
+   !> Solves of a method in a row: the first of them starts with a cold cache.
    integer, parameter :: solves_in_turn = 4
    !> A load's aim: one solve of 29 unknowns, 196 constraints [ms].
    real(dp), parameter :: solve_aim = 0.2_dp
    !> The sweep's aim, in mean single solves.
    real(dp), parameter :: sweep_aim = 2.0_dp
-   !> What the paper says of the time with 49 unknowns and 378 constraints, over that with 29 and 196.
+   !> Ratio of the times with 49 unknowns and 378 constraints and with 29 and 196, as the paper gives it.
    integer, parameter :: ratio_of_paper = 20
 
    real(dp), allocatable :: loads(:), gaps(:)
    real(dp) :: budget   ! [ms]
-   logical :: all_good   ! all answers got in the usual way
+   logical :: all_good   ! whether every solution has converged
 
    call read_arguments()
    all_good = .true.
@@ -154,7 +154,7 @@ contains
       call new%fresh%start(wave_2d(1.0_dp, 1.0_dp, 1.0_dp), harmonics, points, symmetry)
    end function new_contender
 
-   !> Solves for one load by every contender in turn until the time is spent.
+   !> Solves for one load by every method in turn until the time is over.
    subroutine race(contenders, load)
       type(contender), intent(inout) :: contenders(:)
       real(dp), intent(in) :: load
@@ -267,7 +267,7 @@ contains
       flush (output_unit)
    end subroutine write_values
 
-   !> Says whether the number written last is as small as it should be.
+   !> Prints whether the number printed last meets its aim.
    subroutine write_aim(value, aim)
       real(dp), intent(in) :: value, aim
 

@@ -1,4 +1,4 @@
-!> Solves one load at a time on demand, so that another program can time its own solver in between.
+!> Solves one load at a time on request, so that another program can time its own solver in between.
 !>
 !>    bench_single_solves HARMONICS POINTS
 !>

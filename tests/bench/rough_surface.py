@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes a self-affine periodic rough surface, and says what mean pressure gives some tenth of contact.
+"""Writes a self-affine periodic rough surface, and prints the mean pressure for about a tenth of contact area.
 
 usage: rough_surface.py POINTS FILE
 

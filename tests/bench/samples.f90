@@ -1,4 +1,4 @@
-!> Times of many runs of the same thing, and what is said of them.
+!> Times of repeated runs: median, smallest and largest.
 module samples
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_kinds, only: dp
@@ -7,7 +7,7 @@ module samples
 
    public :: sample_set, clock_ms
 
-   !> A set keeps so many times; later ones are not taken in.
+   !> A set keeps so many times and ignores later ones.
    integer, parameter :: capacity = 10000
 
    type :: sample_set
@@ -47,7 +47,7 @@ contains
       real(dp) :: candidate
       integer :: i
 
-      ! The least time that more than half of them do not exceed.
+      ! The smallest time that more than half of the times do not exceed.
       median = huge(median)
       do i = 1, self%count
          candidate = self%times(i)

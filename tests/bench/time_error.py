@@ -1,16 +1,17 @@
 #!/usr/bin/env python3
-"""Time against error of wavycon and its peers, in one run on one thread each.
+"""Time against error of wavycon and other programs, in one run on one thread each.
 
 usage: time_error.py BENCH_DIRECTORY ENVIRONMENTS REFERENCE TABLE SECONDS ROUGH_POINTS
 
-SECONDS: what a solver may take for a load, about. BENCH_DIRECTORY has the built programs time_error_wave
-and time_error_rough, ENVIRONMENTS gets the peers. The table goes to TABLE, as blocks for gnuplot: all runs
-at one load by one solver in one, and to standard output what follows from it. ROUGH_POINTS: along a side of
-the rough surface, 0 for none.
+SECONDS: approximate time of a solver for a load. BENCH_DIRECTORY has the built programs time_error_wave and
+time_error_rough; the other programs are installed in ENVIRONMENTS. The table goes to TABLE, as blocks for gnuplot
+(one for each load and solver), a summary to standard output. ROUGH_POINTS: along a side of the rough surface, 0 for
+none.
 
-Errors are relative to the values of the boundary-fitted expansions to some 1e-13, which must agree with those of
-REFERENCE, which are none of wavycon's own, to all of its digits. The error of a run counts as the largest of its own and of all finer
-runs of the same solver: a lucky crossing of zero is no accuracy. The finest run has none to judge it.
+Errors are relative to the values of the boundary-fitted expansions, accurate to some 1e-13, which must agree with all
+digits of REFERENCE, values of other programs. The effective error of a run is the largest of its own error and those
+of all finer runs of the same solver, as an error that passes through zero is small by chance. The finest run has no
+finer one.
 """
 import itertools
 import math
@@ -27,8 +28,8 @@ TARGETS = [10.0**-k for k in range(2, 9)]
 RATIO_TARGETS = 1e-5, 1e-3, 1e-3  # of the three quantities, for the ratios
 OWN = 'wavycon-grid', 'wavycon-fitted', 'wavycon-beale'
 RATED = 'wavycon-grid', 'wavycon-fitted'  # for the ratios
-ROUGH = 10  # times the seconds of a load of the wave are for the rough surface
-HANG = 5  # a solver that takes so many times what it may is ended
+ROUGH = 10  # time for the rough surface over that for a load of the wave
+HANG = 5  # a solver is ended after so many times its time
 
 
 def references(path):
@@ -45,7 +46,7 @@ def references(path):
 
 
 def run(command, seconds):
-    """Lines of the standard output, up to where the time ended."""
+    """Lines of the standard output, as far as the program came in its time."""
     environment = dict(os.environ, OMP_NUM_THREADS='1', OPENBLAS_NUM_THREADS='1', MKL_NUM_THREADS='1',
                        NUMBA_NUM_THREADS='1')
     try:
@@ -58,7 +59,7 @@ def run(command, seconds):
 
 
 def judged(rows, reference):
-    """Rows of fineness, time and values, with errors and the errors that count in place of the values."""
+    """Rows of fineness, time and values, with the errors and the effective errors in place of the values."""
     worst = [0.0]*3
     answer = []
     for fineness, milliseconds, values in sorted(rows, reverse=True):
@@ -69,7 +70,7 @@ def judged(rows, reference):
 
 
 def time_to(runs, targets):
-    """Least time of a run whose errors that count are all small enough; targets of None are none."""
+    """Least time of a run whose effective errors all reach their targets; None is no target."""
     return min((milliseconds for _, milliseconds, _, worst in runs
                 if all(t is None or w <= t for w, t in zip(worst, targets))), default=None)
 
@@ -79,7 +80,7 @@ def text(milliseconds):
 
 
 def measure_wave(commands, seconds):
-    """Runs by solver and load, reference values and their errors by load, and what the solvers had to say."""
+    """Runs by solver and load, reference values and their errors by load, and the remarks of the solvers."""
     found, exact, remarks = {}, {}, []
     for name, command in commands:
         for load in LOADS:
@@ -102,7 +103,7 @@ def check_references(exact, independent):
     for load, (values, errors) in exact.items():
         others, halves = independent[load]
         for quantity, value, error, other, half in zip(QUANTITIES, values, errors, others, halves):
-            # The last digit given may itself be off by one.
+            # The last digit given may be wrong by one.
             if abs(value - other) > error + 3*half:
                 sys.exit(f'time_error: {quantity} at P = {load} is {value}, and {other} in the independent reference')
 
@@ -115,7 +116,7 @@ def write_runs(out, results, floors):
                 out.write('# fineness  time[ms], errors of gap, area, peak; their errors that count; '
                           'the floors of these\n')
             runs = results.get(solver, {}).get(load, [])
-            # gnuplot counts blocks: one without runs must not vanish.
+            # gnuplot counts blocks: an empty one must be there.
             for fineness, milliseconds, errors, worst in runs or [(0, math.nan, [math.nan]*3, [math.nan]*3)]:
                 out.write(f'{fineness:10d}{milliseconds:12.4g}'
                           + ''.join(f'{x:12.2e}' for x in [*errors, *worst, *floor]) + '\n')

@@ -16,13 +16,13 @@ class Contact:
         self.system = NonSmoothContactSystem(
             half_space, Topography(heights, (1.0, 1.0), periodic=True))
         half_space.evaluate_disp(numpy.zeros(heights.shape))  # makes the plans of the transforms
-        # The tolerance is one of length, and the program has others beside it.
+        # The tolerance is a length; the program has other tolerances too.
         self.arguments = {'external_force': pressure, 'maxiter': iteration_limit,
                           'pentol': tolerance*heights.max()}
         self.result = None
 
     def forget(self):
-        """Nothing: each solve starts afresh."""
+        """Does nothing: each solution starts from zero."""
 
     def solve(self):
         """Whether it converged."""

@@ -1,4 +1,4 @@
-"""Installs the peers of wavycon from the Python package index, each into a virtual environment of its own."""
+"""Installs the other programs from the Python package index, each into a virtual environment of its own."""
 import os
 import subprocess
 import sys
@@ -24,7 +24,7 @@ def succeeds(command, log):
 
 
 def python_with(peer, directory):
-    """The Python of an environment that has the peer, installed now if it is not there; or none.
+    """The Python of the environment of a program, which is installed if necessary; None if that fails.
 
     WAVYCON_PEER_PYTHON may name one more Python to try.
     """

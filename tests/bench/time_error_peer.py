@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Times a peer of wavycon: one of tamaas, contactmechanics, slippy, on one thread.
+"""Times one of tamaas, contactmechanics and slippy on one thread.
 
 usage: time_error_peer.py PEER wave SECONDS LOAD...
        time_error_peer.py PEER rough FILE PRESSURE SECONDS
@@ -28,12 +28,12 @@ TOLERANCE = 1e-8  # of the wave: far below the error of the finest grid
 FULL_LOAD, FULL_AGREEMENT = 1.2, 1e-6  # a load that closes the gap; far above the tolerance
 ROUGH_TOLERANCES = 1e-4, 1e-8, 1e-11
 ITERATION_LIMIT = 2000
-REPEATS, REPEAT_SECONDS = 5, 1.0  # most solves of a run, and what those after the first may take together
-GROWTH = 6  # what a run costs at most in units of the one before it: four times the points, more iterations
+REPEATS, REPEAT_SECONDS = 5, 1.0  # most solves of a run, and the time for those after the first
+GROWTH = 6  # largest ratio of the times of two runs: four times the points, more iterations
 
 
 def time_solves(contact):
-    """Times [s], or none if it does not converge."""
+    """Times [s]; None if it does not converge."""
     times = []
     while not times or (len(times) < REPEATS and (len(times) + 1)*min(times) < REPEAT_SECONDS):
         contact.forget()
@@ -91,7 +91,7 @@ def climb(name, peer, load, seconds):
 def sharpen(name, peer, heights, pressure, seconds):
     end = time.perf_counter() + seconds
     heights = heights - heights.mean()
-    # With heights over their largest, and E* = 1/pi, pressures over E* are scaled likewise.
+    # Heights are divided by the largest, and E* = 1/pi: the pressure over E* is multiplied accordingly.
     scaled = heights/heights.max()
     load = pressure/heights.max()/numpy.pi
     for tolerance in ROUGH_TOLERANCES:

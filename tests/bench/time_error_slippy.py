@@ -20,14 +20,14 @@ class Contact:
         self.gap = heights.max() - heights
         self.pressure, self.tolerance, self.iteration_limit = pressure, tolerance, iteration_limit
         self.spacing = 1/heights.shape[0]
-        name = f'{heights.shape} {pressure} {tolerance}'  # no two materials may have the same
+        name = f'{heights.shape} {pressure} {tolerance}'  # materials need different names
         material = core.elastic_material.Elastic(name, {'E': 1/numpy.pi, 'v': 0.0}, zero_frequency_value=0.0)
         influence = material.influence_matrix(['zz'], [self.spacing]*2, heights.shape)['zz']
         self.convolution = core.plan_convolve(self.gap, influence, None, circular=True)
         self.result = None
 
     def forget(self):
-        """Nothing: each solve starts afresh."""
+        """Does nothing: each solution starts from zero."""
 
     def solve(self):
         """Whether it converged."""

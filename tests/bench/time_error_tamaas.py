@@ -26,7 +26,7 @@ class Contact:
         self.solver.max_iter = iteration_limit
 
     def forget(self):
-        """Takes away the answer, from which the solver would start again."""
+        """Removes the solution, from which the solver would start."""
         self.model.traction[...] = 0.0
         self.model.displacement[...] = 0.0
 

@@ -5,9 +5,9 @@
 !>
 !> Each line of standard output is a run: solver, load, its measure of fineness (points along a side of the smallest
 !> cell, degree of the polynomials, or harmonics), time [ms], solves behind that median, then mean gap, contact area
-!> and peak pressure. The first line of a load, 'reference', has these as exactly as the expansions give them, and
-!> their error estimates. A ladder of runs ends before a run that would probably take longer than what is left of
-!> SECONDS.
+!> and peak pressure. The first line of a load, 'reference', has these values as accurately as the expansions give them,
+!> and their error estimates. A series of runs ends before a run that would probably take longer than what is left
+!> of SECONDS.
 program time_error_wave
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use samples, only: clock_ms, sample_set
@@ -16,17 +16,16 @@ program time_error_wave
    use wavycon_grid_cascade, only: cascade_answer, solve_by_cascade
    implicit none (type, external)
 
-   !> The first accuracy asked of the grids; each is half of the one before.
+   !> The first accuracy of the grids; each is half of the last one.
    real(dp), parameter :: coarsest = 0.1_dp
    integer, parameter :: harmonics(*) = [5, 7, 9, 12, 15, 20, 25, 30]
-   !> Most solves of a run, of which the median counts, and what they may take together [ms], the first of
-   !> them excepted.
+   !> Most solves of a run, of which the median is reported, and the time limit of all but the first [ms].
    integer, parameter :: repeats = 5
    real(dp), parameter :: repeat_time = 1000.0_dp
-   !> What a run costs at most in units of the one before it.
+   !> Largest ratio of the times of a run and the last one.
    real(dp), parameter :: growth = 6.0_dp
 
-   !> Asked of the reference; what the expansions give at best.
+   !> Accuracy of the reference, the best that expansions reach.
    real(dp), parameter :: finest = 1e-13_dp
 
    type(surface_type) :: whole, wave
@@ -50,7 +49,7 @@ program time_error_wave
 
 contains
 
-   !> The grids. Of accuracies that the same grid gives only the first counts: the answer is the same.
+   !> The grids. Of accuracies with the same grid only the first is reported: the solution is the same.
    subroutine climb_grids(load, end_time)
       real(dp), intent(in) :: load       !! P
       real(dp), intent(in) :: end_time   !! [ms]
@@ -66,7 +65,7 @@ contains
          times = sample_set()
          call time_grids(load, accuracy, answer, times)
          if (.not. answer%accurate) exit
-         ! A quarter of the cell carries the whole.
+         ! A quarter of the cell is solved.
          if (2*size(answer%state%pressure, 1) > points) then
             points = 2*size(answer%state%pressure, 1)
             do while (again(times))
@@ -93,7 +92,7 @@ contains
       call times%add(clock_ms() - start)
    end subroutine time_grids
 
-   !> The expansions. Of accuracies that the same degree gives only the first counts.
+   !> The expansions. Of accuracies with the same degree only the first is reported.
    subroutine climb_degrees(load)
       real(dp), intent(in) :: load       !! P
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs the program as a user would and compares what it says, makes and returns with what a file of cases expects.
+"""Runs the program as a user would and compares output, files and exit status with those that a file of cases expects.
 
 usage: run_cases.py --program WAVYCON CASES [--only WORDS]
 
@@ -22,12 +22,12 @@ Each case runs in a new empty folder. Lines of three blanks belong to the keywor
    status: N           the exit status of the last line of `run`; 0 if not given
    stdout:, stderr:    lines that must be there, one right after the other in this order; a line '...' stands for any
                        number of lines. All lines must be given.
-   makes:              every file that is there after the run and was not before
+   makes:              every file that exists after the run and did not before
    as a user other than root:
                        if root runs the tests this case runs as nobody, and is skipped, visibly, if nobody cannot
 
-What a case does not mention must be empty: no file is made and nothing is printed, except that a case that does not
-mention stdout does not look at it if the exit status is 0 or 2: that is the log.
+Without these keywords nothing may be printed and no file made; but a case with status 0 or 2 and without stdout may
+print anything there: the log.
 
 Exit status: 0 if all cases pass, 77 if all were skipped, else 1.
 """
@@ -42,7 +42,7 @@ import tempfile
 
 SKIPPED = 77
 NOBODY = 65534
-SECONDS = 60  # no case takes one; more means that the program hangs
+SECONDS = 60  # time limit: no case takes more than a few, unless the program hangs
 
 
 class Case:
@@ -57,7 +57,7 @@ class Case:
 
 
 def read_cases(path):
-    """The cases of a file. What is not understood is an error: a keyword misspelt must not check nothing."""
+    """The cases of a file. Unknown keywords are errors: a misspelt one would check nothing."""
     cases, block = [], None
 
     def close(block):
@@ -122,7 +122,7 @@ def files_below(folder):
 
 
 def differences(case, status, output, made):
-    """What differs from what the case expects, in words."""
+    """Differences from what the case expects, as text."""
     words = []
     if status != case.status:
         words.append(f"exit status {status}, expected {case.status}")
@@ -194,7 +194,7 @@ def main():
         raise SystemExit(f"{arguments.cases}: no cases")
     failed = skipped = 0
     for case in cases:
-        # Not called after the program: a blank, because folders of users have them.
+        # With a blank in its name, as folders of users have, and without the name of the program.
         folder = pathlib.Path(tempfile.mkdtemp(prefix="a case "))
         try:
             words = run_case(case, program, folder)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What runs of the program that ought to agree have in common: all their numbers, to the last digit or nearly so."""
+"""Runs that must agree: repeated, resolved, reordered, with threads and with another locale."""
 import os
 import pathlib
 import subprocess
@@ -17,10 +17,10 @@ SURFACES = ["kind = 'wave_1d', amplitude = 0.1, wavelength = 3",
 LOADS = [0.0, 1e-3, 0.05, 0.1, 0.15, 0.3, 0.30000001, 0.7, 0.95, 1.0, 1.7]
 ALL_TABLES = "lines = t, map = t, contours = t, coefficients = t, theory = t, points_per_wavelength = 8"
 
-# Each load starts from the answer of the one above it, so other loads mean other sums rounded: the quadratic problem is
-# solved to some 1e-14 of its size, and the numbers made of its answer lose little of that.
+# Each load starts from the solution of the next higher one, so that other loads change the rounding. The quadratic
+# programme is solved to some 1e-14 of its size, and the numbers of the table lose few digits of that.
 OTHER_WAY = 1e-10
-# The way to an answer, not the answer.
+# Columns that may depend on the start of the solver.
 OF_THE_WAY = {"iterations", "residual"}
 
 
@@ -81,7 +81,7 @@ class Numbers(unittest.TestCase):
         known = subprocess.run(["locale", "-a"], capture_output=True, text=True, check=False).stdout.split()
         with_comma = [name for name in known if name.startswith(("de_", "fr_", "es_ES", "it_", "nl_", "pl_", "ru_"))]
         if not with_comma:
-            # Not the same as a pass: print it, since unittest says nothing of it without -v.
+            # Without -v unittest does not report it.
             print("SKIPPED: no locale with a decimal comma is installed here")
             self.skipTest("no locale with a decimal comma")
         deck = self.write_deck(SURFACES[1], LOADS)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""run_cases.py must fail where the program differs from a case, and must not overlook a case that it misreads."""
+"""run_cases.py must fail if the program differs from a case, or if a case cannot be read."""
 import pathlib
 import subprocess
 import sys
@@ -29,7 +29,7 @@ makes:
    outputs/deck/deck.summary.dat
 """
 
-# What is tried, the line of SOUND, what stands there instead, words that the runner must print.
+# Name of the test, lines of SOUND, their replacement, what the runner must print.
 FAILURES = [
     ("status", "status: 1\n", "status: 2\n", "exit status 1, expected 2"),
     ("no status", "status: 1\n", "", "exit status 1, expected 0"),

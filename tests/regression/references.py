@@ -1,4 +1,4 @@
-"""References: what is kept of the tables of a deck, and how nearly a new run must agree with it."""
+"""References: excerpts of the tables of each deck, and the tolerances for a new run."""
 import math
 import pathlib
 import subprocess
@@ -11,14 +11,14 @@ INPUTS = HERE.parent.parent / "inputs"
 
 # All references together [byte].
 LARGEST = 1_000_000
-# Rows that are kept of a long table: enough to see any change of a field, few enough to be committed.
+# Rows of the excerpt of a long table: enough to see any change of a field, few enough to be committed.
 SAMPLE = 60
 
 # Tolerances. A number agrees if it differs by at most `absolute + of_largest*L`, where L is the largest size that the
 # reference has in that column.
 #
-# The quadratic problem is solved to some 1e-14 of its size, but another BLAS adds in another order, and the numbers
-# made of its answer (a minimum of the pressure, a gap that is a small difference) lose some digits of that.
+# The quadratic programme is solved to some 1e-14 of its size, but another BLAS rounds differently, and results that are
+# small differences (the smallest pressure, the gap) lose some digits.
 SOLVED = (1e-9, 1e-9)
 # Areas and lengths of the edge of contact: the same, divided by the slope of the pressure there.
 EDGE = (0.0, 1e-8)
@@ -26,7 +26,7 @@ EDGE = (0.0, 1e-8)
 CLOSED_FORM = (0.0, 1e-10)
 # Products and sums of a few numbers of the deck.
 ARITHMETIC = (0.0, 1e-12)
-# Numbers of things that do not depend on the way to the answer.
+# Integers that do not depend on rounding.
 COUNTED = (0.0, 0.0)
 
 TOLERANCES = {
@@ -87,7 +87,7 @@ def excerpt_of(path):
     table = Table(path)
     head, columns = [], table.columns
     if kind in ("lines", "map"):
-        # An odd step, so that it is in step with no row of a map.
+        # An odd step, which is no multiple of the rows of a map.
         step = (len(table.lines) // SAMPLE) | 1
         head = [f"{len(table.lines)} rows in {table.blocks} blocks, 1 of {step} is here"]
         rows = table.rows(step)
@@ -138,7 +138,7 @@ def largest(words):
 
 
 def differences(new, reference):
-    """What differs between two excerpts, in words; at most one for each column."""
+    """Differences of two excerpts, as text; at most one for each column."""
     if new.head != reference.head:
         return [f"it begins with {new.head}, in the reference with {reference.head}"]
     if new.columns != reference.columns:
@@ -161,7 +161,7 @@ def differences(new, reference):
 
 
 def decks():
-    """All decks but that of the reference values: its table is kept whole, and test_reference_table.py is for it."""
+    """All decks but that of the reference values, which test_reference_table.py compares in full."""
     return sorted(deck for deck in INPUTS.glob("*.nml") if not deck.stem.startswith("reference_"))
 
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""gnuplot reads the tables unaided: all rows, all blocks, and the numbers that are there."""
+"""gnuplot reads all rows, blocks and numbers of the tables."""
 import pathlib
 import shutil
 import subprocess

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Each deck of inputs/ runs and agrees with its reference. The decks are looked for when the test runs."""
+"""Each deck of inputs/ runs and agrees with its reference. The decks are listed when the test runs."""
 import pathlib
 import subprocess
 import sys

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The published reference values: recomputed, against grids and other methods, and against one another."""
+"""The published reference values: recomputed, against grids and other methods, and for consistency."""
 import pathlib
 import subprocess
 import sys
@@ -20,7 +20,7 @@ DECK = """\
 &method solver = '{}', accuracy = {} /
 {}
 """
-# The order of the published values; each has its error beside it.
+# The order of the published values; after each follows its error.
 VALUES = ("mean_gap", "contact_area", "peak_pressure", "trough_gap", "saddle_gap", "saddle_pressure",
           "energy", "perimeter")
 
@@ -38,11 +38,11 @@ class ReferenceTable:
     """The tests of a surface's table."""
     program = ""
     surface = ""
-    loads = frozenset()            # that are there
-    to_recompute = ()              # at another accuracy, hence by other degrees; about merging in both regimes
-    by_grids = ()                  # accuracy and loads; those about merging cost most
-    smooth = ()                    # hundredths of P between which no spots merge
-    merging_loads = 0.0, 0.0, 0.0  # how far apart those next to it are; digits from below and above
+    loads = frozenset()            # that the table must have
+    to_recompute = ()              # loads, at another accuracy, hence by other degrees; next to merging in both regimes
+    by_grids = ()                  # accuracy and loads
+    smooth = ()                    # ranges of P in hundredths in which no spots merge
+    merging_loads = 0.0, 0.0, 0.0  # distance of the loads next to merging; relative errors allowed below and above it
 
     @classmethod
     def setUpClass(cls):
@@ -55,7 +55,7 @@ class ReferenceTable:
         with tempfile.TemporaryDirectory() as scratch:
             deck = pathlib.Path(scratch) / "case.nml"
             deck.write_text(DECK.format(self.surface, ", ".join(map(repr, loads)), solver, accuracy, output))
-            # 2: a load is less exact than asked for, and its error estimate says so.
+            # 2: a load misses the accuracy; its error estimate is larger.
             command = [self.program, deck, "--quiet", "--output", scratch]
             status = subprocess.run(command, check=False).returncode
             self.assertIn(status, (0, 2))
@@ -81,7 +81,7 @@ class ReferenceTable:
                     else:
                         self.assertGreater(value, 0.0)
                         self.assertGreater(error, 0.0)
-                        # The worst are the saddle's, about to close.
+                        # The largest errors are those of the saddle that is about to close.
                         self.assertLess(error, 0.15*value)
 
     def test_both_sides_of_merging(self):
@@ -91,7 +91,7 @@ class ReferenceTable:
             self.assertLess(abs(value - other), error + other_error)
             self.assertLess(error, digits_below*value)
             self.assertLess(other_error, digits_above*value)
-        # Between the last spots and the first island of the table, and of their values.
+        # The loads next to merging lie between those of the last spots and the first island, and so do their values.
         for place, (value, error) in enumerate(zip(below[2::2], below[3::2])):
             last = max(load for load in self.table if load < below[0])
             first = min(load for load in self.table if load > below[0])
@@ -120,14 +120,14 @@ class ReferenceTable:
                     self.check(load, name, float(new[value][place]), float(new[error][place]))
 
     def test_work_of_the_load_is_the_energy(self):
-        # While P grows the load works on the approach, dE = -P dG: E + P G gains the integral of G.
+        # The work of the load is the strain energy, dE = -P dG: E + P G grows by the integral of G over P.
         step = 0.01
         for first, last in self.smooth:
             rows = [self.table[i/100] for i in range(first, last + 1)]
             gaps = [row[0][0] for row in rows]
             gained = [row[6][0] + load*step*row[0][0] for load, row in ((first, rows[0]), (last, rows[-1]))]
             work = simpson(gaps, step)
-            # Simpson's rule at twice the step errs some 16 times as much; 4 is on the safe side.
+            # The error of Simpson's rule at twice the step is some 16 times as large; 4 is cautious.
             allowed = abs(work - simpson(gaps[::2], 2*step))/4
             self.assertLess(allowed, 1e-7)
             self.assertAlmostEqual(work, gained[1] - gained[0], delta=allowed)
@@ -144,7 +144,7 @@ class Wave2d(ReferenceTable, unittest.TestCase):
     def test_other_methods(self):
         for load, *words in Table(OTHER_METHODS).rows():
             for name, word in zip(VALUES, words):
-                # Half a unit of the last digit for rounding, one for the grids that gave the shorter values.
+                # Half a unit of the last digit for rounding, and one as the error of the grids of the shorter values.
                 self.check(float(load), name, float(word), 1.5*10.0**-len(word.partition(".")[2]))
 
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The comparison with references: what it must see, and what it must not mind."""
+"""The comparison with references: differences that must be found, and others that must be ignored."""
 import pathlib
 import sys
 import tempfile
@@ -99,4 +99,4 @@ class References(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1])  # what it compares is made here: no program is needed
+    unittest.main(argv=sys.argv[:1])  # no program is needed

@@ -1,4 +1,4 @@
-"""The program compiled in other ways: the same numbers without optimisation and for the very machine; no word from the
+"""The program compiled in other ways: the same numbers at every level of optimisation, and no report of the
 sanitizers."""
 import os
 import pathlib
@@ -9,11 +9,11 @@ import fuzz_decks
 import fuzz_maps
 from common import Part, complaints_about, files_below, run
 
-SECONDS = 120.0  # a deck without optimisation takes no longer
+SECONDS = 120.0  # time limit of a deck; without optimisation none takes as long
 SANITIZERS = "-fsanitize=address,undefined -fno-omit-frame-pointer"
 LEVELS = {"O0": "-O0", "O3": "-O3", "native": "-O3 -march=native"}
-# Of each number of a table against its column's largest. A series solves for the same active set in any order of
-# rounding: sums of some thousand terms. A grid ends its iteration where little is left to gain.
+# Largest differences, relative to the largest number of a column. A series has the same active set at every level and
+# differs by the rounding of sums of some thousand terms. A grid differs by the tolerance of its iteration.
 TOLERANCES = {"series": 1e-11, "grid": 1e-9}
 DECKS = {
     "wave_1d": ("series", "&surface kind = 'wave_1d' /\n&load sweep_from = 0.05, sweep_to = 0.95, sweep_steps = 19 /\n"
@@ -28,7 +28,7 @@ DECKS = {
 
 
 def build(source, folder, build_type, flags, c_flags=""):
-    """Builds the program; its path, or what went wrong."""
+    """Builds the program. Returns its path, or None and the last words of the failed command."""
     configure = ["cmake", "-S", source, "-B", folder, "-D", f"CMAKE_BUILD_TYPE={build_type}", "-D", "WAVYCON_TESTS=OFF",
                  "-D", f"CMAKE_Fortran_FLAGS={flags}", "-D", f"CMAKE_C_FLAGS={c_flags}"]
     if shutil.which("ninja") and not folder.exists():
@@ -41,14 +41,14 @@ def build(source, folder, build_type, flags, c_flags=""):
 
 
 def numbers(path):
-    """The columns of numbers of a table; words count as they are."""
+    """The rows of a table, as words."""
     return [line.split() for line in path.read_text().splitlines() if line.strip() and not line.startswith("#")]
 
 
 def compare(one, other):
-    """The largest difference of two tables, of a column's largest number; words and shapes that differ as infinity.
+    """The largest difference of two tables over the largest number of its column; infinity if words or shapes differ.
 
-    What is no result but an account of the way there is left out: the residual, of the order of rounding, and iterations."""
+    The residual, a rounding error, and the iterations are left out: they are no results."""
     header = [line for line in one.read_text().splitlines() if line.startswith("#")][-1].lstrip("#").split()
     rows, others = numbers(one), numbers(other)
     if len(rows) != len(others) or [len(row) for row in rows] != [len(row) for row in others]:
@@ -74,7 +74,7 @@ def levels(source, builds, work):
     part = Part("optimisation levels")
     worst = {"series": 0.0, "grid": 0.0}
     for level, flags in LEVELS.items():
-        # A type without flags of its own: the level is the only one.
+        # CMake adds no flags of its own to this build type.
         program, words = build(source, builds/f"stress-{level}", "None", flags)
         if not program:
             part.count(f"build {level}", [words])
@@ -102,7 +102,7 @@ def levels(source, builds, work):
 
 
 def sanitizers(source, builds, seed, quick, work, failures):
-    """Decks through the program with -fcheck=all, traps and sanitizers."""
+    """Runs decks by the program compiled with -fcheck=all, traps and sanitizers."""
     program, words = build(source, builds/"stress-sanitize", "Debug", SANITIZERS, SANITIZERS)
     part = Part("sanitizers")
     if not program:

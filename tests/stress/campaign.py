@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The stress campaign: tries what nobody should, and tables what held.
+"""The stress campaign: extreme, random and damaged input, and a table of what passed.
 
 usage: campaign.py --program WAVYCON --programs FOLDER --results FOLDER [--quick] [--seed N] [--only PART ...]
 
@@ -29,7 +29,7 @@ import same_contact
 import valgrind_runs
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-MOST_SHOWN = 20  # failures of a part
+MOST_SHOWN = 20  # failures of a part that are printed
 PARTS = ("qp", "loads", "solvers", "decks", "faults", "builds", "valgrind")
 
 
@@ -91,11 +91,11 @@ def valgrind(settings, results):
 
 @contextlib.contextmanager
 def work_folder():
-    """A new folder for what a part does; removed afterwards."""
-    # Not called after the program: a blank, because folders of users have them.
+    """A new folder for the files of a part; removed afterwards."""
+    # With blanks in its name, as folders of users have, and without the name of the program.
     folder = pathlib.Path(tempfile.mkdtemp(prefix="a stress case ")).resolve()
     try:
-        # Faults are tried as another user too.
+        # Some faults run the program as another user, who must be able to enter.
         folder.chmod(0o755)
         yield folder
     finally:
@@ -103,7 +103,7 @@ def work_folder():
 
 
 def show(part, seconds):
-    """A line of the table, and what belongs to it."""
+    """Prints the line of a part, its notes and its failures."""
     print(f"{part.name:32}{part.tried:8d}{part.passed:8d}{len(part.failures):8d}{seconds:9.0f}  {part.worst}")
     for line in part.notes:
         print(f"   {line}")

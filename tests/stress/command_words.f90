@@ -1,4 +1,4 @@
-!> The words of the command line.
+!> Arguments of the command line.
 module command_words
    implicit none (type, external)
    private

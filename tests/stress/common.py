@@ -1,4 +1,4 @@
-"""What the parts of the campaign share: running the program under watch, what must hold of every run, and the table."""
+"""Common to the parts of the campaign: running the program with limits, conditions on every run, and the table."""
 import os
 import pathlib
 import re
@@ -6,15 +6,15 @@ import resource
 import signal
 import subprocess
 
-SECONDS = 2.0  # a deck that asks for no more work than these do is answered in this processor time
-PATIENCE = 10.0  # after this a run is killed and counts as hanging
+SECONDS = 2.0  # most processor time of a deck that needs little work [s]
+PATIENCE = 10.0  # a run that takes longer is killed and counts as hanging [s]
 
-# What the compiler's run-time library, a sanitizer or the C library says when something is out of hand.
+# Messages of the compiler's run-time library, the sanitizers and the C library after a programming error.
 RUNTIME_WORDS = re.compile(
     rb"Fortran runtime error|At line \d+ of file|Backtrace for|Error termination|Program received signal"
     rb"|AddressSanitizer|LeakSanitizer|runtime error:|double free|corrupted|Segmentation|IEEE_|STOP|ERROR STOP")
 
-# What changes a terminal or hides: control characters, marks of the direction of writing, line ends, blanks of no width.
+# Characters that act on a terminal or are invisible: controls, marks of the writing direction, line ends, odd blanks.
 UNFIT = re.compile("[\x00-\x09\x0b-\x1f\x7f-\xa0\xad\u061c\u180e\u200b\u200e\u200f\u2028-\u202e\u2060-\u206f"
                    "\ud800-\udfff\ufeff\ufff9-\ufffb\ufffe\uffff\U000e0000-\U000e0fff\U0010fffe\U0010ffff]")
 
@@ -27,12 +27,12 @@ class Part:
     def __init__(self, name):
         self.name = name
         self.tried = self.passed = 0
-        self.worst = ""  # the worst figure, in words
+        self.worst = ""  # the worst number, as text
         self.failures = []  # (name of the case, what is wrong)
         self.notes = []
 
     def count(self, name, complaints):
-        """Takes a case into account. Returns whether it passed."""
+        """Counts a case, which failed if there are complaints. Returns whether it passed."""
         self.tried += 1
         if complaints:
             self.failures.append((name, "; ".join(complaints)))
@@ -75,14 +75,14 @@ def run(arguments, folder, patience=PATIENCE, limits=(), environment=None, **opt
 
 
 def processor_time():
-    """That of all programs that have ended [s]: how busy the machine is with others does not count."""
+    """Processor time of all programs that have ended [s], which does not depend on other load of the machine."""
     usage = resource.getrusage(resource.RUSAGE_CHILDREN)
     return usage.ru_utime + usage.ru_stime
 
 
 def memory_limits(program, part, address_space):
-    """The limits of a run that may take no more than so many bytes; none where the program cannot even start with them: a
-    sanitizer reserves terabytes."""
+    """Limits of a run to so many bytes of address space; none if the program cannot start with them, as sanitizers
+    reserve terabytes."""
     limits = [(resource.RLIMIT_AS, address_space)]
     if run([program, "--version"], "/", limits=limits).status == 0:
         return limits
@@ -91,7 +91,7 @@ def memory_limits(program, part, address_space):
 
 
 def complaints_about(outcome, statuses=(0, 1, 2, 3), seconds=SECONDS):
-    """What no run may do, whatever its input."""
+    """What is wrong with a run, whatever its input: hanging, signals, unknown statuses, unfit messages."""
     words = []
     if outcome.hung:
         return [f"hangs: killed after {outcome.seconds:.0f} s of processor time"]
@@ -127,7 +127,7 @@ def files_below(folder):
 
 
 def result_complaints(folder, names):
-    """What no result file may hold: half a table, no numbers, or what is not a number."""
+    """What is wrong with result files: parts left behind, incomplete lines, NaN, infinity or overflowed fields."""
     words = []
     for name in sorted(names):
         if name.endswith(".part"):
@@ -146,6 +146,6 @@ def result_complaints(folder, names):
 
 
 def save(folder, name, content):
-    """Keeps the input of a failing case."""
+    """Saves the input of a failing case."""
     folder.mkdir(parents=True, exist_ok=True)
     (folder/name).write_bytes(content)

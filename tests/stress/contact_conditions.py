@@ -1,48 +1,48 @@
-"""The conditions of contact of answers to random scenes, checked independently: see stress_scenes.f90."""
+"""Contact conditions of the solutions of random scenes, checked independently: see stress_scenes.f90."""
 import random
 
 from common import RUNTIME_WORDS, Part, run
 from random_scenes import FITTED, random_loads, random_scene
 from summaries import PATIENCE, keep, write
 
-PROMISED = 1e-11  # residual of a grid that is asked for [mean gap]
+PROMISED = 1e-11  # tolerance of the grid solver [mean gap]
 ROUNDING = 1e-13  # of the solver's own sums over some thousand points [P, Delta]
 SAMPLES = 2  # random points of an expansion
 
 
 def grid_case(stream, kind):
-    """The files of a random scene on a grid that carries all its waves."""
+    """The files of a random scene on a grid that resolves all its waves."""
     scene = random_scene(stream, kind)
     loads = random_loads(stream, 3) + [stream.choice((1e-12, 1e-8, 1.0 - 1e-8, 1.0 - 1e-12))]
     method = "solver = 'grid'"
     if not scene.heights:
-        # Sums in quadruple precision over all pairs of points.
+        # Few points: the check sums over all pairs of them in quadruple precision.
         points = [2*stream.randint(6, 100 if scene.is_profile else 18) for _ in range(2)]
         method += f", grid_points = {points[0]}, {points[1]}"
     return scene.files(loads, method)
 
 
 def fitted_case(stream, kind):
-    """The files of a random scene by expansions, and the accuracy asked for."""
+    """The files of a random scene for expansions, and the accuracy requested."""
     scene = random_scene(stream, kind)
     loads = random_loads(stream, 3)
     accuracy = 10.0**-stream.uniform(3.0, 10.0)
-    # Fields are as accurate only if they are asked for.
+    # Fields have the accuracy only if an output needs them.
     method = f"solver = 'fitted', accuracy = {accuracy!r} /\n&output lines = t"
     return scene.files(loads, method), accuracy
 
 
 def grid_complaints(line):
-    """What is wrong with an answer on a grid, and its residual [mean gap, or what rounding leaves of it]."""
-    load, residual, complementarity, gap, told, size = map(float, line[3:])
+    """What is wrong with a solution on a grid, and its residual [mean gap, or its rounding error if that is larger]."""
+    load, residual, complementarity, gap, reported, size = map(float, line[3:])
     allowed = PROMISED*abs(size) + ROUNDING
     words = []
     if line[2] != "converged":
         words.append(line[2])
-    for name, value, most in (("mean pressure", load, ROUNDING), ("gap told", gap, ROUNDING),
+    for name, value, most in (("mean pressure", load, ROUNDING), ("gap reported", gap, ROUNDING),
                               ("gap in contact or overlap", residual, allowed),
                               ("pressure times gap", complementarity, allowed),
-                              ("residual told", residual - told*abs(size), ROUNDING)):
+                              ("residual reported", residual - reported*abs(size), ROUNDING)):
         if not value <= most:
             words.append(f"{name}: {value:.1e}, allowed {most:.1e}")
     return words, PROMISED*residual/allowed
@@ -51,15 +51,15 @@ def grid_complaints(line):
 def expansion_complaints(line, accuracy):
     """What is wrong with an expansion, and its worst violation over what is allowed; 0 if the check is less sharp.
 
-    Where spots are about to touch, or islands, the pressure of an island is less exact than mean gap, area and peak:
-    the residual told says how exact it is."""
-    contact, noise, tension, overlap, balance, told, *errors = map(float, line[3:])
+    Next to merging the pressure of an island is less accurate than mean gap, area and peak: its accuracy is the
+    residual reported."""
+    contact, noise, tension, overlap, balance, reported, *errors = map(float, line[3:])
     accuracy = max(accuracy, *errors)
     words = []
     worst = 0.0
     if line[2] not in ("converged", "not_accurate"):
         words.append(line[2])
-    for name, value, most in (("gap or pressure where there is to be none", contact - noise, max(accuracy, told)),
+    for name, value, most in (("gap or pressure where it must be zero", contact - noise, max(accuracy, reported)),
                               ("tension", tension, accuracy), ("overlap", overlap, accuracy),
                               ("load or mean gap", balance, accuracy)):
         worst = max(worst, value/most)
@@ -69,7 +69,7 @@ def expansion_complaints(line, accuracy):
 
 
 def campaign(program, seed, kinds, scenes, work, failures):
-    """So many scenes of each kind on grids, and as many of those that expansions know. Runs stress_scenes."""
+    """So many scenes of each kind on grids, and as many of each kind that expansions can solve. Runs stress_scenes."""
     part = Part("conditions of contact")
     grid_worst = expansion_worst = 0.0
     unanswered = blunt = 0
@@ -102,6 +102,6 @@ def campaign(program, seed, kinds, scenes, work, failures):
             failed |= not part.count(f"{name} at P = {float(line[1]):.6g}", words)
         if failed:
             keep(failures, name, files)
-    part.worst = (f"KKT {grid_worst:.1e} on grids, {expansion_worst:.2f} times accuracy or residual told in expansions; "
+    part.worst = (f"KKT {grid_worst:.1e} on grids, {expansion_worst:.2f} times accuracy or residual in expansions; "
                   f"{unanswered} merged, {blunt} too sharp to tell")
     return part

@@ -1,7 +1,7 @@
-!> Random quadratic programmes whose answer is known exactly, to the last bit.
+!> Random quadratic programmes whose solution is known exactly, to the last bit.
 !>
-!> All numbers are small integers times powers of two, chosen so that D, c, C and b are sums without rounding: what
-!> the double precision problem has for an answer is the x that it was made from, whatever its condition number.
+!> All numbers are small integers times powers of two, so that D, c, C and b are computed without rounding: the x from
+!> which a programme is made solves it exactly, whatever its condition number.
 !>
 !>     D = blocks of H diag(2^k) H', H a Hadamard matrix: the condition number is 2^(greatest k - least k)
 !>     c = D x - C'y,   b = C x - slack,   y > 0 where the slack is 0
@@ -15,23 +15,23 @@ module stress_exact_programme
 
    public :: recipe_type, programme_type, random_recipe, make_programme, kind_names
 
-   !> What the constraints of a programme are like.
+   !> Kinds of constraints.
    integer, parameter, public :: plain = 1, degenerate = 2, repeated = 3, nearly_parallel = 4, scaled = 5, &
       moved_origin = 6, contradictory = 7, bad_start = 8
    character(*), parameter :: kind_names(*) = [character(16) :: 'plain', 'degenerate', 'repeated', &
       'nearly parallel', 'scaled', 'moved origin', 'contradictory', 'bad start']
 
-   !> What to make.
+   !> Properties of the programme to make.
    type :: recipe_type
       integer :: kind = plain
       integer :: n = 1, m = 1         !! unknowns, constraints
       integer :: pushing = 0          !! constraints with a multiplier, <= m
-      integer :: touching = 0         !! constraints that hold with equality without one
+      integer :: touching = 0         !! constraints that hold with equality without a multiplier
       integer :: condition_bits = 0   !! log2 of the condition number of D
       integer :: twist_bits = 0       !! nearly parallel constraints differ by 2^-twist_bits
    end type recipe_type
 
-   !> The programme and what is known of it.
+   !> A programme and its known properties.
    type :: programme_type
       type(qp_problem) :: problem
       logical :: exact = .true.           !! no sum was rounded
@@ -41,12 +41,12 @@ module stress_exact_programme
       real(dp), allocatable :: x(:)       !! the answer, if feasible
    end type programme_type
 
-   !> Rows of a Hadamard matrix of this order at most: its sums take log2 of that of the 53 bits.
+   !> Largest order of the Hadamard matrices; their sums need log2 of it of the 53 bits.
    integer, parameter :: largest_block_bits = 4
 
 contains
 
-   !> What to make for a case. Nine of ten are small, one of 200 goes up to the largest.
+   !> Random properties of a case. Nine of ten are small, one of 200 may have the largest size.
    function random_recipe(stream, largest_n) result(recipe)
       type(random_stream), intent(inout) :: stream
       integer, intent(in) :: largest_n   !! >= 1; there are ten times as many constraints at most
@@ -70,7 +70,7 @@ contains
       if (stream%chance(0.2_dp)) recipe%pushing = min(recipe%n, recipe%m)
       recipe%condition_bits = stream%whole(0, 40)
       if (recipe%kind == degenerate) then
-         ! More constraints than unknowns pass through the answer, more than n of them with multipliers now and then.
+         ! More constraints than unknowns are active, sometimes more than n of them with multipliers.
          recipe%m = recipe%m + 3*recipe%n
          if (stream%chance(0.3_dp)) recipe%pushing = recipe%n + stream%whole(1, recipe%n)
          recipe%touching = stream%whole(1, recipe%m - recipe%pushing)
@@ -78,7 +78,7 @@ contains
       if (recipe%kind == nearly_parallel) recipe%twist_bits = stream%whole(8, 46)
    end function random_recipe
 
-   !> Makes a programme. Where a sum would be rounded, `exact` is false and the caller draws again.
+   !> Makes a programme. If a sum was rounded, `exact` is false and the caller must make another.
    subroutine make_programme(stream, recipe, programme)
       type(random_stream), intent(inout) :: stream
       type(recipe_type), intent(in) :: recipe
@@ -151,7 +151,7 @@ contains
          end do
          last = first + 2**bits - 1
          do k = first, last
-            ! HH' = 2^bits I: taken off, so that the eigenvalues of D are powers of two from all blocks alike.
+            ! HH' = 2^bits I: divided by 2^bits, so that the eigenvalues of D are 2^k in every block.
             eigenvalue = scale(1.0_dp, power(order(k)) - bits)
             greatest = max(greatest, scale(eigenvalue, bits))
             least = min(least, scale(eigenvalue, bits))
@@ -174,7 +174,7 @@ contains
       hadamard = 1.0_dp - 2.0_dp*poppar(iand(i, j))
    end function hadamard
 
-   !> Small integers, one of them not zero; now and then only a few of them.
+   !> Small integers, at least one of them not zero; sometimes few of them.
    function random_normal(stream, n) result(normal)
       type(random_stream), intent(inout) :: stream
       integer, intent(in) :: n
@@ -248,7 +248,7 @@ contains
       end do
    end subroutine set_bounds
 
-   !> Gives every constraint a unit of its own.
+   !> Scales every constraint by a power of two of its own.
    subroutine scale_rows(stream, problem)
       type(random_stream), intent(inout) :: stream
       type(qp_problem), intent(inout) :: problem

@@ -1,4 +1,4 @@
-"""Numbers at the edge of what a deck may say, through the program: loads, lengths, moduli, harmonics."""
+"""Decks with the smallest and largest allowed numbers: loads, lengths, moduli, harmonics."""
 import itertools
 
 from common import Part, complaints_about, files_below, result_complaints, run, save
@@ -6,7 +6,7 @@ from common import Part, complaints_about, files_below, result_complaints, run, 
 LOADS = ("1e-90", "1e-12", "1e-9", "1e-6", "1e-3", "0.5", "0.999", "0.999999999", "0.999999999999", "1",
          "1.0000000000000002", "1.5", "1e6", "0")
 POWERS = (-12, -6, 0, 6, 12)
-TOLERANCE = 1e-9  # of columns that units leave alone: rounding of lengths and pressures over 24 decades
+TOLERANCE = 1e-9  # of columns that do not depend on units: rounding of lengths and pressures over 24 decades
 DIMENSIONLESS = ("pbar_over_pstar", "mean_gap_over_amplitude", "contact_area_fraction", "peak_pressure_over_pstar")
 
 
@@ -69,7 +69,7 @@ def campaign(program, quick, work, failures):
         folder.mkdir()
         (folder/"deck.nml").write_text(text)
         outcome = run([program, "deck.nml", "--output", "results"], folder, patience=60.0)
-        # A grid that is too coarse for the load says so: that is honest, and counted.
+        # A grid that is too coarse for the load has the status not_accurate, which is right; it is counted.
         complaints = complaints_about(outcome, (0, 2), seconds=20.0)
         unsolved += outcome.status == 2
         complaints += result_complaints(folder, files_below(folder))

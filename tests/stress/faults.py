@@ -1,4 +1,4 @@
-"""Faults of the machine: full disks, directories that go, signals, limits, odd environments. No half table gets a name."""
+"""Faults of the machine: full disks, removed directories, signals, limits, environments. No table may be incomplete."""
 import os
 import random
 import re
@@ -15,7 +15,8 @@ DECK = ("&surface kind = 'wave_2d' /\n&load sweep_from = 0.05, sweep_to = 0.95, 
         "&output lines = t, map = t, contours = t, theory = t, coefficients = t, points_per_wavelength = 64 /\n")
 # Half a second of work, half of it writing.
 LONG_DECK = DECK.replace("sweep_steps = 19", "sweep_steps = 150").replace("map = t", "map = f")
-# To be resumed: answers that stand alone and such that start from the one before, with fields and without.
+# To be resumed: solvers that solve each load by itself and solvers that start from the last load; with and without
+# fields.
 TO_RESUME = {
     "series": LONG_DECK,
     "grids": DECK.replace("theory = t, coefficients = t, points_per_wavelength = 64", "points_per_wavelength = 16")
@@ -25,7 +26,7 @@ TO_RESUME = {
     "areas": "&surface kind = 'hexagonal' /\n&load contact_area_fraction = 0.1, 0.3, 0.5, 0.7, 0.9 /\n"
              "&method solver = 'grid', accuracy = 1e-2 /\n&output contours = t /\n",
 }
-LEAST_MEGABYTES = 250  # of memory that the program may ask for
+LEAST_MEGABYTES = 250  # of address space with which the program must run or report
 TABLES = ("summary", "lines", "map", "contour", "theory", "coefficients")
 
 
@@ -35,7 +36,7 @@ def prepare(folder, text=DECK):
 
 
 def whole(folder, reference):
-    """Tables with final names that are not those of an undisturbed run."""
+    """Which tables differ from those of an undisturbed run."""
     words = result_complaints(folder, files_below(folder))
     for path in folder.rglob("*.dat"):
         good = reference/path.name
@@ -47,7 +48,7 @@ def whole(folder, reference):
 
 
 def stripped(path):
-    """A table without its head, where paths and programs may be named."""
+    """A table without its head, which may name paths and programs."""
     return [line for line in path.read_text(errors="replace").splitlines() if not line.startswith("#")]
 
 
@@ -77,7 +78,7 @@ class Faults:
         prepare(folder, text)
         return folder
 
-    def judge(self, name, outcome, folder, statuses, reference=True):
+    def count_case(self, name, outcome, folder, statuses, reference=True):
         words = complaints_about(outcome, statuses, seconds=60)
         if reference:
             words += whole(folder, self.reference)
@@ -91,10 +92,10 @@ class Faults:
             folder = self.folder()
             outcome = run([self.program, "deck.nml", "--output", "results"], folder,
                           limits=[(resource.RLIMIT_FSIZE, limit)])
-            self.judge(f"files of at most {limit} bytes", outcome, folder, (0, 3) if limit >= sizes[-1] else (3,))
+            self.count_case(f"files of at most {limit} bytes", outcome, folder, (0, 3) if limit >= sizes[-1] else (3,))
 
     def full_disk(self):
-        """A small file system in memory, where it may be mounted; /dev/full in the place of each file anywhere."""
+        """A small file system in memory, if mounting is permitted; and /dev/full in the place of each file."""
         mount = self.work/"small disk"
         mount.mkdir()
         made = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=64k", "tmpfs", str(mount)], capture_output=True,
@@ -117,12 +118,12 @@ class Faults:
             (folder/"results").mkdir()
             script = 'ln -s /dev/full "results/.deck.$1.$$.part"; exec "$0" deck.nml --output results'
             outcome = run(["sh", "-c", script, self.program, table], folder)
-            self.judge(f"/dev/full for {table}", outcome, folder, (3,))
-        # What nobody has asked for is no reason to end.
+            self.count_case(f"/dev/full for {table}", outcome, folder, (3,))
+        # The user did not request the checkpoint: the run goes on without it.
         folder = self.folder()
         (folder/"results").mkdir()
         outcome = run(["sh", "-c", script, self.program, "checkpoint"], folder)
-        self.judge("/dev/full for the checkpoint", outcome, folder, (0,))
+        self.count_case("/dev/full for the checkpoint", outcome, folder, (0,))
 
     def directories(self):
         for name, spoil in (("gone", lambda folder: shutil.rmtree(folder/"results")),
@@ -136,7 +137,7 @@ class Faults:
                 try:
                     spoil(folder)
                 except OSError:
-                    pass  # it is being written to: that is a case too
+                    pass  # the program is writing to it; the run is a case all the same
                 self.part.count(f"output directory {name} after {delay} s",
                                 complaints_about(self.outcome(process), (0, 3), seconds=60) +
                                 [f"{name} is left behind" for name in leftovers(folder)
@@ -150,7 +151,7 @@ class Faults:
         (folder/"results").write_text("precious\n")
 
     def as_nobody(self):
-        """A directory without write permission, for which root must step down."""
+        """A directory without write permission, by another user than root."""
 
         def step_down():
             os.setgroups([])
@@ -214,13 +215,13 @@ class Faults:
                 for path in folder.rglob("*.dat"):
                     if stripped(path) != stripped(undisturbed/"results"/path.name):
                         words.append(f"{path.name} is not that of an undisturbed run")
-                # What SIGKILL leaves nobody can remove.
+                # A process cannot remove anything after SIGKILL.
                 if sent != signal.SIGKILL:
                     words += [f"{name} is left behind" for name in leftovers(folder)]
                 self.part.count(f"{sent.name} after {delay:.2f} of {length:.2f} s", words)
 
     def resumed(self):
-        """Sweeps that are interrupted, some twice or thrice, and resumed, to the same tables byte by byte."""
+        """Sweeps that are interrupted, some two or three times, and resumed: the tables are the same, byte by byte."""
         found = 0
         times = 4 if self.quick else 15
         for name, text in TO_RESUME.items():
@@ -279,8 +280,8 @@ class Faults:
             for name, text in (("series", DECK), ("grid", grid)):
                 folder = self.folder(text)
                 outcome = run([self.program, "deck.nml", "--output", "results"], folder, limits=limits, patience=15)
-                # Below some 200 MB the loader ends the program, or OpenBLAS waits for ever for its memory: the program has
-                # no say, but for its files.
+                # Below some 200 MB the loader ends the program or OpenBLAS waits for memory for ever: only the files of
+                # the program are checked.
                 if amount < LEAST_MEGABYTES:
                     words = []
                     if outcome.hung:
@@ -299,7 +300,7 @@ class Faults:
         self.part.worst = f"needs {least} MB"
 
     def environments(self):
-        # Which kernels OpenBLAS is told to take counts as the machine: others round otherwise.
+        # The choice of kernels of OpenBLAS is kept: others round differently.
         kernels = {name: os.environ[name] for name in ("OPENBLAS_CORETYPE",) if name in os.environ}
         basic = dict(kernels, PATH=os.environ["PATH"])
         cases = {
@@ -318,14 +319,14 @@ class Faults:
         for name, environment in cases.items():
             folder = self.folder()
             outcome = run([self.program, "deck.nml", "--output", "results"], folder, environment=environment)
-            self.judge(f"environment: {name}", outcome, folder, (0,))
+            self.count_case(f"environment: {name}", outcome, folder, (0,))
 
     def streams(self):
         for name, tail in (("stdout closed", ">&-"), ("stderr closed", "2>&-"), ("stdin closed", "<&-"),
                            ("all closed", "<&- >&- 2>&-"), ("stdout full", ">/dev/full"), ("stderr full", "2>/dev/full")):
             folder = self.folder()
             outcome = run(["sh", "-c", f'"$0" deck.nml --output results {tail}', self.program], folder)
-            self.judge(name, outcome, folder, (0,))
+            self.count_case(name, outcome, folder, (0,))
             folder = self.folder("&surface kind = 'no' /\n")
             outcome = run(["sh", "-c", f'"$0" deck.nml --output results {tail}', self.program], folder)
             self.part.count(f"{name}, a bad deck", [] if outcome.status == 1 else [f"exit status {outcome.status}"])

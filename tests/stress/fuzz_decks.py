@@ -1,4 +1,4 @@
-"""Decks that nobody would write: mutated bytes, words, groups and sizes. Every one ends with a status and clean words."""
+"""Mutated decks: bytes, words, groups and sizes. Every run must end with a status and printable messages."""
 import random
 import re
 import sys
@@ -6,9 +6,9 @@ import sys
 from common import SECONDS, Part, complaints_about, files_below, memory_limits, result_complaints, run, save
 
 MEGABYTE = 1000000
-ADDRESS_SPACE = 4000*MEGABYTE  # of a run [byte]: a deck of 10 MB that takes more is out of hand
+ADDRESS_SPACE = 4000*MEGABYTE  # of a run [byte]: a deck of 10 MB must not need more
 
-# Small work, and every group and kind of value. `run` cases start from these.
+# Every group and kind of value, with little work. The cases that are run start from these.
 SMALL = [
     "&scene title = 'a title', case = 'deck' /\n&material e1 = 210e9, nu1 = 0.3, e2 = 70e9, nu2 = 0.33 /\n"
     "&surface kind = 'wave_2d', amplitude = 1e-6, wavelength = 1e-3 /\n&load pbar_over_pstar = 0.05, 2*0.2, 0.9 /\n"
@@ -22,7 +22,7 @@ SMALL = [
     "&SURFACE KIND = \"wave_2d\" /\n&LOAD PBAR_OVER_PSTAR = 1.0 1.5 0 /\n&Output Contours = F, Theory = .TRUE. /\n",
     "&surface kind = 'wave_1d', amplitude = 0 /\n&load pbar_over_pstar = 3*0.5 /\n&output map = .true. /\n",
 ]
-# All that a deck can say, for --check.
+# Also the other surfaces and kinds of load. The cases of --check start from these.
 LARGE = SMALL + [
     "&surface kind = 'sum', length_x = 2, length_y = 3, amplitudes = 1, 0.5, -0.25, waves_x = 1, 2, 0,\n"
     "   waves_y = 0, 1, -2, phases = 0, 90, -45 /\n&load contact_area_fraction = 0.1, 0.5 /\n"
@@ -45,13 +45,13 @@ TEXTS = ["''", '""', "'", '"', "' '", "'wave_2d'", '"wave_1d"', "'it''s'", '"a""
          "'ä€𝄞'", "'\u202eabc'", "'\u00a0'", "'\x7f'", "'" + "x"*300 + "'", "'" + "é"*100 + "'", "'%s%n%d'", "'\\n'",
          "wave_2d", "'Grid'", "'auto '", "' auto'", "'auto'", "'none'", "'heights.dat'", "'.'", "'..'", "'/dev/full'", "'/dev/null'"]
 LOGICALS = [".true.", ".false.", "t", "f", ".T.", "true", "1", "yes", ".true", ".tru e.", "'t'"]
-# What a run must not be asked for more of: it would be legitimate work without end.
+# What a mutated deck that is run must not change: the work would have no bound.
 COSTLY = re.compile(r"harmonics|constraint_points|accuracy|sweep_steps|points_per_wavelength|grid_points|solver"
                     r"|\d{3,}\s*\*|symmetry", re.IGNORECASE)
 
 
 def tokens_of(text):
-    """Words, signs and what is between them."""
+    """Words, signs and the blanks between them."""
     return re.findall(r"'[^'\n]*'|\"[^\"\n]*\"|&?\w[\w.+-]*|\s+|.", text, re.DOTALL)
 
 
@@ -60,7 +60,7 @@ def is_blank(token):
 
 
 def mutate_value(stream, text):
-    """Another value in the place of one."""
+    """One value replaced."""
     tokens = tokens_of(text)
     places = [i for i, token in enumerate(tokens) if re.match(r"['\"\d.+-]", token) and not is_blank(token)]
     if places:
@@ -69,7 +69,7 @@ def mutate_value(stream, text):
 
 
 def mutate_key(stream, text):
-    """Another key, a misspelt one, or one more."""
+    """One key replaced, misspelt or added."""
     keys = sorted(set(re.findall(r"(\w+)\s*=", "".join(LARGE))))
     places = list(re.finditer(r"(\w+)(\s*=)", text))
     if not places:
@@ -82,7 +82,7 @@ def mutate_key(stream, text):
 
 
 def mutate_tokens(stream, text):
-    """Words left out, doubled, swapped, or signs put in."""
+    """Words removed, doubled or swapped, or signs inserted."""
     tokens = tokens_of(text)
     for _ in range(stream.randint(1, 4)):
         i, j = stream.randrange(len(tokens)), stream.randrange(len(tokens))
@@ -100,7 +100,7 @@ def mutate_tokens(stream, text):
 
 
 def mutate_structure(stream, text):
-    """Groups doubled, turned round, left out, nested, cut short."""
+    """Groups doubled, reordered, removed, nested or cut short."""
     groups = re.split(r"(?=&)", text)
     action = stream.randrange(7)
     if action == 0:
@@ -139,7 +139,7 @@ def mutate_characters(stream, text):
 
 
 def mutate_bytes(stream, content):
-    """Bytes changed, put in, left out, cut, repeated."""
+    """Bytes changed, inserted, removed or repeated."""
     content = bytearray(content)
     for _ in range(stream.choice((1, 1, 2, 5, 30))):
         place = stream.randrange(len(content) + 1)
@@ -162,7 +162,7 @@ MUTATIONS = (mutate_value, mutate_value, mutate_value, mutate_key, mutate_tokens
 
 
 def mutated(stream, decks):
-    """A deck after one mutation or a few."""
+    """A deck after one to six mutations."""
     text = stream.choice(decks)
     for _ in range(stream.choice((1, 1, 1, 2, 3, 6))):
         text = stream.choice(MUTATIONS)(stream, text)
@@ -179,7 +179,7 @@ def mutated(stream, decks):
 
 
 def gently_mutated(stream):
-    """A deck of which most are still fine."""
+    """A deck after mild mutations, most often still valid."""
     text = stream.choice(SMALL)
     values = re.findall(r"[=\s,]((?:\d+\*)?\d[\d.ed+-]*|\.?[tTfF]\w*\.?)(?=[\s,])", text)
     for _ in range(stream.randint(1, 3)):
@@ -256,7 +256,7 @@ def fuzz_checks(program, seed, count, work, failures):
 
 
 def message_complaints(outcome):
-    """A deck that is refused is named, with a line and a column where the trouble has one."""
+    """What is wrong with the message of a refused deck: the file, and line and column if there is one."""
     if outcome.status not in (1, 3) or not outcome.stderr:
         return []
     first = outcome.stderr.decode(errors="replace").splitlines()[0]
@@ -268,7 +268,7 @@ def message_complaints(outcome):
 
 
 def fuzz_monsters(program, seed, size, work, failures):
-    """Large decks with --check, in bounded memory and time."""
+    """Large decks with --check, with limits of memory and time."""
     part = Part(f"decks of {size/MEGABYTE:g} MB, --check")
     limits = memory_limits(program, part, ADDRESS_SPACE)
     slowest = ("", 0.0)
@@ -286,7 +286,7 @@ def fuzz_monsters(program, seed, size, work, failures):
 
 
 def fuzz_runs(program, seed, count, work, failures):
-    """Mutated decks that are fine and ask for little, run; what they write is looked at."""
+    """Runs mildly mutated decks that need little work, and checks their results."""
     part = Part("mutated decks, run")
     slowest = 0.0
     unsolved = 0
@@ -330,7 +330,7 @@ def fuzz_runs(program, seed, count, work, failures):
 
 
 def empty(folder):
-    """Removes what is in a folder."""
+    """Empties a folder."""
     for path in sorted(folder.rglob("*"), reverse=True):
         if path.is_dir() and not path.is_symlink():
             path.rmdir()

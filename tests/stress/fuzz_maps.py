@@ -13,14 +13,14 @@ from fuzz_decks import empty, mutate_bytes
 
 MEGABYTE = 1000000
 ADDRESS_SPACE = 4000*MEGABYTE  # of a run [byte]
-LARGE_SECONDS = 30.0  # for a map of a hundred megabytes, which takes 3 s by itself and more on a machine that is shared
+LARGE_SECONDS = 30.0  # limit for a map of a hundred megabytes, which takes 3 s on an idle machine
 LARGEST = 1e90
 LOG_TOLERANCE = 1e-5  # of the numbers of the log, which have six digits
-# Troubles of a file or of a map as a whole have no line.
+# Errors of a file or of a map as a whole, which have no line.
 WITHOUT_LINE = re.compile(r"there are no numbers|a map of \d+ x \d+ points|the heights over their mean"
                           r"|there is no such file|this is a (directory|pipe)|cannot be (opened|read)"
                           r"|there is not the memory")
-# Too many points for a run to be short.
+# More points would make a run long.
 MOST_POINTS = 4096
 
 NUMBERS = ["0", "-0", "1", "-1", "+1", "1e-12", "1e12", "1e90", "-1e90", "1.1e90", "1e300", "-1e308", "1e309", "1e-90",
@@ -67,7 +67,7 @@ def joined(rows):
 
 
 def mutate_number(stream, text):
-    """Another number in the place of one."""
+    """One number replaced."""
     places = list(re.finditer(r"[^\s,;]+", text))
     if not places:
         return stream.choice(NUMBERS)
@@ -76,7 +76,7 @@ def mutate_number(stream, text):
 
 
 def mutate_row(stream, text):
-    """Numbers of a row left out or put in."""
+    """Numbers of a row removed or inserted."""
     rows = cells(text)
     row = stream.choice(rows)
     if row and stream.random() < 0.5:
@@ -87,7 +87,7 @@ def mutate_row(stream, text):
 
 
 def mutate_column(stream, text):
-    """A column left out, doubled, or put in."""
+    """A column removed, doubled or inserted."""
     rows = cells(text)
     column = stream.randrange(max(len(row) for row in rows) + 1)
     action, number = stream.randrange(3), stream.choice(NUMBERS)
@@ -104,7 +104,7 @@ def mutate_column(stream, text):
 
 
 def mutate_lines(stream, text):
-    """Lines left out, doubled, swapped, sorted, turned round, cut short."""
+    """Lines removed, doubled, swapped, sorted, reversed or cut short."""
     lines = text.split("\n")
     i, j = stream.randrange(len(lines)), stream.randrange(len(lines))
     action = stream.randrange(8)
@@ -128,7 +128,7 @@ def mutate_lines(stream, text):
 
 
 def mutate_gap(stream, text):
-    """Something else between numbers: everywhere or once."""
+    """Other separators between numbers, everywhere or once."""
     if stream.random() < 0.5:
         return re.sub(r"[ \t,;]+", lambda _: gap, text) if (gap := stream.choice(GAPS)) else text
     places = list(re.finditer(r"[ \t,;]+", text))
@@ -139,12 +139,12 @@ def mutate_gap(stream, text):
 
 
 def mutate_decimals(stream, text):
-    """Points as commas, exponents as Fortran writes them."""
+    """Decimal commas, and exponents as Fortran writes them."""
     return text.replace(*stream.choice(((".", ","), ("e", "d"), ("e", "D"), ("-", "−"), (".", ""))))
 
 
 def mutate_steps(stream, text):
-    """A column squared, scaled or moved: coordinates out of step."""
+    """A column squared, scaled or shifted: coordinates that are not equidistant."""
     rows = cells(text)
     column, size = stream.randrange(3), 10.0**stream.choice((-100, -9, -3, -1, 3, 9, 100))
     action = stream.randrange(3)
@@ -158,7 +158,7 @@ def mutate_steps(stream, text):
 
 
 def mutate_remarks(stream, text):
-    """Remarks, empty lines and words."""
+    """Remarks, empty lines and words inserted."""
     place = stream.randrange(len(text) + 1)
     remark = stream.choice(["#", "\n#\n", "# 1 2 3\n", "\n\n\n", "x y z\n", "\n ,\n", "! 1\n", "// 1\n", '"', "%"])
     return text[:place] + remark + text[place:]
@@ -169,7 +169,7 @@ MUTATIONS = (mutate_number, mutate_number, mutate_number, mutate_row, mutate_col
 
 
 def mutated(stream, gently=False):
-    """A map after one mutation or a few."""
+    """A map after one mutation or several."""
     text = fine_map(stream)
     for _ in range(stream.choice((0, 0, 1, 1, 2)) if gently else stream.choice((1, 1, 1, 2, 3, 6))):
         text = stream.choice(MUTATIONS)(stream, text) or "\n"
@@ -208,7 +208,7 @@ def second_reading(content, form):
         return None
     shape = len(rows[0]), len(rows)
     if form == "xyz":
-        # Either coordinate may run first.
+        # Either coordinate may vary faster.
         if len(rows[0]) != 3:
             return None
         first = 0 if abs(rows[1][0] - rows[0][0]) > abs(rows[1][1] - rows[0][1]) else 1
@@ -226,7 +226,7 @@ def second_reading(content, form):
 
 
 def reading_complaints(outcome, content, text):
-    """Whether the log says of an accepted map what a second reader finds."""
+    """What is wrong with the log of an accepted map: its numbers must be those of a second reader."""
     match = re.search(r"^map +(\d+) x (\d+) points \((\w+)\), heights over their mean (\S+) to (\S+), rms (\S+) ",
                       outcome.stdout.decode(errors="replace"), re.MULTILINE)
     if not match:
@@ -264,7 +264,7 @@ def message_complaints(outcome, content=b""):
 
 
 def keep(failures, name, text, content):
-    """Keeps a failing case: a deck and its map."""
+    """Saves a failing case: a deck and its map."""
     save(failures, f"{name}.nml", re.sub(r"file = '[^']*'", f"file = '{name}.dat'", text).encode())
     save(failures, f"{name}.dat", content)
 
@@ -292,7 +292,7 @@ def fuzz_checks(program, seed, count, work, failures):
 
 
 def fuzz_runs(program, seed, count, work, failures):
-    """Maps of which most are still fine, solved; the resolved deck must give the same summary."""
+    """Solves mildly mutated maps; the resolved deck must give the same summary."""
     part = Part("mutated height maps, run")
     slowest, unsolved, refused, i = 0.0, 0, 0, 0
     while part.tried < count:
@@ -366,7 +366,7 @@ def monsters(stream, size):
 
 
 def fuzz_monsters(program, seed, size, work, failures):
-    """Large maps with --check, in bounded memory and time."""
+    """Large maps with --check, with limits of memory and time."""
     part = Part(f"height maps of {size/MEGABYTE:g} MB, --check")
     limits = memory_limits(program, part, ADDRESS_SPACE)
     slowest = ("", 0.0)
@@ -387,11 +387,11 @@ def fuzz_monsters(program, seed, size, work, failures):
         (work/"heights.dat").write_bytes(content)
         if not check(name, status, SECONDS, limits):
             keep(failures, f"map-monster-{name.replace(' ', '-')}", text, content[:MEGABYTE])
-    # A map of ten times the size, still fine; and a file of 3 GB, which takes no room on the disk.
+    # A valid map of ten times the size; and a sparse file of 3 GB.
     (work/"heights.dat").write_bytes((b"0.125 -3.5e-3 "*1024 + b"\n")*max(4, 10*size//14337))
     check("a map of ten times the size", 0, LARGE_SECONDS, limits)
     if size >= 10*MEGABYTE and limits:
-        # The lower ones of these bounds are too tight for it.
+        # The lower limits are too small for the map.
         for bound in range(80, 300, 20):
             check(f"a map of ten times the size in {bound} MB", None, LARGE_SECONDS,
                   [(resource.RLIMIT_AS, bound*MEGABYTE)])

@@ -1,4 +1,4 @@
-"""Error estimates of random scenes beside true errors, by a much finer solve, a closed form or an expansion."""
+"""Error estimates of random scenes against true errors, from a much finer solution, a closed form or an expansion."""
 import itertools
 import random
 
@@ -6,19 +6,20 @@ from common import Part
 from random_scenes import FITTED, random_loads, random_scene
 from summaries import VALUES, keep, solve
 
-# What README says of them: that they hold in so many of 100, and that none is wrong by more than this factor.
+# As README states: the fraction of errors below the estimates, and the largest error over its estimate.
 CONFIDENCE, LARGEST_RATIO = 0.95, 3.0
-FEWEST = 100  # estimates that a share is taken of
-# Accuracies that a much finer solve can follow in a second or so: of waves by quarters of cells, of others.
+FEWEST = 100  # estimates of which the fraction is checked
+# Finest accuracies for which the finer solution takes about a second: by kind, where a quarter of the cell is solved,
+# and of other kinds.
 FINEST = {"wave_1d": 1e-4, "profile": 1e-4, "sum": 1e-2, "file": 1e-2, "even file": 1e-2}
 FINEST_OF_OTHERS = 3e-3
 COARSEST = 1e-1
 FITTED_ACCURACIES = (1e-10, 1e-3)
-FINER, FITTED_FINER, FINEST_FITTED = 10.0, 100.0, 1e-12  # how much finer is a truth, and how fine at most
+FINER, FITTED_FINER, FINEST_FITTED = 10.0, 100.0, 1e-12  # ratio of the accuracies of grids, of expansions; finest
 
 
 def random_case(stream, kind, solver):
-    """The files of a random scene to solve, and those of its truth."""
+    """The files of a random scene to solve, and those of the finer solution."""
     scene = random_scene(stream, kind)
     loads = random_loads(stream, 4)
     finest, coarsest = FITTED_ACCURACIES if solver == "fitted" else (FINEST.get(kind, FINEST_OF_OTHERS), COARSEST)
@@ -31,7 +32,7 @@ def random_case(stream, kind, solver):
 
 
 def campaign(program, seed, kinds, scenes, work, failures):
-    """So many scenes of each kind with each solver that it has."""
+    """So many scenes of each kind with each solver for it."""
     part = Part("error estimates")
     ratios = {"grid": [], "fitted": []}
     for kind, solver, number in itertools.product(kinds, ratios, range(scenes)):
@@ -42,7 +43,7 @@ def campaign(program, seed, kinds, scenes, work, failures):
         rows, complaints = solve(program, files, work/name)
         truths, more = solve(program, finer, work/name)
         for row, truth in zip(rows, truths):
-            if not (row.told and truth.told):
+            if not (row.has_numbers and truth.has_numbers):
                 continue  # spots have merged
             for which, value in enumerate(VALUES):
                 error = abs(row.values[which] - truth.values[which])

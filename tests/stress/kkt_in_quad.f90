@@ -1,8 +1,8 @@
-!> The Karush-Kuhn-Tucker conditions of an answer, in quadruple precision and from the problem's data alone.
+!> The Karush-Kuhn-Tucker conditions of a solution, in quadruple precision and from the problem's data alone.
 !>
-!> N.B. On purpose nothing of the library's own check is used, and constraints are measured one by one, each against
-!> its own normal and bound and the size of x: a large constraint does not hide that a small one is violated. An answer
-!> x = 0 with b = 0 has no size to measure by.
+!> N.B. The check is independent of the library's own. The violation of each constraint is relative to its own normal
+!> and bound and the size of x, so that a large constraint does not hide the violation of a small one. For x = 0 and
+!> b = 0 there is no such scale.
 module stress_kkt_in_quad
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use, intrinsic :: iso_fortran_env, only: real128
@@ -15,7 +15,7 @@ module stress_kkt_in_quad
 
    integer, parameter :: qp = real128
 
-   !> Largest violations, each as a fraction of the largest terms that should cancel [-].
+   !> Largest violations, relative to the largest terms that should cancel [-].
    type :: kkt_type
       logical :: well_formed = .false.     !! shapes fit, active constraints exist and are named once, all is finite
       real(dp) :: stationarity = huge(1.0_dp)
@@ -28,7 +28,7 @@ module stress_kkt_in_quad
 
 contains
 
-   !> Checks an answer.
+   !> Checks a solution.
    function check_in_quad(problem, solution) result(kkt)
       type(qp_problem), intent(in) :: problem
       type(qp_solution), intent(in) :: solution

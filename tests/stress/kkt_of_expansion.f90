@@ -1,8 +1,8 @@
-!> The conditions of contact of an expansion fitted to the edge, by integrals of its own at points of its own.
+!> The contact conditions of an expansion fitted to the edge, by independent integrals at independent points.
 !>
-!> Below merging the gap, above it the pressure, is found at points where it is to be zero. There the library takes
-!> it for zero: the way to it from the expansion's pressure, or gap, is this module's alone. It goes along rays from
-!> the point, on which the kernels 1/r and 1/r^3 are integrated exactly; the rest of them is Ewald's sum.
+!> Below merging the gap, above merging the pressure, is computed from the pressure, or gap, of the expansion at points
+!> where it must be zero. The integrals are taken along rays from the point, on which the kernels 1/r and 1/r^3 are
+!> integrated exactly; the smooth rest of the periodic kernels is Ewald's sum.
 module stress_kkt_of_expansion
    use stress_random_numbers, only: random_stream
    use wavycon_constants, only: pi
@@ -19,19 +19,19 @@ module stress_kkt_of_expansion
 
    !> Violations; pressures in pi E* Delta/s, s the cell's shorter side.
    type :: expansion_kkt
-      real(dp) :: contact = huge(1.0_dp)   !! largest gap of a spot [Delta], largest pressure of an island, by size
-      real(dp) :: noise = huge(1.0_dp)     !! of that: how much of it half as many rays would change
+      real(dp) :: contact = huge(1.0_dp)   !! largest |gap| of a spot [Delta], largest |pressure| of an island
+      real(dp) :: noise = huge(1.0_dp)     !! change of `contact` with half as many rays
       real(dp) :: tension = huge(1.0_dp)   !! largest at random points
       real(dp) :: overlap = huge(1.0_dp)   !! likewise [Delta]
       real(dp) :: balance = huge(1.0_dp)   !! of a spot's load, of an island's mean gap; relative, less its noise
    end type expansion_kkt
 
-   !> Rays from a point, four times some number, and points of a ray: so many that it is the rays that limit the
-   !> check next to merging, of which half as many tell how far.
+   !> Number of rays from a point, a multiple of four, and of points on a ray. Next to merging the number of rays limits
+   !> the accuracy of the check, which half as many rays estimate.
    integer, parameter :: rays = 144, points = 64
-   !> erfc of it is 2e-17.
+   !> Range of Ewald's sums: erfc of it is 2e-17.
    real(dp), parameter :: cut_off = 6.0_dp
-   !> Ewald's parameter in units of sqrt(pi/area): not the library's.
+   !> Ewald's parameter in units of sqrt(pi/area), other than the library's.
    real(dp), parameter :: sharpness = 1.4_dp
 
    !> Gp, whose Fourier coefficients are 1/(A |k|), as two sums that converge fast.
@@ -54,14 +54,14 @@ module stress_kkt_of_expansion
 
 contains
 
-   !> Checks an answer at some random points.
+   !> Checks a solution at some random points.
    type(expansion_kkt) function check_expansion(lattice, answer, stream, samples) result(kkt)
       type(wave_lattice), intent(in) :: lattice
       type(fitted_answer), intent(in) :: answer       !! solved
       type(random_stream), intent(inout) :: stream
       integer, intent(in) :: samples
 
-      !> Of the way to the edge: beyond, the rays' ends come too close to the point.
+      !> Largest fraction of the distance to the edge: nearer to it the ends of the rays are too close to the point.
       real(dp), parameter :: farthest = 0.8_dp
       type(ewald_type) :: ewald
       type(fitted_fields) :: fields
@@ -122,7 +122,7 @@ contains
       do i = 1, size(ray)
          ray(i)%direction = exp(cmplx(0.0_dp, 2*pi*(i - 1)/size(ray), dp))
          ray(i)%length = way_out(fields, place, ray(i)%direction)
-         ! In t, where 1 - t^2 is the part of the way, what falls as a root of the distance to the edge is smooth.
+         ! With 1 - t^2 the fraction of the ray, the square root of the distance to the edge is smooth in t.
          ray(i)%distance = ray(i)%length*(1.0_dp - node**2)
          ray(i)%weight = ray(i)%length*2*node*weight
          do j = 1, points
@@ -132,8 +132,7 @@ contains
       end do
    end subroutine cast_rays
 
-   !> The distance of the edge: bisected, as the map need not go on far beyond it, until what is left is of no
-   !> weight.
+   !> The distance of the edge, by bisection: the map may not extend far beyond the edge.
    real(dp) function way_out(fields, place, direction) result(low)
       type(fitted_fields), intent(in) :: fields
       complex(dp), intent(in) :: place, direction
@@ -281,7 +280,7 @@ contains
             do i = -far, far
                if (i == 0 .and. j == 0) cycle
                place = turned(cmplx(i + shift*j, height*j, dp))
-               ! Two points that are compared are less than two cells away.
+               ! The two points are less than two cells apart.
                if (ewald%e*(abs(place) - 1.25_dp*(1.0_dp + height)) < cut_off) ewald%place = [ewald%place, place]
                k = turned(cmplx(i, (j - shift*i)/height, dp))
                if (j < 0 .or. (j == 0 .and. i < 0) .or. pi*abs(k)/ewald%e > cut_off) cycle
@@ -333,7 +332,7 @@ contains
       laplacian = far_laplacian(ewald, place) + screened_laplacian(ewald%e, abs(place))
    end function laplacian
 
-   !> Its part that is smooth about the origin.
+   !> Its smooth part at the origin.
    pure real(dp) function far_laplacian(ewald, place) result(laplacian)
       type(ewald_type), intent(in) :: ewald
       complex(dp), intent(in) :: place

@@ -1,8 +1,8 @@
-!> The conditions of contact of an answer on a grid, in quadruple precision and without a transform.
+!> The contact conditions of a solution on a grid, in quadruple precision and without a transform.
 !>
-!> The displacement is the sum over the points in contact of pressure times the half-space's answer to one point's
-!> pressure, which is a plain sum of cosines. On purpose nothing of the library's operator is used, and of the
-!> answer only the pressure and the mean gap: the gap that it has beside them is one of the things to check.
+!> The displacement is the sum over the points in contact of the pressure times the displacement of the half-space under
+!> a unit pressure at one point, a sum of cosines. The check is independent of the library's operator and uses only the
+!> pressure and the mean gap of the solution; its gap is checked.
 module stress_kkt_of_grid
    use, intrinsic :: iso_fortran_env, only: real128
    use wavycon_grid_contact, only: grid_solution
@@ -23,12 +23,12 @@ module stress_kkt_of_grid
       real(dp) :: load = huge(1.0_dp)          !! of the mean pressure [P]
       real(dp) :: residual = huge(1.0_dp)      !! root mean square of gaps in contact and overlaps elsewhere [Delta]
       real(dp) :: complementarity = huge(1.0_dp)   !! mean of |pressure times gap| [p* Delta]
-      real(dp) :: gap = huge(1.0_dp)           !! largest of the gaps told, out of contact, from those found [Delta]
+      real(dp) :: gap = huge(1.0_dp)           !! largest error of the gaps reported, out of contact [Delta]
    end type grid_kkt
 
 contains
 
-   !> Checks an answer between no load and full contact on a grid of the surface's own cell.
+   !> Checks a solution between no load and full contact on a grid of the whole cell.
    type(grid_kkt) function check_grid(surface, solution) result(kkt)
       type(surface_type), intent(in) :: surface
       type(grid_solution), intent(in) :: solution   !! with its edge, of a grid that carries all waves of the surface
@@ -75,7 +75,7 @@ contains
       end associate
    end function check_grid
 
-   !> h/Delta of a point: those of a quarter lie half a step from its rim.
+   !> h/Delta of a point. The points of a quarter of the cell start half a step from its rim.
    real(qp) function undeformed_gap(surface, edge, i, j) result(h)
       type(surface_type), intent(in) :: surface
       type(grid_edge), intent(in) :: edge
@@ -113,8 +113,8 @@ contains
       end do
    end subroutine displace
 
-   !> u - ubar of a pressure one at the first point, as many steps away: the sum over all waves that the points
-   !> carry, each with u = p times its wavelength over the stiffness.
+   !> u - ubar at a number of steps from a point with unit pressure: the sum over all waves that the grid resolves, each
+   !> with u = p times its wavelength over the stiffness.
    function answer_to_a_point(surface, m, n) result(u)
       type(surface_type), intent(in) :: surface
       integer, intent(in) :: m, n
@@ -127,7 +127,7 @@ contains
          do k = 0, m/2
             weight(k, l) = 0.0_qp
             if (k + l == 0) cycle
-            ! Waves come in pairs, but those of wave number zero and the shortest.
+            ! Waves come in pairs k and -k, except wave number zero and the shortest.
             weight(k, l) = merge(1, 2, k == 0 .or. 2*k == m)*merge(1, 2, l == 0 .or. 2*l == n) &
                            /sqrt((k/real(surface%length(1), qp))**2 + (l/real(surface%length(2), qp))**2)
          end do

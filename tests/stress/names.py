@@ -1,4 +1,4 @@
-"""Names and titles that a shell or gnuplot would act upon, through scripts/plot: they stay names."""
+"""Names and titles with commands for a shell or gnuplot, through scripts/plot: the commands must not be run."""
 import shutil
 import subprocess
 
@@ -20,7 +20,7 @@ def campaign(program, scripts, quick, work, failures):
         part.notes.append("SKIPPED the pictures: there is no gnuplot")
     for i, word in enumerate(WORDS):
         for j, place in enumerate(("title", "directory", "above")):
-            # A picture takes a tenth of a second: the short form draws some.
+            # A picture takes a tenth of a second: the short form tries some.
             if quick and (i + j) % 9:
                 continue
             folder = work/f"{i} {place}"

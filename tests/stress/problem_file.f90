@@ -1,6 +1,7 @@
 !> Quadratic programmes as text files, from which a failing case can be run again.
 !>
-!> Whitespace separates all: n, m, then D row by row, c, the normal of each constraint, b, the bounds to pass to.
+!> Numbers separated by blanks or line ends: n, m, then D row by row, c, the normal of each constraint, b, and the
+!> bounds of the second solution.
 module stress_problem_file
    use wavycon_kinds, only: dp
    use wavycon_qp_problem, only: qp_problem
@@ -9,7 +10,7 @@ module stress_problem_file
 
    public :: write_problem, read_problem
 
-   !> 17 digits: every double precision number comes back as it was.
+   !> 17 digits, which restore every double precision number exactly.
    character(*), parameter :: layout = '(*(es25.16e3))'
 
 contains
@@ -17,7 +18,7 @@ contains
    subroutine write_problem(path, problem, start_bounds)
       character(*), intent(in) :: path
       type(qp_problem), intent(in) :: problem
-      real(dp), intent(in) :: start_bounds(:)   !! b that is solved first, shape (m)
+      real(dp), intent(in) :: start_bounds(:)   !! b of the first solution, shape (m)
 
       integer :: i, unit
 

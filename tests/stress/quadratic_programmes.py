@@ -1,4 +1,4 @@
-"""Random quadratic programmes of known answers: see stress_qp.f90, of whose lines this makes a table."""
+"""Random quadratic programmes with known solutions: a table of the lines of stress_qp.f90."""
 import math
 import re
 import subprocess
@@ -6,7 +6,7 @@ import threading
 
 from common import RUNTIME_WORDS, Part, run
 
-SILENCE = 300.0  # no programme takes so long [s]
+SILENCE = 300.0  # time limit of a programme [s]
 FIELDS = ("case", "kind", "n", "m", "pushing", "twist_bits", "wanted", "status", "verdict", "condition", "stationarity",
           "feasibility", "sign", "complementarity", "error", "own_residual", "pivots", "seconds")
 RESIDUALS = FIELDS[10:14]
@@ -14,7 +14,7 @@ DECADES = 2  # of condition numbers in a line of the table of lost digits
 
 
 def read_line(line):
-    """A line of stress_qp as numbers and words; None if it is no such line."""
+    """The fields of a line of stress_qp; None for any other line."""
     words = [word.strip() for word in line.split("|")]
     if len(words) != len(FIELDS):
         return None
@@ -26,7 +26,7 @@ def read_line(line):
 
 
 def run_cases(program, seed, first, last, largest, folder):
-    """The cases, one by one; a crash or a hang ends the list with what was said last."""
+    """The cases, one by one; after a crash or a hang (None, last output)."""
     last_words = ""
     with subprocess.Popen([program, str(seed), str(first), str(last), str(largest), str(folder)],
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as process:
@@ -97,7 +97,7 @@ def campaign(programs, seed, count, largest, folder):
 
 
 def discretisations(quick):
-    """DIMENSION, HARMONICS, POINTS, SYMMETRY from next to no points beyond the harmonics to ten times as many."""
+    """DIMENSION, HARMONICS, POINTS, SYMMETRY with one more point than harmonics up to ten times as many."""
     harmonics = (1, 5, 10) if quick else (1, 2, 3, 5, 8, 10, 13, 20, 31, 45, 60)
     for n in harmonics:
         for points in sorted({n + 1, 2*n, 3*n, 5*n + 1, 10*n} - {1}):

@@ -1,4 +1,4 @@
-!> Random numbers that are the same on every machine, each case with a stream of its own.
+!> Random numbers that are the same on every machine, with a separate stream for each case.
 module stress_random_numbers
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_kinds, only: dp
@@ -7,7 +7,7 @@ module stress_random_numbers
 
    public :: random_stream
 
-   !> A generator by shifts (Marsaglia, J. Stat. Softw. 8 (2003) 14: the triple 13, 7, 17).
+   !> A shift-register generator (Marsaglia, J. Stat. Softw. 8 (2003) 14: the triple 13, 7, 17).
    type :: random_stream
       integer(int64), private :: state = 1   !! never 0
    contains
@@ -20,7 +20,7 @@ module stress_random_numbers
 
 contains
 
-   !> Starts the stream of a case: any case can be made again without those before it.
+   !> Starts the stream of a case. Any case can be made without those before it.
    subroutine start(self, seed, case)
       class(random_stream), intent(inout) :: self
       integer, intent(in) :: seed   !! of the campaign, >= 0
@@ -56,7 +56,7 @@ contains
       whole = least + int((greatest - least + 1)*self%uniform())
    end function whole
 
-   !> Whether something of a probability happens.
+   !> True with a given probability.
    logical function chance(self, probability)
       class(random_stream), intent(inout) :: self
       real(dp), intent(in) :: probability

@@ -1,22 +1,22 @@
-"""Random surfaces and loads, as decks; and the same surfaces moved, mirrored, turned and in other units."""
+"""Random surfaces and loads, as decks; and the same surfaces shifted, mirrored, rotated and in other units."""
 import math
 
 KINDS = ("wave_1d", "wave_2d", "wave_2d of two lengths", "wave_2d alike", "crossed_1d", "crossed_1d alike",
          "hexagonal", "profile", "sum", "even sum", "file", "even file")
-FITTED = ("wave_2d", "wave_2d alike", "crossed_1d alike", "hexagonal")  # that solver = 'fitted' knows
-QUICK = ("wave_1d", "wave_2d", "profile", "even file")  # for the short form: of every kind of answer one
+FITTED = ("wave_2d", "wave_2d alike", "crossed_1d alike", "hexagonal")  # kinds that solver = 'fitted' can solve
+QUICK = ("wave_1d", "wave_2d", "profile", "even file")  # for the short form: one kind for each type of solution
 MERGING = 0.2286  # load at which the spots of the paper's wave merge
 HEIGHTS = "heights.dat"
 
 
 class Scene:
-    """A surface. What is not a height map is a sum of waves as well, with which it can be moved and turned."""
+    """A surface. All but height maps are also given as sums of waves, which can be shifted and rotated."""
 
     def __init__(self, kind, cell, waves=(), words="", heights=None):
         self.kind = kind
         self.cell = cell        # sides [length]
         self.waves = waves      # (amplitude [length], waves along x, along y, phase [turn]) of each
-        self.words = words      # keys of &surface, if not those of the sum
+        self.words = words      # keys of &surface, in place of those of the sum
         self.heights = heights  # rows of a height map [length]
 
     def surface(self):
@@ -33,7 +33,7 @@ class Scene:
                                                  for name, values in keys)
 
     def files(self, loads, method, e_star=1.0):
-        """What to write beside each other: the deck and its height map."""
+        """The deck and its height map, {file name: text}."""
         deck = (f"&surface {self.surface()} /\n&material e_star = {e_star!r} /\n"
                 f"&load pbar_over_pstar = {', '.join(map(repr, loads))} /\n&method {method} /\n")
         files = {"deck.nml": deck}
@@ -42,7 +42,7 @@ class Scene:
         return files
 
     def moved(self, x, y):
-        """By parts of the cell; a map, which is to keep its points, by as many of them as come nearest."""
+        """Shifted by fractions of the cell; a map by the nearest number of points."""
         if self.heights:
             rows = round(y*len(self.heights))
             columns = round(x*len(self.heights[0]))
@@ -56,7 +56,7 @@ class Scene:
         return Scene(self.kind, self.cell, [(a, -m, n, phase) for a, m, n, phase in self.waves])
 
     def turned(self):
-        """By a right angle; not a profile."""
+        """Rotated by a right angle; not for a profile."""
         cell = self.cell[::-1]
         if self.heights:
             return Scene(self.kind, cell, heights=[list(column)[::-1] for column in zip(*self.heights)])
@@ -83,12 +83,12 @@ def random_scene(stream, kind):
         return Scene(kind, (length, length), [(a/2, 1, 1, 0.0), (a/2, 1, -1, 0.0)],
                      f"kind = 'wave_2d', amplitude = {a!r}, wavelength = {length!r}")
     if kind in ("wave_2d of two lengths", "wave_2d alike"):
-        # 'fitted' knows those of up to 3 to 1.
+        # 'fitted' solves lengths of up to 3 to 1.
         other = length*(4.0 if kind == "wave_2d of two lengths" else 3.0)**stream.uniform(-1.0, 1.0)
         return Scene(kind, (length, other), [(a/2, 1, 1, 0.0), (a/2, 1, -1, 0.0)],
                      f"kind = 'wave_2d', amplitude = {a!r}, wavelength = {length!r}, wavelength_y = {other!r}")
     if kind in ("crossed_1d", "crossed_1d alike"):
-        # 'fitted' knows sides of up to 3 to 1 and curvatures of the crests of up to 50 to 1.
+        # 'fitted' solves sides of up to 3 to 1 and curvatures of the crests of up to 50 to 1.
         unlike, long = (8.0, 4.0) if kind == "crossed_1d" else (2.0, 2.0)
         b, other = a*unlike**stream.uniform(-1.0, 1.0), length*long**stream.uniform(-1.0, 1.0)
         return Scene(kind, (length, other), [(a, 1, 0, 0.0), (b, 0, 1, 0.0)],
@@ -110,7 +110,7 @@ def random_scene(stream, kind):
     if kind != "profile" and all(n == 0 for _, _, n, _ in waves):
         waves.append((stream.uniform(0.2, 1.2), 0, 1, 0.0 if even else stream.uniform(-0.5, 0.5)))
     if even:
-        # With its mirror image each wave is even.
+        # The sum of a wave and its mirror image is even.
         waves = [(a, m, sign*n, phase) for a, m, n, phase in waves for sign in (1, -1)]
     return Scene(kind, (length, length if kind == "profile" else length*stream.uniform(0.5, 2.0)), waves)
 
@@ -133,7 +133,7 @@ def random_map(stream, even):
 
 
 def random_loads(stream, count):
-    """Light ones, heavy ones, those between, and those about merging, from the lightest to the heaviest."""
+    """Light, heavy and medium loads and loads about merging, in ascending order."""
     loads = set()
     while len(loads) < count:
         loads.add(stream.choice((10.0**stream.uniform(-4.0, 0.0), 1.0 - 10.0**stream.uniform(-4.0, 0.0),

@@ -6,31 +6,31 @@ from common import Part, files_below
 from random_scenes import FITTED, random_loads, random_scene
 from summaries import keep, solve
 
-# Of two estimates together: what README says of one.
+# Largest difference over the sum of two error estimates: as README states of one estimate.
 LARGEST_RATIO = 3.0
-# Where all but rounding is the same. Rounding places the edge of contact at the power 2/3 of gaps, and may end the
-# iteration elsewhere, or choose another of two peaks: a grid is solved to about a thousandth of its error, and as
-# much may change.
+# For solutions that differ by rounding only. Rounding of gaps moves the edge of contact by its power 2/3, and can
+# change the last iteration or the choice between two peaks: a grid is solved to about a thousandth of its error, and
+# the difference can be as large.
 ROUNDING, SOLVED = 1e-9, 1e-2
-# Mean gap, area and peak pressure with the load.
+# Signs of the change of mean gap, area and peak pressure with the load.
 DIRECTIONS = (-1.0, 1.0, 1.0)
 
 
 def order(rows):
-    """The largest step in the wrong direction from a load to the next, over both estimates."""
+    """The largest change of the wrong sign from a load to the next, over the sum of both error estimates."""
     worst = 0.0
     for row, higher in zip(rows, rows[1:]):
-        if row.told and higher.told:
-            for off, a, b, direction in zip(row.off(higher), row.values, higher.values, DIRECTIONS):
+        if row.has_numbers and higher.has_numbers:
+            for off, a, b, direction in zip(row.differences(higher), row.values, higher.values, DIRECTIONS):
                 if direction*(b - a) < 0.0:
                     worst = max(worst, off)
     return worst
 
 
 def difference(rows, others, rounding=0.0):
-    """The largest difference of two runs of the same loads beyond rounding, over both estimates."""
-    return max((max(row.off(other, rounding)) for row, other in zip(rows, others) if row.told and other.told),
-               default=0.0)
+    """The largest difference of two runs of the same loads beyond rounding, over the sum of both error estimates."""
+    pairs = [(row, other) for row, other in zip(rows, others) if row.has_numbers and other.has_numbers]
+    return max((max(row.differences(other, rounding)) for row, other in pairs), default=0.0)
 
 
 def order_and_symmetry(program, seed, kinds, scenes, work, failures):
@@ -38,7 +38,7 @@ def order_and_symmetry(program, seed, kinds, scenes, work, failures):
     part = Part("order of loads, symmetry, units")
     worst = {"order": 0.0, "symmetry": 0.0, "units": 0.0}
 
-    def judge(name, complaints, what, value, most, files):
+    def count_case(name, complaints, what, value, most, files):
         worst[what] = max(worst[what], value)
         if value > most:
             complaints.append(f"{value:.1e} times the estimates, allowed {most}")
@@ -53,20 +53,20 @@ def order_and_symmetry(program, seed, kinds, scenes, work, failures):
             method = f"solver = '{stream.choice(('grid', 'auto'))}', accuracy = {10.0**-stream.uniform(1.0, 2.0)!r}"
             files = scene.files(loads, method)
             rows, complaints = solve(program, files, work/name)
-            judge(f"{name}-order", complaints, "order", order(rows), LARGEST_RATIO, files)
+            count_case(f"{name}-order", complaints, "order", order(rows), LARGEST_RATIO, files)
             others = {"moved": scene.moved(stream.random(), stream.random()), "mirrored": scene.mirrored()}
             if not scene.is_profile:
                 others["turned"] = scene.turned()
             for change, other in others.items():
                 files = other.files(loads, method)
                 changed, complaints = solve(program, files, work/name)
-                judge(f"{name}-{change}", complaints, "symmetry", difference(rows, changed), LARGEST_RATIO, files)
-            # As a sum or a map like the other, for the same way of solving it.
+                count_case(f"{name}-{change}", complaints, "symmetry", difference(rows, changed), LARGEST_RATIO, files)
+            # Given as a sum or a map like the other, so that both are solved alike.
             rows, complaints = solve(program, scene.scaled(1.0, 1.0).files(loads, method), work/name)
             units = [10.0**stream.randint(-9, 9) for _ in range(3)]
             files = scene.scaled(*units[:2]).files(loads, method, units[2])
             changed, more = solve(program, files, work/name)
-            judge(f"{name}-units", complaints + more, "units", difference(rows, changed, ROUNDING), SOLVED, files)
+            count_case(f"{name}-units", complaints + more, "units", difference(rows, changed, ROUNDING), SOLVED, files)
     part.worst = ", ".join(f"{what} {value:.2g}" for what, value in worst.items()) + " times both estimates"
     return part
 
@@ -91,12 +91,12 @@ def alone_and_again(program, seed, kinds, scenes, work, failures):
             if contents(work/name/"results") != tables:
                 complaints.append("other tables when they are made again")
             failed = not part.count(f"{name}, again", complaints + more)
-            # Not the row's own load: it is rounded to the table's digits.
+            # Not the load of the row, which is rounded to the digits of the table.
             for load, row in zip(loads, rows):
                 single, complaints = solve(program, scene.files([load], method), work/name)
                 if [(it.status, it.solver) for it in single] != [(row.status, row.solver)]:
                     complaints.append(f"not {row.status} by {row.solver} as in a sweep")
-                # An expansion starts from that of the load before.
+                # An expansion starts from that of the last load.
                 by_expansion = row.solver == "fitted"
                 what, most = ("expansions alone", LARGEST_RATIO) if by_expansion else ("grids alone", SOLVED)
                 off = difference([row], single, ROUNDING if row.solver == "grid" else 0.0)
@@ -109,7 +109,7 @@ def alone_and_again(program, seed, kinds, scenes, work, failures):
     for number in range(scenes):
         name = f"threads-{number}"
         stream = random.Random(f"{seed} {name}")
-        # Threads work on grids from 256 x 256 points on: here without symmetry.
+        # Several threads are used from 256 x 256 points on, here without symmetry.
         scene, loads = random_scene(stream, "sum"), random_loads(stream, 2)
         files = scene.files(loads, "solver = 'grid', grid_points = 256, 320")
         rows, complaints = solve(program, files, work/name)

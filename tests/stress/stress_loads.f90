@@ -1,7 +1,7 @@
-!> Solves the paper's quadratic programmes from full contact down to next to no load, as the solver 'beale' does, and checks
-!> every answer in quadruple precision. A line a load.
+!> Solves the paper's quadratic programmes from full contact down to nearly no load, as the solver 'beale' does, and
+!> checks every solution in quadruple precision. Prints a line for each load.
 !>
-!> usage: stress_loads DIMENSION HARMONICS POINTS SYMMETRY FOLDER   answers that fail are saved in FOLDER
+!> usage: stress_loads DIMENSION HARMONICS POINTS SYMMETRY FOLDER   solutions that fail are saved in FOLDER
 program stress_loads
    use, intrinsic :: iso_fortran_env, only: int64
    use command_words, only: number, word
@@ -14,9 +14,9 @@ program stress_loads
    use wavycon_qp_problem, only: qp_problem, qp_solution, qp_converged, qp_status_name
    implicit none (type, external)
 
-   !> What the library promises of an answer that it calls converged (kkt_tolerance).
+   !> The library's tolerance for the status converged (kkt_tolerance).
    real(dp), parameter :: promised_residual = 1e-12_dp
-   !> Next to full contact, between, and next to none.
+   !> Nearly full contact, partial contact, and nearly none.
    real(dp), parameter :: loads(*) = [ &
       1 - 1e-12_dp, 1 - 1e-9_dp, 1 - 1e-6_dp, 1 - 1e-3_dp, 0.99_dp, 0.9_dp, 0.7_dp, 0.5_dp, 0.3_dp, 0.2_dp, 0.1_dp, &
       1e-2_dp, 1e-3_dp, 1e-4_dp, 1e-6_dp, 1e-8_dp, 1e-10_dp, 1e-12_dp]

@@ -1,4 +1,4 @@
-!> Solves random quadratic programmes of known answers and judges what comes back. A line a case.
+!> Solves random quadratic programmes with known solutions and checks the results. Prints a line for each case.
 !>
 !> usage: stress_qp SEED FIRST LAST LARGEST_N FOLDER   the cases FIRST to LAST; those that fail are saved in FOLDER
 !>        stress_qp FILE                               a case that was saved
@@ -16,8 +16,7 @@ program stress_qp
                                  qp_status_name
    implicit none (type, external)
 
-   !> What the library promises of an answer that it calls converged (kkt_tolerance), here of each constraint in its own
-   !> measure.
+   !> The library's tolerance for the status converged (kkt_tolerance), here for each constraint on its own scale.
    real(dp), parameter :: promised_residual = 1e-12_dp
 
    integer :: case
@@ -34,7 +33,7 @@ program stress_qp
 
 contains
 
-   !> Makes, solves and judges a case.
+   !> Makes, solves and checks a case.
    subroutine run_case(seed, case, largest_n)
       integer, intent(in) :: seed, case, largest_n
 
@@ -79,7 +78,7 @@ contains
       if (solution%status /= wanted) verdict = 'refused'
       if (solution%status == qp_converged .and. (wanted /= qp_converged .or. kkt%worst() > promised_residual)) &
          verdict = 'wrong'
-      ! To call a problem infeasible that has an answer is wrong too, and not only a refusal.
+      ! The status infeasible for a problem with a solution is wrong, not a refusal.
       if (solution%status == qp_infeasible .and. wanted == qp_converged) verdict = 'wrong'
       if (verdict /= 'passed') then
          write (name, '(i0)') case
@@ -94,7 +93,7 @@ contains
       flush (6)
    end subroutine run_case
 
-   !> The bounds that are solved first: where those of the problem leave out the origin, others with which it is allowed.
+   !> The bounds of the first solution: those of the problem, or others that allow x = 0 if they do not.
    function start_bounds(kind, problem) result(bounds)
       integer, intent(in) :: kind
       type(qp_problem), intent(in) :: problem
@@ -104,7 +103,7 @@ contains
       if (kind /= bad_start) bounds = min(bounds, 0.0_dp)
    end function start_bounds
 
-   !> Solves with the first bounds and passes on to the problem's, if they differ.
+   !> Solves with the first bounds and passes to those of the problem, if they differ.
    subroutine solve(problem, first_bounds, solution, seconds)
       type(qp_problem), intent(in) :: problem
       real(dp), intent(in) :: first_bounds(:)

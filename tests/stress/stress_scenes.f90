@@ -1,5 +1,5 @@
-!> Solves the loads of a deck as the program does, and checks the conditions of contact of every answer.
-!> A line a load: from a grid, from an expansion, or from none if no answer was needed or found.
+!> Solves the loads of a deck as the program does, and checks the contact conditions of every solution. Prints a line
+!> for each load, of a grid, of an expansion, or of neither if no solution was needed or found.
 !>
 !> usage: stress_scenes DECK SEED SAMPLES   expansions are checked at so many random points
 program stress_scenes

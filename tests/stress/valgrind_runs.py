@@ -1,5 +1,5 @@
-"""The test programs and decks of each solver under valgrind's memcheck: no read of what was never written, none beyond
-what was allocated, no memory that is lost."""
+"""The test programs and decks of each solver under valgrind's memcheck: no uninitialised read, no access out of bounds,
+no leak."""
 import concurrent.futures
 import os
 import re
@@ -9,10 +9,10 @@ import subprocess
 from common import Part, save
 
 STATUS = 99  # of a program in which valgrind found something
-PATIENCE = 600.0  # seconds for one program, on a machine that is shared
+PATIENCE = 600.0  # time limit of a program [s]
 COMMAND = ["valgrind", "--quiet", "--leak-check=full", "--show-leak-kinds=definite", "--errors-for-leak-kinds=definite",
            f"--error-exitcode={STATUS}"]
-# These take 0.3 to 17 s by themselves and more than a minute under valgrind. The decks below go the same ways.
+# These take 0.3 to 17 s, and more than a minute under valgrind. The decks below run the same code.
 LEFT_OUT = ("unit.fitted_details", "unit.fitted_fields", "exact.fitted", "exact.fitted_contact", "exact.fourier_plane",
             "exact.grid", "exact.surfaces")
 LOADS = "&load pbar_over_pstar = 0.05, 0.3, 0.7, 1 /\n"
@@ -48,8 +48,8 @@ MAPS = {"matrix.dat": "".join(" ".join(str((3*i*i + 5*j + i*j) % 7) for i in ran
 
 
 def found(words, folder, status):
-    """What a run under valgrind may not do."""
-    # Like a processor that valgrind knows all instructions of.
+    """What valgrind reports of a run, or a wrong exit status."""
+    # Kernels with instructions that valgrind supports.
     variables = dict(os.environ, OPENBLAS_CORETYPE="Haswell", OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1")
     log = folder/"valgrind.log"
     command = COMMAND + [f"--log-file={log}"] + [str(word) for word in words]

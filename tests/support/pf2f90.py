@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Turns a pFUnit test file (.pf) into Fortran for the stand-in, or, with --check, only checks it.
+"""Translates a pFUnit test file (.pf) to Fortran for the stand-in, or, with --check, only checks it.
 
 usage: pf2f90.py IN.pf OUT.F90
        pf2f90.py --check IN.pf ...
