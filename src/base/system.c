@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/types.h>
 #include <unistd.h>
@@ -121,6 +122,55 @@ void wavycon_full_path(const char *path, char *full, size_t length)
     if (found != NULL && strlen(found) < length)
         strcpy(full, found);
     free(found);
+}
+
+/* A number of bytes from /proc/meminfo, which gives kB after a name such as "MemAvailable:"; -1 if it is not there. */
+static long long memory_info(const char *name)
+{
+    char line[256];
+    long long kilobytes, bytes = -1;
+    FILE *file = fopen("/proc/meminfo", "r");
+    if (file == NULL)
+        return -1;
+    while (bytes < 0 && fgets(line, sizeof line, file) != NULL)
+        if (strncmp(line, name, strlen(name)) == 0 && sscanf(line + strlen(name), "%lld", &kilobytes) == 1)
+            bytes = 1024*kilobytes;
+    fclose(file);
+    return bytes;
+}
+
+/* Bytes of this process's address space; -1 where the system does not say. */
+static long long address_space_in_use(void)
+{
+    long long pages;
+    FILE *file = fopen("/proc/self/statm", "r");
+    if (file == NULL)
+        return -1;
+    if (fscanf(file, "%lld", &pages) != 1)
+        pages = -1;
+    fclose(file);
+    return pages < 0 ? -1 : pages*sysconf(_SC_PAGESIZE);
+}
+
+/* Bytes that the process may still allocate and use without swapping: what is free of the machine's memory or can be
+   freed, and at most what the limit on the address space (ulimit -v) leaves. -1 where the system does not say. */
+long long wavycon_available_memory(void)
+{
+    struct rlimit limit;
+    long long available = memory_info("MemAvailable:");
+#ifdef _SC_AVPHYS_PAGES
+    if (available < 0 && sysconf(_SC_AVPHYS_PAGES) > 0)
+        available = (long long)sysconf(_SC_AVPHYS_PAGES)*sysconf(_SC_PAGESIZE);
+#endif
+    if (available < 0 || getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
+        return available;
+    long long used = address_space_in_use();
+    if (used < 0)
+        return -1;
+    long long left = (long long)limit.rlim_cur - used;
+    if (left < 0)
+        left = 0;
+    return left < available ? left : available;
 }
 
 /* The number that a text begins with. Returns how many bytes it takes, 0 if it is none. */

@@ -5,6 +5,7 @@ module wavycon_system
    implicit none (type, external)
    private
 
+   public :: available_memory
    public :: file_size, full_path, path_kind, make_directories, rename_file, remove_file, remove_when_interrupted
    public :: outlive_file_size_limit, parse_number, process_id, stdout_is_terminal
 
@@ -53,6 +54,10 @@ module wavycon_system
       integer(c_int) function c_stdout_is_terminal() bind(c, name='wavycon_stdout_is_terminal')
          import :: c_int
       end function c_stdout_is_terminal
+
+      integer(c_long_long) function c_available_memory() bind(c, name='wavycon_available_memory')
+         import :: c_long_long
+      end function c_available_memory
 
       !> The number that a text begins with. Returns how many bytes it takes, 0 if it is none.
       !> N.B. One too large is an infinity, and overflow is signalled.
@@ -164,6 +169,14 @@ contains
    subroutine outlive_file_size_limit()
       call c_outlive_file_size_limit()
    end subroutine outlive_file_size_limit
+
+   !> Memory that this process may still allocate and use without swapping [byte]: what is free of the machine's, or can
+   !> be freed, and at most what the limit on the address space (ulimit -v) leaves. -1 if the system does not say.
+   !>
+   !> N.B. A container's own limit is not included.
+   integer(int64) function available_memory()
+      available_memory = int(c_available_memory(), int64)
+   end function available_memory
 
    !> This process's number, for names of files that no other process uses.
    integer function process_id()

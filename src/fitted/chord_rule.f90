@@ -20,6 +20,7 @@
 module wavycon_chord_rule
    use wavycon_constants, only: pi
    use wavycon_disc_polynomials, only: disc_polynomials
+   use wavycon_fitted_tuning, only: outside_chords, outside_half_points
    use wavycon_gauss_rules, only: gauss_jacobi
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgemv
@@ -290,7 +291,7 @@ contains
       complex(dp), intent(in) :: target      !! w_t, |w_t| > 1
       real(dp), intent(in) :: c(:)           !! coefficients of f, shape (N)
 
-      integer, parameter :: chords = 64, half_points = 40, points = 2*half_points
+      integer, parameter :: chords = outside_chords, half_points = outside_half_points, points = 2*half_points
       real(dp) :: angle(chords), angle_weight(chords), values(points, basis%terms)
       real(dp), dimension(half_points) :: far_node, far_weight, node, node_weight, x, y
       real(dp), dimension(points) :: t, weight

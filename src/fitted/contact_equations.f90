@@ -14,6 +14,10 @@ module wavycon_contact_equations
    use wavycon_constants, only: pi
    use wavycon_disc_rule, only: disc_rule, plain_disc_rule
    use wavycon_expansion, only: expansion
+   use wavycon_fitted_tuning, only: chords_per_degree, extra_chord_points, extra_chords, extra_disc_angles, &
+      extra_disc_radii, extra_sharp_chords, island_extra_angles, island_extra_radii, near_disc_extra, &
+      near_images_ratio, sharp_chords_per_degree, sharp_collocation_factor, sharp_collocation_ratio, sharp_disc_extra, &
+      sharp_quadrature_ratio, spot_extra_angles, spot_extra_radii
    use wavycon_image_rule, only: add_image_rows
    use wavycon_image_series, only: image_series
    use wavycon_kinds, only: dp
@@ -52,7 +56,6 @@ contains
       type(image_series), intent(in), optional :: images
          !! of the lattice's kernel or its Laplacian; of use where it covers the shape
 
-      real(dp), parameter :: angular_reach = 0.6_dp, sharp_reach = 0.7_dp, near_reach = 0.85_dp
       integer :: angles, finer, fold, i, j, n, others, radii
       real(dp) :: phi
 
@@ -62,22 +65,23 @@ contains
       equations%unknowns = like%basis%terms + others + size(like%shape%b)
       associate (degree => like%basis%degree)
          ! Sharp tips make the quotient on the chords less smooth, near neighbours the kernel.
-         angles = 3*degree/2 + 4
-         if (reach > sharp_reach) angles = 2*degree + 20
+         angles = int(chords_per_degree*degree) + extra_chords
+         if (reach > sharp_quadrature_ratio) angles = int(sharp_chords_per_degree*degree) + extra_sharp_chords
          ! On an ellipse the quotient itself falls as a power of b_1/b_0 in the angle.
          if (fold == 2) angles = angles + ceiling(-log(epsilon(1.0_dp)) &
             /log(like%shape%b(0)/max(abs(like%shape%b(1)), epsilon(1.0_dp))))
-         call start_chord_rule(equations%chords, like%basis, ubound(like%shape%b, 1), angles, degree/2 + 2)
+         call start_chord_rule(equations%chords, like%basis, ubound(like%shape%b, 1), angles, &
+                               degree/2 + extra_chord_points)
          finer = 0
-         if (reach > sharp_reach) finer = 1
-         if (reach > near_reach) finer = 6
+         if (reach > sharp_quadrature_ratio) finer = sharp_disc_extra
+         if (reach > near_images_ratio) finer = near_disc_extra
          call plain_disc_rule(equations%rule, like%basis%power, fold, &
-                              degree/2 + 2 + finer, degree/fold + 1 + finer)
+                              degree/2 + extra_disc_radii + finer, degree/fold + extra_disc_angles + finer)
          ! Two more than the unknowns of the round part of a function: with as many, any size would do.
-         radii = degree/2 + merge(5, 4, like%island)
-         angles = degree/fold + merge(2, 1, like%island)
+         radii = degree/2 + merge(island_extra_radii, spot_extra_radii, like%island)
+         angles = degree/fold + merge(island_extra_angles, spot_extra_angles, like%island)
          ! Sharper shapes are better determined by half as many again.
-         if (reach > angular_reach) angles = 3*angles/2
+         if (reach > sharp_collocation_ratio) angles = int(sharp_collocation_factor*angles)
          ! Of a round shape each term is a harmonic of the angle, and the last would vanish at as many angles.
          angles = max(angles, ubound(like%shape%b, 1) + 1)
       end associate

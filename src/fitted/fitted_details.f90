@@ -3,9 +3,10 @@
 !> What the expansions of the degrees before give at the same places tells how far they have converged; a
 !> second evaluation by finer rules, how exactly the integrals over near images are done.
 module wavycon_fitted_details
-   use wavycon_error_estimate, only: error_estimate, round_reach
+   use wavycon_error_estimate, only: error_estimate
    use wavycon_fitted_answer, only: expansions_before, fitted_answer
    use wavycon_fitted_fields, only: fitted_separations
+   use wavycon_fitted_tuning, only: detail_refinement, round_shape_ratio
    use wavycon_kinds, only: dp
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
@@ -38,7 +39,7 @@ contains
       integer :: i, k
 
       call separations(lattice, answer, at(:, 0))
-      call separations(lattice, answer, by_finer_rules, fineness=2)
+      call separations(lattice, answer, by_finer_rules, fineness=detail_refinement)
       older = answer
       do k = 1, size(answer%before)
          older%solution = answer%before(k)
@@ -49,7 +50,7 @@ contains
       last_difference = huge(1.0_dp)
       if (size(answer%before) > 1) last_difference = abs(at(:, 1) - at(:, 2))
       decay = 1.0_dp
-      if (size(answer%before) > 2 .and. answer%reach < round_reach) &
+      if (size(answer%before) > 2 .and. answer%reach < round_shape_ratio) &
          decay = min(last_difference/max(abs(at(:, 2) - at(:, 3)), tiny(1.0_dp)), 1.0_dp)
       ! All but the gap inside an island are differences of numbers of order 1.
       scale = 1.0_dp

@@ -10,6 +10,8 @@ module wavycon_fitted_fields
    use wavycon_disc_rule, only: disc_rule, plain_disc_rule
    use wavycon_expansion, only: expansion
    use wavycon_fitted_answer, only: fitted_answer
+   use wavycon_fitted_tuning, only: chord_field_radius, field_angles, field_chord_points, field_chords, field_radii, &
+      field_radius_margin, sharp_field_ratio, sharp_field_refinement
    use wavycon_kinds, only: dp
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
@@ -34,15 +36,6 @@ module wavycon_fitted_fields
       procedure, private :: outside
    end type fitted_fields
 
-   !> Sizes of the plain rule for what is not near, per turn and per radius, and how much finer it is when
-   !> tips are so sharp that the continued map does not get far beyond them.
-   integer, parameter :: around = 96, along = 40, finer = 3
-   real(dp), parameter :: sharp_reach = 0.8_dp
-   !> A place is near if the continued map has it within this radius: beyond, the plain rule is exact.
-   real(dp), parameter :: near = 1.6_dp
-   !> On a shape's radius, which is that of some of its points.
-   real(dp), parameter :: margin = 1.05_dp
-
 contains
 
    !> Prepares to evaluate an answer.
@@ -58,7 +51,7 @@ contains
 
       own = 1
       if (present(fineness)) own = fineness
-      factor = own*merge(finer, 1, answer%reach > sharp_reach)
+      factor = own*merge(sharp_field_refinement, 1, answer%reach > sharp_field_ratio)
       fields%lattice = lattice
       fields%answer = answer
       if (answer%island) then
@@ -67,9 +60,11 @@ contains
       end if
       associate (solution => fields%answer%solution)
          m = solution%basis%fold
-         fields%radius = margin*solution%shape%radius()
-         call start_chord_rule(fields%chords, solution%basis, ubound(solution%shape%b, 1), own*96, own*48)
-         call plain_disc_rule(fields%rule, solution%basis%power, m, factor*along, factor*around/(2*m))
+         fields%radius = field_radius_margin*solution%shape%radius()
+         call start_chord_rule(fields%chords, solution%basis, ubound(solution%shape%b, 1), own*field_chords, &
+                               own*field_chord_points)
+         call plain_disc_rule(fields%rule, solution%basis%power, m, factor*field_radii, &
+                              factor*field_angles/(2*m))
          n = size(fields%rule%point)
          allocate (values(n, solution%basis%terms), density(n))
          call solution%basis%evaluate(n, fields%rule%point, values)
@@ -209,7 +204,7 @@ contains
             image = 0.0_dp
             if (k > 0) image = cmplx(images(1, k), images(2, k), dp)
             call solution%shape%find(z - image, w, found)
-            by_chords = found .and. abs(w) < near
+            by_chords = found .and. abs(w) < chord_field_radius
             if (by_chords .and. self%answer%island) then
                total = total + self%chords%cube_integral(solution%basis, solution%shape, w, solution%c)
             else if (by_chords) then

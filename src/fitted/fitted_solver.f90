@@ -3,7 +3,7 @@ module wavycon_fitted_solver
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_constants, only: pi
    use wavycon_contact_equations, only: contact_equations, start_equations
-   use wavycon_error_estimate, only: error_estimate, round_reach
+   use wavycon_error_estimate, only: error_estimate
    use wavycon_expansion, only: expansion
    use wavycon_fitted_answer, only: expansions_before, fitted_answer, fitted_bad_input, fitted_failed, &
       fitted_less_exact, fitted_merged, fitted_solved, fitted_status_text
@@ -12,6 +12,13 @@ module wavycon_fitted_solver
    use wavycon_image_series, only: image_series, start_image_series
    use wavycon_island_pressure, only: crest_pressure
    use wavycon_kinds, only: dp
+   use wavycon_fitted_tuning, only: change_per_root_accuracy, degree_per_shape_term, degree_per_shape_term_twofold, &
+      degree_step, error_of_square, finest_change, finest_change_ratio, first_degree, full_shape_degree, &
+      full_step_degree, full_step_degree_round, heavy_load_start, island_clustering, island_clustering_power, &
+      largest_change, last_degree, least_clustering, least_clustering_change, light_load_start, load_step_ratio, &
+      longest_clustering_step, loosest_change, loosest_series_accuracy, most_newton_steps, restart_degree_steps, &
+      round_shape_ratio, series_error_of_accuracy, series_growth, spot_clustering, spot_clustering_power, &
+      start_series_growth, start_shape_change
    use wavycon_start_expansion, only: crack_island, hertz_spot, scaled_to_load
    use wavycon_wave_lattice, only: hexagonal_lattice, rectangular_lattice, rhombic_lattice, square_lattice, &
       wave_lattice
@@ -23,18 +30,6 @@ module wavycon_fitted_solver
    public :: fitted_fields, start_fitted_fields, fitted_separations
    public :: fitted_solved, fitted_less_exact, fitted_merged, fitted_bad_input, fitted_failed
    public :: wave_lattice, square_lattice, rectangular_lattice, rhombic_lattice, hexagonal_lattice
-
-   !> A start further off in load, as a ratio of P or of 1 - P, is followed in steps of this ratio.
-   real(dp), parameter :: load_ratio = 2.0_dp
-   !> The asymptotes are good enough to start from below this P, above this P.
-   real(dp), parameter :: light_load = 0.03_dp, heavy_load = 0.7_dp
-   !> Degrees of the polynomials: the first, the step, the last.
-   integer, parameter :: first_degree = 6, degree_step = 4, last_degree = 40
-   !> Steps are half ones below the first, and for round shapes below the second.
-   integer, parameter :: full_degree = 8, fine_degree = 12
-   !> A start has had its own accuracy: as many degrees are gone back, so that a sweep can come down again.
-   integer, parameter :: degrees_back = 3
-   integer, parameter :: most_steps = 12
 
    !> The three numbers that the accuracy is of: mean gap, area fraction, peak pressure. An island's gap at its
    !> trough follows, which converges as fields do, later than integrals of them; then energy and perimeter,
@@ -86,13 +81,6 @@ contains
       type(fitted_answer), intent(in), optional :: start
       logical, intent(in), optional :: fields
 
-      !> Steps to stop at for the tightest accuracy, and what is no convergence at all.
-      real(dp), parameter :: finest = 1e-7_dp, largest_change = 1e-4_dp
-      !> What a last step leaves, relative to a measure, in units of the step's square; with a margin.
-      real(dp), parameter :: of_square = 10.0_dp
-      !> Error of the series of images, of the accuracy or, since shorter ones are hardly quicker, this one; and the
-      !> growth of the shape that they have room for.
-      real(dp), parameter :: of_accuracy = 1e-2_dp, loosest = 1e-6_dp, growth = 1.03_dp
       type(contact_equations) :: equations
       type(expansion) :: now, past(expansions_before)
       type(image_series) :: images
@@ -107,12 +95,12 @@ contains
       asked = measures
       if (present(fields)) asked = merge(measures + 1, measures, fields .and. island)
       ! A step of this size leaves about its square; close to merging more.
-      tolerance = min(max(0.1_dp*sqrt(accuracy), finest), 1e-4_dp)
+      tolerance = min(max(change_per_root_accuracy*sqrt(accuracy), finest_change), loosest_change)
       call begin(lattice, answer, now, degree, iterations, ok, start)
       if (.not. ok) return
       merged = .false.
       ! A lower degree gives the estimates one more difference; it does not know sharper shapes.
-      if (degree == first_degree .and. reach(lattice, now) < round_reach) &
+      if (degree == first_degree .and. reach(lattice, now) < round_shape_ratio) &
          degree = first_degree - degree_step/2
       last = huge(last)
       last_difference = huge(last)
@@ -121,9 +109,10 @@ contains
       compared = 0
       do
          now = now%raised(degree, shape_terms(degree, now%basis%fold, reach(lattice, now)), crowding(lattice, now))
-         call cover(images, lattice, now, growth, of_accuracy*min(accuracy, loosest))
+         call cover(images, lattice, now, series_growth, &
+                    series_error_of_accuracy*min(accuracy, loosest_series_accuracy))
          call start_equations(equations, now, reach(lattice, now), images)
-         if (reach(lattice, now) > 0.7_dp) tolerance = finest
+         if (reach(lattice, now) > finest_change_ratio) tolerance = finest_change
          call converge(equations, lattice, answer%pbar_over_pstar, now, tolerance, &
                        change, residual, iterations, ok)
          merged = reach(lattice, now) >= 1.0_dp
@@ -157,7 +146,7 @@ contains
                call error_estimate(difference(m + 2:), last_difference(m + 2:), decay(m + 2:), new(m + 2:), &
                                    error(m + 2:))
             end associate
-            error = max(error, of_square*change**2*new)
+            error = max(error, error_of_square*change**2*new)
             ! Close to merging a higher degree may be worse.
             better = answer%status == fitted_failed .or. .not. trusted
             if (.not. better) better = sum(error(:measures)/new(:measures)) &
@@ -167,7 +156,7 @@ contains
             if (better) call take_over()
             if (trusted .and. all(best(:asked) <= accuracy*new(:asked))) answer%status = fitted_solved
             decay = 1.0_dp
-            if (reach(lattice, now) < round_reach) &
+            if (reach(lattice, now) < round_shape_ratio) &
                decay = min(abs(new - last)/max(last_difference, tiny(new)), 1.0_dp)
             last_difference = abs(new - last)
          end if
@@ -213,10 +202,6 @@ contains
       logical, intent(out) :: ok
       type(fitted_answer), intent(in), optional :: start
 
-      !> A step of this size leaves less than the first degrees' errors.
-      real(dp), parameter :: start_change = 1e-2_dp
-      !> Of the shape in the first of them; that of long spots is more.
-      real(dp), parameter :: growth = 1.1_dp
       type(contact_equations) :: equations
       type(image_series) :: images
       real(dp) :: change, load, next, residual, target
@@ -229,28 +214,28 @@ contains
             load = start%pbar_over_pstar
             if (steps_between(lattice, load, target, answer%island) <= 1) then
                now = scaled_to_load(lattice, start%solution, load, target)
-               degree = max(first_degree, start%degree - degrees_back*degree_step)
+               degree = max(first_degree, start%degree - restart_degree_steps*degree_step)
                ok = .true.
                return
             end if
          end if
       end if
       if (answer%island) then
-         load = max(target, heavy_load*lattice%closing_pressure)
+         load = max(target, heavy_load_start*lattice%closing_pressure)
          now = crack_island(lattice, load)
       else
-         load = min(target, light_load)
+         load = min(target, light_load_start)
          now = hertz_spot(lattice, load)
       end if
       do
-         call cover(images, lattice, now, growth, start_change**2)
+         call cover(images, lattice, now, start_series_growth, start_shape_change**2)
          call start_equations(equations, now, 0.0_dp, images)
-         call converge(equations, lattice, load, now, start_change, change, residual, iterations, ok)
+         call converge(equations, lattice, load, now, start_shape_change, change, residual, iterations, ok)
          if (.not. ok .or. steps_between(lattice, load, target, answer%island) == 0) exit
          next = target
          if (steps_between(lattice, load, target, answer%island) > 1) then
-            next = load_ratio*load
-            if (answer%island) next = lattice%closing_pressure - load_ratio*(lattice%closing_pressure - load)
+            next = load_step_ratio*load
+            if (answer%island) next = lattice%closing_pressure - load_step_ratio*(lattice%closing_pressure - load)
          end if
          now = scaled_to_load(lattice, now, load, next)
          load = next
@@ -282,7 +267,7 @@ contains
 
       ratio = other/one
       if (island) ratio = (lattice%closing_pressure - other)/(lattice%closing_pressure - one)
-      steps = ceiling(abs(log(ratio))/log(load_ratio))
+      steps = ceiling(abs(log(ratio))/log(load_step_ratio))
    end function steps_between
 
    !> Gauss-Newton until the shape no longer changes.
@@ -299,7 +284,7 @@ contains
 
       integer :: i
 
-      do i = 1, most_steps
+      do i = 1, most_newton_steps
          call gauss_newton_step(equations, lattice, load, now, change, residual, ok)
          iterations = iterations + 1
          if (.not. ok) return
@@ -317,7 +302,8 @@ contains
       logical :: half
 
       half = degree < first_degree
-      if (fold == 4) half = degree < full_degree .or. (degree < fine_degree .and. edge_reach < round_reach)
+      if (fold == 4) half = degree < full_step_degree .or. (degree < full_step_degree_round .and. &
+                                                                   edge_reach < round_shape_ratio)
       next_degree = degree + merge(degree_step/2, degree_step, half)
    end function next_degree
 
@@ -329,14 +315,14 @@ contains
       ! With two-fold symmetry each is of the next odd power only. Each degree has its own number, or the next one
       ! would change the area by less than it is wrong.
       if (fold == 2) then
-         shape_terms = degree/2
+         shape_terms = degree/degree_per_shape_term_twofold
          return
       end if
-      shape_terms = degree/3 + 1
+      shape_terms = degree/degree_per_shape_term + 1
       ! Low degrees do not determine as many.
-      if (degree < fine_degree) shape_terms = (degree + 1)/3
+      if (degree < full_shape_degree) shape_terms = (degree + 1)/degree_per_shape_term
       ! With other than four-fold symmetry to about the same power: more would be rounding, but not of sharp tips.
-      if (fold < 4 .or. edge_reach < round_reach) shape_terms = nint(4.0_dp*shape_terms/fold)
+      if (fold < 4 .or. edge_reach < round_shape_ratio) shape_terms = nint(4.0_dp*shape_terms/fold)
    end function shape_terms
 
    !> The crowding of the edge's points for the next degree.
@@ -347,21 +333,15 @@ contains
       type(wave_lattice), intent(in) :: lattice
       type(expansion), intent(in) :: now
 
-      !> At merging, and the power of the reach with which it falls off.
-      real(dp), parameter :: spot = 0.015_dp, spot_power = 4.0_dp, island = 0.095_dp, island_power = 17.0_dp
-      !> Less is not worth a Newton step, nor is a small change.
-      real(dp), parameter :: least = 0.004_dp, small_change = 0.2_dp
-      !> Newton's method follows no longer steps.
-      real(dp), parameter :: longest_step = 0.02_dp
-
       crowding = now%shape%crowding
       if (.not. lattice%square) return
       associate (near => min(reach(lattice, now), 1.0_dp))
-         crowding = merge(island*near**island_power, spot*near**spot_power, now%island)
+         crowding = merge(island_clustering*near**island_clustering_power, &
+                          spot_clustering*near**spot_clustering_power, now%island)
       end associate
-      if (crowding < least) crowding = 0.0_dp
-      if (abs(crowding - now%shape%crowding) < small_change*crowding) crowding = now%shape%crowding
-      crowding = min(crowding, now%shape%crowding + longest_step)
+      if (crowding < least_clustering) crowding = 0.0_dp
+      if (abs(crowding - now%shape%crowding) < least_clustering_change*crowding) crowding = now%shape%crowding
+      crowding = min(crowding, now%shape%crowding + longest_clustering_step)
    end function crowding
 
    !> How far the edge reaches, on the way to the nearest neighbours: 1 where it touches theirs, in the middle.

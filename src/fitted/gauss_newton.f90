@@ -2,6 +2,7 @@
 module wavycon_gauss_newton
    use wavycon_contact_equations, only: contact_equations
    use wavycon_expansion, only: expansion
+   use wavycon_fitted_tuning, only: least_centre_jacobian, longest_shape_change
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgels, dgglse
    use wavycon_wave_lattice, only: wave_lattice
@@ -22,12 +23,6 @@ contains
       real(dp), intent(out) :: residual                    !! largest of the equations before the step [Delta, p*]
       logical, intent(out) :: ok                           !! the step is finite and its shape is one
 
-      !> Longer steps are cut: the shape stays one, and Gauss-Newton is not reliable beyond.
-      real(dp), parameter :: longest_change = 0.3_dp
-      !> The area over the disc's at the centre, of that of a round shape: an ellipse of 100 to 1 has it. Flatter
-      !> ones are on the way to fold, when two unlike waves' spots are past merging, and the rules for them grow
-      !> without end.
-      real(dp), parameter :: flattest = 0.04_dp
       real(dp) :: constraint(1, equations%unknowns), missing(1), step(equations%unknowns)
       real(dp) :: work(64*(size(equations%rest) + equations%unknowns + 1)), part
       integer :: info, m, n, others, shapes, terms
@@ -54,11 +49,11 @@ contains
       end if
       if (info /= 0 .or. .not. maxval(abs(step)) < huge(residual)) return
       change = maxval(abs(step(shapes + 1:)))/now%shape%b(0)
-      part = min(1.0_dp, longest_change/max(change, tiny(change)))
+      part = min(1.0_dp, longest_shape_change/max(change, tiny(change)))
       now%c = now%c + part*step(:terms)
       if (.not. now%island) now%approach = now%approach + part*step(terms + 1)
       now%shape%b = now%shape%b + part*step(shapes + 1:)
-      ok = now%shape%b(0) > 0.0_dp .and. now%shape%jacobian((0.0_dp, 0.0_dp)) > flattest*now%shape%b(0)**2
+      ok = now%shape%b(0) > 0.0_dp .and. now%shape%jacobian((0.0_dp, 0.0_dp)) > least_centre_jacobian*now%shape%b(0)**2
    end subroutine gauss_newton_step
 
 end module wavycon_gauss_newton

@@ -12,6 +12,7 @@ module wavycon_image_series
    use wavycon_constants, only: pi
    use wavycon_disc_polynomials, only: disc_polynomials, start_disc_polynomials
    use wavycon_disc_rule, only: disc_rule, plain_disc_rule
+   use wavycon_fitted_tuning, only: most_near_points, series_clearance
    use wavycon_image_rule, only: kernel_of_images, linearise_sources
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgemm
@@ -33,10 +34,6 @@ module wavycon_image_series
       procedure :: add_rows
    end type image_series
 
-   !> Lattice points nearer than this, in R, are left out: with them series would be long.
-   real(dp), parameter :: clearance = 3.4_dp
-   !> With more points than this near, all of them are no quicker.
-   integer, parameter :: most_near = 12
    !> Rounding leaves some 1e-13 of the largest value near the discs' edges.
    real(dp), parameter :: least_tolerance = 5e-13_dp
 
@@ -60,9 +57,9 @@ contains
 
       if (tolerance < least_tolerance) return
       ! Shapes that are about to fold grow without end.
-      if (.not. pi*(clearance*radius)**2 <= 2*most_near*kernel%height) return
-      call kernel%points_within(clearance*radius, series%near, distance)
-      if (size(series%near, 2) > most_near) return
+      if (.not. pi*(series_clearance*radius)**2 <= 2*most_near_points*kernel%height) return
+      call kernel%points_within(series_clearance*radius, series%near, distance)
+      if (size(series%near, 2) > most_near_points) return
       ! With the source on the edge nearest to a point left in, terms that turn fall as powers of that point's
       ! distance from the centre, in R, those that do not as for Chebyshev's polynomials.
       distance = distance/radius - 1.0_dp

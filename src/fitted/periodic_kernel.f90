@@ -16,6 +16,7 @@
 !> What is said here is for rows along x; for those along y, x and y change places.
 module wavycon_periodic_kernel
    use wavycon_constants, only: pi
+   use wavycon_fitted_tuning, only: kernel_fit_degree, kernel_near_distance, kernel_near_per_side
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
@@ -38,8 +39,6 @@ module wavycon_periodic_kernel
       procedure :: reduced
    end type periodic_kernel
 
-   !> The fit's degree in either variable before what is below rounding is cut off.
-   integer, parameter :: highest_degree = 12
    !> Coefficients below it are rounding of Ewald's sum, whose terms are of order ten, and of its Laplacian.
    real(dp), parameter :: noise(2) = [32, 320]*epsilon(1.0_dp)
    !> erfc of it is 1e-19.
@@ -56,7 +55,7 @@ contains
       real(dp), intent(in) :: row_shift  !! of the next row, along itself [s]: 0 or 1/2
       logical, intent(in), optional :: rows_along_y   !! along x if absent
 
-      integer, parameter :: n = highest_degree
+      integer, parameter :: n = kernel_fit_degree
       real(dp), dimension(0:n, 0:n) :: cosine, distance, to_powers, x, y
       real(dp) :: image(2), reach, values(0:n, 0:n, 2)
       integer :: degree(0:n), i, j, k
@@ -64,7 +63,7 @@ contains
       kernel%height = height
       kernel%row_shift = row_shift
       ! Lattice points left in are at least 1.35 sides from the rectangle, more from a long one.
-      reach = 0.75_dp + 0.6_dp*max(height, 1.0_dp)
+      reach = kernel_near_distance + kernel_near_per_side*max(height, 1.0_dp)
       allocate (kernel%image(2, 0))
       do j = -4, 4
          do i = -6, 6

@@ -7,6 +7,9 @@
 !> become sharp.
 module wavycon_shape_map
    use wavycon_constants, only: pi
+   use wavycon_fitted_tuning, only: distance_halvings, distance_points, farthest_inverse, farthest_inverse_start, &
+      least_edge_points, least_inverse_jacobian, least_turning, longest_inverse_step, most_edge_points, &
+      most_inverse_steps, radius_points
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
@@ -155,8 +158,7 @@ contains
    pure real(dp) function radius(self)
       class(shape_map), intent(in) :: self
 
-      !> From one axis of symmetry to the next; tips are on one of them or broad.
-      integer, parameter :: steps = 8
+      integer, parameter :: steps = radius_points
       integer :: i
 
       radius = maxval(abs(self%place([(exp(cmplx(0.0_dp, pi*i/(self%fold*steps), dp)), i=0, steps)])))
@@ -166,8 +168,6 @@ contains
    pure real(dp) function perimeter(self)
       class(shape_map), intent(in) :: self
 
-      !> The midpoint rule in the angle is spectral; tips ask for many points.
-      integer, parameter :: least_points = 16, most_points = 512
       complex(dp) :: power, step, tangent, w
       real(dp) :: ratio
       integer :: i, k, points
@@ -177,9 +177,9 @@ contains
       ! as that is on the safe side.
       ratio = sum([((self%fold*k - 1)*abs(self%b(k)), k=1, ubound(self%b, 1))]) &
          /(self%b(0)*(1.0_dp - (self%fold + 1)*self%crowding))
-      points = most_points
-      if (ratio < 1.0_dp) points = min(ceiling(log(epsilon(ratio))/log(max(ratio, tiny(ratio)))), most_points)
-      points = max(points, least_points)
+      points = most_edge_points
+      if (ratio < 1.0_dp) points = min(ceiling(log(epsilon(ratio))/log(max(ratio, tiny(ratio)))), most_edge_points)
+      points = max(points, least_edge_points)
       perimeter = 0.0_dp
       do i = 1, points
          w = exp(cmplx(0.0_dp, pi*(i - 0.5_dp)/(self%fold*points), dp))
@@ -200,8 +200,7 @@ contains
       class(shape_map), intent(in) :: self
       complex(dp), intent(in) :: z       !! [s]
 
-      !> Points to start from, and halvings of their distance.
-      integer, parameter :: points = 128, halvings = 30
+      integer, parameter :: points = distance_points
       complex(dp) :: edge(-1:1), outwards
       real(dp) :: angle, length(points), step
       integer :: i, nearest
@@ -209,7 +208,7 @@ contains
       length = abs(z - self%place([(exp(cmplx(0.0_dp, 2*pi*i/points, dp)), i=1, points)]))
       angle = 2*pi*minloc(length, 1)/points
       step = 2*pi/points
-      do i = 1, halvings
+      do i = 1, distance_halvings
          step = 0.5_dp*step
          edge = self%place(exp(cmplx(0.0_dp, angle + [-step, 0.0_dp, step], dp)))
          nearest = minloc(abs(z - edge), 1) - 2
@@ -230,7 +229,6 @@ contains
       complex(dp), intent(out) :: w
       logical, intent(out) :: found      !! not where the continued map folds before it gets to z
 
-      integer, parameter :: most_steps = 40
       !> Of b_0: what rounding leaves.
       real(dp), parameter :: tolerance = 64*epsilon(1.0_dp)
       complex(dp) :: edge, left, own, slope, step
@@ -242,7 +240,7 @@ contains
       if (found) return
       direction = atan2(z%im, z%re)
       angle = direction
-      do i = 1, most_steps
+      do i = 1, most_inverse_steps
          w = exp(cmplx(0.0_dp, angle, dp))
          edge = self%place(w)
          turn = direction - atan2(edge%im, edge%re)
@@ -253,18 +251,18 @@ contains
             slope = slope - (self%fold*k - 1)*self%b(k)*conjg(w)**(self%fold*k - 1)
          end do
          bend = real(slope/edge, dp)
-         angle = angle + turn/max(bend, 0.2_dp)
+         angle = angle + turn/max(bend, least_turning)
          if (abs(turn) < 1e-10_dp) exit
       end do
-      w = w*min(abs(z)/abs(edge), 1.2_dp)
-      do i = 1, most_steps
+      w = w*min(abs(z)/abs(edge), farthest_inverse_start)
+      do i = 1, most_inverse_steps
          left = z - self%place(w)
          slope = conjugate_slope(self, w)
          own = self%b(0)*self%crowded_slope(w)
          bend = own%re**2 + own%im**2 - (slope%re**2 + slope%im**2)
-         if (.not. bend > 1e-3_dp*self%b(0)**2 .or. .not. abs(w) < 4.0_dp) return
+         if (.not. bend > least_inverse_jacobian*self%b(0)**2 .or. .not. abs(w) < farthest_inverse) return
          step = (conjg(own)*left - slope*conjg(left))/bend
-         w = w + step*min(1.0_dp, 0.2_dp/max(abs(step), tiny(1.0_dp)))
+         w = w + step*min(1.0_dp, longest_inverse_step/max(abs(step), tiny(1.0_dp)))
          found = abs(step) <= tolerance .or. abs(left) <= tolerance*self%b(0)
          if (found) return
       end do

@@ -3,15 +3,13 @@ module wavycon_start_expansion
    use wavycon_constants, only: pi
    use wavycon_disc_polynomials, only: start_disc_polynomials
    use wavycon_expansion, only: expansion
+   use wavycon_fitted_tuning, only: island_ellipticity_power, spot_ellipticity_power, start_degree
    use wavycon_kinds, only: dp
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
    private
 
    public :: hertz_spot, crack_island, scaled_to_load
-
-   !> Of the polynomials of a start: enough to follow the load with.
-   integer, parameter :: low_degree = 4
 
 contains
 
@@ -21,13 +19,11 @@ contains
       real(dp), intent(in) :: load   !! P > 0
       type(expansion) :: spot
 
-      !> Semi-axes of an elliptical contact go roughly as this power of the curvatures, inversely.
-      real(dp), parameter :: ellipticity_power = 0.6_dp
       real(dp) :: curvature(2), radius, ratio
       integer :: i
 
       spot%island = .false.
-      call start_disc_polynomials(spot%basis, lattice%fold, low_degree, 0.5_dp)
+      call start_disc_polynomials(spot%basis, lattice%fold, start_degree, 0.5_dp)
       do i = 1, 2
          curvature(i) = 4*pi**2*sum(lattice%wave(i, :)**2*lattice%amplitude)
       end do
@@ -36,7 +32,7 @@ contains
       allocate (spot%shape%b(0:1))
       spot%shape%b(:) = [radius, 0.0_dp]
       if (lattice%fold == 2) then
-         ratio = (curvature(1)/curvature(2))**ellipticity_power
+         ratio = (curvature(1)/curvature(2))**spot_ellipticity_power
          spot%shape%b(1) = radius*(1.0_dp - ratio)/(1.0_dp + ratio)
       end if
       allocate (spot%c(spot%basis%terms), source=0.0_dp)
@@ -51,13 +47,11 @@ contains
       real(dp), intent(in) :: load  !! P < the pressure that closes the troughs
       type(expansion) :: island
 
-      !> Of a long ellipse the length and the width go as this power of the curvatures, inversely.
-      real(dp), parameter :: ellipticity_power = 0.5_dp
       real(dp) :: curvature(2), missing, radius, ratio
       integer :: i
 
       island%island = .true.
-      call start_disc_polynomials(island%basis, lattice%trough_fold, low_degree, 1.5_dp)
+      call start_disc_polynomials(island%basis, lattice%trough_fold, start_degree, 1.5_dp)
       do i = 1, 2
          curvature(i) = -4*pi**2*sum(lattice%wave(i, :)**2*lattice%pressure*lattice%phase%re)
       end do
@@ -67,7 +61,7 @@ contains
       allocate (island%shape%b(0:1))
       island%shape%b(:) = [radius, 0.0_dp]
       if (lattice%trough_fold == 2) then
-         ratio = (curvature(1)/curvature(2))**ellipticity_power
+         ratio = (curvature(1)/curvature(2))**island_ellipticity_power
          island%shape%b(1) = radius*(1.0_dp - ratio)/(1.0_dp + ratio)
       end if
       allocate (island%c(island%basis%terms), source=0.0_dp)

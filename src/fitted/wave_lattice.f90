@@ -6,6 +6,7 @@
 !> has the pressure a_i |k_i| cos(2 pi k_i.x) beside the mean one; where that is lowest, at the troughs, it opens last.
 module wavycon_wave_lattice
    use wavycon_constants, only: pi
+   use wavycon_fitted_tuning, only: hexagonal_merging, rectangular_merging, rhombic_merging
    use wavycon_kinds, only: dp
    use wavycon_periodic_kernel, only: periodic_kernel, start_periodic_kernel
    implicit none (type, external)
@@ -44,12 +45,15 @@ contains
    function square_lattice() result(lattice)
       type(wave_lattice) :: lattice
 
+      !> The mean pressure at which spots merge, found by solving on either side of it.
+      real(dp), parameter :: merging_pressure = 0.228605_dp
+
       allocate (lattice%wave(2, 2), lattice%amplitude(2))
       lattice%wave(:, :) = reshape([1.0_dp, 0.0_dp, 0.0_dp, 1.0_dp], [2, 2])
       lattice%amplitude(:) = [0.5_dp, 0.5_dp]
       lattice%to_next_crest = [lattice%saddle]
       call start_periodic_kernel(lattice%kernel, 1.0_dp, 0.0_dp)
-      call add_pressure(lattice, 0.228605_dp)
+      call add_pressure(lattice, merging_pressure)
    end function square_lattice
 
    !> h/Delta = 1 - a_x cos X - a_y cos Y, a_x + a_y = 1.
@@ -70,7 +74,7 @@ contains
       lattice%trough = cmplx(0.5_dp, 0.5_dp*side_ratio, dp)
       lattice%to_next_crest = [cmplx(0.5_dp, 0.0_dp, dp), cmplx(0.0_dp, 0.5_dp*side_ratio, dp)]
       call start_periodic_kernel(lattice%kernel, side_ratio, 0.0_dp)
-      call add_pressure(lattice, 0.05_dp)
+      call add_pressure(lattice, rectangular_merging)
    end function rectangular_lattice
 
    !> h/Delta = 1 - cos X cos Y: a crest more in the middle of the cell. At a ratio of 1 the paper's surface, with the
@@ -90,7 +94,7 @@ contains
       lattice%trough = 0.5_dp
       lattice%to_next_crest = [lattice%saddle]
       call start_periodic_kernel(lattice%kernel, 0.5_dp*side_ratio, 0.5_dp)
-      call add_pressure(lattice, 0.2_dp)
+      call add_pressure(lattice, rhombic_merging)
    end function rhombic_lattice
 
    !> Three equal waves at 120 degrees; each crest has six neighbours, two of them along y so that a trough is on the
@@ -114,7 +118,7 @@ contains
       lattice%to_next_trough = [cmplx(0.5_dp/root3, 0.0_dp, dp)]
       lattice%phase = 0.5_dp*[cmplx(-1.0_dp, -root3, dp), cmplx(-1.0_dp, root3, dp), cmplx(-1.0_dp, root3, dp)]
       call start_periodic_kernel(lattice%kernel, 0.5_dp*root3, 0.5_dp, rows_along_y=.true.)
-      call add_pressure(lattice, 0.05_dp)
+      call add_pressure(lattice, hexagonal_merging)
    end function hexagonal_lattice
 
    !> What islands need. Those of all lattices but the hexagonal have neighbours as the spots have, and all waves are
@@ -123,7 +127,7 @@ contains
       type(wave_lattice), intent(inout) :: lattice   !! with its waves, trough and ways between crests
       real(dp), intent(in) :: at_merging
          !! lowest pressure of full contact in the middles between troughs at which islands separate, over the closing
-         !! pressure; from trials
+         !! pressure
 
       complex(dp), allocatable :: middle(:)
 

@@ -1,0 +1,61 @@
+!> Tuned constants of the contact solvers: numbers that no theory gives. Each has its reason beside it. README.md in
+!> this directory derives what they multiply.
+module wavycon_contact_tuning
+   use wavycon_kinds, only: dp
+   implicit none (type, external)
+   private
+
+   ! Sequence of grids.
+
+   !> Points of the first grid to half of the surface's shortest wave, each way: the fewest of which two halvings of
+   !> the step show how the errors fall.
+   integer, parameter, public :: first_points = 8
+   !> Most points of the last grid in 1-D, on half the cell of an even surface; others have as many on each half. It
+   !> bounds the time of a load whose accuracy no grid attains.
+   integer, parameter, public :: most_points_line = 524288
+   !> Likewise in 2-D, on a quarter of the cell: 84 MB of arrays; on the whole cell four times as many.
+   integer, parameter, public :: most_points_plane = 1048576
+
+   ! Tolerance of the iteration.
+
+   !> A grid of step h is solved to a residual of this times h^(3/2) P^(1/3) of the mean gap, so that the iteration adds
+   !> little to the error of the discretisation.
+   real(dp), parameter, public :: tolerance_factor = 1e-3_dp
+   !> Tolerance of a grid whose points the user gives: its values are compared with those of other programs.
+   real(dp), parameter, public :: given_grid_tolerance = 1e-11_dp
+   !> Iterations on one grid, after which the status is iteration_limit.
+   integer, parameter, public :: iteration_limit = 500
+   !> A point enters the contact when its overlap exceeds this part of the allowed residual. Smaller overlaps may be
+   !> rounding: such points would enter and leave without end.
+   real(dp), parameter, public :: overlap_part = 0.1_dp
+
+   ! Error estimates of the grids.
+
+   !> Factor on the change of the mean gap from grid to grid, whose errors fall to a fifth. Above 1, as their fall is
+   !> not regular.
+   real(dp), parameter, public :: gap_safety = 1.25_dp
+   !> Likewise of the contact area. It is larger, as the area's change depends on how the edge lies between the points.
+   real(dp), parameter, public :: area_safety = 2.0_dp
+   !> Likewise of the peak pressure.
+   real(dp), parameter, public :: peak_safety = 1.25_dp
+   !> The part of the change before that an error estimate keeps, so that one change that is small by chance does not
+   !> pass for accuracy.
+   real(dp), parameter, public :: kept_change = 0.5_dp
+   !> Error of the edge's place at one point of it, in steps: root mean squares of 0.10 to 0.16 were measured on 432
+   !> solutions of the 2-D wave, lambda_y/lambda = 0.4 .. 1.3, on 128 to 512 points a side.
+   real(dp), parameter, public :: edge_scatter = 0.1_dp
+   !> Its mean over many points of the edge, in steps, where mirror lines tie the grid to the surface: 0.002 to 0.016 on
+   !> the same solutions.
+   real(dp), parameter, public :: edge_bias_even = 0.005_dp
+   !> Likewise on whole cells: there the errors of three grids may be alike by chance.
+   real(dp), parameter, public :: edge_bias_whole = 0.02_dp
+   !> Half width, in steps, of a contact whose peak the polynomial does not resolve: its edge may lie between the first
+   !> and the second point from the crest.
+   real(dp), parameter, public :: unresolved_width = 1.5_dp
+   !> A point whose pressure is less than that of a neighbour over this may have a gap beside it, between the points.
+   real(dp), parameter, public :: opening_ratio = 2.0_dp
+   !> The least relative error of mean gap and peak pressure over that of the area. Both converge faster than the area,
+   !> but not by much more than this.
+   real(dp), parameter, public :: least_of_area = 0.01_dp
+
+end module wavycon_contact_tuning
