@@ -1,27 +1,27 @@
-!> The equations of contact of one spot below merging, or of one open island above, at points of the mapped
-!> disc.
+!> The equations of contact of one spot below merging, or of one open island above, at points of the mapped disc.
 !>
-!> Spot: its pressure p makes u + h = delta, and bears the load P on a cell. Island: its gap g makes the pressure
-!> vanish, which is P + the sum of a_i |k_i| cos 2 pi k_i.x in full contact, and is changed by -(1/4 pi^2) times the
-!> integral of g and the Laplacian of Gp, a finite part. Therefore
+!> Spot: its pressure p and that of all its images displace the surface by u, and u + h = delta in contact. The pressure
+!> bears the load, P times the area of a cell. Island: its gap g makes the pressure vanish in it. In full contact the
+!> pressure is P + the sum of a_i |k_i| cos 2 pi k_i.x; a gap changes it by -(1/4 pi^2) times the finite part of the
+!> integral of g and the Laplacian of Gp. Therefore
 !>
 !>     (1/4 pi^2) integral of Laplacian(Gp) g = pressure rise from the trough - (closing pressure - P).
 !>
-!> The power of 1 - |w|^2 leaves out the term that a wrong shape would bring in: only the right edge fits. So
-!> the system in the coefficients, a spot's approach and the shape has more equations than unknowns.
+!> The weight (1 - |w|^2)^power leaves out the singular term that a wrong edge would bring in, so that the equations can
+!> only be met with the right edge. They are more than the unknowns, which are the coefficients, a spot's approach and the
+!> shape.
 module wavycon_contact_equations
    use wavycon_chord_rule, only: chord_rule, start_chord_rule
    use wavycon_constants, only: pi
-   use wavycon_disc_rule, only: disc_rule, plain_disc_rule
+   use wavycon_disc_rule, only: disc_rule, start_disc_rule
    use wavycon_expansion, only: expansion
    use wavycon_fitted_tuning, only: chords_per_degree, extra_chord_points, extra_chords, extra_disc_angles, &
       extra_disc_radii, extra_sharp_chords, island_extra_angles, island_extra_radii, near_disc_extra, &
       near_images_ratio, sharp_chords_per_degree, sharp_collocation_factor, sharp_collocation_ratio, sharp_disc_extra, &
       sharp_quadrature_ratio, spot_extra_angles, spot_extra_radii
-   use wavycon_image_rule, only: add_image_rows
-   use wavycon_image_series, only: image_series
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgemv
+   use wavycon_lattice_images, only: lattice_images
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
    private
@@ -30,61 +30,87 @@ module wavycon_contact_equations
 
    type :: contact_equations
       integer :: unknowns = 0                    !! N coefficients, a spot's approach, 1+K of the shape
-      type(chord_rule) :: chords
-      type(disc_rule) :: rule
-      complex(dp), allocatable :: target(:)      !! in the disc, shape (m)
+      integer :: before_shape = 0                !! unknowns before those of the shape
+      type(chord_rule) :: chords                 !! for the spot or island itself
+      type(disc_rule) :: rule                    !! for its images and for integrals over it
+      complex(dp), allocatable :: target(:)      !! points of collocation in the disc, shape (m)
       real(dp), allocatable :: values(:, :)      !! of the basis at the rule's points, shape (n, N)
-      real(dp), allocatable :: matrix(:, :)      !! derivatives of the equations, shape (m, unknowns)
-      real(dp), allocatable :: rest(:)           !! right less left side, shape (m) [Delta], an island's [p*]
-      real(dp), allocatable :: load_row(:)       !! derivatives of the load, shape (unknowns)
-      real(dp), allocatable :: density(:)        !! the expansion at the rule's points, shape (n)
-      type(image_series) :: images               !! without a radius, if there is none
+      real(dp), allocatable :: matrix(:, :)      !! derivatives of the left sides, shape (m, unknowns)
+      real(dp), allocatable :: residual(:)       !! right sides less left sides, shape (m) [Delta], an island's [p*]
+      real(dp), allocatable :: load_row(:)       !! derivatives of the load that a spot bears, shape (unknowns)
+      type(lattice_images) :: images
    contains
       procedure :: linearise
-      procedure, private :: add_images
+      procedure, private :: linearise_known_side
       procedure, private :: linearise_load
       procedure :: integral
    end type contact_equations
 
 contains
 
-   !> Chooses targets and rules for expansions like the one given.
-   subroutine start_equations(equations, like, reach, images)
+   !> Chooses points of collocation and rules for expansions like the one given.
+   subroutine start_equations(equations, like, merging_ratio, images)
       type(contact_equations), intent(out) :: equations
       type(expansion), intent(in) :: like
-      real(dp), intent(in) :: reach   !! of the edge towards its neighbours; 1 touches
-      type(image_series), intent(in), optional :: images
-         !! of the lattice's kernel or its Laplacian; of use where it covers the shape
+      real(dp), intent(in) :: merging_ratio   !! of the shape: 0 for a point, 1 where it touches its neighbours
+      type(lattice_images), intent(in), optional :: images   !! prepared for the shape; sums only if absent
 
-      integer :: angles, finer, fold, i, j, n, others, radii
-      real(dp) :: phi
+      integer :: n
+
+      equations%before_shape = like%basis%terms + merge(0, 1, like%island)
+      equations%unknowns = equations%before_shape + size(like%shape%b)
+      call choose_rules(equations, like, merging_ratio)
+      call choose_targets(equations, like, merging_ratio)
+      n = size(equations%rule%point)
+      allocate (equations%values(n, like%basis%terms))
+      call like%basis%evaluate(n, equations%rule%point, equations%values)
+      associate (m => size(equations%target))
+         allocate (equations%matrix(m, equations%unknowns), equations%residual(m), &
+                   equations%load_row(equations%unknowns))
+      end associate
+      if (present(images)) equations%images = images
+   end subroutine start_equations
+
+   !> The rule of chords for the singular integral and the rule over the disc for the images.
+   subroutine choose_rules(equations, like, merging_ratio)
+      type(contact_equations), intent(inout) :: equations
+      type(expansion), intent(in) :: like
+      real(dp), intent(in) :: merging_ratio
+
+      integer :: angles, finer, fold
 
       fold = like%basis%fold
-      others = 1
-      if (like%island) others = 0
-      equations%unknowns = like%basis%terms + others + size(like%shape%b)
-      associate (degree => like%basis%degree)
+      associate (degree => like%basis%degree, b => like%shape%b)
          ! Sharp tips make the quotient on the chords less smooth, near neighbours the kernel.
          angles = int(chords_per_degree*degree) + extra_chords
-         if (reach > sharp_quadrature_ratio) angles = int(sharp_chords_per_degree*degree) + extra_sharp_chords
-         ! On an ellipse the quotient itself falls as a power of b_1/b_0 in the angle.
-         if (fold == 2) angles = angles + ceiling(-log(epsilon(1.0_dp)) &
-            /log(like%shape%b(0)/max(abs(like%shape%b(1)), epsilon(1.0_dp))))
-         call start_chord_rule(equations%chords, like%basis, ubound(like%shape%b, 1), angles, &
-                               degree/2 + extra_chord_points)
+         if (merging_ratio > sharp_quadrature_ratio) angles = int(sharp_chords_per_degree*degree) + extra_sharp_chords
+         ! On an ellipse the coefficients of 1/|Q| in the angle fall as the powers of b_1/b_0.
+         if (fold == 2) angles = angles + ceiling(-log(epsilon(1.0_dp))/log(b(0)/max(abs(b(1)), epsilon(1.0_dp))))
+         call start_chord_rule(equations%chords, like%basis, ubound(b, 1), angles, degree/2 + extra_chord_points)
          finer = 0
-         if (reach > sharp_quadrature_ratio) finer = sharp_disc_extra
-         if (reach > near_images_ratio) finer = near_disc_extra
-         call plain_disc_rule(equations%rule, like%basis%power, fold, &
-                              degree/2 + extra_disc_radii + finer, degree/fold + extra_disc_angles + finer)
-         ! Two more than the unknowns of the round part of a function: with as many, any size would do.
-         radii = degree/2 + merge(island_extra_radii, spot_extra_radii, like%island)
-         angles = degree/fold + merge(island_extra_angles, spot_extra_angles, like%island)
-         ! Sharper shapes are better determined by half as many again.
-         if (reach > sharp_collocation_ratio) angles = int(sharp_collocation_factor*angles)
-         ! Of a round shape each term is a harmonic of the angle, and the last would vanish at as many angles.
-         angles = max(angles, ubound(like%shape%b, 1) + 1)
+         if (merging_ratio > sharp_quadrature_ratio) finer = sharp_disc_extra
+         if (merging_ratio > near_images_ratio) finer = near_disc_extra
+         call start_disc_rule(equations%rule, like%basis%power, fold, degree/2 + extra_disc_radii + finer, &
+                              degree/fold + extra_disc_angles + finer)
       end associate
+   end subroutine choose_rules
+
+   !> Points of collocation: on rays at the midpoints of equal angles, clustered towards the edge along each.
+   subroutine choose_targets(equations, like, merging_ratio)
+      type(contact_equations), intent(inout) :: equations
+      type(expansion), intent(in) :: like
+      real(dp), intent(in) :: merging_ratio
+
+      real(dp) :: phi
+      integer :: angles, fold, i, j, n, radii
+
+      fold = like%basis%fold
+      ! At least two more radii than round functions have unknowns: with as many the size of the shape is not determined.
+      radii = like%basis%degree/2 + merge(island_extra_radii, spot_extra_radii, like%island)
+      angles = like%basis%degree/fold + merge(island_extra_angles, spot_extra_angles, like%island)
+      if (merging_ratio > sharp_collocation_ratio) angles = int(sharp_collocation_factor*angles)
+      ! For a round shape each term b_k is one harmonic of the angle; with K angles the last one vanishes at all of them.
+      angles = max(angles, ubound(like%shape%b, 1) + 1)
       allocate (equations%target(radii*angles))
       n = 0
       do j = 1, angles
@@ -94,109 +120,87 @@ contains
             equations%target(n) = sin(0.5_dp*pi*(i - 0.5_dp)/radii)*exp(cmplx(0.0_dp, phi, dp))
          end do
       end do
-      n = size(equations%rule%point)
-      allocate (equations%values(n, like%basis%terms), equations%density(n))
-      call like%basis%evaluate(n, equations%rule%point, equations%values)
-      associate (m => size(equations%target))
-         allocate (equations%matrix(m, equations%unknowns), equations%rest(m), &
-                   equations%load_row(equations%unknowns))
-      end associate
-      if (present(images)) equations%images = images
-   end subroutine start_equations
+   end subroutine choose_targets
 
-   !> Sets the matrix and the rest at an expansion.
+   !> Sets the matrix, the residual and, for a spot, the load's derivatives at an expansion.
    subroutine linearise(self, lattice, load, now)
       class(contact_equations), intent(inout) :: self
       type(wave_lattice), intent(in) :: lattice
       real(dp), intent(in) :: load            !! P
       type(expansion), intent(in) :: now      !! like the one the equations were started for
 
-      complex(dp) :: slope, v, z
-      real(dp) :: slopes(0:ubound(now%shape%b, 1)), row(now%basis%terms)
-      integer :: fold, i, k, m, n, shapes, terms
+      real(dp) :: shape_row(0:ubound(now%shape%b, 1)), row(now%basis%terms)
+      integer :: i, m
 
-      terms = now%basis%terms
-      shapes = self%unknowns - size(now%shape%b)
-      fold = now%basis%fold
       m = size(self%target)
-      n = size(self%rule%point)
-      call dgemv('N', n, terms, 1.0_dp, self%values, n, now%c, 1, 0.0_dp, self%density, 1)
-      do i = 1, m
-         call self%chords%rows(now%basis, now%shape, self%target(i), now%c, row, slopes)
-         self%matrix(i, :terms) = row
-         self%matrix(i, shapes + 1:) = slopes
-      end do
-      call self%add_images(lattice, now)
-      if (now%island) self%matrix = self%matrix/(4*pi**2)
-      call dgemv('N', m, terms, -1.0_dp, self%matrix, m, now%c, 1, 0.0_dp, self%rest, 1)
-      do i = 1, m
-         z = now%shape%place(self%target(i))
-         if (now%island) then
-            self%rest(i) = self%rest(i) + lattice%pressure_rise(z) - (lattice%closing_pressure - load)
-            slope = -lattice%pressure_rise_slope(z)
-         else
-            self%rest(i) = self%rest(i) + now%approach - lattice%undeformed_gap(z)
-            self%matrix(i, terms + 1) = -1.0_dp
-            slope = lattice%undeformed_slope(z)
-         end if
-         v = now%shape%crowded(self%target(i))
-         do k = 0, ubound(now%shape%b, 1)
-            if (k > 0) v = conjg(self%target(i))**(fold*k - 1)
-            self%matrix(i, shapes + 1 + k) = self%matrix(i, shapes + 1 + k) + slope%re*v%re + slope%im*v%im
+      associate (terms => now%basis%terms, first => self%before_shape + 1)
+         do i = 1, m
+            call self%chords%rows(now%basis, now%shape, self%target(i), now%c, row, shape_row)
+            self%matrix(i, :terms) = row
+            self%matrix(i, first:) = shape_row
          end do
-      end do
+         call self%images%add_rows(lattice, now, self%rule, self%values, self%target, self%matrix(:, :terms), &
+                                   self%matrix(:, first:))
+         if (now%island) self%matrix = self%matrix/(4*pi**2)
+         call dgemv('N', m, terms, -1.0_dp, self%matrix, m, now%c, 1, 0.0_dp, self%residual, 1)
+      end associate
+      call self%linearise_known_side(lattice, load, now)
       if (.not. now%island) call self%linearise_load(now)
    end subroutine linearise
 
-   !> Adds to the matrix what all other spots or islands, and the mean, do.
-   subroutine add_images(self, lattice, now)
+   !> Adds what does not depend on the coefficients: a spot's approach and undeformed gap, the pressure that an island
+   !> would have in full contact; and how they change with the targets' places.
+   subroutine linearise_known_side(self, lattice, load, now)
       class(contact_equations), intent(inout) :: self
       type(wave_lattice), intent(in) :: lattice
+      real(dp), intent(in) :: load
       type(expansion), intent(in) :: now
 
-      integer :: shapes
+      complex(dp) :: place_slope(0:ubound(now%shape%b, 1)), slope, z
+      integer :: i
 
-      shapes = self%unknowns - size(now%shape%b)
-      associate (rows => self%matrix(:, :now%basis%terms), shape_rows => self%matrix(:, shapes + 1:))
-         if (now%island .and. lattice%troughs == 2) then
-            call add_image_rows(lattice%kernel, now%island, now%shape, self%rule, self%values, now%c, self%target, &
-                                rows, shape_rows, opposite=2*lattice%trough)
-            return
-         else if (.not. self%images%covers(now%shape)) then
-            call add_image_rows(lattice%kernel, now%island, now%shape, self%rule, self%values, now%c, self%target, &
-                                rows, shape_rows)
-            return
+      do i = 1, size(self%target)
+         z = now%shape%place(self%target(i))
+         if (now%island) then
+            self%residual(i) = self%residual(i) + lattice%pressure_rise(z) - (lattice%closing_pressure - load)
+            slope = -lattice%pressure_rise_slope(z)
+         else
+            self%residual(i) = self%residual(i) + now%approach - lattice%undeformed_gap(z)
+            self%matrix(i, self%before_shape) = -1.0_dp
+            slope = lattice%undeformed_slope(z)
          end if
-         call self%images%add_rows(now%shape, self%rule, self%values, now%c, self%target, rows, shape_rows)
-         if (size(self%images%near, 2) > 0) &
-            call add_image_rows(lattice%kernel, now%island, now%shape, self%rule, self%values, now%c, self%target, &
-                                rows, shape_rows, self%images%near)
-      end associate
-   end subroutine add_images
+         call now%shape%linearise_place(self%target(i), place_slope)
+         associate (shape_row => self%matrix(i, self%before_shape + 1:))
+            shape_row = shape_row + slope%re*place_slope%re + slope%im*place_slope%im
+         end associate
+      end do
+   end subroutine linearise_known_side
 
    !> Derivatives of the load that a spot bears.
    subroutine linearise_load(self, now)
       class(contact_equations), intent(inout) :: self
       type(expansion), intent(in) :: now
 
-      real(dp) :: jacobian, slope(0:ubound(now%shape%b, 1))
-      integer :: i, shapes
+      real(dp) :: density(size(self%rule%point)), jacobian, slope(0:ubound(now%shape%b, 1))
+      integer :: i, n
 
-      shapes = self%unknowns - size(now%shape%b)
+      n = size(self%rule%point)
+      call dgemv('N', n, now%basis%terms, 1.0_dp, self%values, n, now%c, 1, 0.0_dp, density, 1)
       self%load_row = 0.0_dp
-      do i = 1, size(self%rule%point)
-         call now%shape%linearise_jacobian(self%rule%point(i), jacobian, slope)
-         self%load_row(:now%basis%terms) = self%load_row(:now%basis%terms) &
-            + self%rule%weight(i)*jacobian*self%values(i, :)
-         self%load_row(shapes + 1:) = self%load_row(shapes + 1:) + self%rule%weight(i)*self%density(i)*slope
-      end do
+      associate (terms => now%basis%terms, first => self%before_shape + 1, weight => self%rule%weight)
+         do i = 1, n
+            call now%shape%linearise_jacobian(self%rule%point(i), jacobian, slope)
+            self%load_row(:terms) = self%load_row(:terms) + weight(i)*jacobian*self%values(i, :)
+            self%load_row(first:) = self%load_row(first:) + weight(i)*density(i)*slope
+         end do
+      end associate
    end subroutine linearise_load
 
-   !> Integral over the spot or island of an expansion times a function of the place: of p or g.
+   !> Integral over the spot or island of an expansion, p or g, times a function of the place.
    real(dp) function integral(self, now, factor)
       class(contact_equations), intent(in) :: self
-      type(expansion), intent(in) :: now
-      real(dp), intent(in), optional :: factor(:)   !! the function at the rule's points, shape (n)
+      type(expansion), intent(in) :: now            !! like the one the equations were started for
+      real(dp), intent(in), optional :: factor(:)   !! the function at the rule's points, shape (n); 1 if absent
 
       real(dp) :: product(size(self%rule%point))
 

@@ -1,4 +1,4 @@
-!> Quadrature over a sector of the disc, which the symmetry turns into the whole of it.
+!> Quadrature over the disc for functions with the symmetry of a contact, by points in one half sector.
 module wavycon_disc_rule
    use wavycon_constants, only: pi
    use wavycon_gauss_rules, only: gauss_jacobi
@@ -6,7 +6,7 @@ module wavycon_disc_rule
    implicit none (type, external)
    private
 
-   public :: disc_rule, plain_disc_rule
+   public :: disc_rule, start_disc_rule
 
    !> Sum of weight f(point) is the integral over the disc of (1 - |w|^2)^power f, for f with the symmetry.
    type :: disc_rule
@@ -16,8 +16,9 @@ module wavycon_disc_rule
 
 contains
 
-   !> Gauss's rule in |w|^2, the midpoint rule in the angle.
-   subroutine plain_disc_rule(rule, power, fold, radii, angles)
+   !> Gauss's rule in |w|^2, the midpoint rule in the angle: exact for products of disc polynomials whose degrees sum to no
+   !> more than 4 radii - 2 and to less than 2 fold angles.
+   subroutine start_disc_rule(rule, power, fold, radii, angles)
       type(disc_rule), intent(out) :: rule
       real(dp), intent(in) :: power   !! of the weight, > -1
       integer, intent(in) :: fold     !! of the symmetry, >= 1
@@ -39,6 +40,6 @@ contains
             rule%weight(k) = pi/angles*weight(i)*0.5_dp**(power + 1)
          end do
       end do
-   end subroutine plain_disc_rule
+   end subroutine start_disc_rule
 
 end module wavycon_disc_rule

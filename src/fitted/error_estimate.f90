@@ -1,4 +1,4 @@
-!> Errors of what expansions of rising degree give.
+!> Estimates of the errors of values from expansions of rising degree.
 module wavycon_error_estimate
    use wavycon_fitted_tuning, only: error_safety, fastest_decay, least_relative_share, previous_difference_share
    use wavycon_kinds, only: dp
@@ -9,21 +9,31 @@ module wavycon_error_estimate
 
 contains
 
-   !> Errors from the last difference of two degrees and the ones before.
-   pure subroutine error_estimate(difference, last_difference, last_decay, value, error)
-      real(dp), intent(in) :: difference(:)       !! >= 0
-      real(dp), intent(in) :: last_difference(:)  !! the one before; huge if there is none
-      real(dp), intent(in) :: last_decay(:)       !! of that one over the one before it; 1 if no guide
-      real(dp), intent(in) :: value(:)
+   !> Errors of values from the differences of the last degrees.
+   !>
+   !> With the differences d of the last two degrees and d' of the two before, the error is taken for the larger of
+   !>
+   !>     d times the root of d/d', not less than fastest_decay nor more than 1, and
+   !>     d' times the root of the decay from d'' to d', not more than previous_difference_share,
+   !>
+   !> and, if there is no d', for d; all that times error_safety. The second one holds where d is small by chance, as
+   !> happens at degrees whose new terms hardly matter. Rounding and the values' largest relative error, times
+   !> least_relative_share, are lower limits: integrals such as the mean gap converge faster, but not by more.
+   !>
+   !> N.B. These are estimates, no bounds. They hold for hundreds of loads; those of the perimeter of a rhombic lattice's
+   !> spots are too small now and then.
+   pure subroutine error_estimate(difference, previous_difference, previous_decay, value, error)
+      real(dp), intent(in) :: difference(:)            !! d >= 0
+      real(dp), intent(in) :: previous_difference(:)   !! d' >= 0; huge if there is none
+      real(dp), intent(in) :: previous_decay(:)        !! d'/d'' <= 1; 1 if it is not to be used
+      real(dp), intent(in) :: value(:)                 !! > 0, at the last degree
       real(dp), intent(out) :: error(:)
 
-      !> In units of the last place.
-      real(dp), parameter :: rounding = 64*epsilon(1.0_dp)
+      real(dp), parameter :: rounding = 64*epsilon(1.0_dp)   !! relative
 
-      where (last_difference < huge(1.0_dp))
-         error = min(max(sqrt(difference/max(last_difference, tiny(1.0_dp))), fastest_decay), 1.0_dp) &
-            *difference
-         error = max(error, min(previous_difference_share, sqrt(last_decay))*last_difference)
+      where (previous_difference < huge(1.0_dp))
+         error = min(max(sqrt(difference/max(previous_difference, tiny(1.0_dp))), fastest_decay), 1.0_dp)*difference
+         error = max(error, min(previous_difference_share, sqrt(previous_decay))*previous_difference)
       elsewhere
          error = difference
       end where

@@ -1,8 +1,11 @@
-!> A contact spot or an open island as sums over the unit disc, and what integrates over it.
+!> A contact spot or an open island as an expansion over the unit disc.
 !>
-!> Below merging the pressure on one spot about a crest, above it the gap over one island about a trough: (1 -
-!> |w|^2)^power, power 1/2 or 3/2, times disc polynomials, the disc mapped by a shape. Lengths in s, pressures
-!> in pi E* Delta/s, gaps in Delta; places from the centre of the spot or island.
+!> Below merging it is the pressure on one spot about a crest, above merging the gap over one island about a trough:
+!>
+!>     (1 - |w|^2)^power times the sum over i of c_i P_i(w),
+!>
+!> power 1/2 or 3/2, with the disc polynomials P_i orthonormal with this weight, and the disc mapped to the spot or island.
+!> Lengths in s, pressures in pi E* Delta/s, gaps in Delta; places from the centre of the spot or island.
 module wavycon_expansion
    use wavycon_disc_polynomials, only: disc_polynomials, start_disc_polynomials
    use wavycon_kinds, only: dp
@@ -17,22 +20,22 @@ module wavycon_expansion
       type(disc_polynomials) :: basis
       type(shape_map) :: shape
       real(dp), allocatable :: c(:)          !! coefficients of the basis, shape (N)
-      real(dp) :: approach = 0.0_dp          !! delta below merging: u + h = delta in contact
+      real(dp) :: approach = 0.0_dp          !! delta of a spot, u + h = delta in contact [Delta]
    contains
-      procedure :: raised
+      procedure :: resized
       procedure :: at
       procedure :: at_centre
    end type expansion
 
 contains
 
-   !> The same function in a basis of another degree, with another number of shape terms; what does not fit is
-   !> dropped. With another crowding it is nearly the same.
-   function raised(self, degree, shape_terms, crowding) result(copy)
+   !> The same function in a basis of another degree and with another number of shape terms. New coefficients are 0; what
+   !> has no place in a smaller basis is dropped. With another clustering the function changes a little.
+   function resized(self, degree, shape_terms, clustering) result(copy)
       class(expansion), intent(in) :: self
-      integer, intent(in) :: degree       !! of the new basis
-      integer, intent(in) :: shape_terms  !! K >= 1
-      real(dp), intent(in) :: crowding    !! of the shape, near the one it has
+      integer, intent(in) :: degree           !! of the new basis
+      integer, intent(in) :: shape_terms      !! K >= 1
+      real(dp), intent(in) :: clustering      !! tau of the shape, close to the one it has
       type(expansion) :: copy
 
       integer :: i, n
@@ -50,10 +53,11 @@ contains
       allocate (copy%shape%b(0:shape_terms), source=0.0_dp)
       n = min(shape_terms, ubound(self%shape%b, 1))
       copy%shape%b(:n) = self%shape%b(:n)
-      copy%shape%crowding = crowding
-      copy%shape%b(1) = copy%shape%b(1) + (crowding - self%shape%crowding)*copy%shape%b(0)
+      copy%shape%clustering = clustering
+      ! On a circle both changes sum to -2 i tau b_0 w sin(fold phi), which is along the edge.
+      copy%shape%b(1) = copy%shape%b(1) + (clustering - self%shape%clustering)*copy%shape%b(0)
       copy%approach = self%approach
-   end function raised
+   end function resized
 
    !> The value at the centre: a spot's peak pressure, an island's gap at the trough.
    real(dp) function at_centre(self)
@@ -65,7 +69,7 @@ contains
       at_centre = dot_product(values(1, :), self%c)
    end function at_centre
 
-   !> The value at a point of the disc, with its weight; 0 outside.
+   !> The value at a point of the disc; 0 outside.
    real(dp) function at(self, w)
       class(expansion), intent(in) :: self
       complex(dp), intent(in) :: w

@@ -1,59 +1,104 @@
-!> Gauss-Newton steps for the coefficients and the shape of an expansion.
+!> Gauss-Newton's method for the coefficients and the shape of an expansion.
 module wavycon_gauss_newton
    use wavycon_contact_equations, only: contact_equations
    use wavycon_expansion, only: expansion
-   use wavycon_fitted_tuning, only: least_centre_jacobian, longest_shape_change
+   use wavycon_fitted_tuning, only: least_centre_jacobian, longest_shape_change, most_newton_steps
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgels, dgglse
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
    private
 
-   public :: gauss_newton_step
+   public :: gauss_newton_step, solve_equations
 
 contains
 
-   !> One step: the equations by least squares, a spot's load exactly.
-   subroutine gauss_newton_step(equations, lattice, load, now, change, residual, ok)
+   !> Steps until the shape changes by no more than a tolerance, or until there have been too many.
+   subroutine solve_equations(equations, lattice, load, now, tolerance, change, residual, iterations, valid)
       type(contact_equations), intent(inout) :: equations  !! started for expansions like `now`
       type(wave_lattice), intent(in) :: lattice
       real(dp), intent(in) :: load                         !! P
       type(expansion), intent(inout) :: now
-      real(dp), intent(out) :: change                      !! largest change of the shape over its size
+      real(dp), intent(in) :: tolerance                    !! of the change, > 0
+      real(dp), intent(out) :: change                      !! of the last step; above the tolerance without convergence
+      real(dp), intent(out) :: residual                    !! as of gauss_newton_step
+      integer, intent(inout) :: iterations                 !! the steps are added
+      logical, intent(out) :: valid                        !! as of gauss_newton_step; if not, the steps end
+
+      integer :: i
+
+      do i = 1, most_newton_steps
+         call gauss_newton_step(equations, lattice, load, now, change, residual, valid)
+         iterations = iterations + 1
+         if (.not. valid) return
+         if (change <= tolerance) return
+      end do
+   end subroutine solve_equations
+
+   !> One step: minimises || residual - matrix*step ||_2, for a spot subject to load_row*step = missing load.
+   !>
+   !> The step is shortened to a change of the shape of `longest_shape_change`.
+   subroutine gauss_newton_step(equations, lattice, load, now, change, residual, valid)
+      type(contact_equations), intent(inout) :: equations  !! started for expansions like `now`
+      type(wave_lattice), intent(in) :: lattice
+      real(dp), intent(in) :: load                         !! P
+      type(expansion), intent(inout) :: now
+      real(dp), intent(out) :: change
+         !! largest change of a coefficient of the shape, before shortening, over the former size b_0
       real(dp), intent(out) :: residual                    !! largest of the equations before the step [Delta, p*]
-      logical, intent(out) :: ok                           !! the step is finite and its shape is one
+      logical, intent(out) :: valid
+         !! whether the step is finite and the new shape is not about to fold; where it is not finite `now` is as before
 
-      real(dp) :: constraint(1, equations%unknowns), missing(1), step(equations%unknowns)
-      real(dp) :: work(64*(size(equations%rest) + equations%unknowns + 1)), part
-      integer :: info, m, n, others, shapes, terms
+      real(dp) :: missing_load, step(equations%unknowns), part
+      logical :: finite
 
-      m = size(equations%rest)
-      n = equations%unknowns
-      terms = now%basis%terms
-      shapes = n - size(now%shape%b)
-      others = shapes - terms
       call equations%linearise(lattice, load, now)
-      residual = maxval(abs(equations%rest))
+      residual = maxval(abs(equations%residual))
       change = huge(change)
-      ok = .false.
-      ! LAPACK may loop for ever on what is not finite.
+      valid = .false.
+      ! LAPACK may loop for ever on NaN or infinity.
       if (.not. (residual < huge(residual) .and. maxval(abs(equations%matrix)) < huge(residual))) return
-      if (now%island) then
-         call dgels('N', m, n, 1, equations%matrix, m, equations%rest, m, work, size(work), info)
-         step = equations%rest(:n)
-      else
-         constraint(1, :) = equations%load_row
-         missing = load*lattice%area - equations%integral(now)
-         call dgglse(m, n, 1, equations%matrix, m, constraint, 1, equations%rest, missing, step, work, &
-                     size(work), info)
-      end if
-      if (info /= 0 .or. .not. maxval(abs(step)) < huge(residual)) return
-      change = maxval(abs(step(shapes + 1:)))/now%shape%b(0)
-      part = min(1.0_dp, longest_shape_change/max(change, tiny(change)))
-      now%c = now%c + part*step(:terms)
-      if (.not. now%island) now%approach = now%approach + part*step(terms + 1)
-      now%shape%b = now%shape%b + part*step(shapes + 1:)
-      ok = now%shape%b(0) > 0.0_dp .and. now%shape%jacobian((0.0_dp, 0.0_dp)) > least_centre_jacobian*now%shape%b(0)**2
+      missing_load = 0.0_dp
+      if (.not. now%island) missing_load = load*lattice%area - equations%integral(now)
+      call least_squares_step(equations, .not. now%island, missing_load, step, finite)
+      if (.not. finite) return
+      associate (terms => now%basis%terms, before_shape => equations%before_shape)
+         change = maxval(abs(step(before_shape + 1:)))/now%shape%b(0)
+         part = min(1.0_dp, longest_shape_change/max(change, tiny(change)))
+         now%c = now%c + part*step(:terms)
+         if (.not. now%island) now%approach = now%approach + part*step(terms + 1)
+         now%shape%b = now%shape%b + part*step(before_shape + 1:)
+      end associate
+      valid = now%shape%b(0) > 0.0_dp &
+         .and. now%shape%jacobian((0.0_dp, 0.0_dp)) > least_centre_jacobian*now%shape%b(0)**2
    end subroutine gauss_newton_step
+
+   !> Solves the linear least-squares problem by LAPACK; overwrites the equations' matrix and residual.
+   subroutine least_squares_step(equations, with_load, missing_load, step, finite)
+      type(contact_equations), intent(inout) :: equations
+      logical, intent(in) :: with_load           !! whether the load is a constraint
+      real(dp), intent(in) :: missing_load       !! that the step must add, times the cell's area
+      real(dp), intent(out) :: step(:)           !! shape (unknowns)
+      logical, intent(out) :: finite             !! whether there is a solution; otherwise the step is of no use
+
+      !> Columns that LAPACK treats at once; as many times the sizes is enough work space.
+      integer, parameter :: block = 64
+      real(dp) :: constraint(1, size(step)), right(1)
+      real(dp) :: work(block*(size(equations%residual) + size(step) + 1))
+      integer :: info, m, n
+
+      m = size(equations%residual)
+      n = size(step)
+      if (with_load) then
+         constraint(1, :) = equations%load_row
+         right = missing_load
+         call dgglse(m, n, 1, equations%matrix, m, constraint, 1, equations%residual, right, step, work, size(work), info)
+      else
+         call dgels('N', m, n, 1, equations%matrix, m, equations%residual, m, work, size(work), info)
+         step = equations%residual(:n)
+      end if
+      finite = info == 0
+      if (finite) finite = maxval(abs(step)) < huge(1.0_dp)
+   end subroutine least_squares_step
 
 end module wavycon_gauss_newton

@@ -1,4 +1,4 @@
-!> Where Gauss-Newton starts from: the asymptotes of light load and of nearly full contact.
+!> First approximations for Gauss-Newton's method: the asymptotes of light load and of nearly full contact.
 module wavycon_start_expansion
    use wavycon_constants, only: pi
    use wavycon_disc_polynomials, only: start_disc_polynomials
@@ -13,7 +13,7 @@ module wavycon_start_expansion
 
 contains
 
-   !> A Hertzian spot, elliptical where the curvatures of the crest differ.
+   !> A Hertzian spot, elliptical where the curvatures of the crest differ; paper, (23).
    function hertz_spot(lattice, load) result(spot)
       type(wave_lattice), intent(in) :: lattice
       real(dp), intent(in) :: load   !! P > 0
@@ -41,10 +41,11 @@ contains
       spot%approach = sqrt(product(curvature))*radius**2
    end function hertz_spot
 
-   !> A penny-shaped crack at each trough, elliptical where the curvatures of the full contact's pressure differ.
+   !> The opening of a penny-shaped crack at a trough, elliptical where the curvatures of the full contact's pressure differ;
+   !> paper, (24) and (A4)-(A8).
    function crack_island(lattice, load) result(island)
       type(wave_lattice), intent(in) :: lattice
-      real(dp), intent(in) :: load  !! P < the pressure that closes the troughs
+      real(dp), intent(in) :: load  !! P < the closing pressure
       type(expansion) :: island
 
       real(dp) :: curvature(2), missing, radius, ratio
@@ -65,29 +66,29 @@ contains
          island%shape%b(1) = radius*(1.0_dp - ratio)/(1.0_dp + ratio)
       end if
       allocate (island%c(island%basis%terms), source=0.0_dp)
-      ! The opening is g_0 (1 - rho^2)^(3/2), g_0 = (8/3) b times what is missing.
+      ! The opening is g_0 (1 - rho^2)^(3/2), g_0 = (8/3) b (closing pressure - P), b the radius.
       island%c(1) = 8*missing*radius/3*sqrt(0.4_dp*pi)
    end function crack_island
 
-   !> A guess for another load: sizes go as the asymptotes.
-   function scaled_to_load(lattice, from, old_load, new_load) result(guess)
+   !> An approximation at another load: lengths, pressures and gaps are scaled as in the asymptotes.
+   function scaled_to_load(lattice, from, old_load, new_load) result(scaled)
       type(wave_lattice), intent(in) :: lattice
       type(expansion), intent(in) :: from
       real(dp), intent(in) :: old_load, new_load  !! P
-      type(expansion) :: guess
+      type(expansion) :: scaled
 
       real(dp) :: factor
 
-      guess = from
+      scaled = from
       if (from%island) then
          factor = sqrt((lattice%closing_pressure - new_load)/(lattice%closing_pressure - old_load))
-         guess%c = from%c*factor**3
+         scaled%c = from%c*factor**3
       else
          factor = (new_load/old_load)**(1.0_dp/3)
-         guess%c = from%c*factor
-         guess%approach = from%approach*factor**2
+         scaled%c = from%c*factor
+         scaled%approach = from%approach*factor**2
       end if
-      guess%shape%b = from%shape%b*factor
+      scaled%shape%b = from%shape%b*factor
    end function scaled_to_load
 
 end module wavycon_start_expansion

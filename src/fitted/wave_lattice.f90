@@ -1,37 +1,42 @@
-!> The wavy surfaces that the boundary-fitted solver knows: one crest a primitive cell, at the lattice's points.
+!> The wavy surfaces of the boundary-fitted solver: their crests are the points of a lattice, one in a primitive cell.
 !>
-!> h/Delta = 1 - sum over i of a_i cos(2 pi k_i.x), the a_i sum to 1 so that a crest touches: Delta is the
-!> mean undeformed gap. Lengths are in the cell's shorter side s, pressures in pi E* Delta/s, which for the
-!> square cell is p* and which makes u_k = p_k/|k| for each wave vector k in waves per s. In full contact each wave
-!> has the pressure a_i |k_i| cos(2 pi k_i.x) beside the mean one; where that is lowest, at the troughs, it opens last.
+!>     h/Delta = 1 - sum over i of a_i cos(2 pi k_i.x),   sum of a_i = 1,
+!>
+!> so that h = 0 at the crests and Delta is the mean undeformed gap. Lengths are in the distance s of neighbouring crests of
+!> a row, pressures in pi E* Delta/s. In these units u_k = p_k/|k| for each wave vector k in waves per s, and the unit of
+!> pressure is p* for the square lattice. In full contact each wave has the pressure a_i |k_i| cos(2 pi k_i.x) beside the
+!> mean one; contact is lost first where that is lowest, at the troughs.
 module wavycon_wave_lattice
    use wavycon_constants, only: pi
    use wavycon_fitted_tuning, only: hexagonal_merging, rectangular_merging, rhombic_merging
    use wavycon_kinds, only: dp
-   use wavycon_periodic_kernel, only: periodic_kernel, start_periodic_kernel
+   use wavycon_periodic_kernel, only: periodic_kernel, start_periodic_kernels
+   use wavycon_row_lattice, only: row_lattice
    implicit none (type, external)
    private
 
    public :: wave_lattice, square_lattice, rectangular_lattice, rhombic_lattice, hexagonal_lattice
 
    type :: wave_lattice
-      integer :: fold = 4                        !! of the symmetry about a crest
-      integer :: trough_fold = 4                 !! of the symmetry about a trough
-      integer :: troughs = 1                     !! in a cell: at `trough` and, if there are two, at -`trough`
-      real(dp) :: area = 1.0_dp                  !! of a cell [s^2]
-      real(dp) :: closing_pressure = 1.0_dp      !! the mean pressure that just closes the troughs, p*
-      real(dp) :: about_merging = 0.0_dp         !! the mean pressure from about which each trough has its island
-      real(dp), allocatable :: wave(:, :)        !! k_i [1/s], shape (2, n)
-      real(dp), allocatable :: amplitude(:)      !! a_i > 0 [Delta], shape (n)
-      complex(dp) :: saddle = 0.5_dp             !! the lowest between neighbouring crests, x + i y [s]
-      complex(dp) :: trough = (0.5_dp, 0.5_dp)   !! x + i y [s]
-      complex(dp), allocatable :: phase(:)       !! of each wave at the trough, exp(2 pi i k_i.x), shape (n)
-      real(dp), allocatable :: pressure(:)       !! of each in full contact, a_i |k_i|, shape (n)
-      !> Middles of the ways to the neighbours that spots and islands may touch, one of each kind, from the crest and
-      !> from the trough [s].
+      integer :: fold = 4                            !! of the symmetry about a crest
+      integer :: trough_fold = 4                     !! of the symmetry about a trough
+      integer :: troughs = 1                         !! in a cell: at `trough` and, if there are two, at -`trough`
+      logical :: square = .true.                     !! whether it is the square lattice, whose troughs lie as its crests
+      real(dp) :: area = 1.0_dp                      !! of a cell [s^2]
+      real(dp) :: closing_pressure = 1.0_dp          !! mean pressure that just closes the troughs, p*
+      real(dp) :: about_merging = 0.0_dp             !! mean pressure near which spots merge and islands separate
+      real(dp), allocatable :: wave(:, :)            !! k_i [1/s], shape (2, n)
+      real(dp), allocatable :: amplitude(:)          !! a_i > 0 [Delta], shape (n)
+      real(dp), allocatable :: pressure(:)           !! of each wave in full contact, a_i |k_i|, shape (n)
+      complex(dp), allocatable :: phase(:)           !! of each wave at the trough, exp(2 pi i k_i.x), shape (n)
+      complex(dp) :: saddle = 0.5_dp                 !! the lowest one between neighbouring crests, x + i y [s]
+      complex(dp) :: trough = (0.5_dp, 0.5_dp)       !! x + i y [s]
+      !> Midpoints towards the neighbours that spots and islands may touch, one of each kind, from the crest and from the
+      !> trough [s].
       complex(dp), allocatable :: to_next_crest(:), to_next_trough(:)
-      type(periodic_kernel) :: kernel
-      logical :: square = .true.                 !! the lattice whose troughs are as its crests
+      type(row_lattice) :: rows                      !! the crests
+      type(periodic_kernel) :: displacement_kernel   !! Gp: the integral of Gp and p is u less its mean
+      type(periodic_kernel) :: pressure_kernel       !! its Laplacian: -(1/4 pi^2) times the integral with u is p less P
    contains
       procedure :: undeformed_gap
       procedure :: undeformed_slope
@@ -41,7 +46,7 @@ module wavycon_wave_lattice
 
 contains
 
-   !> h/Delta = 1 - (cos X + cos Y)/2: the paper's surface, with the axes along neighbouring crests.
+   !> h/Delta = 1 - (cos X + cos Y)/2: the paper's surface (21), with the axes towards neighbouring crests.
    function square_lattice() result(lattice)
       type(wave_lattice) :: lattice
 
@@ -52,8 +57,7 @@ contains
       lattice%wave(:, :) = reshape([1.0_dp, 0.0_dp, 0.0_dp, 1.0_dp], [2, 2])
       lattice%amplitude(:) = [0.5_dp, 0.5_dp]
       lattice%to_next_crest = [lattice%saddle]
-      call start_periodic_kernel(lattice%kernel, 1.0_dp, 0.0_dp)
-      call add_pressure(lattice, merging_pressure)
+      call finish_lattice(lattice, row_lattice(spacing=1.0_dp, shift=0.0_dp), merging_pressure)
    end function square_lattice
 
    !> h/Delta = 1 - a_x cos X - a_y cos Y, a_x + a_y = 1.
@@ -69,16 +73,15 @@ contains
       allocate (lattice%wave(2, 2), lattice%amplitude(2))
       lattice%wave(:, :) = reshape([1.0_dp, 0.0_dp, 0.0_dp, 1.0_dp/side_ratio], [2, 2])
       lattice%amplitude(:) = [amplitude_x, 1.0_dp - amplitude_x]
-      ! Of two as low, the one on the longer side: spots stretch that way.
+      ! Of two equally low saddles the one on the longer side: spots extend that way.
       if (amplitude_x >= 0.5_dp) lattice%saddle = cmplx(0.0_dp, 0.5_dp*side_ratio, dp)
       lattice%trough = cmplx(0.5_dp, 0.5_dp*side_ratio, dp)
       lattice%to_next_crest = [cmplx(0.5_dp, 0.0_dp, dp), cmplx(0.0_dp, 0.5_dp*side_ratio, dp)]
-      call start_periodic_kernel(lattice%kernel, side_ratio, 0.0_dp)
-      call add_pressure(lattice, rectangular_merging)
+      call finish_lattice(lattice, row_lattice(spacing=side_ratio, shift=0.0_dp), rectangular_merging)
    end function rectangular_lattice
 
-   !> h/Delta = 1 - cos X cos Y: a crest more in the middle of the cell. At a ratio of 1 the paper's surface, with the
-   !> axes at 45 degrees to neighbouring crests.
+   !> h/Delta = 1 - cos X cos Y, with a second crest in the middle of the rectangle of both wavelengths. At a ratio of 1 it
+   !> is the paper's surface, with the axes at 45 degrees to the lines between neighbouring crests.
    function rhombic_lattice(side_ratio) result(lattice)
       real(dp), intent(in) :: side_ratio   !! longer wavelength, along y, over the shorter, s: 1 to 3
       type(wave_lattice) :: lattice
@@ -93,12 +96,12 @@ contains
       lattice%saddle = cmplx(0.25_dp, 0.25_dp*side_ratio, dp)
       lattice%trough = 0.5_dp
       lattice%to_next_crest = [lattice%saddle]
-      call start_periodic_kernel(lattice%kernel, 0.5_dp*side_ratio, 0.5_dp)
-      call add_pressure(lattice, rhombic_merging)
+      call finish_lattice(lattice, row_lattice(spacing=0.5_dp*side_ratio, shift=0.5_dp), rhombic_merging)
    end function rhombic_lattice
 
-   !> Three equal waves at 120 degrees; each crest has six neighbours, two of them along y so that a trough is on the
-   !> x axis. The troughs, with three neighbours each, are the points of a honeycomb, two in a cell.
+   !> h/Delta = 1 - (cos k1.x + cos k2.x + cos k3.x)/3: three equal waves at 60 degrees to each other. Each crest has six
+   !> neighbours, two of them along y, so that a trough is on the x axis. The troughs, with three neighbours each, are the
+   !> points of a honeycomb, two in a cell.
    function hexagonal_lattice() result(lattice)
       type(wave_lattice) :: lattice
 
@@ -117,28 +120,30 @@ contains
       lattice%to_next_crest = [lattice%saddle]
       lattice%to_next_trough = [cmplx(0.5_dp/root3, 0.0_dp, dp)]
       lattice%phase = 0.5_dp*[cmplx(-1.0_dp, -root3, dp), cmplx(-1.0_dp, root3, dp), cmplx(-1.0_dp, root3, dp)]
-      call start_periodic_kernel(lattice%kernel, 0.5_dp*root3, 0.5_dp, rows_along_y=.true.)
-      call add_pressure(lattice, hexagonal_merging)
+      call finish_lattice(lattice, row_lattice(spacing=0.5_dp*root3, shift=0.5_dp, along_y=.true.), hexagonal_merging)
    end function hexagonal_lattice
 
-   !> What islands need. Those of all lattices but the hexagonal have neighbours as the spots have, and all waves are
-   !> lowest at the trough.
-   subroutine add_pressure(lattice, at_merging)
-      type(wave_lattice), intent(inout) :: lattice   !! with its waves, trough and ways between crests
+   !> Sets what follows from waves, trough and midpoints between crests: the kernels and what islands need. On all lattices
+   !> but the hexagonal one troughs have the same neighbours as crests, and all waves are lowest at the trough.
+   subroutine finish_lattice(lattice, rows, at_merging)
+      type(wave_lattice), intent(inout) :: lattice
+      type(row_lattice), intent(in) :: rows          !! the crests
       real(dp), intent(in) :: at_merging
-         !! lowest pressure of full contact in the middles between troughs at which islands separate, over the closing
-         !! pressure
+         !! pressure of full contact at the midpoint between troughs where it is lowest, at the load at which islands
+         !! merge, over the closing pressure
 
       complex(dp), allocatable :: middle(:)
 
+      lattice%rows = rows
+      call start_periodic_kernels(rows, lattice%displacement_kernel, lattice%pressure_kernel)
       if (.not. allocated(lattice%to_next_trough)) lattice%to_next_trough = lattice%to_next_crest
       if (.not. allocated(lattice%phase)) lattice%phase = [(-1.0_dp, 0.0_dp), (-1.0_dp, 0.0_dp)]
       lattice%pressure = lattice%amplitude*hypot(lattice%wave(1, :), lattice%wave(2, :))
-      ! Less its mean, the pressure of full contact at the trough is minus that which closes it.
+      ! The pressure of full contact at the trough is P less this.
       lattice%closing_pressure = -sum(lattice%pressure*lattice%phase%re)
       allocate (middle, source=lattice%to_next_trough)
       lattice%about_merging = (1.0_dp + at_merging)*lattice%closing_pressure - minval(lattice%pressure_rise(middle))
-   end subroutine add_pressure
+   end subroutine finish_lattice
 
    !> h/Delta, without loss of digits near a crest.
    elemental real(dp) function undeformed_gap(self, z) result(h)
@@ -167,8 +172,8 @@ contains
       end do
    end function undeformed_slope
 
-   !> The pressure of full contact less that at the trough x_t, the sum of a_i |k_i| (cos 2 pi k_i.x - cos 2 pi
-   !> k_i.x_t), without loss of digits near the trough.
+   !> The pressure of full contact less its value at the trough x_t, the sum over i of a_i |k_i| (cos 2 pi k_i.x -
+   !> cos 2 pi k_i.x_t), without loss of digits near the trough.
    elemental real(dp) function pressure_rise(self, z) result(p)
       class(wave_lattice), intent(in) :: self
       complex(dp), intent(in) :: z  !! x + i y from the trough [s]

@@ -10,6 +10,7 @@ module stress_kkt_of_expansion
    use wavycon_fitted_fields, only: fitted_fields, start_fitted_fields
    use wavycon_gauss_rules, only: gauss_jacobi
    use wavycon_kinds, only: dp
+   use wavycon_shape_search, only: find_preimage
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
    private
@@ -89,8 +90,8 @@ contains
          end if
          kkt%contact = max(kkt%contact, abs(violation(1)))
          kkt%noise = max(kkt%noise, abs(violation(1) - violation(2)))
-         place = cmplx(stream%uniform() + stream%uniform()*lattice%kernel%row_shift, &
-                       stream%uniform()*lattice%kernel%height, dp)
+         place = cmplx(stream%uniform() + stream%uniform()*lattice%rows%shift, &
+                       stream%uniform()*lattice%rows%spacing, dp)
          call fields%at(place, pressure, displacement, gap)
          kkt%tension = max(kkt%tension, -pressure)
          kkt%overlap = max(kkt%overlap, -gap)
@@ -163,7 +164,7 @@ contains
 
          complex(dp) :: w
 
-         call fields%answer%solution%shape%find(place + distance*direction, w, inside)
+         call find_preimage(fields%answer%solution%shape, place + distance*direction, w, inside)
          inside = inside .and. abs(w) <= 1.0_dp
       end function is_inside
 
@@ -271,7 +272,7 @@ contains
       complex(dp) :: k, place
       integer :: i, j
 
-      associate (height => lattice%kernel%height, shift => lattice%kernel%row_shift)
+      associate (height => lattice%rows%spacing, shift => lattice%rows%shift)
          ewald%area = height
          ewald%e = sharpness*sqrt(pi/height)
          ewald%place = [(0.0_dp, 0.0_dp)]
@@ -297,7 +298,7 @@ contains
          complex(dp), intent(in) :: z   !! with rows along x
 
          turned = z
-         if (lattice%kernel%rows_along_y) turned = cmplx(z%im, z%re, dp)
+         if (lattice%rows%along_y) turned = cmplx(z%im, z%re, dp)
       end function turned
 
    end subroutine start_ewald

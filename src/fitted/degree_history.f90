@@ -1,0 +1,126 @@
+!> Solutions of rising degree: the estimates of their errors, and which of them is best.
+module wavycon_degree_history
+   use wavycon_error_estimate, only: error_estimate
+   use wavycon_expansion, only: expansion
+   use wavycon_fitted_answer, only: most_previous
+   use wavycon_fitted_measures, only: all_measures, centre_measure, energy_measure, peak_measure
+   use wavycon_fitted_tuning, only: error_of_square, round_shape_ratio
+   use wavycon_kinds, only: dp
+   implicit none (type, external)
+   private
+
+   public :: degree_history
+
+   type :: degree_history
+      integer :: solutions = 0                                     !! pushed so far
+      real(dp) :: measures(all_measures) = 0.0_dp                  !! of the newest solution
+      real(dp) :: error(all_measures) = huge(1.0_dp)               !! their estimated errors
+      real(dp) :: best_error(all_measures) = huge(1.0_dp)          !! those of the best solution
+      logical :: newest_is_best = .false.
+      real(dp), private :: difference(all_measures) = huge(1.0_dp) !! of the newest two
+      real(dp), private :: decay(all_measures) = 1.0_dp            !! of it over the one before
+      type(expansion), private :: newest(0:most_previous)          !! the newest first
+   contains
+      procedure :: push
+      procedure :: best_meets
+      procedure :: get_previous
+      procedure, private :: estimate
+      procedure, private :: is_best
+   end type degree_history
+
+   !> Solutions that it takes for an estimate to be used: a single difference may be small by chance.
+   integer, parameter :: least_solutions = 3
+
+contains
+
+   !> Adds the solution of the next degree. From the second one on its errors are estimated.
+   pure subroutine push(self, now, measures, change, merging_ratio)
+      class(degree_history), intent(inout) :: self
+      type(expansion), intent(in) :: now
+      real(dp), intent(in) :: measures(all_measures)   !! > 0, of the solution
+      real(dp), intent(in) :: change                   !! relative, of the shape in the last Newton step
+      real(dp), intent(in) :: merging_ratio            !! of the shape
+
+      real(dp) :: difference(all_measures)
+      integer :: k
+
+      self%newest_is_best = .false.
+      if (self%solutions > 0) then
+         difference = abs(measures - self%measures)
+         call self%estimate(measures, difference, change)
+         self%newest_is_best = self%is_best(measures)
+         if (self%newest_is_best) self%best_error = self%error
+         self%decay = 1.0_dp
+         ! To round shapes some degrees add next to nothing, and the decay of the differences is a guide to the next one.
+         ! After the first difference it is 0.
+         if (merging_ratio < round_shape_ratio) &
+            self%decay = min(difference/max(self%difference, tiny(difference)), 1.0_dp)
+         self%difference = difference
+      end if
+      self%measures = measures
+      do k = most_previous, 1, -1
+         self%newest(k) = self%newest(k - 1)
+      end do
+      self%newest(0) = now
+      self%solutions = self%solutions + 1
+   end subroutine push
+
+   !> Estimates the errors of a new solution. An island's gap at its trough converges as fields do, later than integrals of
+   !> them, and energy and perimeter converge at rates of their own: they are estimated apart from the rest.
+   pure subroutine estimate(self, measures, difference, change)
+      class(degree_history), intent(inout) :: self
+      real(dp), intent(in) :: measures(all_measures)
+      real(dp), intent(in) :: difference(all_measures)   !! from the solution before
+      real(dp), intent(in) :: change
+
+      call estimate_group(self, 1, peak_measure)
+      call estimate_group(self, centre_measure, centre_measure)
+      call estimate_group(self, energy_measure, all_measures)
+      ! Newton's method converges quadratically: what its last step leaves is of the order of the step's square.
+      self%error = max(self%error, error_of_square*change**2*measures)
+
+   contains
+
+      pure subroutine estimate_group(history, first, last)
+         class(degree_history), intent(inout) :: history
+         integer, intent(in) :: first, last
+
+         call error_estimate(difference(first:last), history%difference(first:last), history%decay(first:last), &
+                             measures(first:last), history%error(first:last))
+      end subroutine estimate_group
+
+   end subroutine estimate
+
+   !> Whether the errors just estimated are the least so far: close to merging a higher degree may be worse.
+   pure logical function is_best(self, measures)
+      class(degree_history), intent(in) :: self
+      real(dp), intent(in) :: measures(all_measures)   !! of the new solution, which is not counted yet
+
+      is_best = self%solutions < least_solutions
+      if (.not. is_best) is_best = sum(self%error(:peak_measure)/measures(:peak_measure)) &
+         < sum(self%best_error(:peak_measure)/measures(:peak_measure))
+   end function is_best
+
+   !> Whether the best solution is as accurate as required, relative to the measures.
+   pure logical function best_meets(self, accuracy, required)
+      class(degree_history), intent(in) :: self
+      real(dp), intent(in) :: accuracy      !! > 0
+      integer, intent(in) :: required       !! number of measures, in their order, that have to be as accurate
+
+      best_meets = self%solutions >= least_solutions &
+         .and. all(self%best_error(:required) <= accuracy*self%measures(:required))
+   end function best_meets
+
+   !> The expansions before the newest one, the last one first.
+   pure subroutine get_previous(self, previous)
+      class(degree_history), intent(in) :: self
+      type(expansion), allocatable, intent(out) :: previous(:)
+
+      integer :: count
+
+      count = min(self%solutions - 1, most_previous)
+      allocate (previous(count))
+      previous(:) = self%newest(1:count)
+   end subroutine get_previous
+
+end module wavycon_degree_history

@@ -1,0 +1,65 @@
+!> How large an expansion is: its sequence of degrees, its number of shape terms, and the clustering of its map.
+module wavycon_expansion_size
+   use wavycon_fitted_tuning, only: degree_per_shape_term, degree_per_shape_term_twofold, degree_step, first_degree, &
+      full_shape_degree, full_step_degree, full_step_degree_round, island_clustering, island_clustering_power, &
+      least_clustering, least_clustering_change, longest_clustering_step, round_shape_ratio, spot_clustering, &
+      spot_clustering_power
+   use wavycon_kinds, only: dp
+   implicit none (type, external)
+   private
+
+   public :: next_clustering, next_degree, shape_terms
+
+contains
+
+   !> The degree after this one: by a half or a full step.
+   !>
+   !> Four-fold shapes take half steps at low degrees, and further on while they are round, where terms that vary with the
+   !> angle matter less. Other shapes are nearly of a higher symmetry than their own; half a step would add next to nothing.
+   pure integer function next_degree(degree, fold, merging_ratio)
+      integer, intent(in) :: degree, fold
+      real(dp), intent(in) :: merging_ratio   !! of the shape
+
+      logical :: half
+
+      half = degree < first_degree
+      if (fold == 4) half = degree < full_step_degree &
+         .or. (degree < full_step_degree_round .and. merging_ratio < round_shape_ratio)
+      next_degree = degree + merge(degree_step/2, degree_step, half)
+   end function next_degree
+
+   !> Number K of terms of the shape for a degree of the polynomials.
+   pure integer function shape_terms(degree, fold, merging_ratio)
+      integer, intent(in) :: degree, fold
+      real(dp), intent(in) :: merging_ratio   !! of the shape
+
+      if (fold == 2) then
+         ! Vary the number of terms with the degree; otherwise differences of degrees underestimate the area's error.
+         shape_terms = degree/degree_per_shape_term_twofold
+         return
+      end if
+      shape_terms = degree/degree_per_shape_term + 1
+      ! Low degrees do not determine as many.
+      if (degree < full_shape_degree) shape_terms = (degree + 1)/degree_per_shape_term
+      ! The highest power of conj(w) is about the same for all symmetries. More terms of six-fold shapes are not determined,
+      ! but for sharp tips.
+      if (fold < 4 .or. merging_ratio < round_shape_ratio) shape_terms = nint(4.0_dp*shape_terms/fold)
+   end function shape_terms
+
+   !> The map's clustering tau for the next degree, on the square lattice: a power of the merging ratio. Small changes are
+   !> not made, and rises are limited to what Newton's method follows.
+   pure real(dp) function next_clustering(tau, merging_ratio, island)
+      real(dp), intent(in) :: tau             !! of the shape at hand
+      real(dp), intent(in) :: merging_ratio   !! of the shape
+      logical, intent(in) :: island
+
+      associate (ratio => min(merging_ratio, 1.0_dp))
+         next_clustering = merge(island_clustering*ratio**island_clustering_power, &
+                                 spot_clustering*ratio**spot_clustering_power, island)
+      end associate
+      if (next_clustering < least_clustering) next_clustering = 0.0_dp
+      if (abs(next_clustering - tau) < least_clustering_change*next_clustering) next_clustering = tau
+      next_clustering = min(next_clustering, tau + longest_clustering_step)
+   end function next_clustering
+
+end module wavycon_expansion_size

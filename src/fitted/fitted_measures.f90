@@ -1,0 +1,127 @@
+!> Numbers that describe a contact: mean gap, area, peak pressure, strain energy and length of the edge.
+module wavycon_fitted_measures
+   use wavycon_constants, only: pi
+   use wavycon_contact_equations, only: contact_equations
+   use wavycon_disc_rule, only: disc_rule
+   use wavycon_expansion, only: expansion
+   use wavycon_kinds, only: dp
+   use wavycon_periodic_kernel, only: whole_kernel
+   use wavycon_wave_lattice, only: wave_lattice
+   implicit none (type, external)
+   private
+
+   public :: measure_expansion, mean_gap, peak_pressure, strain_energy
+
+   !> The order of the measures in an array, and their number.
+   integer, parameter, public :: gap_measure = 1        !! mean gap G [Delta]
+   integer, parameter, public :: area_measure = 2       !! area of one spot or island [s^2]
+   integer, parameter, public :: peak_measure = 3       !! pressure at a crest [pi E* Delta/s]
+   integer, parameter, public :: centre_measure = 4     !! a spot's peak pressure; an island's gap at its trough [Delta]
+   integer, parameter, public :: energy_measure = 5     !! half the integral of p u over a cell [Delta s^2]
+   integer, parameter, public :: perimeter_measure = 6  !! of one spot or island [s]
+   integer, parameter, public :: all_measures = 6
+
+contains
+
+   !> All measures of a solution.
+   subroutine measure_expansion(equations, lattice, load, now, measures)
+      type(contact_equations), intent(in) :: equations     !! started for expansions like `now`
+      type(wave_lattice), intent(in) :: lattice
+      real(dp), intent(in) :: load                         !! P
+      type(expansion), intent(in) :: now
+      real(dp), intent(out) :: measures(all_measures)
+
+      measures(gap_measure) = mean_gap(equations, lattice, now)
+      measures(area_measure) = now%shape%area()
+      measures(peak_measure) = peak_pressure(equations, lattice, load, now)
+      measures(centre_measure) = now%at_centre()
+      measures(energy_measure) = strain_energy(equations, lattice, load, now)
+      measures(perimeter_measure) = now%shape%perimeter()
+   end subroutine measure_expansion
+
+   !> G: 1 - delta of a spot, the mean of an island's gap.
+   real(dp) function mean_gap(equations, lattice, now)
+      type(contact_equations), intent(in) :: equations
+      type(wave_lattice), intent(in) :: lattice
+      type(expansion), intent(in) :: now
+
+      if (now%island) then
+         mean_gap = lattice%troughs*equations%integral(now)/lattice%area
+      else
+         mean_gap = 1.0_dp - now%approach
+      end if
+   end function mean_gap
+
+   !> Pressure at a crest, where it is highest.
+   real(dp) function peak_pressure(equations, lattice, load, now)
+      type(contact_equations), intent(in) :: equations
+      type(wave_lattice), intent(in) :: lattice
+      real(dp), intent(in) :: load
+      type(expansion), intent(in) :: now
+
+      if (now%island) then
+         peak_pressure = crest_pressure(lattice, equations%rule, load, now)
+      else
+         peak_pressure = now%at_centre()
+      end if
+   end function peak_pressure
+
+   !> Pressure at a crest between islands: that of full contact less 1/(4 pi^2) times the integral of the Laplacian of Gp and
+   !> the gap. The islands of a cell are mirror images about the crest, so that each contributes the same.
+   real(dp) function crest_pressure(lattice, rule, load, now) result(pressure)
+      type(wave_lattice), intent(in) :: lattice
+      type(disc_rule), intent(in) :: rule       !! with the weight of the expansion
+      real(dp), intent(in) :: load              !! P
+      type(expansion), intent(in) :: now        !! an island's gap
+
+      type(whole_kernel) :: kernel
+      complex(dp), dimension(size(rule%point)) :: z
+      real(dp), dimension(size(rule%point)) :: strength, value, x, y
+      real(dp) :: values(size(rule%point), now%basis%terms), total
+      complex(dp) :: turn
+      integer :: g, mirrored
+
+      kernel%smooth = lattice%pressure_kernel
+      call now%basis%evaluate(size(rule%point), rule%point, values)
+      strength = rule%weight*now%shape%jacobian(rule%point)*matmul(values, now%c)
+      z = now%shape%place(rule%point)
+      total = 0.0_dp
+      do mirrored = 1, 2
+         do g = 0, now%basis%fold - 1
+            turn = exp(cmplx(0.0_dp, 2*pi*g/now%basis%fold, dp))
+            x = lattice%trough%re + real(turn*z, dp)
+            y = lattice%trough%im + aimag(turn*z)
+            call kernel%evaluate(size(z), x, y, value)
+            total = total + sum(strength*value)
+         end do
+         z = conjg(z)
+      end do
+      pressure = load - lattice%closing_pressure + lattice%pressure_rise(-lattice%trough) &
+         - lattice%troughs*total/(2*now%basis%fold)/(4*pi**2)
+   end function crest_pressure
+
+   !> Half the integral of p u over a cell [Delta s^2].
+   !>
+   !> In contact u = delta - h; above merging p u = p (delta - h + g) everywhere, where p g = 0. The integral of p h follows
+   !> from the Fourier coefficients of p at the waves of h, which are |k| times those of u.
+   real(dp) function strain_energy(equations, lattice, load, now) result(energy)
+      type(contact_equations), intent(in) :: equations
+      type(wave_lattice), intent(in) :: lattice
+      real(dp), intent(in) :: load
+      type(expansion), intent(in) :: now
+
+      complex(dp) :: z(size(equations%rule%point))
+
+      z = now%shape%place(equations%rule%point)
+      if (now%island) then
+         associate (rise => lattice%pressure_rise(z) - lattice%closing_pressure, &
+                    full => 0.5_dp*lattice%area*sum(lattice%amplitude*lattice%pressure))
+            energy = 0.5_dp*(full + lattice%troughs*equations%integral(now, rise) &
+                             - load*mean_gap(equations, lattice, now)*lattice%area)
+         end associate
+      else
+         energy = 0.5_dp*(now%approach*load*lattice%area - equations%integral(now, lattice%undeformed_gap(z)))
+      end if
+   end function strain_energy
+
+end module wavycon_fitted_measures

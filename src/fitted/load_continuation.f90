@@ -1,0 +1,99 @@
+!> A solution of low degree at a load, by continuation from a load for which there is an approximation.
+module wavycon_load_continuation
+   use wavycon_contact_equations, only: contact_equations, start_equations
+   use wavycon_expansion, only: expansion
+   use wavycon_fitted_answer, only: fitted_answer, fitted_less_exact
+   use wavycon_fitted_tuning, only: degree_step, first_degree, heavy_load_start, light_load_start, load_step_ratio, &
+      restart_degree_steps, start_series_growth, start_shape_change
+   use wavycon_gauss_newton, only: solve_equations
+   use wavycon_kinds, only: dp
+   use wavycon_lattice_images, only: lattice_images
+   use wavycon_start_expansion, only: crack_island, hertz_spot, scaled_to_load
+   use wavycon_wave_lattice, only: wave_lattice
+   implicit none (type, external)
+   private
+
+   public :: load_steps, start_at_load
+
+contains
+
+   !> An approximation at a load, and the degree to go on with.
+   !>
+   !> A solution of a load that is within one step is scaled to the load. Otherwise an asymptote is followed in steps of the
+   !> load to the one wanted: Hertz's for a spot, a penny-shaped crack for an island.
+   subroutine start_at_load(lattice, load, island, now, degree, iterations, found, start)
+      type(wave_lattice), intent(in) :: lattice
+      real(dp), intent(in) :: load                    !! P
+      logical, intent(in) :: island                   !! the regime
+      type(expansion), intent(out) :: now
+      integer, intent(out) :: degree
+      integer, intent(inout) :: iterations            !! Gauss-Newton steps are added
+      logical, intent(out) :: found
+      type(fitted_answer), intent(in), optional :: start   !! a solution of another load
+
+      real(dp) :: first_load
+
+      degree = first_degree
+      if (present(start)) then
+         if (start%status <= fitted_less_exact .and. (start%island .eqv. island)) then
+            if (load_steps(lattice, start%pbar_over_pstar, load, island) <= 1) then
+               now = scaled_to_load(lattice, start%solution, start%pbar_over_pstar, load)
+               ! Degrees below the last load's, or a sweep would never come down to lower ones again.
+               degree = max(first_degree, start%degree - restart_degree_steps*degree_step)
+               found = .true.
+               return
+            end if
+         end if
+      end if
+      if (island) then
+         first_load = max(load, heavy_load_start*lattice%closing_pressure)
+         now = crack_island(lattice, first_load)
+      else
+         first_load = min(load, light_load_start)
+         now = hertz_spot(lattice, first_load)
+      end if
+      call follow_load(lattice, first_load, load, now, iterations, found)
+   end subroutine start_at_load
+
+   !> Solves at one load after the other, from a first approximation to the load wanted.
+   subroutine follow_load(lattice, first_load, last_load, now, iterations, found)
+      type(wave_lattice), intent(in) :: lattice
+      real(dp), intent(in) :: first_load, last_load   !! P
+      type(expansion), intent(inout) :: now           !! at the first load; at the last one
+      integer, intent(inout) :: iterations
+      logical, intent(out) :: found
+
+      type(contact_equations) :: equations
+      type(lattice_images) :: images
+      real(dp) :: change, load, next, residual
+
+      load = first_load
+      do
+         call images%prepare(lattice, now, start_series_growth, start_shape_change**2)
+         call start_equations(equations, now, 0.0_dp, images)
+         call solve_equations(equations, lattice, load, now, start_shape_change, change, residual, iterations, found)
+         if (.not. found .or. load_steps(lattice, load, last_load, now%island) == 0) exit
+         next = last_load
+         if (load_steps(lattice, load, last_load, now%island) > 1) then
+            next = load_step_ratio*load
+            if (now%island) next = lattice%closing_pressure - load_step_ratio*(lattice%closing_pressure - load)
+         end if
+         now = scaled_to_load(lattice, now, load, next)
+         load = next
+      end do
+   end subroutine follow_load
+
+   !> Number of steps from one load to the other: of the ratio of P or, for islands, of the closing pressure less P.
+   pure integer function load_steps(lattice, from, to, island) result(steps)
+      type(wave_lattice), intent(in) :: lattice
+      real(dp), intent(in) :: from, to      !! P
+      logical, intent(in) :: island
+
+      real(dp) :: ratio
+
+      ratio = to/from
+      if (island) ratio = (lattice%closing_pressure - to)/(lattice%closing_pressure - from)
+      steps = ceiling(abs(log(ratio))/log(load_step_ratio))
+   end function load_steps
+
+end module wavycon_load_continuation

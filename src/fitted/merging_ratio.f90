@@ -1,0 +1,56 @@
+!> How close a spot or an island is to merging with its neighbours.
+module wavycon_merging_ratio
+   use wavycon_expansion, only: expansion
+   use wavycon_kinds, only: dp
+   use wavycon_shape_map, only: shape_map
+   use wavycon_shape_search, only: distance_from_edge
+   use wavycon_wave_lattice, only: wave_lattice
+   implicit none (type, external)
+   private
+
+   public :: merging_ratio
+
+contains
+
+   !> The part of the way to the midpoint towards the nearest neighbour that a spot or island takes up: 0 for a point, 1
+   !> where it touches its neighbour, more where they overlap.
+   pure real(dp) function merging_ratio(lattice, now) result(ratio)
+      type(wave_lattice), intent(in) :: lattice
+      type(expansion), intent(in) :: now
+
+      integer :: i
+
+      ratio = 0.0_dp
+      if (now%island) then
+         do i = 1, size(lattice%to_next_trough)
+            ratio = max(ratio, ratio_towards(now%shape, lattice%to_next_trough(i)))
+         end do
+      else
+         do i = 1, size(lattice%to_next_crest)
+            ratio = max(ratio, ratio_towards(now%shape, lattice%to_next_crest(i)))
+         end do
+      end if
+   end function merging_ratio
+
+   !> The same towards one midpoint.
+   pure real(dp) function ratio_towards(shape, midpoint) result(ratio)
+      type(shape_map), intent(in) :: shape
+      complex(dp), intent(in) :: midpoint   !! from the shape's centre [s]
+
+      !> Sine of an angle that counts as 0.
+      real(dp), parameter :: rounding = 1e-12_dp
+      complex(dp) :: direction
+
+      direction = midpoint/abs(midpoint)
+      associate (turned => direction**shape%fold)
+         if (abs(turned%im) < rounding) then
+            ! On an axis of symmetry the edge's nearest point is that of the same angle in the disc.
+            ratio = abs(shape%place(direction))/abs(midpoint)
+         else
+            ! Tips off the axes, as long spots have, come to the midpoint from the side.
+            ratio = 1.0_dp - distance_from_edge(shape, midpoint)/abs(midpoint)
+         end if
+      end associate
+   end function ratio_towards
+
+end module wavycon_merging_ratio

@@ -1,0 +1,83 @@
+!> The integral over a mapped disc of f/|z - z'|^3, an island's gap f, for a target outside: what the island adds to the
+!> pressure in the contact.
+module wavycon_outside_integral
+   use wavycon_disc_polynomials, only: disc_polynomials
+   use wavycon_fitted_tuning, only: outside_chords, outside_half_points
+   use wavycon_gauss_rules, only: gauss_jacobi
+   use wavycon_kinds, only: dp
+   use wavycon_shape_map, only: shape_map
+   implicit none (type, external)
+   private
+
+   public :: integral_outside
+
+contains
+
+   !> The integral for one target.
+   !>
+   !> It is taken over chords on lines through the target. Along a chord, s from -1 to 1, the integrand has a pole beyond
+   !> the nearer end, as close to it as the target is to the edge. With 1 + s = x^2 and x = root sinh(y), where root^2 is
+   !> the distance of the pole from s = -1, the half -1 <= s <= 0 is smooth in y. The other half is smooth in s.
+   real(dp) function integral_outside(basis, shape, target, c) result(integral)
+      type(disc_polynomials), intent(in) :: basis   !! with the power of f's weight
+      type(shape_map), intent(in) :: shape
+      complex(dp), intent(in) :: target             !! w_t, |w_t| > 1, where the continued map has the target
+      real(dp), intent(in) :: c(:)                  !! coefficients of f, shape (N)
+
+      integer, parameter :: points = 2*outside_half_points
+      real(dp) :: angle(outside_chords), angle_weight(outside_chords), values(points, basis%terms)
+      real(dp), dimension(outside_half_points) :: far_node, far_weight, node, node_weight
+      real(dp), dimension(points) :: t, weight
+      complex(dp) :: e, w(points), z_target
+      real(dp) :: distance, half, middle, nearer_end, opening, sum_of_chord
+      integer :: i, j
+
+      distance = abs(target)
+      call gauss_jacobi(0.0_dp, 0.0_dp, angle, angle_weight)
+      call gauss_jacobi(0.0_dp, 0.0_dp, node, node_weight)
+      call gauss_jacobi(basis%power, 0.0_dp, far_node, far_weight)
+      opening = asin(1.0_dp/distance)
+      z_target = shape%place(target)
+      integral = 0.0_dp
+      do i = 1, outside_chords
+         e = -target/distance*exp(cmplx(0.0_dp, opening*angle(i), dp))
+         middle = -(target%re*e%re + target%im*e%im)
+         half = sqrt(max(1.0_dp - (target%re*e%im - target%im*e%re)**2, tiny(1.0_dp)))
+         nearer_end = (distance - 1.0_dp)*(distance + 1.0_dp)/(middle + half)
+         call place_on_chord(basis%power, nearer_end, half, node, node_weight, far_node, far_weight, t, weight)
+         w = target + t*e
+         call basis%evaluate(points, w, values)
+         sum_of_chord = 0.0_dp
+         do j = 1, points
+            sum_of_chord = sum_of_chord + weight(j)*dot_product(values(j, :), c)*shape%jacobian(w(j)) &
+               *t(j)/abs(shape%place(w(j)) - z_target)**3
+         end do
+         integral = integral + opening*angle_weight(i)*half**(2*basis%power + 1)*sum_of_chord
+      end do
+   end function integral_outside
+
+   !> Distances t from the target of a chord's points, and weights with (1 - s^2)^power.
+   pure subroutine place_on_chord(power, nearer_end, half, node, node_weight, far_node, far_weight, t, weight)
+      real(dp), intent(in) :: power
+      real(dp), intent(in) :: nearer_end                                   !! t of the nearer end, > 0
+      real(dp), intent(in) :: half                                         !! half the chord's length, > 0
+      real(dp), intent(in), dimension(:) :: node, node_weight              !! Gauss-Legendre rule, shape (n)
+      real(dp), intent(in), dimension(:) :: far_node, far_weight           !! with the weight (1 - x)^power, shape (n)
+      real(dp), intent(out), dimension(:) :: t, weight                     !! shape (2 n)
+
+      real(dp), dimension(size(node)) :: x, y
+      real(dp) :: root, top
+      integer :: n
+
+      n = size(node)
+      root = sqrt(nearer_end/half)
+      top = asinh(1.0_dp/root)
+      y = 0.5_dp*top*(1.0_dp + node)
+      x = root*sinh(y)
+      t(:n) = nearer_end + half*x**2
+      weight(:n) = top*node_weight*root*cosh(y)*x**(2*power + 1)*(2.0_dp - x**2)**power
+      t(n + 1:) = nearer_end + half*(1.5_dp + 0.5_dp*far_node)
+      weight(n + 1:) = far_weight*0.5_dp**(power + 1)*(1.5_dp + 0.5_dp*far_node)**power
+   end subroutine place_on_chord
+
+end module wavycon_outside_integral

@@ -1,0 +1,94 @@
+!> A lattice of points in equal rows, even in x and in y.
+!>
+!> Points of a row are 1 apart, which is the unit s of all lengths. Rows are `spacing` apart; each is shifted along itself
+!> against the one before by `shift`, 0 for a rectangular and 1/2 for a rhombic or hexagonal lattice.
+!>
+!> N.B. The symmetries that are used hold for shifts of 0 and 1/2 only.
+module wavycon_row_lattice
+   use wavycon_kinds, only: dp
+   implicit none (type, external)
+   private
+
+   public :: row_lattice
+
+   type :: row_lattice
+      real(dp) :: spacing = 1.0_dp     !! distance of neighbouring rows [s], >= 1/2
+      real(dp) :: shift = 0.0_dp       !! of the next row along itself [s]: 0 or 1/2
+      logical :: along_y = .false.     !! whether rows are along y; otherwise along x
+   contains
+      procedure :: reduce_along_rows
+      procedure :: reduced
+      procedure :: points_within
+   end type row_lattice
+
+contains
+
+   !> Translates n places by lattice vectors into the rectangle |along| <= 1/2, |across| <= spacing/2 about the origin.
+   pure subroutine reduce_along_rows(self, n, along, across, reduced_along, reduced_across, moved)
+      class(row_lattice), intent(in) :: self
+      integer, intent(in) :: n
+      real(dp), intent(in) :: along(n), across(n)                        !! coordinates along and across the rows [s]
+      real(dp), intent(out) :: reduced_along(n), reduced_across(n)       !! [s]
+      logical, intent(out) :: moved                                      !! whether any place was outside
+
+      integer :: column, i, moves, row
+
+      moves = 0
+      do i = 1, n
+         row = int(across(i)/self%spacing + sign(0.5_dp, across(i)))
+         reduced_across(i) = across(i) - row*self%spacing
+         reduced_along(i) = along(i) - row*self%shift
+         column = int(reduced_along(i) + sign(0.5_dp, reduced_along(i)))
+         reduced_along(i) = reduced_along(i) - column
+         moves = ior(moves, ior(row, column))
+      end do
+      moved = moves /= 0
+   end subroutine reduce_along_rows
+
+   !> The place of the rectangle about the origin that differs from z by a lattice vector.
+   pure complex(dp) function reduced(self, z)
+      class(row_lattice), intent(in) :: self
+      complex(dp), intent(in) :: z  !! x + i y [s]
+
+      real(dp) :: across(1), along(1)
+      logical :: moved
+
+      if (self%along_y) then
+         call self%reduce_along_rows(1, [z%im], [z%re], along, across, moved)
+         reduced = cmplx(across(1), along(1), dp)
+      else
+         call self%reduce_along_rows(1, [z%re], [z%im], along, across, moved)
+         reduced = cmplx(along(1), across(1), dp)
+      end if
+   end function reduced
+
+   !> The lattice points, the origin left out, that are nearer to it than `distance`, and the distance of the next one.
+   pure subroutine points_within(self, distance, point, next)
+      class(row_lattice), intent(in) :: self
+      real(dp), intent(in) :: distance                       !! > 0 [s]
+      real(dp), allocatable, intent(out) :: point(:, :)      !! x and y, shape (2, m) [s]
+      real(dp), intent(out) :: next                          !! >= distance [s]
+
+      real(dp) :: across, along
+      integer :: columns, i, j, rows
+
+      rows = ceiling(distance/self%spacing) + 1
+      columns = ceiling(distance + self%shift*rows) + 1
+      next = huge(next)
+      allocate (point(2, 0))
+      do j = -rows, rows
+         do i = -columns, columns
+            along = i + self%shift*j
+            across = self%spacing*j
+            if (i == 0 .and. j == 0) cycle
+            if (hypot(along, across) < distance) then
+               point = reshape([point, along, across], [2, size(point, 2) + 1])
+            else
+               next = min(next, hypot(along, across))
+            end if
+         end do
+      end do
+      if (self%along_y) point = point([2, 1], :)
+   end subroutine points_within
+
+end module wavycon_row_lattice
