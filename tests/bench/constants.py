@@ -22,6 +22,8 @@ ROUNDING = 1e-13
 TIMEOUT = 60  # for a deck; the unchanged program takes less than a second [s]
 STATEMENT = re.compile(r'^( *(?:integer|real\(dp\)), parameter, public :: (\w+)(?:\([^)]*\))? = )([^!\n]*?)( *(?:!.*)?)$',
                        re.MULTILINE)
+USE = re.compile(r'^ *use wavycon_(?:fitted|contact)_tuning, only: ((?:[^\n]*&\n)*[^\n]*)\n', re.MULTILINE)
+IMPLICIT = '   implicit none (type, external)\n'
 NUMBER = re.compile(r'(?<![\w.])(\d+\.?\d*(?:[ed][+-]?\d+)?)(_dp)?')
 
 WAVE = "&surface kind = 'wave_2d' /"
@@ -51,7 +53,7 @@ CASES = {
         (WAVE, '0.01, 0.05, 0.2, 0.25, 0.5, 0.9', "solver = 'grid', accuracy = 1e-3", SUMMARY, 'wave_2d'),
         (HEXAGONAL, '0.05, 0.3, 0.6, 0.75, 0.9', "solver = 'grid', accuracy = 1e-3", SUMMARY, 'hexagonal'),
         (LINE, '0.001, 0.01, 0.2, 0.5, 0.9', "solver = 'grid', accuracy = 1e-4", SUMMARY, "solver = 'auto'"),
-        (CROSSED, '0.02, 0.3, 0.9', "solver = 'grid', accuracy = 1e-3", SUMMARY, TIGHT),
+        (CROSSED, '0.02, 0.1, 0.9', "solver = 'grid', accuracy = 1e-3", SUMMARY, TIGHT),
         (ROUGH, '0.02, 0.2, 0.6', "solver = 'grid', accuracy = 1e-2", SUMMARY, "solver = 'grid', accuracy = 1e-3"),
         (ROUGH, '0.02, 0.2, 0.6', "solver = 'grid'", SUMMARY, "solver = 'grid', grid_points = 64"),
         (WAVE, '0.05, 0.5', "solver = 'grid', grid_points = 128", SUMMARY, 'wave_2d'),
@@ -79,12 +81,20 @@ def scaled(value, factor):
     return NUMBER.sub(replace, value)
 
 
-def replaced(text, name, value):
-    return STATEMENT.sub(lambda m: m[1] + value + m[4] if m[2] == name else m[0], text)
+def declaration(name, value):
+    """A constant's declaration, with the kind spelt out."""
+    if '_dp' in value:
+        value = re.sub(r'([\d.]+)(?:e([+-]?\d+))?_dp', lambda m: f'{m[1]}d{m[2] or 0}', value)
+        return f'double precision, parameter :: {name} = {value}'
+    return f'integer, parameter :: {name} = {value}'
 
 
 class Tree:
-    """A copy of the sources, and its build."""
+    """A copy of the sources, and its build.
+
+    In the copy each module declares the constants that it uses itself, so that a new value has only those compiled
+    again.
+    """
 
     def __init__(self, root, directory):
         self.root, self.sources, self.build = root, directory/'sources', directory/'build'
@@ -94,6 +104,12 @@ class Tree:
             if (root/name).exists():
                 shutil.copy(root/name, self.sources)
         shutil.copytree(root/'src', self.sources/'src')
+        self.values = {}
+        for room in ROOMS:
+            self.values.update(constants((root/'src'/room/'tuning.f90').read_text(encoding='utf-8')))
+        self.users = {name: [] for name in self.values}
+        for path in sorted(self.sources.glob('src/*/*.f90')):
+            self._declare_constants(path)
         ninja = ['-G', 'Ninja'] if shutil.which('ninja') else []
         self._run(['cmake', '-S', self.sources, '-B', self.build, *ninja, '-D', 'CMAKE_BUILD_TYPE=Release',
                    '-D', 'WAVYCON_TESTS=OFF'], stop=True)
@@ -105,10 +121,28 @@ class Tree:
             sys.exit(f'{done.stdout}\nconstants: failed: {" ".join(map(str, command))}')
         return done.returncode == 0
 
-    def program(self, name, tuning=None, text=None, stop=False):
-        """Builds the program, with another text of one tuning module if one is given; None if it does not compile."""
-        if tuning:
-            (self.sources/tuning).write_text(text, encoding='utf-8')
+    def _declare_constants(self, path):
+        text = path.read_text(encoding='utf-8')
+        used = USE.search(text)
+        if not used:
+            return
+        names = re.findall(r'\w+', used[1])
+        for name in names:
+            self.users[name].append(path)
+        lines = ''.join(f'   {declaration(name, self.values[name])}\n' for name in names)
+        text = text.replace(used[0], '').replace(IMPLICIT, IMPLICIT + lines, 1)
+        path.write_text(text, encoding='utf-8')
+
+    def set_constant(self, name, value):
+        """Gives a constant another value, in all modules that use it."""
+        for path in self.users[name]:
+            text = path.read_text(encoding='utf-8')
+            text = re.sub(rf'^ *[a-z ]+, parameter :: {name} = .*$', f'   {declaration(name, value)}', text,
+                          flags=re.MULTILINE)
+            path.write_text(text, encoding='utf-8')
+
+    def program(self, name, stop=False):
+        """Builds the program; None if it does not compile."""
         if not self._run(['cmake', '--build', self.build, '--target', 'wavycon'], stop):
             return None
         return shutil.copy(self.build/'wavycon', self.directory/name)
@@ -122,7 +156,6 @@ def table(path):
             names = [word.split('[')[0] for word in line[1:].split()]
         elif line.strip():
             rows.append(dict(zip(names, line.split())))
-    # The columns `error` of outputs/reference belong to the column before.
     return names, rows
 
 
@@ -154,19 +187,17 @@ class Deck:
         return path
 
     def find_references(self, program, root):
-        """The reference values: a list by load of value and error by name."""
+        """The reference values and their errors: by load, then by name."""
         if self.reference in ('wave_2d', 'hexagonal'):
             known = reference_table(root/'outputs'/'reference'/f'{self.reference}.dat')
-            self.truth = []
-            for load in self.loads.split(','):
-                values = known[float(load)]
+            self.truth = {load: known[load] for load in map(float, self.loads.split(','))}
+            for values in self.truth.values():
                 values.update({long: values[short] for long, short in IN_REFERENCE.items()})
-                self.truth.append(values)
             return
         path = self._write(f'{self.name}_tight', self.reference)
         _, results = self.run(program, path)
-        # Where the method is no better by its own estimate, it is so by the factor between the accuracies.
-        self.truth = [{name: (value, 0.0) for name, (value, _) in row.items()} for row in results['rows']]
+        self.truth = {load: {name: (value, 0.0) for name, (value, _) in row.items()}
+                      for load, row in results['rows'].items()}
 
     def run(self, program, path=None):
         """User time [s] and results, None where there are none."""
@@ -184,15 +215,18 @@ class Deck:
         if not summary.exists():
             return math.nan, None
         names, rows = table(summary)
-        results = {'solved': [row['status'] == 'converged' for row in rows],
-                   'rows': [{value: (float(row[value]), float(row[error])) for value, error in IN_SUMMARY}
-                            for row in rows]}
+        # A load without a solution has no row in the details.
+        solved = {float(row['pbar_over_pstar']): row['status'] == 'converged' for row in rows}
+        results = {'solved': solved,
+                   'rows': {float(row['pbar_over_pstar']): {value: (float(row[value]), float(row[error]))
+                                                            for value, error in IN_SUMMARY} for row in rows}}
         details = out/f'{path.stem}.details.dat'
         if details.exists():
             names, rows = table(details)
             pairs = [name for name in names if f'{name}_error' in names]
-            results['rows'] = [{self._short(name): (float(row[name]), float(row[f'{name}_error'])) for name in pairs}
-                               for row in rows]
+            results['rows'] = {float(row['pbar_over_pstar']):
+                               {self._short(name): (float(row[name]), float(row[f'{name}_error'])) for name in pairs}
+                               for row in rows}
         for path_of_map in sorted(out.glob('*.map.dat')):
             self._add_map(results, path_of_map)
         results['text'] = repr(results)
@@ -205,30 +239,33 @@ class Deck:
     @staticmethod
     def _add_map(results, path):
         """The largest pressure and gap errors of a map have no estimates: each number is a value of the first load."""
+        first = next(iter(results['rows'].values()), {})
         numbers = [line.split() for line in path.read_text(encoding='utf-8').splitlines()
                    if line.strip() and not line.startswith('#')]
         for i, words in enumerate(numbers):
             for j in range(2, len(words)):
-                results['rows'][0][f'map {i} {j}'] = float(words[j]), math.inf
+                first[f'map {i} {j}'] = float(words[j]), math.inf
 
     def compare(self, results, base):
         """Logarithms of the errors over the base's, the largest error over its estimate, and the loads lost."""
         if results is None:
             return [], 0.0, len(self.truth)
         logs, worst, lost = [], 0.0, 0
-        for k, truth in enumerate(self.truth):
-            lost += base['solved'][k] and not results['solved'][k]
+        for load, truth in self.truth.items():
+            if not results['solved'].get(load):
+                lost += base['solved'].get(load, False)
+                continue
             for name, (true_value, true_error) in truth.items():
-                if name not in results['rows'][k]:
+                if not all(name in own['rows'].get(load, {}) for own in (results, base)):
                     continue
-                value, estimate = results['rows'][k][name]
-                if not math.isfinite(value) or not results['solved'][k]:
+                value, estimate = results['rows'][load][name]
+                if not math.isfinite(value):
                     continue
                 floor = max(true_error, ROUNDING*abs(true_value), 1e-3*ROUNDING)
                 error = abs(value - true_value)
                 if error > floor and estimate > 0:
                     worst = max(worst, error/estimate)
-                of_base = abs(base['rows'][k][name][0] - true_value)
+                of_base = abs(base['rows'][load][name][0] - true_value)
                 if max(error, of_base) > floor:
                     logs.append(math.log(max(error, floor)/max(of_base, floor)))
         return logs, worst, lost
@@ -284,11 +321,10 @@ def main():
             chosen = [(name, value) for name, value in constants(texts[room])
                       if not options.only or name in options.only]
             if chosen:
-                measure_room(tree, base, room, texts[room], chosen, repeats)
+                measure_room(tree, base, room, chosen, repeats)
 
 
-def measure_room(tree, base, room, text, chosen, repeats):
-    tuning = pathlib.Path('src')/room/'tuning.f90'
+def measure_room(tree, base, room, chosen, repeats):
     decks = [Deck(tree.directory, f'{room}_{i}', case) for i, case in enumerate(CASES[room])]
     for deck in decks:
         deck.find_references(base, tree.root)
@@ -305,19 +341,19 @@ def measure_room(tree, base, room, text, chosen, repeats):
             if new == value:
                 columns[variant] = '-', '-', '-', '-'
                 continue
-            program = tree.program(variant, tuning, replaced(text, name, new))
+            tree.set_constant(name, new)
+            program = tree.program(variant)
             if program:
                 programs[variant] = program
             else:
                 columns[variant] = 'does not compile', '-', '-', '-'
+        tree.set_constant(name, value)
         if len(programs) > 1:
             times, results = measure(decks, programs, repeats)
             for variant in programs:
                 columns[variant] = cells(variant, times, results, decks)
         pairs = (' / '.join(both) for both in zip(columns['half'], columns['twice']))
         print(f'| `{name}` | {value.replace("_dp", "")} | ' + ' | '.join(pairs) + ' |', flush=True)
-    (tree.sources/tuning).write_text(text, encoding='utf-8')
-    tree.program('base_again', stop=True)
 
 
 if __name__ == '__main__':
