@@ -125,7 +125,8 @@ contains
       type(surface_type), intent(in) :: surface
       character(*), intent(in) :: kind
 
-      is_default_for = surface%is_paper_wave() .and. is_paper_kind(kind)
+      is_default_for = is_paper_kind(kind)
+      if (is_default_for) is_default_for = surface%is_paper_wave()
    end function is_default_for
 
    subroutine set_defaults(values, surface)
