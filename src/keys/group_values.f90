@@ -81,6 +81,7 @@ contains
          allocate (self%entries(k)%numbers(0))
          self%entries(k)%text = ''
          if (k == 0) cycle
+         if (table%keys(k)%default == '') cycle
          call read_value(table%keys(k), trim(table%keys(k)%default), value, trouble)
          if (.not. allocated(trouble)) call take_value(self%entries(k), value, [value%number])
       end do
