@@ -23,28 +23,28 @@ module wavycon_fitted_tuning
       !! Ratio of P, or of the closing pressure less P, in one step. Larger: the scaled solution is outside Newton's
       !! convergence. Smaller: more steps of continuation.
    integer, parameter, public :: start_degree = 4
-      !! Degree of the polynomials during continuation. Larger: dearer steps for a solution that is refined afterwards
-      !! anyway. Smaller: the shape is not followed.
+      !! Degree of the polynomials during continuation. Larger: steps cost more, for a solution that is refined
+      !! afterwards. Smaller: the shape is not represented.
    real(dp), parameter, public :: spot_ellipticity_power = 0.6_dp
       !! Axis ratio of a Hertzian start: curvature ratio to this power. Only a start: an approximation to the exact
       !! relation by elliptic integrals.
    real(dp), parameter, public :: island_ellipticity_power = 0.5_dp
       !! The same of a crack, with the pressure's curvatures. Only a start: exact for slender ellipses.
    real(dp), parameter, public :: start_shape_change = 1e-2_dp
-      !! Relative change of the shape at which continuation accepts. Smaller: Newton steps that the next load makes
-      !! useless. Larger: errors add up over the loads.
+      !! Relative change of the shape at which Newton's method stops during continuation. Smaller: Newton steps that the
+      !! next load makes useless. Larger: errors add up over the loads.
    real(dp), parameter, public :: start_series_growth = 1.1_dp
       !! Growth of a shape that its first image series allows for. Smaller: the series is made again after a step.
       !! Larger: longer series.
    integer, parameter, public :: restart_degree_steps = 3
-      !! Degree steps below the last load's degree that a sweep restarts at. Smaller: degrees never come down again in a
-      !! sweep. Larger: degrees are solved for that are not needed.
+      !! A sweep starts a load this many degree steps below the degree of the load before. Smaller: degrees never come
+      !! down again in a sweep. Larger: degrees are solved that are not needed.
 
    ! Sequence of degrees.
 
    integer, parameter, public :: first_degree = 6
-      !! Degree after continuation. Larger: low accuracies cost more than they need. Smaller: differences that are no
-      !! guide to the error.
+      !! Degree after continuation. Larger: low accuracies cost more than they need. Smaller: differences that do not
+      !! estimate the error.
    integer, parameter, public :: degree_step = 4
       !! Full step of the degree, even. Smaller: more solutions, and differences that understate the error. Larger: a
       !! degree higher than needed.
@@ -102,15 +102,15 @@ module wavycon_fitted_tuning
       !! Merging ratio from which there are more angles of collocation. Larger: sharp shapes are badly determined.
       !! Smaller: more equations than needed.
    real(dp), parameter, public :: sharp_collocation_factor = 1.5_dp
-      !! Factor of the number of angles there. Smaller: sharp shapes are badly determined. Larger: dearer steps.
+      !! Factor of the number of angles there. Smaller: sharp shapes are badly determined. Larger: more expensive steps.
    integer, parameter, public :: spot_extra_radii = 4
       !! Collocation radii of a spot beyond half the degree. At least two more than round functions have terms, or any
-      !! size of a spot would do. Larger: dearer steps.
+      !! size of a spot would do. Larger: more expensive steps.
    integer, parameter, public :: island_extra_radii = 5
       !! The same of an island.
    integer, parameter, public :: spot_extra_angles = 1
       !! Collocation angles of a spot beyond degree/fold. Smaller: terms with the highest harmonic are not determined.
-      !! Larger: dearer steps.
+      !! Larger: more expensive steps.
    integer, parameter, public :: island_extra_angles = 2
       !! The same of an island.
    real(dp), parameter, public :: sharp_quadrature_ratio = 0.7_dp
@@ -120,8 +120,8 @@ module wavycon_fitted_tuning
       !! Merging ratio from which the rule for the images is much finer. Larger: the near images' kernel is not
       !! resolved. Smaller: points that are not needed.
    real(dp), parameter, public :: chords_per_degree = 1.5_dp
-      !! Chords through a target for each degree. Smaller: the quadrature's error shows. Larger: dearer steps; chords
-      !! are most of the work.
+      !! Chords through a target for each degree. Smaller: the quadrature's error shows. Larger: more expensive steps;
+      !! chords are most of the work.
    integer, parameter, public :: extra_chords = 4
       !! Chords beyond that.
    real(dp), parameter, public :: sharp_chords_per_degree = 2.0_dp
@@ -129,7 +129,7 @@ module wavycon_fitted_tuning
    integer, parameter, public :: extra_sharp_chords = 20
       !! Chords beyond that of sharp shapes.
    integer, parameter, public :: extra_chord_points = 2
-      !! Points on a chord beyond half the degree. Smaller: the quadrature's error shows. Larger: dearer steps.
+      !! Points on a chord beyond half the degree. Smaller: the quadrature's error shows. Larger: more expensive steps.
    integer, parameter, public :: extra_disc_radii = 2
       !! Radii of the rule for the images beyond half the degree. Smaller: the quadrature's error shows. Larger: dearer
       !! images.
@@ -140,7 +140,7 @@ module wavycon_fitted_tuning
       !! More radii and angles of that rule for sharp shapes. As for the ones above.
    integer, parameter, public :: near_disc_extra = 6
       !! More radii and angles of that rule where images are near. Smaller: the near images' kernel is not resolved.
-      !! Larger: dearer images.
+      !! Larger: more expensive images.
 
    ! Series of the images.
 
@@ -204,7 +204,7 @@ module wavycon_fitted_tuning
       !! Factor on all estimates. Smaller: estimates below the true error. Larger: a degree more than needed.
    real(dp), parameter, public :: least_relative_share = 0.02_dp
       !! Least relative error of one measure over the largest of all. Smaller: a mean gap whose differences are small by
-      !! chance is believed. Larger: a degree more than needed.
+      !! chance is taken for the error. Larger: a degree more than needed.
    real(dp), parameter, public :: error_of_square = 10.0_dp
       !! Relative error that a last Newton step leaves, over its square. Smaller: estimates leave out unfinished
       !! iterations. Larger: further steps or degrees.
@@ -213,45 +213,45 @@ module wavycon_fitted_tuning
 
    integer, parameter, public :: field_angles = 96
       !! Points per turn of the rule for spots and islands that are far. Smaller: the quadrature's error shows in the
-      !! fields. Larger: dearer fields.
+      !! fields. Larger: more expensive fields.
    integer, parameter, public :: field_radii = 40
-      !! Points per radius of that rule. As above.
+      !! Points per radius of that rule. As field_angles.
    integer, parameter, public :: sharp_field_refinement = 3
       !! Factor on both for sharp shapes. The continued map does not get far beyond sharp tips, and near places are left
       !! to this rule.
    real(dp), parameter, public :: sharp_field_ratio = 0.8_dp
       !! Merging ratio beyond which shapes are sharp in this sense. Larger: the quadrature's error shows in the fields.
-      !! Smaller: dearer fields.
+      !! Smaller: more expensive fields.
    real(dp), parameter, public :: chord_field_radius = 1.6_dp
-      !! Places that the map has within this |w| are done by chords. Smaller: the plain rule does not resolve the
-      !! nearest ones. Larger: chords where the plain rule would do.
+      !! The integral over an image is taken along chords if the place's preimage has |w| below this. Smaller: the plain
+      !! rule does not resolve the nearest ones. Larger: chords where the plain rule would do.
    real(dp), parameter, public :: field_radius_margin = 1.05_dp
       !! Factor on a shape's radius, which is that of some of its points. Smaller: places inside sharp tips count as
       !! outside. Larger: the map is inverted for places far outside.
    integer, parameter, public :: field_chords = 96
-      !! Chords through a place. Smaller: the quadrature's error shows in the fields. Larger: dearer fields.
+      !! Chords through a place. Smaller: the quadrature's error shows in the fields. Larger: more expensive fields.
    integer, parameter, public :: field_chord_points = 48
-      !! Points on each of them. As above.
+      !! Points on each of them. As field_angles.
    integer, parameter, public :: outside_chords = 64
-      !! Chords of the integral of 1/r^3 for a place outside. As above.
+      !! Chords of the integral of 1/r^3 for a place outside. As field_angles.
    integer, parameter, public :: outside_half_points = 40
-      !! Points on either half of each of them. As above.
+      !! Points on either half of each of them. As field_angles.
    integer, parameter, public :: detail_refinement = 2
-      !! How much finer the rules are that check a field's quadrature. Smaller than 2 checks nothing. Larger: dearer.
+      !! How much finer the rules are that check a field's quadrature. Smaller than 2 checks nothing. Larger: more time.
 
    ! Geometry of shapes.
 
    integer, parameter, public :: radius_points = 8
       !! Intervals of a half sector in which a shape's radius is looked for. Smaller: tips off the axes are missed.
-      !! Larger: dearer.
+      !! Larger: more time.
    integer, parameter, public :: least_edge_points = 16
-      !! Least points of a half sector for the length of an edge. Smaller: the length's error shows. Larger: dearer.
+      !! Least points of a half sector for the length of an edge. Smaller: the length's error shows. Larger: more time.
    integer, parameter, public :: most_edge_points = 512
-      !! Most of them. Smaller: the length of edges with sharp tips is less exact. Larger: dearer.
+      !! Most of them. Smaller: the length of edges with sharp tips is less exact. Larger: more time.
    integer, parameter, public :: distance_points = 128
-      !! Points of an edge from which the nearest is looked for. Smaller: a wrong one of two tips. Larger: dearer.
+      !! Points of an edge from which the nearest is looked for. Smaller: a wrong one of two tips. Larger: more time.
    integer, parameter, public :: distance_halvings = 30
-      !! Halvings of their distance. Smaller: the distance is less exact. Larger: dearer.
+      !! Halvings of their distance. Smaller: the distance is less exact. Larger: more time.
    real(dp), parameter, public :: least_turning = 0.2_dp
       !! Least derivative of the edge's polar angle in Newton's method. It is small at tips. Smaller: steps that
       !! overshoot. Larger: slower convergence.
@@ -264,7 +264,7 @@ module wavycon_fitted_tuning
       !! Jacobian over b_0^2 below which it stops. Smaller: it goes on into a fold. Larger: places are left to the plain
       !! rule that chords could do.
    real(dp), parameter, public :: farthest_inverse = 4.0_dp
-      !! |w| beyond which it stops. Smaller: none, down to the radius of chords. Larger: steps for places that chords
+      !! |w| beyond which it stops. Smaller: nothing, down to chord_field_radius. Larger: steps for places that chords
       !! are not used for.
    integer, parameter, public :: most_inverse_steps = 40
       !! Steps of either iteration. Smaller: places near tips are lost. Larger: time where it does not converge.
