@@ -132,13 +132,19 @@ contains
       real(dp), intent(in) :: pbar_over_pstar        !! P
       class(contact_solution), allocatable, intent(out) :: solution
 
-      if (pbar_over_pstar > 0.0_dp .and. pbar_over_pstar < 1.0_dp) then
-         call self%solve_partial_contact(pbar_over_pstar, solution)
-         return
+      logical :: is_number
+
+      ! Comparisons with a NaN raise an exception, which Debug builds trap.
+      is_number = .not. ieee_is_nan(pbar_over_pstar)
+      if (is_number) then
+         if (pbar_over_pstar > 0.0_dp .and. pbar_over_pstar < 1.0_dp) then
+            call self%solve_partial_contact(pbar_over_pstar, solution)
+            return
+         end if
       end if
       allocate (solution_without_contact_edge :: solution)
       solution%pbar_over_pstar = pbar_over_pstar
-      if (ieee_is_nan(pbar_over_pstar)) then
+      if (.not. is_number) then
          solution%status = not_finite
       else if (pbar_over_pstar >= 1.0_dp) then
          solution%status = full_contact
