@@ -19,17 +19,33 @@ module wavycon_tables
 
 contains
 
+   !> All tables. A new table adds its line here.
    subroutine all_tables(tables)
       type(table_item), allocatable, intent(out) :: tables(:)
 
-      allocate (tables(7))
-      allocate (summary_table :: tables(1)%table)
-      allocate (lines_table :: tables(2)%table)
-      allocate (map_table :: tables(3)%table)
-      allocate (contour_table :: tables(4)%table)
-      allocate (coefficients_table :: tables(5)%table)
-      allocate (theory_table :: tables(6)%table)
-      allocate (details_table :: tables(7)%table)
+      allocate (tables(0))
+      call add(tables, summary_table())
+      call add(tables, lines_table())
+      call add(tables, map_table())
+      call add(tables, contour_table())
+      call add(tables, coefficients_table())
+      call add(tables, theory_table())
+      call add(tables, details_table())
    end subroutine all_tables
+
+   subroutine add(tables, table)
+      type(table_item), allocatable, intent(inout) :: tables(:)
+      class(table_type), intent(in) :: table
+
+      type(table_item), allocatable :: longer(:)
+      integer :: i
+
+      allocate (longer(size(tables) + 1))
+      do i = 1, size(tables)
+         call move_alloc(tables(i)%table, longer(i)%table)
+      end do
+      allocate (longer(size(longer))%table, source=table)
+      call move_alloc(longer, tables)
+   end subroutine add
 
 end module wavycon_tables
