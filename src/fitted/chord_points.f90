@@ -1,9 +1,9 @@
 !> Points on the chords of the unit disc through a target, and weights that integrate over the disc with them.
 !>
-!> With w = w_t + t e^(i phi) the area element is |t| dt dphi, and 1 - |w|^2 is the product of the distances to the chord's
-!> ends. So with the weight (1 - |w|^2)^power a Gauss-Gegenbauer rule along the chord is exact for polynomials. In phi the
-!> midpoint rule over half a turn (target inside) or Gauss's rule between the tangents (target outside) converges
-!> exponentially. What is integrated is
+!> With w = w_t + t e^(i phi) the area element is |t| dt dphi, and 1 - |w|^2 is the product of the distances to the
+!> chord's ends. So with the weight (1 - |w|^2)^power a Gauss-Gegenbauer rule along the chord is exact for polynomials.
+!> In phi the midpoint rule over half a turn (target inside) or Gauss's rule between the tangents (target outside)
+!> converges exponentially. What is integrated is
 !>
 !>     power 1/2: f(w)/|t|, so that the area element cancels the singularity;
 !>     power 3/2: f(w)/|t|^3 as Hadamard's finite part, for targets inside.

@@ -8,8 +8,8 @@
 !>
 !>     A   = 1 - tau (w^(m+1) - v^(m+1))/(w - v),   D_k = e^(-2 i phi) conj( (w^j - v^j)/(w - v) ),   j = m k - 1,
 !>
-!> and the differences of powers follow from (w^(j+m) - v^(j+m)) = w^m (w^j - v^j) + v^j (w^m - v^m). The factor e^(i phi)
-!> does not matter, as only |Q| is used. For the same reason the conjugates of A and D_k are kept.
+!> and the differences of powers follow from (w^(j+m) - v^(j+m)) = w^m (w^j - v^j) + v^j (w^m - v^m). The factor e^(i
+!> phi) does not matter, as only |Q| is used. For the same reason the conjugates of A and D_k are kept.
 !>
 !> Complex numbers are kept as real and imaginary parts, so that loops over points vectorise and BLAS sums the terms.
 module wavycon_chord_quotient

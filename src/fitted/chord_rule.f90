@@ -5,8 +5,8 @@
 !>
 !>     integral of f J/|z(w) - z(w_t)| over the disc = integral of f J/|Q| over all chords, dt dphi,
 !>
-!> and with 1/|z - z'|^3 it is the finite part of f J/(t^2 |Q|^3). Q does not vanish, so that quadrature along the chords
-!> and over their angles converges exponentially.
+!> and with 1/|z - z'|^3 it is the finite part of f J/(t^2 |Q|^3). Q does not vanish, so that quadrature along the
+!> chords and over their angles converges exponentially.
 module wavycon_chord_rule
    use wavycon_chord_points, only: chord_points, start_chord_points
    use wavycon_chord_quotient, only: chord_quotient, start_chord_quotient
@@ -34,8 +34,8 @@ contains
 
    !> Prepares for one basis and one number of shape terms.
    !>
-   !> The weight determines the kernel: the power 1/2, of a spot's pressure, has 1/|z - z'|, the power 3/2, of an island's
-   !> gap, 1/|z - z'|^3.
+   !> The weight determines the kernel: the power 1/2, of a spot's pressure, has 1/|z - z'|, the power 3/2, of an
+   !> island's gap, 1/|z - z'|^3.
    subroutine start_chord_rule(rule, basis, shape_terms, angles, points)
       type(chord_rule), intent(out) :: rule
       type(disc_polynomials), intent(in) :: basis
@@ -88,8 +88,8 @@ contains
       call add_shape_slopes(self, shape, shape_row)
    end subroutine rows
 
-   !> Derivatives of the sum's integral: by the Jacobian, dJ/db_k, and by the distance, -p J/|Q|^2 Re(conj(Q) dQ/db_k), both
-   !> times the sum's value and the weight, which `density` holds.
+   !> Derivatives of the sum's integral: by the Jacobian, dJ/db_k, and by the distance, -p J/|Q|^2 Re(conj(Q) dQ/db_k),
+   !> both times the sum's value and the weight, which `density` holds.
    subroutine add_shape_slopes(self, shape, shape_row)
       type(chord_rule), intent(inout) :: self
       type(shape_map), intent(in) :: shape

@@ -7,9 +7,9 @@
 !>
 !>     (1/4 pi^2) integral of Laplacian(Gp) g = pressure rise from the trough - (closing pressure - P).
 !>
-!> The weight (1 - |w|^2)^power leaves out the singular term that a wrong edge would bring in, so that the equations can
-!> only be met with the right edge. They are more than the unknowns, which are the coefficients, a spot's approach and the
-!> shape.
+!> The weight (1 - |w|^2)^power leaves out the singular term that a wrong edge would bring in, so that the equations
+!> can only be met with the right edge. They are more than the unknowns, which are the coefficients, a spot's approach
+!> and the shape.
 module wavycon_contact_equations
    use wavycon_chord_rule, only: chord_rule, start_chord_rule
    use wavycon_constants, only: pi
@@ -105,11 +105,13 @@ contains
       integer :: angles, fold, i, j, n, radii
 
       fold = like%basis%fold
-      ! At least two more radii than round functions have unknowns: with as many the size of the shape is not determined.
+      ! At least two more radii than round functions have unknowns: with as many the size of the shape is not
+      ! determined.
       radii = like%basis%degree/2 + merge(island_extra_radii, spot_extra_radii, like%island)
       angles = like%basis%degree/fold + merge(island_extra_angles, spot_extra_angles, like%island)
       if (merging_ratio > sharp_collocation_ratio) angles = int(sharp_collocation_factor*angles)
-      ! For a round shape each term b_k is one harmonic of the angle; with K angles the last one vanishes at all of them.
+      ! For a round shape each term b_k is one harmonic of the angle; with K angles the last one vanishes at all of
+      ! them.
       angles = max(angles, ubound(like%shape%b, 1) + 1)
       allocate (equations%target(radii*angles))
       n = 0

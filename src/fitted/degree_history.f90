@@ -51,8 +51,8 @@ contains
          self%newest_is_best = self%is_best(measures)
          if (self%newest_is_best) self%best_error = self%error
          self%decay = 1.0_dp
-         ! To round shapes some degrees add next to nothing, and the decay of the differences is a guide to the next one.
-         ! After the first difference it is 0.
+         ! To round shapes some degrees add next to nothing, and the decay of the differences is a guide to the next
+         ! one. After the first difference it is 0.
          if (merging_ratio < round_shape_ratio) &
             self%decay = min(difference/max(self%difference, tiny(difference)), 1.0_dp)
          self%difference = difference
@@ -65,8 +65,9 @@ contains
       self%solutions = self%solutions + 1
    end subroutine push
 
-   !> Estimates the errors of a new solution. An island's gap at its trough converges as fields do, later than integrals of
-   !> them, and energy and perimeter converge at rates of their own: they are estimated apart from the rest.
+   !> Estimates the errors of a new solution. An island's gap at its trough converges as fields do, later than
+   !> integrals of them, and energy and perimeter converge at rates of their own: they are estimated apart from the
+   !> rest.
    pure subroutine estimate(self, measures, difference, change)
       class(degree_history), intent(inout) :: self
       real(dp), intent(in) :: measures(all_measures)

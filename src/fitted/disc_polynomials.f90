@@ -1,8 +1,7 @@
-!> Polynomials on the unit disc, orthonormal with the weight (1 - |w|^2)^power, with the symmetry of a
-!> contact.
+!> Polynomials on the unit disc, orthonormal with the weight (1 - |w|^2)^power, with the symmetry of a contact.
 !>
-!> Their terms are Re(w^(fold k)) P_l^(power, fold k)(2 |w|^2 - 1), fold k + 2 l <= degree, Jacobi's P:
-!> invariant when the disc is turned by 1/fold of a turn and when it is mirrored.
+!> They are multiples of Re(w^(fold k)) P_l^(power, fold k)(2 |w|^2 - 1), fold k + 2 l <= degree, with Jacobi's
+!> polynomials P: invariant under turns by 1/fold of a full turn and under reflection at the x axis.
 module wavycon_disc_polynomials
    use wavycon_constants, only: pi
    use wavycon_kinds, only: dp
@@ -18,7 +17,7 @@ module wavycon_disc_polynomials
       real(dp) :: power = 0.5_dp            !! of the weight, > -1
       integer, allocatable :: angular(:)    !! fold k of each term, shape (N)
       integer, allocatable :: radial(:)     !! l of each term, shape (N)
-      real(dp), allocatable, private :: recurrence(:, :)  !! shape (3, N)
+      real(dp), allocatable, private :: recurrence(:, :)  !! p_l = (r1 x + r2) p_(l-1) + r3 p_(l-2), shape (3, N)
    contains
       procedure :: evaluate
       procedure :: slopes
@@ -26,13 +25,14 @@ module wavycon_disc_polynomials
 
 contains
 
+   !> Sets the terms and their three-term recurrences in l, those of Jacobi's polynomials scaled to unit norm.
    subroutine start_disc_polynomials(basis, fold, degree, power)
       type(disc_polynomials), intent(out) :: basis
       integer, intent(in) :: fold     !! >= 1
       integer, intent(in) :: degree   !! >= 0
       real(dp), intent(in) :: power   !! > -1
 
-      real(dp) :: a, b, norm, last_norm, s
+      real(dp) :: a, b, norm, previous_norm, s
       integer :: k, l, n
 
       basis%fold = fold
@@ -44,7 +44,7 @@ contains
       a = power
       do k = 0, degree, fold
          b = k
-         last_norm = 1.0_dp
+         previous_norm = 1.0_dp
          do l = 0, (degree - k)/2
             n = n + 1
             basis%angular(n) = k
@@ -56,20 +56,20 @@ contains
                case (0)
                   r = [0.0_dp, 1.0_dp/norm, 0.0_dp]
                case (1)
-                  r = [0.5_dp*(a + b + 2), 0.5_dp*(a - b), 0.0_dp]*last_norm/norm
+                  r = [0.5_dp*(a + b + 2), 0.5_dp*(a - b), 0.0_dp]*previous_norm/norm
                case default
                   r = [(s - 1)*s*(s - 2), (s - 1)*(a**2 - b**2), -2*(l + a - 1)*(l + b - 1)*s] &
                      /(2*l*(l + a + b)*(s - 2))
-                  r(:2) = r(:2)*last_norm/norm
+                  r(:2) = r(:2)*previous_norm/norm
                   r(3) = r(3)*norm_over_disc(k, l - 2, a)/norm
                end select
             end associate
-            last_norm = norm
+            previous_norm = norm
          end do
       end do
    end subroutine start_disc_polynomials
 
-   !> Root of the integral of a term's square, and the weight, over the disc.
+   !> Norm of a term: the root of the integral over the disc of its square times the weight.
    pure real(dp) function norm_over_disc(k, l, a) result(norm)
       integer, intent(in) :: k     !! fold k of the term
       integer, intent(in) :: l
@@ -80,11 +80,11 @@ contains
       norm = sqrt(merge(pi, 0.5_dp*pi, k == 0)*exp(norm)/(2*l + a + k + 1))
    end function norm_over_disc
 
-   !> All terms at n points.
+   !> All terms at n points; polynomials, they are defined outside the disc as well.
    pure subroutine evaluate(self, n, w, values)
       class(disc_polynomials), intent(in) :: self
       integer, intent(in) :: n
-      complex(dp), intent(in) :: w(n)                   !! in the unit disc
+      complex(dp), intent(in) :: w(n)
       real(dp), intent(out) :: values(n, self%terms)
 
       real(dp) :: x(n), angular_re(n), angular_im(n), step_re(n), step_im(n), old, a, b, c
@@ -140,8 +140,8 @@ contains
    pure subroutine slopes(self, n, w, values, slope_x, slope_y)
       class(disc_polynomials), intent(in) :: self
       integer, intent(in) :: n
-      complex(dp), intent(in) :: w(n)                            !! x + i y in the unit disc
-      real(dp), intent(in) :: values(n, self%terms)              !! there
+      complex(dp), intent(in) :: w(n)                            !! x + i y
+      real(dp), intent(in) :: values(n, self%terms)              !! as of evaluate
       real(dp), intent(out), dimension(n, self%terms) :: slope_x, slope_y
 
       complex(dp) :: power(n)

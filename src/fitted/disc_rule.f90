@@ -8,7 +8,7 @@ module wavycon_disc_rule
 
    public :: disc_rule, start_disc_rule
 
-   !> Sum of weight f(point) is the integral over the disc of (1 - |w|^2)^power f, for f with the symmetry.
+   !> The sum of weight f(point) is the integral over the disc of (1 - |w|^2)^power f, for f with the symmetry.
    type :: disc_rule
       complex(dp), allocatable :: point(:)   !! in the sector 0 < arg w < pi/fold, shape (n)
       real(dp), allocatable :: weight(:)     !! > 0, shape (n)
@@ -16,14 +16,14 @@ module wavycon_disc_rule
 
 contains
 
-   !> Gauss's rule in |w|^2, the midpoint rule in the angle: exact for products of disc polynomials whose degrees sum to no
-   !> more than 4 radii - 2 and to less than 2 fold angles.
+   !> Gauss's rule in |w|^2, the midpoint rule in the angle: exact for products of disc polynomials whose degrees sum
+   !> to no more than 4 radii - 2 and to less than 2 fold angles.
    subroutine start_disc_rule(rule, power, fold, radii, angles)
       type(disc_rule), intent(out) :: rule
       real(dp), intent(in) :: power   !! of the weight, > -1
       integer, intent(in) :: fold     !! of the symmetry, >= 1
       integer, intent(in) :: radii    !! >= 1
-      integer, intent(in) :: angles   !! in the sector, >= 1
+      integer, intent(in) :: angles   !! in the half sector, >= 1
 
       real(dp) :: node(radii), weight(radii), phi
       integer :: i, j, k

@@ -20,8 +20,8 @@ contains
    !> happens at degrees whose new terms hardly matter. Rounding and the values' largest relative error, times
    !> least_relative_share, are lower limits: integrals such as the mean gap converge faster, but not by more.
    !>
-   !> N.B. These are estimates, no bounds. They hold for hundreds of loads; those of the perimeter of a rhombic lattice's
-   !> spots are too small now and then.
+   !> N.B. These are estimates, no bounds. They hold for hundreds of loads; those of the perimeter of a rhombic
+   !> lattice's spots are too small now and then.
    pure subroutine error_estimate(difference, previous_difference, previous_decay, value, error)
       real(dp), intent(in) :: difference(:)            !! d >= 0
       real(dp), intent(in) :: previous_difference(:)   !! d' >= 0; huge if there is none

@@ -43,9 +43,9 @@ contains
    !> Interpolates.
    pure subroutine start_even_polynomial(fit, height, values, rounding)
       type(even_polynomial), intent(out) :: fit
-      real(dp), intent(in) :: height                                       !! > 0 [s]
-      real(dp), intent(in) :: values(0:fit_degree, 0:fit_degree)           !! of the function at the nodes
-      real(dp), intent(in) :: rounding                                     !! of the values: smaller coefficients are dropped
+      real(dp), intent(in) :: height                   !! > 0 [s]
+      real(dp), intent(in) :: values(0:fit_degree, 0:fit_degree)   !! of the function at the nodes
+      real(dp), intent(in) :: rounding                 !! of the values: smaller coefficients are dropped
 
       integer, parameter :: n = fit_degree
       real(dp), dimension(0:n, 0:n) :: chebyshev, cosine, powers

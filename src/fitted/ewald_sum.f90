@@ -2,8 +2,8 @@
 !> by Ewald's sum: exact to rounding anywhere, but slow.
 !>
 !> The kernel Gp has the Fourier coefficients 1/(A |k|), k /= 0, with A the area of a cell. It is split by the error
-!> function into a sum over lattice points n and one over wave vectors k of the reciprocal lattice, both of which fall off
-!> faster than any power:
+!> function into a sum over lattice points n and one over wave vectors k of the reciprocal lattice, both of which fall
+!> off faster than any power:
 !>
 !>     Gp(x) = sum over n of erfc(e |x-n|)/|x-n|
 !>             + (1/A) [ sum over k /= 0 of erfc(pi |k|/e)/|k| cos(2 pi k.x) - 2 sqrt(pi)/e ],   e = sqrt(pi/A).

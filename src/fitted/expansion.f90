@@ -4,8 +4,8 @@
 !>
 !>     (1 - |w|^2)^power times the sum over i of c_i P_i(w),
 !>
-!> power 1/2 or 3/2, with the disc polynomials P_i orthonormal with this weight, and the disc mapped to the spot or island.
-!> Lengths in s, pressures in pi E* Delta/s, gaps in Delta; places from the centre of the spot or island.
+!> power 1/2 or 3/2, with the disc polynomials P_i orthonormal with this weight, and the disc mapped to the spot or
+!> island. Lengths in s, pressures in pi E* Delta/s, gaps in Delta; places from the centre of the spot or island.
 module wavycon_expansion
    use wavycon_disc_polynomials, only: disc_polynomials, start_disc_polynomials
    use wavycon_kinds, only: dp
@@ -29,8 +29,8 @@ module wavycon_expansion
 
 contains
 
-   !> The same function in a basis of another degree and with another number of shape terms. New coefficients are 0; what
-   !> has no place in a smaller basis is dropped. With another clustering the function changes a little.
+   !> The same function in a basis of another degree and with another number of shape terms. New coefficients are 0;
+   !> what has no place in a smaller basis is dropped. With another clustering the function changes a little.
    function resized(self, degree, shape_terms, clustering) result(copy)
       class(expansion), intent(in) :: self
       integer, intent(in) :: degree           !! of the new basis

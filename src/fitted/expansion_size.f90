@@ -14,8 +14,9 @@ contains
 
    !> The degree after this one: by a half or a full step.
    !>
-   !> Four-fold shapes take half steps at low degrees, and further on while they are round, where terms that vary with the
-   !> angle matter less. Other shapes are nearly of a higher symmetry than their own; half a step would add next to nothing.
+   !> Four-fold shapes take half steps at low degrees, and further on while they are round, where terms that vary with
+   !> the angle matter less. Other shapes are nearly of a higher symmetry than their own; half a step would add next to
+   !> nothing.
    pure integer function next_degree(degree, fold, merging_ratio)
       integer, intent(in) :: degree, fold
       real(dp), intent(in) :: merging_ratio   !! of the shape
@@ -41,13 +42,13 @@ contains
       shape_terms = degree/degree_per_shape_term + 1
       ! Low degrees do not determine as many.
       if (degree < full_shape_degree) shape_terms = (degree + 1)/degree_per_shape_term
-      ! The highest power of conj(w) is about the same for all symmetries. More terms of six-fold shapes are not determined,
-      ! but for sharp tips.
+      ! The highest power of conj(w) is about the same for all symmetries. More terms of six-fold shapes are not
+      ! determined, but for sharp tips.
       if (fold < 4 .or. merging_ratio < round_shape_ratio) shape_terms = nint(4.0_dp*shape_terms/fold)
    end function shape_terms
 
-   !> The map's clustering tau for the next degree, on the square lattice: a power of the merging ratio. Small changes are
-   !> not made, and rises are limited to what Newton's method follows.
+   !> The map's clustering tau for the next degree, on the square lattice: a power of the merging ratio. Small changes
+   !> are not made, and rises are limited to what Newton's method follows.
    pure real(dp) function next_clustering(tau, merging_ratio, island)
       real(dp), intent(in) :: tau             !! of the shape at hand
       real(dp), intent(in) :: merging_ratio   !! of the shape

@@ -78,7 +78,8 @@ contains
 
       associate (solution => fields%answer%solution)
          fold = solution%basis%fold
-         call start_disc_rule(rule, solution%basis%power, fold, refinement*field_radii, refinement*field_angles/(2*fold))
+         call start_disc_rule(rule, solution%basis%power, fold, refinement*field_radii, &
+                              refinement*field_angles/(2*fold))
          n = size(rule%point)
          allocate (values(n, solution%basis%terms), density(n))
          call solution%basis%evaluate(n, rule%point, values)

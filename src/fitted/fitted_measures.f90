@@ -66,8 +66,8 @@ contains
       end if
    end function peak_pressure
 
-   !> Pressure at a crest between islands: that of full contact less 1/(4 pi^2) times the integral of the Laplacian of Gp and
-   !> the gap. The islands of a cell are mirror images about the crest, so that each contributes the same.
+   !> Pressure at a crest between islands: that of full contact less 1/(4 pi^2) times the integral of the Laplacian of
+   !> Gp and the gap. The islands of a cell are mirror images about the crest, so that each contributes the same.
    real(dp) function crest_pressure(lattice, rule, load, now) result(pressure)
       type(wave_lattice), intent(in) :: lattice
       type(disc_rule), intent(in) :: rule       !! with the weight of the expansion
@@ -102,8 +102,8 @@ contains
 
    !> Half the integral of p u over a cell [Delta s^2].
    !>
-   !> In contact u = delta - h; above merging p u = p (delta - h + g) everywhere, where p g = 0. The integral of p h follows
-   !> from the Fourier coefficients of p at the waves of h, which are |k| times those of u.
+   !> In contact u = delta - h; above merging p u = p (delta - h + g) everywhere, where p g = 0. The integral of p h
+   !> follows from the Fourier coefficients of p at the waves of h, which are |k| times those of u.
    real(dp) function strain_energy(equations, lattice, load, now) result(energy)
       type(contact_equations), intent(in) :: equations
       type(wave_lattice), intent(in) :: lattice

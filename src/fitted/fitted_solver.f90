@@ -100,7 +100,8 @@ contains
       if (degree == first_degree .and. ratio < round_shape_ratio) degree = first_degree - degree_step/2
       do
          call resize(lattice, degree, now)
-         call images%prepare(lattice, now, series_growth, series_error_of_accuracy*min(accuracy, loosest_series_accuracy))
+         call images%prepare(lattice, now, series_growth, &
+                             series_error_of_accuracy*min(accuracy, loosest_series_accuracy))
          ratio = merging_ratio(lattice, now)
          call start_equations(equations, now, ratio, images)
          if (ratio > finest_change_ratio) tolerance = finest_change

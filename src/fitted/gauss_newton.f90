@@ -92,7 +92,8 @@ contains
       if (with_load) then
          constraint(1, :) = equations%load_row
          right = missing_load
-         call dgglse(m, n, 1, equations%matrix, m, constraint, 1, equations%residual, right, step, work, size(work), info)
+         call dgglse(m, n, 1, equations%matrix, m, constraint, 1, equations%residual, right, step, &
+                     work, size(work), info)
       else
          call dgels('N', m, n, 1, equations%matrix, m, equations%residual, m, work, size(work), info)
          step = equations%residual(:n)

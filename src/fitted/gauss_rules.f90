@@ -12,8 +12,9 @@ module wavycon_gauss_rules
 
 contains
 
-   !> Nodes and weights for the weight (1 - x)^right_power (1 + x)^left_power on -1 <= x <= 1; not numbers, if there
-   !> is no such rule or not the memory: what is solved with them is then found not to be finite.
+   !> Nodes and weights for the weight (1 - x)^right_power (1 + x)^left_power on -1 <= x <= 1, by GSL.
+   !>
+   !> Without such a rule, or without memory for it, both are NaN. The solver then finds no finite step.
    subroutine gauss_jacobi(right_power, left_power, nodes, weights)
       real(dp), intent(in) :: right_power, left_power        !! > -1
       real(dp), intent(out) :: nodes(:), weights(:)          !! shape (n), n >= 1

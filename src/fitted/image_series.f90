@@ -69,8 +69,8 @@ contains
       call find_coefficients(series%basis, rule, nodes, series%coefficient)
    end subroutine start_image_series
 
-   !> Degree for a tolerance. With the source on the edge, at its point nearest to the nearest lattice point of F, terms that
-   !> vary with the angle fall as powers of that point's distance, round ones as in Chebyshev's series.
+   !> Degree for a tolerance. With the source on the edge, at its point nearest to the nearest lattice point of F,
+   !> terms that vary with the angle fall as powers of that point's distance, round ones as in Chebyshev's series.
    pure integer function series_degree(fold, distance, tolerance) result(degree)
       integer, intent(in) :: fold
       real(dp), intent(in) :: distance     !! of the singularity from the target's centre [R]
@@ -142,8 +142,8 @@ contains
       holds_for = shape%radius() <= self%radius
    end function holds_for
 
-   !> Adds the integrals over the mapped disc of the terms of an expansion times F for several targets, and the derivatives
-   !> of their sum with respect to the shape.
+   !> Adds the integrals over the mapped disc of the terms of an expansion times F for several targets, and the
+   !> derivatives of their sum with respect to the shape.
    !>
    !> N.B. The derivatives are at fixed w_t: the targets move with the shape.
    subroutine add_rows(self, shape, rule, values, c, target, rows, shape_rows)
@@ -186,8 +186,8 @@ contains
       end do
    end subroutine add_rows
 
-   !> Integrals over the mapped disc of the series' basis times the terms of an expansion, then the derivatives of their sum
-   !> with respect to the shape.
+   !> Integrals over the mapped disc of the series' basis times the terms of an expansion, then the derivatives of
+   !> their sum with respect to the shape.
    subroutine find_moments(self, shape, rule, values, c, moments)
       type(image_series), intent(in) :: self
       type(shape_map), intent(in) :: shape

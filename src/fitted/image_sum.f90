@@ -14,8 +14,8 @@ module wavycon_image_sum
 
 contains
 
-   !> Adds the integrals of the terms of an expansion times the kernel for several targets, and the derivatives of their sum
-   !> with respect to the shape.
+   !> Adds the integrals of the terms of an expansion times the kernel for several targets, and the derivatives of
+   !> their sum with respect to the shape.
    !>
    !> N.B. The derivatives are at fixed w_t: the targets move with the shape.
    subroutine add_image_sum(kernel, shape, rule, values, c, target, rows, shape_rows, opposite)
@@ -55,8 +55,8 @@ contains
       strength = matmul(weighted, c)/(2*shape%fold)
       do t = 1, m
          call evaluate_copies(kernel, shape%fold, shape%place(target(t)) + to_centre, source, value, slope_x, slope_y)
-         call fold_copies(shape%fold, strength, value, slope_x, slope_y, folded(t, :), gradient_x(t, :), gradient_y(t, :), &
-                          gradient)
+         call fold_copies(shape%fold, strength, value, slope_x, slope_y, folded(t, :), gradient_x(t, :), &
+                          gradient_y(t, :), gradient)
          call shape%linearise_place(target(t), place_slope)
          shape_rows(t, :) = shape_rows(t, :) + gradient%re*place_slope%re + gradient%im*place_slope%im
       end do
@@ -70,15 +70,15 @@ contains
       end associate
    end subroutine add_image_sum
 
-   !> Sums the copies of each source for one target. A copy moves as its source does, turned and mirrored: its gradient is
-   !> turned and mirrored back.
+   !> Sums the copies of each source for one target. A copy moves as its source does, turned and mirrored: its gradient
+   !> is turned and mirrored back.
    pure subroutine fold_copies(fold, strength, value, slope_x, slope_y, folded, gradient_x, gradient_y, gradient)
       integer, intent(in) :: fold
       real(dp), intent(in) :: strength(:)                                !! of the sources, shape (n)
       real(dp), intent(in), dimension(:) :: value, slope_x, slope_y      !! as of evaluate_copies, shape (2 fold n)
       real(dp), intent(out), dimension(:) :: folded                      !! kernel, shape (n)
       real(dp), intent(out), dimension(:) :: gradient_x, gradient_y      !! in the source's sector, shape (n)
-      complex(dp), intent(out) :: gradient                               !! of the sum with respect to the target's place
+      complex(dp), intent(out) :: gradient     !! of the sum with respect to the target's place
 
       complex(dp) :: turn
       real(dp) :: across, along

@@ -36,7 +36,8 @@ contains
       if (self%series%holds_for(now%shape)) return
       if (two_in_a_cell(lattice, now)) return
       if (now%island) then
-         call start_image_series(self%series, lattice%pressure_kernel, now%basis%fold, growth*now%shape%radius(), tolerance)
+         call start_image_series(self%series, lattice%pressure_kernel, now%basis%fold, growth*now%shape%radius(), &
+                                 tolerance)
       else
          call start_image_series(self%series, lattice%displacement_kernel, now%basis%fold, growth*now%shape%radius(), &
                                  tolerance)
@@ -50,8 +51,8 @@ contains
       tolerance = self%series%tolerance
    end function tolerance
 
-   !> Adds the integrals of the terms of an expansion over all images for several targets, and the derivatives of their sum
-   !> with respect to the shape.
+   !> Adds the integrals of the terms of an expansion over all images for several targets, and the derivatives of their
+   !> sum with respect to the shape.
    !>
    !> N.B. The derivatives are at fixed w_t: the targets move with the shape.
    subroutine add_rows(self, lattice, now, rule, values, target, rows, shape_rows)

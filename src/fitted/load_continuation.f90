@@ -19,8 +19,8 @@ contains
 
    !> An approximation at a load, and the degree to go on with.
    !>
-   !> A solution of a load that is within one step is scaled to the load. Otherwise an asymptote is followed in steps of the
-   !> load to the one wanted: Hertz's for a spot, a penny-shaped crack for an island.
+   !> A solution of a load that is within one step is scaled to the load. Otherwise an asymptote is followed in steps
+   !> of the load to the one wanted: Hertz's for a spot, a penny-shaped crack for an island.
    subroutine start_at_load(lattice, load, island, now, degree, iterations, found, start)
       type(wave_lattice), intent(in) :: lattice
       real(dp), intent(in) :: load                    !! P

@@ -1,7 +1,7 @@
 !> A lattice of points in equal rows, even in x and in y.
 !>
-!> Points of a row are 1 apart, which is the unit s of all lengths. Rows are `spacing` apart; each is shifted along itself
-!> against the one before by `shift`, 0 for a rectangular and 1/2 for a rhombic or hexagonal lattice.
+!> Points of a row are 1 apart, which is the unit s of all lengths. Rows are `spacing` apart; each is shifted along
+!> itself against the one before by `shift`, 0 for a rectangular and 1/2 for a rhombic or hexagonal lattice.
 !>
 !> N.B. The symmetries that are used hold for shifts of 0 and 1/2 only.
 module wavycon_row_lattice

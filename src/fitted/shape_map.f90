@@ -3,9 +3,9 @@
 !>     z(w) = b_0 (w - tau w^(fold+1)) + sum over k = 1..K of b_k conj(w)^(fold k - 1).
 !>
 !> With tau = 0 and one term the edge is a hypotrochoid, with b_1 = b_0/(fold - 1) one with cusps such as the astroid.
-!> Spots and islands are very nearly such curves up to the load at which they merge, so that a few terms suffice. A small
-!> tau, with b_1 larger by tau b_0, leaves the edge nearly as it is and clusters the images of the disc's points towards
-!> the tips, which become sharp near merging.
+!> Spots and islands are very nearly such curves up to the load at which they merge, so that a few terms suffice. A
+!> small tau, with b_1 larger by tau b_0, leaves the edge nearly as it is and clusters the images of the disc's points
+!> towards the tips, which become sharp near merging.
 module wavycon_shape_map
    use wavycon_constants, only: pi
    use wavycon_fitted_tuning, only: least_edge_points, most_edge_points, radius_points
@@ -170,8 +170,8 @@ contains
                  - sum([((self%fold*k - 1)*self%b(k)**2, k=1, ubound(self%b, 1))]))
    end function area
 
-   !> Largest distance from the centre of some points of the edge [s], from one axis of symmetry to the next. The farthest
-   !> point is an axis' or one of a broad tip, so that little is missed.
+   !> Largest distance from the centre of some points of the edge [s], from one axis of symmetry to the next. The
+   !> farthest point is an axis' or one of a broad tip, so that little is missed.
    pure real(dp) function radius(self)
       class(shape_map), intent(in) :: self
 

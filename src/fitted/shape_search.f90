@@ -14,8 +14,8 @@ contains
 
    !> The preimage of a place under the map, or outside the disc under its continuation: z(w) = z.
    !>
-   !> Newton's method from the point of the edge that is seen from the centre in the direction of z. The shapes in use are
-   !> star-shaped: there is one such point.
+   !> Newton's method from the point of the edge that is seen from the centre in the direction of z. The shapes in use
+   !> are star-shaped: there is one such point.
    pure subroutine find_preimage(shape, z, w, found)
       type(shape_map), intent(in) :: shape
       complex(dp), intent(in) :: z       !! [s]

@@ -41,8 +41,8 @@ contains
       spot%approach = sqrt(product(curvature))*radius**2
    end function hertz_spot
 
-   !> The opening of a penny-shaped crack at a trough, elliptical where the curvatures of the full contact's pressure differ;
-   !> paper, (24) and (A4)-(A8).
+   !> The opening of a penny-shaped crack at a trough, elliptical where the curvatures of the full contact's pressure
+   !> differ; paper, (24) and (A4)-(A8).
    function crack_island(lattice, load) result(island)
       type(wave_lattice), intent(in) :: lattice
       real(dp), intent(in) :: load  !! P < the closing pressure

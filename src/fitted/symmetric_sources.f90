@@ -39,8 +39,8 @@ contains
       end do
    end subroutine linearise_sources
 
-   !> A kernel between one target and all copies of n sources. For each turn by 2 pi g/fold, g = 0, .., fold-1, come first
-   !> the n turned sources, then those mirrored at the x axis before the turn.
+   !> A kernel between one target and all copies of n sources. For each turn by 2 pi g/fold, g = 0, .., fold-1, come
+   !> first the n turned sources, then those mirrored at the x axis before the turn.
    subroutine evaluate_copies(kernel, fold, target, source, value, slope_x, slope_y)
       class(pair_kernel), intent(in) :: kernel
       integer, intent(in) :: fold                  !! of the symmetry

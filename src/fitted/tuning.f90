@@ -23,28 +23,28 @@ module wavycon_fitted_tuning
       !! Ratio of P, or of the closing pressure less P, in one step. Larger: the scaled solution is outside Newton's
       !! convergence. Smaller: more steps of continuation.
    integer, parameter, public :: start_degree = 4
-      !! Degree of the polynomials during continuation. Larger: dearer steps for a solution that is refined afterwards
-      !! anyway. Smaller: the shape is not followed.
+      !! Degree of the polynomials during continuation. Larger: steps cost more, for a solution that is refined
+      !! afterwards. Smaller: the shape is not represented.
    real(dp), parameter, public :: spot_ellipticity_power = 0.6_dp
       !! Axis ratio of a Hertzian start: curvature ratio to this power. Only a start: an approximation to the exact
       !! relation by elliptic integrals.
    real(dp), parameter, public :: island_ellipticity_power = 0.5_dp
       !! The same of a crack, with the pressure's curvatures. Only a start: exact for slender ellipses.
    real(dp), parameter, public :: start_shape_change = 1e-2_dp
-      !! Relative change of the shape at which continuation accepts. Smaller: Newton steps that the next load makes
-      !! useless. Larger: errors add up over the loads.
+      !! Relative change of the shape at which Newton's method stops during continuation. Smaller: Newton steps that
+      !! the next load makes useless. Larger: errors add up over the loads.
    real(dp), parameter, public :: start_series_growth = 1.1_dp
       !! Growth of a shape that its first image series allows for. Smaller: the series is made again after a step.
       !! Larger: longer series.
    integer, parameter, public :: restart_degree_steps = 3
-      !! Degree steps below the last load's degree that a sweep restarts at. Smaller: degrees never come down again in a
-      !! sweep. Larger: degrees are solved for that are not needed.
+      !! A sweep starts a load this many degree steps below the degree of the load before. Smaller: degrees never come
+      !! down again in a sweep. Larger: degrees are solved that are not needed.
 
    ! Sequence of degrees.
 
    integer, parameter, public :: first_degree = 6
-      !! Degree after continuation. Larger: low accuracies cost more than they need. Smaller: differences that are no
-      !! guide to the error.
+      !! Degree after continuation. Larger: low accuracies cost more than they need. Smaller: differences that do not
+      !! estimate the error.
    integer, parameter, public :: degree_step = 4
       !! Full step of the degree, even. Smaller: more solutions, and differences that understate the error. Larger: a
       !! degree higher than needed.
@@ -64,8 +64,8 @@ module wavycon_fitted_tuning
       !! Degrees to one more term of the shape. Smaller: terms that the equations do not determine. Larger: the shape
       !! limits the accuracy.
    integer, parameter, public :: degree_per_shape_term_twofold = 2
-      !! The same with two-fold symmetry. Each degree needs its own number of terms; otherwise differences underestimate
-      !! the error of the area.
+      !! The same with two-fold symmetry. Each degree needs its own number of terms; otherwise differences
+      !! underestimate the error of the area.
    integer, parameter, public :: full_shape_degree = 12
       !! Degree from which the shape has its full number of terms. Smaller: low degrees do not determine the terms.
       !! Larger: low accuracies need higher degrees.
@@ -81,17 +81,17 @@ module wavycon_fitted_tuning
       !! Jacobian at the centre over b_0^2 below which a shape is rejected. An ellipse of 100 to 1 has 0.04. Smaller:
       !! folding maps, whose quadrature grows without end. Larger: long spots are lost.
    real(dp), parameter, public :: change_per_root_accuracy = 0.1_dp
-      !! Change at which Newton stops, over the root of the accuracy. Larger: what the last step leaves shows in the
-      !! result. Smaller: steps that change no digit asked for.
+      !! Change at which Newton stops, over the root of the accuracy. Larger: the error left by the last step shows in
+      !! the result. Smaller: steps that change no digit asked for.
    real(dp), parameter, public :: finest_change = 1e-7_dp
-      !! Least such change, and that close to merging. Smaller: steps into rounding. Larger: digits lost at the tightest
-      !! accuracy.
+      !! Least such change, and that close to merging. Smaller: steps into rounding. Larger: digits lost at the
+      !! tightest accuracy.
    real(dp), parameter, public :: loosest_change = 1e-4_dp
       !! Largest such change. Larger: differences of degrees show unfinished iterations. Smaller: steps that low
       !! accuracies do not need.
    real(dp), parameter, public :: finest_change_ratio = 0.7_dp
-      !! Merging ratio from which the finest change is used. Convergence is less than quadratic there. Smaller: needless
-      !! steps. Larger: unfinished iterations near merging.
+      !! Merging ratio from which the finest change is used. Convergence is less than quadratic there. Smaller: steps
+      !! without need. Larger: unfinished iterations near merging.
    real(dp), parameter, public :: largest_change = 1e-4_dp
       !! Change beyond which a degree's solution is not used. Larger: errors are estimated from solutions that have not
       !! converged. Smaller: degrees are left out for nothing.
@@ -102,15 +102,16 @@ module wavycon_fitted_tuning
       !! Merging ratio from which there are more angles of collocation. Larger: sharp shapes are badly determined.
       !! Smaller: more equations than needed.
    real(dp), parameter, public :: sharp_collocation_factor = 1.5_dp
-      !! Factor of the number of angles there. Smaller: sharp shapes are badly determined. Larger: dearer steps.
+      !! Factor of the number of angles there. Smaller: sharp shapes are badly determined. Larger: more expensive
+      !! steps.
    integer, parameter, public :: spot_extra_radii = 4
       !! Collocation radii of a spot beyond half the degree. At least two more than round functions have terms, or any
-      !! size of a spot would do. Larger: dearer steps.
+      !! size of a spot would do. Larger: more expensive steps.
    integer, parameter, public :: island_extra_radii = 5
       !! The same of an island.
    integer, parameter, public :: spot_extra_angles = 1
       !! Collocation angles of a spot beyond degree/fold. Smaller: terms with the highest harmonic are not determined.
-      !! Larger: dearer steps.
+      !! Larger: more expensive steps.
    integer, parameter, public :: island_extra_angles = 2
       !! The same of an island.
    real(dp), parameter, public :: sharp_quadrature_ratio = 0.7_dp
@@ -120,8 +121,8 @@ module wavycon_fitted_tuning
       !! Merging ratio from which the rule for the images is much finer. Larger: the near images' kernel is not
       !! resolved. Smaller: points that are not needed.
    real(dp), parameter, public :: chords_per_degree = 1.5_dp
-      !! Chords through a target for each degree. Smaller: the quadrature's error shows. Larger: dearer steps; chords
-      !! are most of the work.
+      !! Chords through a target for each degree. Smaller: the quadrature's error shows. Larger: more expensive steps;
+      !! chords are most of the work.
    integer, parameter, public :: extra_chords = 4
       !! Chords beyond that.
    real(dp), parameter, public :: sharp_chords_per_degree = 2.0_dp
@@ -129,18 +130,18 @@ module wavycon_fitted_tuning
    integer, parameter, public :: extra_sharp_chords = 20
       !! Chords beyond that of sharp shapes.
    integer, parameter, public :: extra_chord_points = 2
-      !! Points on a chord beyond half the degree. Smaller: the quadrature's error shows. Larger: dearer steps.
+      !! Points on a chord beyond half the degree. Smaller: the quadrature's error shows. Larger: more expensive steps.
    integer, parameter, public :: extra_disc_radii = 2
-      !! Radii of the rule for the images beyond half the degree. Smaller: the quadrature's error shows. Larger: dearer
-      !! images.
+      !! Radii of the rule for the images beyond half the degree. Smaller: the quadrature's error shows. Larger: more
+      !! expensive images.
    integer, parameter, public :: extra_disc_angles = 1
-      !! Angles of the rule for the images beyond degree/fold. Smaller: the quadrature's error shows. Larger: dearer
-      !! images.
+      !! Angles of the rule for the images beyond degree/fold. Smaller: the quadrature's error shows. Larger: more
+      !! expensive images.
    integer, parameter, public :: sharp_disc_extra = 1
-      !! More radii and angles of that rule for sharp shapes. As for the ones above.
+      !! More radii and angles of that rule for sharp shapes. As extra_disc_radii and extra_disc_angles.
    integer, parameter, public :: near_disc_extra = 6
       !! More radii and angles of that rule where images are near. Smaller: the near images' kernel is not resolved.
-      !! Larger: dearer images.
+      !! Larger: more expensive images.
 
    ! Series of the images.
 
@@ -154,8 +155,8 @@ module wavycon_fitted_tuning
       !! Growth of a shape that a series allows for. Smaller: the series is made again after a step. Larger: longer
       !! series.
    real(dp), parameter, public :: series_clearance = 3.4_dp
-      !! Lattice points within this many radii are summed one by one. Smaller: long series. Larger: more points at every
-      !! pair of target and source.
+      !! Lattice points within this many radii are summed one by one. Smaller: long series. Larger: more points at
+      !! every pair of target and source.
    integer, parameter, public :: most_near_points = 12
       !! Most lattice points that are summed one by one. With more of them the series saves nothing over the kernel
       !! itself.
@@ -166,8 +167,8 @@ module wavycon_fitted_tuning
       !! Degree of the fit in the square of either coordinate. Smaller: the fit's error is above rounding. Larger: a
       !! longer fit, whose last terms are cut off as rounding.
    real(dp), parameter, public :: kernel_near_distance = 0.75_dp
-      !! Lattice points this near to the cell are summed one by one [s], together with the next constant. Smaller: a fit
-      !! of higher degree. Larger: more points in every evaluation.
+      !! Lattice points this near to the cell are summed one by one [s], together with the next constant. Smaller: a
+      !! fit of higher degree. Larger: more points in every evaluation.
    real(dp), parameter, public :: kernel_near_per_side = 0.6_dp
       !! What is added to it for each longer side of the cell.
 
@@ -176,8 +177,8 @@ module wavycon_fitted_tuning
    real(dp), parameter, public :: spot_clustering = 0.015_dp
       !! Clustering of a spot at merging. Larger: the Jacobian vanishes at the tips. Smaller: tips need higher degrees.
    real(dp), parameter, public :: spot_clustering_power = 4.0_dp
-      !! Power of the merging ratio with which it falls off. Smaller: clustering away from merging, which costs degrees.
-      !! Larger: none where it would help.
+      !! Power of the merging ratio with which it falls off. Smaller: clustering away from merging, which costs
+      !! degrees. Larger: none where it would help.
    real(dp), parameter, public :: island_clustering = 0.095_dp
       !! Clustering of an island at merging. As of a spot.
    real(dp), parameter, public :: island_clustering_power = 17.0_dp
@@ -203,8 +204,8 @@ module wavycon_fitted_tuning
    real(dp), parameter, public :: error_safety = 3.0_dp
       !! Factor on all estimates. Smaller: estimates below the true error. Larger: a degree more than needed.
    real(dp), parameter, public :: least_relative_share = 0.02_dp
-      !! Least relative error of one measure over the largest of all. Smaller: a mean gap whose differences are small by
-      !! chance is believed. Larger: a degree more than needed.
+      !! Least relative error of one measure over the largest of all. Smaller: a mean gap whose differences are small
+      !! by chance is taken for the error. Larger: a degree more than needed.
    real(dp), parameter, public :: error_of_square = 10.0_dp
       !! Relative error that a last Newton step leaves, over its square. Smaller: estimates leave out unfinished
       !! iterations. Larger: further steps or degrees.
@@ -213,45 +214,46 @@ module wavycon_fitted_tuning
 
    integer, parameter, public :: field_angles = 96
       !! Points per turn of the rule for spots and islands that are far. Smaller: the quadrature's error shows in the
-      !! fields. Larger: dearer fields.
+      !! fields. Larger: more expensive fields.
    integer, parameter, public :: field_radii = 40
-      !! Points per radius of that rule. As above.
+      !! Points per radius of that rule. As field_angles.
    integer, parameter, public :: sharp_field_refinement = 3
-      !! Factor on both for sharp shapes. The continued map does not get far beyond sharp tips, and near places are left
-      !! to this rule.
+      !! Factor on both for sharp shapes. The continued map does not get far beyond sharp tips, so that this rule is
+      !! used for near places, too.
    real(dp), parameter, public :: sharp_field_ratio = 0.8_dp
       !! Merging ratio beyond which shapes are sharp in this sense. Larger: the quadrature's error shows in the fields.
-      !! Smaller: dearer fields.
+      !! Smaller: more expensive fields.
    real(dp), parameter, public :: chord_field_radius = 1.6_dp
-      !! Places that the map has within this |w| are done by chords. Smaller: the plain rule does not resolve the
-      !! nearest ones. Larger: chords where the plain rule would do.
+      !! The integral over an image is taken along chords if the place's preimage has |w| below this. Smaller: the rule
+      !! over the disc does not resolve the nearest places. Larger: chords where that rule is exact.
    real(dp), parameter, public :: field_radius_margin = 1.05_dp
       !! Factor on a shape's radius, which is that of some of its points. Smaller: places inside sharp tips count as
       !! outside. Larger: the map is inverted for places far outside.
    integer, parameter, public :: field_chords = 96
-      !! Chords through a place. Smaller: the quadrature's error shows in the fields. Larger: dearer fields.
+      !! Chords through a place. Smaller: the quadrature's error shows in the fields. Larger: more expensive fields.
    integer, parameter, public :: field_chord_points = 48
-      !! Points on each of them. As above.
+      !! Points on each of them. As field_angles.
    integer, parameter, public :: outside_chords = 64
-      !! Chords of the integral of 1/r^3 for a place outside. As above.
+      !! Chords of the integral of 1/r^3 for a place outside. As field_angles.
    integer, parameter, public :: outside_half_points = 40
-      !! Points on either half of each of them. As above.
+      !! Points on either half of each of them. As field_angles.
    integer, parameter, public :: detail_refinement = 2
-      !! How much finer the rules are that check a field's quadrature. Smaller than 2 checks nothing. Larger: dearer.
+      !! How much finer the rules are that check a field's quadrature. Smaller than 2 checks nothing. Larger: more
+      !! time.
 
    ! Geometry of shapes.
 
    integer, parameter, public :: radius_points = 8
       !! Intervals of a half sector in which a shape's radius is looked for. Smaller: tips off the axes are missed.
-      !! Larger: dearer.
+      !! Larger: more time.
    integer, parameter, public :: least_edge_points = 16
-      !! Least points of a half sector for the length of an edge. Smaller: the length's error shows. Larger: dearer.
+      !! Least points of a half sector for the length of an edge. Smaller: the length's error shows. Larger: more time.
    integer, parameter, public :: most_edge_points = 512
-      !! Most of them. Smaller: the length of edges with sharp tips is less exact. Larger: dearer.
+      !! Most of them. Smaller: the length of edges with sharp tips is less exact. Larger: more time.
    integer, parameter, public :: distance_points = 128
-      !! Points of an edge from which the nearest is looked for. Smaller: a wrong one of two tips. Larger: dearer.
+      !! Points of an edge from which the nearest is looked for. Smaller: a wrong one of two tips. Larger: more time.
    integer, parameter, public :: distance_halvings = 30
-      !! Halvings of their distance. Smaller: the distance is less exact. Larger: dearer.
+      !! Halvings of their distance. Smaller: the distance is less exact. Larger: more time.
    real(dp), parameter, public :: least_turning = 0.2_dp
       !! Least derivative of the edge's polar angle in Newton's method. It is small at tips. Smaller: steps that
       !! overshoot. Larger: slower convergence.
@@ -261,10 +263,10 @@ module wavycon_fitted_tuning
    real(dp), parameter, public :: longest_inverse_step = 0.2_dp
       !! Largest step of it in |w|. Larger: steps across a fold. Smaller: more steps.
    real(dp), parameter, public :: least_inverse_jacobian = 1e-3_dp
-      !! Jacobian over b_0^2 below which it stops. Smaller: it goes on into a fold. Larger: places are left to the plain
-      !! rule that chords could do.
+      !! Jacobian over b_0^2 below which it stops. Smaller: Newton's method steps into a fold. Larger: the rule over
+      !! the disc is used for places near enough for chords.
    real(dp), parameter, public :: farthest_inverse = 4.0_dp
-      !! |w| beyond which it stops. Smaller: none, down to the radius of chords. Larger: steps for places that chords
+      !! |w| beyond which it stops. Smaller: nothing, down to chord_field_radius. Larger: steps for places that chords
       !! are not used for.
    integer, parameter, public :: most_inverse_steps = 40
       !! Steps of either iteration. Smaller: places near tips are lost. Larger: time where it does not converge.

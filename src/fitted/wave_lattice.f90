@@ -2,10 +2,10 @@
 !>
 !>     h/Delta = 1 - sum over i of a_i cos(2 pi k_i.x),   sum of a_i = 1,
 !>
-!> so that h = 0 at the crests and Delta is the mean undeformed gap. Lengths are in the distance s of neighbouring crests of
-!> a row, pressures in pi E* Delta/s. In these units u_k = p_k/|k| for each wave vector k in waves per s, and the unit of
-!> pressure is p* for the square lattice. In full contact each wave has the pressure a_i |k_i| cos(2 pi k_i.x) beside the
-!> mean one; contact is lost first where that is lowest, at the troughs.
+!> so that h = 0 at the crests and Delta is the mean undeformed gap. Lengths are in the distance s of neighbouring
+!> crests of a row, pressures in pi E* Delta/s. In these units u_k = p_k/|k| for each wave vector k in waves per s, and
+!> the unit of pressure is p* for the square lattice. In full contact each wave has the pressure a_i |k_i| cos(2 pi
+!> k_i.x) beside the mean one; contact is lost first where that is lowest, at the troughs.
 module wavycon_wave_lattice
    use wavycon_constants, only: pi
    use wavycon_fitted_tuning, only: hexagonal_merging, rectangular_merging, rhombic_merging
@@ -21,7 +21,7 @@ module wavycon_wave_lattice
       integer :: fold = 4                            !! of the symmetry about a crest
       integer :: trough_fold = 4                     !! of the symmetry about a trough
       integer :: troughs = 1                         !! in a cell: at `trough` and, if there are two, at -`trough`
-      logical :: square = .true.                     !! whether it is the square lattice, whose troughs lie as its crests
+      logical :: square = .true.                     !! whether it is the square lattice
       real(dp) :: area = 1.0_dp                      !! of a cell [s^2]
       real(dp) :: closing_pressure = 1.0_dp          !! mean pressure that just closes the troughs, p*
       real(dp) :: about_merging = 0.0_dp             !! mean pressure near which spots merge and islands separate
@@ -31,8 +31,8 @@ module wavycon_wave_lattice
       complex(dp), allocatable :: phase(:)           !! of each wave at the trough, exp(2 pi i k_i.x), shape (n)
       complex(dp) :: saddle = 0.5_dp                 !! the lowest one between neighbouring crests, x + i y [s]
       complex(dp) :: trough = (0.5_dp, 0.5_dp)       !! x + i y [s]
-      !> Midpoints towards the neighbours that spots and islands may touch, one of each kind, from the crest and from the
-      !> trough [s].
+      !> Midpoints towards the neighbours that spots and islands may touch, one of each kind, from the crest and from
+      !> the trough [s].
       complex(dp), allocatable :: to_next_crest(:), to_next_trough(:)
       type(row_lattice) :: rows                      !! the crests
       type(periodic_kernel) :: displacement_kernel   !! Gp: the integral of Gp and p is u less its mean
@@ -80,8 +80,8 @@ contains
       call finish_lattice(lattice, row_lattice(spacing=side_ratio, shift=0.0_dp), rectangular_merging)
    end function rectangular_lattice
 
-   !> h/Delta = 1 - cos X cos Y, with a second crest in the middle of the rectangle of both wavelengths. At a ratio of 1 it
-   !> is the paper's surface, with the axes at 45 degrees to the lines between neighbouring crests.
+   !> h/Delta = 1 - cos X cos Y, with a second crest in the middle of the rectangle of both wavelengths. At a ratio of
+   !> 1 it is the paper's surface, with the axes at 45 degrees to the lines between neighbouring crests.
    function rhombic_lattice(side_ratio) result(lattice)
       real(dp), intent(in) :: side_ratio   !! longer wavelength, along y, over the shorter, s: 1 to 3
       type(wave_lattice) :: lattice
@@ -99,9 +99,9 @@ contains
       call finish_lattice(lattice, row_lattice(spacing=0.5_dp*side_ratio, shift=0.5_dp), rhombic_merging)
    end function rhombic_lattice
 
-   !> h/Delta = 1 - (cos k1.x + cos k2.x + cos k3.x)/3: three equal waves at 60 degrees to each other. Each crest has six
-   !> neighbours, two of them along y, so that a trough is on the x axis. The troughs, with three neighbours each, are the
-   !> points of a honeycomb, two in a cell.
+   !> h/Delta = 1 - (cos k1.x + cos k2.x + cos k3.x)/3: three equal waves at 60 degrees to each other. Each crest has
+   !> six neighbours, two of them along y, so that a trough is on the x axis. The troughs, with three neighbours each,
+   !> are the points of a honeycomb, two in a cell.
    function hexagonal_lattice() result(lattice)
       type(wave_lattice) :: lattice
 
@@ -123,8 +123,9 @@ contains
       call finish_lattice(lattice, row_lattice(spacing=0.5_dp*root3, shift=0.5_dp, along_y=.true.), hexagonal_merging)
    end function hexagonal_lattice
 
-   !> Sets what follows from waves, trough and midpoints between crests: the kernels and what islands need. On all lattices
-   !> but the hexagonal one troughs have the same neighbours as crests, and all waves are lowest at the trough.
+   !> Sets what follows from waves, trough and midpoints between crests: the kernels and what islands need. On all
+   !> lattices but the hexagonal one troughs have the same neighbours as crests, and all waves are lowest at the
+   !> trough.
    subroutine finish_lattice(lattice, rows, at_merging)
       type(wave_lattice), intent(inout) :: lattice
       type(row_lattice), intent(in) :: rows          !! the crests
