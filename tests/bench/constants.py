@@ -295,12 +295,17 @@ def cells(name, times, results, decks):
     for deck, own, other in zip(decks, results[name], base):
         more, largest, missing = deck.compare(own, other)
         logs, worst, lost = logs + more, max(worst, largest), lost + missing
-    error = f'{math.exp(statistics.fmean(logs)):.2g}' if logs else '-'
+    error = f'{math.exp(statistics.fmean(logs)):.3g}' if logs else '-'
     return time, error, f'{worst:.2g}', str(lost)
 
 
+class Parser(argparse.ArgumentParser):
+    def error(self, message):
+        sys.exit(f'constants: {message}; scripts/constants --help has the options')
+
+
 def main():
-    parser = argparse.ArgumentParser(prog='scripts/constants', add_help=False)
+    parser = Parser(prog='scripts/constants', add_help=False)
     parser.add_argument('root', type=pathlib.Path)
     parser.add_argument('--quick', action='store_true')
     parser.add_argument('--room', choices=ROOMS, action='append')
