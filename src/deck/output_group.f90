@@ -55,7 +55,6 @@ contains
       if (.not. allocated(surface)) return
       call get_solvers(solvers)
       call all_tables(tables)
-      refusal = ''   ! gfortran 12 at -Og takes it for uninitialised otherwise
       do k = 1, size(solvers)
          if (solvers(k)%solver%name() /= solver) cycle
          do i = 1, size(tables)
