@@ -153,7 +153,9 @@ def table(path):
     names, rows = [], []
     for line in path.read_text(encoding='utf-8').splitlines():
         if line.startswith('#'):
-            names = [word.split('[')[0] for word in line[1:].split()]
+            # Remarks on single loads may follow the names.
+            if 'pbar_over_pstar[' in line:
+                names = [word.split('[')[0] for word in line[1:].split()]
         elif line.strip():
             rows.append(dict(zip(names, line.split())))
     return names, rows
