@@ -1,5 +1,6 @@
 !> Gauss-Newton's method for the coefficients and the shape of an expansion.
 module wavycon_gauss_newton
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use wavycon_contact_equations, only: contact_equations
    use wavycon_expansion, only: expansion
    use wavycon_fitted_tuning, only: least_centre_jacobian, longest_shape_change, most_newton_steps
@@ -53,11 +54,12 @@ contains
       logical :: finite
 
       call equations%linearise(lattice, load, now)
-      residual = maxval(abs(equations%residual))
+      residual = huge(residual)
       change = huge(change)
       valid = .false.
       ! LAPACK may loop for ever on NaN or infinity.
-      if (.not. (residual < huge(residual) .and. maxval(abs(equations%matrix)) < huge(residual))) return
+      if (.not. (all(ieee_is_finite(equations%residual)) .and. all(ieee_is_finite(equations%matrix)))) return
+      residual = maxval(abs(equations%residual))
       missing_load = 0.0_dp
       if (.not. now%island) missing_load = load*lattice%area - equations%integral(now)
       call least_squares_step(equations, .not. now%island, missing_load, step, finite)
