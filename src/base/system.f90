@@ -2,10 +2,11 @@
 module wavycon_system
    use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int, c_long_long, c_null_char, c_size_t
    use, intrinsic :: iso_fortran_env, only: int64
+   use wavycon_kinds, only: dp
    implicit none (type, external)
    private
 
-   public :: available_memory
+   public :: available_memory, has_memory_for
    public :: file_size, full_path, path_kind, make_directories, rename_file, remove_file, remove_when_interrupted
    public :: outlive_file_size_limit, parse_number, process_id, stdout_is_terminal
 
@@ -178,6 +179,24 @@ contains
    integer(int64) function available_memory()
       available_memory = int(c_available_memory(), int64)
    end function available_memory
+
+   !> Whether there is memory for so many numbers of double precision.
+   logical function has_memory_for(numbers)
+      integer(int64), intent(in) :: numbers
+
+      integer(int64) :: available
+      real(dp), allocatable :: probe(:)
+      integer :: status
+
+      available = available_memory()
+      if (available >= 0) then
+         has_memory_for = numbers <= available/(storage_size(1.0_dp)/8)
+      else
+         ! Where the system gives no figure: an allocation fails where memory is limited, but may succeed where it is short.
+         allocate (probe(numbers), stat=status)
+         has_memory_for = status == 0
+      end if
+   end function has_memory_for
 
    !> The number of this process, for file names that no other process uses.
    integer function process_id()

@@ -7,7 +7,7 @@ module wavycon_grid_plan
    use wavycon_contact_tuning, only: first_points, most_points_line, most_points_plane
    use wavycon_kinds, only: dp
    use wavycon_surface, only: surface_type
-   use wavycon_system, only: available_memory
+   use wavycon_system, only: has_memory_for
    implicit none (type, external)
    private
 
@@ -122,19 +122,8 @@ contains
       !> Numbers a point: pressure, gap, undeformed gap, four fields of the iteration, spectrum, the refined start, the
       !> edge.
       integer, parameter :: numbers = 10
-      integer(int64) :: available, needed
-      real(dp), allocatable :: probe(:)
-      integer :: status
 
-      needed = numbers*(storage_size(1.0_dp)/8)*product(int(grid, int64))
-      available = available_memory()
-      if (available >= 0) then
-         fits_memory = needed <= available
-      else
-         ! The system does not tell. An allocation fails where memory is limited, but may succeed where it is short.
-         allocate (probe(needed/(storage_size(1.0_dp)/8)), stat=status)
-         fits_memory = status == 0
-      end if
+      fits_memory = has_memory_for(numbers*product(int(grid, int64)))
    end function fits_memory
 
 end module wavycon_grid_plan

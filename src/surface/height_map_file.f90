@@ -6,7 +6,7 @@ module wavycon_height_map_file
    use wavycon_kinds, only: dp
    use wavycon_number_table, only: number_table, read_number_table
    use wavycon_plain_text, only: escaped, integer_text, short_number
-   use wavycon_system, only: path_device, path_kind
+   use wavycon_system, only: has_memory_for, path_device, path_kind
    implicit none (type, external)
    private
 
@@ -65,11 +65,8 @@ contains
 
       !> Numbers for each height: the map, the Fourier coefficients and their copies, the work space of the transforms.
       integer(int64), parameter :: copies = 5
-      real(dp), allocatable :: room(:)
-      integer :: status
 
-      allocate (room(copies*heights), stat=status)
-      there_is_room = status == 0
+      there_is_room = has_memory_for(copies*heights)
    end function there_is_room
 
    !> Takes a map with a row of heights on each line. Errors: exit_bad_input for rows of unequal length.
