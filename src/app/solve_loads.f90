@@ -18,8 +18,9 @@ module wavycon_solve_loads
 
 contains
 
-   !> Solves and measures all loads, from the highest to the lowest so that each can start from the last one. Loads whose
-   !> solutions were kept from an interrupted run are not solved again if their digits do not depend on the last load.
+   !> Solves and measures all loads, from the highest to the lowest so that each can start from the last one. Loads
+   !> whose solutions were kept from an interrupted run are not solved again if their digits do not depend on the last
+   !> load.
    subroutine solve_loads(results, checkpoint, log)
       type(results_type), intent(inout) :: results       !! loads that are known are allocated
       type(checkpoint_file), intent(inout) :: checkpoint !! which the other solutions are added to

@@ -1,5 +1,5 @@
-!> solver = 'auto': the closed form where there is one, otherwise fitted expansions where these exist for the surface, with
-!> grids for loads at which they are not accurate enough, otherwise grids.
+!> solver = 'auto': the closed form where there is one, otherwise fitted expansions where these exist for the surface,
+!> with grids for loads at which they are not accurate enough, otherwise grids.
 module wavycon_auto_contact
    use wavycon_closed_form_contact, only: closed_form_contact, closed_form_exists
    use wavycon_contact_solution, only: contact_solution

@@ -1,4 +1,5 @@
-!> solver = 'fitted': contact by expansions fitted to the edge of contact. Their accuracy is limited by rounding, not by a grid.
+!> solver = 'fitted': contact by expansions fitted to the edge of contact. Their accuracy is limited by rounding, not
+!> by a grid.
 module wavycon_fitted_contact
    use wavycon_contact_measures, only: contact_measures
    use wavycon_contact_solution, only: contact_solution, no_solution

@@ -72,8 +72,8 @@ contains
       pressure = pressure*self%frame%pressure_unit
    end subroutine at
 
-   !> Points that are equivalent by mirror symmetry, by the diagonals of a square cell or by the second crest are evaluated
-   !> once.
+   !> Points that are equivalent by mirror symmetry, by the diagonals of a square cell or by the second crest are
+   !> evaluated once.
    subroutine on_cell(self, intervals, dimension, pressure, displacement)
       class(fitted_solution_fields), intent(inout) :: self
       integer, intent(in) :: intervals, dimension

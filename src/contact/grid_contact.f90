@@ -1,8 +1,8 @@
 !> solver = 'grid': contact on grids, refined to an accuracy or with a given number of points.
 !>
-!> A surface with mirror symmetry is solved on a quarter of its cell. The wave (21), and any surface like it, also repeats
-!> itself on a square of half the area turned by 45 degrees; a quarter of that square is then enough, unless the number of
-!> points, which refers to the user's cell, is given.
+!> A surface with mirror symmetry is solved on a quarter of its cell. The wave (21), and any surface like it, also
+!> repeats itself on a square of half the area turned by 45 degrees; a quarter of that square is then enough, unless
+!> the number of points, which refers to the user's cell, is given.
 module wavycon_grid_contact
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_constants, only: pi
@@ -10,6 +10,7 @@ module wavycon_grid_contact
    use wavycon_contact_solution, only: contact_solution, no_solution, pack_common, packed_values, unpack_common
    use wavycon_contact_solver, only: contact_solver
    use wavycon_contact_status, only: converged, no_memory, not_accurate
+   use wavycon_contact_tuning, only: least_search_points, worst_search_accuracy
    use wavycon_edge_curves, only: edge_curve, strip_ends, trace_edges, turn_curves, whole_strips
    use wavycon_fourier_series, only: fourier_series
    use wavycon_grid_cascade, only: cascade_answer, solve_by_cascade
@@ -128,18 +129,14 @@ contains
    integer function coarser_levels(self) result(levels)
       class(grid_contact), intent(in) :: self
 
-      !> Coarser levels do not help the search.
-      real(dp), parameter :: worst_accuracy = 1e-2_dp
-      integer, parameter :: least_points = 64
-
       levels = 0
       if (all(self%points > 0)) then
          do while (all(mod(self%points, 2**(levels + 2)) == 0 .or. self%points == 1) .and. &
-                   maxval(self%points)/2**(levels + 1) >= least_points)
+                   maxval(self%points)/2**(levels + 1) >= least_search_points)
             levels = levels + 1
          end do
       else
-         do while (self%accuracy*10.0_dp**levels < worst_accuracy)
+         do while (self%accuracy*10.0_dp**levels < worst_search_accuracy)
             levels = levels + 1
          end do
       end if

@@ -26,8 +26,8 @@ contains
          'for others the summary shows the largest possible errors.', 8, 8192, most_values=2)
    end function grid_points_key
 
-   !> The grid in effect, along x and y: that of the deck or, without an accuracy, that which the surface was given on. Zeros
-   !> if the accuracy decides.
+   !> The grid in effect, along x and y: that of the deck or, without an accuracy, that which the surface was given
+   !> on. Zeros if the accuracy decides.
    pure function points_of_grid(values, surface) result(points)
       type(group_values), intent(in) :: values     !! of &method
       type(surface_type), intent(in) :: surface

@@ -1,9 +1,9 @@
 !> <case>.checkpoint: the loads of a sweep that are solved, until its tables are written.
 !>
-!> Only solutions that a resumed run may keep are written (contact_solution%is_kept); the others are fast to solve again. The
-!> file holds a mark and a line feed, then records: the number of 8-byte words, the words and their checksum. The first
-!> record identifies the run, the second is a text that describes what is solved, each further one is a solution. A last
-!> record that was cut short by an interruption is ignored.
+!> Only solutions that a resumed run may keep are written (contact_solution%is_kept); the others are fast to solve
+!> again. The file holds a mark and a line feed, then records: the number of 8-byte words, the words and their
+!> checksum. The first record identifies the run, the second is a text that describes what is solved, each further one
+!> is a solution. A last record that was cut short by an interruption is ignored.
 !>
 !> Two runs of the same case do not mix: each writes to a file of its own, which a later run replaces as a whole.
 module wavycon_checkpoint
@@ -136,8 +136,8 @@ contains
       self%opened = .false.
    end subroutine close_file
 
-   !> Writes a record and compares the file's size: gfortran 12 does not report a full disk. Nothing is written any more once
-   !> another run has replaced the file.
+   !> Writes a record and compares the file's size: gfortran 12 does not report a full disk. Nothing is written any
+   !> more once another run has replaced the file.
    subroutine put(self, words)
       type(checkpoint_file), intent(inout) :: self
       integer(int64), intent(in) :: words(:)
@@ -180,8 +180,8 @@ contains
       allocate (words(0))
    end subroutine get
 
-   !> Reads the solutions of an interrupted run. Errors: exit_bad_input for a damaged checkpoint and for one of another run,
-   !> exit_file_trouble.
+   !> Reads the solutions of an interrupted run. Errors: exit_bad_input for a damaged checkpoint and for one of
+   !> another run, exit_file_trouble.
    subroutine read_checkpoint(results, found, error)
       type(results_type), intent(inout) :: results   !! the loads found are allocated
       logical, intent(out) :: found                  !! whether there is a checkpoint

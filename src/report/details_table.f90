@@ -16,8 +16,8 @@ module wavycon_details_table
 
    public :: details_table
 
-   !> The energy is per nominal area. The perimeter is that of one contact spot or, above merging, of one open island; the
-   !> paper's cell has two of each.
+   !> The energy is per nominal area. The perimeter is that of one contact spot or, above merging, of one open island;
+   !> the paper's cell has two of each.
    character(40), parameter :: columns(*) = [character(40) :: &
       'pbar_over_pstar[-]', 'mean_gap[Delta]', 'mean_gap_error[Delta]', 'contact_area_fraction[-]', &
       'contact_area_error[-]', 'peak_pressure[p*]', 'peak_pressure_error[p*]', 'trough_gap[Delta]', &
