@@ -48,7 +48,7 @@ module wavycon_beale_contact
       type(series_setup) :: setup
       type(qp_problem) :: problem                      !! at zero load
       type(beale_solver), private :: solver
-      real(dp), private :: last_load = -1.0_dp         !! of the solution that `solver` holds; negative: none
+      real(dp), private :: last_load = -1.0_dp         !! P of the minimum in `solver`; negative: none
    contains
       procedure, nopass :: name
       procedure, nopass :: meaning

@@ -86,6 +86,7 @@ contains
       call self%start(surface)
    end subroutine start_from_keys
 
+   !> Starts the solver.
    subroutine start(self, surface)
       class(closed_form_contact), intent(out) :: self
       type(surface_type), intent(in) :: surface   !! the 1-D wave of the paper
@@ -93,6 +94,7 @@ contains
       self%surface = surface
    end subroutine start
 
+   !> Westergaard's solution: eqs. (4), (7), and (20) of the paper.
    subroutine solve_partial_contact(self, pbar_over_pstar, solution)
       class(closed_form_contact), intent(inout) :: self
       real(dp), intent(in) :: pbar_over_pstar

@@ -161,7 +161,7 @@ contains
    subroutine get(unit, place, words, whole)
       integer, intent(in) :: unit
       integer(int64), intent(in) :: place                   !! of its first byte
-      integer(int64), allocatable, intent(out) :: words(:)  !! size 0 if the record is cut short or its checksum is wrong
+      integer(int64), allocatable, intent(out) :: words(:)  !! size 0 if the record is damaged or cut short
       logical, intent(out) :: whole                         !! .false. if the file ends before the record does
 
       integer(int64) :: bytes, length, sum_of_words

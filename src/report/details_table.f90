@@ -46,8 +46,8 @@ contains
    pure function meaning() result(words)
       character(:), allocatable :: words
 
-      words = 'Gaps at trough and saddle, strain energy, perimeter and the numbers of the summary, each with its error '// &
-              'estimate.'
+      words = 'Gaps at trough and saddle, strain energy, perimeter and the numbers of the summary, each with its '// &
+              'error estimate.'
    end function meaning
 
    function refusal(self, solver, surface) result(words)

@@ -25,7 +25,7 @@ module wavycon_scene
       real(dp) :: e_star = 1.0_dp                   !! plane-strain modulus [pressure]
       real(dp) :: p_star = 0.0_dp                   !! p*, mean pressure that just closes the gap [pressure]
       integer :: loads_by = by_pressure             !! by_pressure, by_mean_gap or by_contact_area
-      real(dp), allocatable :: target(:)            !! P, G or the contact area fraction of each load, in the deck's order
+      real(dp), allocatable :: target(:)            !! P, G or the contact area fraction, in the deck's order
       real(dp), allocatable :: mean_pressure(:)     !! [pressure]; allocated where loads are given by pressure
       type(group_values) :: method, output          !! the groups &method and &output
    end type scene_type
