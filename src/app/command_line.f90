@@ -178,7 +178,7 @@ contains
              usage//newline// &
              newline// &
              '   --check        validate the decks and stop'//newline// &
-             '   --output DIR   write the results there, not where the deck says'//newline// &
+             '   --output DIR   write the results to DIR, not to the directory of &output'//newline// &
              '   --resume       continue an interrupted run, to the same tables. Loads that were solved'//newline// &
              '                  on grids are read from <case>.checkpoint; loads of the other solvers are'//newline// &
              '                  fast and are solved again'//newline// &

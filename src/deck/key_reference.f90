@@ -23,7 +23,7 @@ contains
       tables = deck_tables()
       call add_wrapped(reference, 0, &
          "A deck consists of Fortran namelist groups, '&group key = value ... /', "// &
-         "in any order; '!' begins a comment. A group or key may be left out unless it says required. "// &
+         "in any order; '!' begins a comment. A group or key may be left out unless marked as required. "// &
          'Lengths may be in any one unit and pressures in any one unit.')
       reference = reference//newline
       call add_wrapped(reference, 0, 'Loads are mean pressures pbar over the nominal area. p* is the mean '// &

@@ -61,7 +61,7 @@ contains
       call given_loads(deck%load, key, scene%loads_by, loads)
       if (scene%loads_by /= by_pressure .and. scene%p_star <= 0.0_dp) then
          call fatal_error(error, exit_bad_input, escaped(deck%path)// &
-                          ': the surface is flat: it has neither a gap nor a part in contact to ask for')
+                          ': the surface is flat: give its loads by pressure, not by gap or area')
          return
       end if
       worst = maxval(loads)

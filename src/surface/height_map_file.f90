@@ -107,7 +107,7 @@ contains
       do k = 1, table%rows()
          if (table%length(k) /= 3) then
             call bad_line(k, 'this line has '//integer_text(table%length(k))// &
-                          " numbers: file_format = 'xyz' wants x, y and z")
+                          " numbers: file_format = 'xyz' needs x, y and z")
             return
          end if
       end do

@@ -264,7 +264,7 @@ contains
       end if
       select case (lower_case(word(merge(2, 1, scan(word(1:1), '+-') == 1):)))
       case ('nan', 'inf', 'infinity')
-         trouble = "'"//excerpt(word)//"' is no height: a map must be whole"
+         trouble = "'"//excerpt(word)//"' is not a height: maps must be complete"
       case default
          trouble = "'"//excerpt(word)//"' is no number"
       end select
