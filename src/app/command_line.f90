@@ -1,4 +1,4 @@
-!> The command line.
+!> Reads the command line; the texts of --help.
 module wavycon_command_line
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_key_reference, only: key_reference
@@ -10,15 +10,15 @@ module wavycon_command_line
 
    public :: command_line_type, read_command_line, help_text
 
-   !> The name of a deck.
+   !> The path of a deck.
    type :: path_type
       character(:), allocatable :: path
    end type path_type
 
    type :: command_line_type
       type(path_type), allocatable :: decks(:)
-      character(:), allocatable :: output   !! directory that replaces the decks'; not allocated if not given
-      integer :: threads = 1
+      character(:), allocatable :: output   !! directory in place of that of the decks; not allocated if not given
+      integer :: threads = 1                !! >= 1
       logical :: check = .false.
       logical :: quiet = .false.
       logical :: resume = .false.
@@ -33,7 +33,7 @@ module wavycon_command_line
 
 contains
 
-   !> Reads the command line. Errors: exit_bad_input.
+   !> Reads the command line. Errors: exit_bad_input for an unknown option, a bad value of one, or no deck.
    subroutine read_command_line(command_line, error)
       type(command_line_type), intent(out) :: command_line
       type(error_type), allocatable, intent(out) :: error
@@ -100,7 +100,7 @@ contains
 
    contains
 
-      !> What stands behind the '=' or in the next word; nothing if there is none.
+      !> The value of an option: the text after '=', otherwise the next word; empty if there is none.
       subroutine take_value(text)
          character(:), allocatable, intent(out) :: text
 
@@ -115,7 +115,7 @@ contains
 
    end subroutine read_command_line
 
-   !> Errors: exit_bad_input if it is no number of threads.
+   !> Reads the value of --threads. Errors: exit_bad_input if it is not an integer from 1 to most_threads.
    subroutine read_threads(text, threads, error)
       character(*), intent(in) :: text
       integer, intent(out) :: threads
@@ -133,10 +133,9 @@ contains
                           integer_text(most_threads)//", got '"//escaped(text)//"'"//new_line('a')//usage)
    end subroutine read_threads
 
-   !> Adds the name of a deck.
+   !> Adds the path of a deck.
    !>
-   !> N.B. decks = [decks, path_type(word)] would lose the memory of the names: gfortran 12 does not free the
-   !> copy's.
+   !> N.B. decks = [decks, path_type(word)] leaks memory: gfortran 12 does not free the paths of the temporary array.
    pure subroutine add_deck(decks, path)
       type(path_type), allocatable, intent(inout) :: decks(:)
       character(*), intent(in) :: path
@@ -152,7 +151,7 @@ contains
       call move_alloc(longer, decks)
    end subroutine add_deck
 
-   !> Errors: exit_bad_input if it is no directory that a deck could name too.
+   !> Checks the value of --output as the key `directory` of a deck is checked. Errors: exit_bad_input.
    subroutine check_output(directory, error)
       character(*), intent(in) :: directory
       type(error_type), allocatable, intent(out) :: error
@@ -168,6 +167,7 @@ contains
       end if
    end subroutine check_output
 
+   !> The text of --help: the options, then the reference of all keys.
    function help_text() result(text)
       character(:), allocatable :: text
 
@@ -178,12 +178,12 @@ contains
              usage//newline// &
              newline// &
              '   --check        validate the decks and stop'//newline// &
-             '   --output DIR   write the results there, not where the deck says'//newline// &
+             '   --output DIR   write the results to DIR, not to the directory of &output'//newline// &
              '   --resume       continue an interrupted run, to the same tables. Loads that were solved'//newline// &
              '                  on grids are read from <case>.checkpoint; loads of the other solvers are'//newline// &
              '                  fast and are solved again'//newline// &
              '   --threads N    work on large grids with N threads; 1 if not given'//newline// &
-             '   --quiet        say nothing but what is wrong'//newline// &
+             '   --quiet        write nothing but errors'//newline// &
              '   --version      show the version and stop'//newline// &
              '   --help, -h     show this and stop'//newline// &
              newline// &
@@ -192,6 +192,7 @@ contains
              key_reference()
    end function help_text
 
+   !> A word of the command line, of any length.
    function argument(i) result(word)
       integer, intent(in) :: i
       character(:), allocatable :: word

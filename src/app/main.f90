@@ -46,7 +46,8 @@ program wavycon_main
    call read_decks(command_line, scenes)
    if (command_line%check) then
       do i = 1, size(scenes)
-         if (.not. command_line%quiet) write (output_unit, '(a)') escaped(scenes(i)%scene%deck_path)//': the deck is fine'
+         if (.not. command_line%quiet) &
+            write (output_unit, '(a)') escaped(scenes(i)%scene%deck_path)//': the deck is fine'
       end do
       call finish(exit_fine)
    end if
@@ -63,7 +64,7 @@ program wavycon_main
 
 contains
 
-   !> Reads all decks before any is run; the problems of all of them are shown.
+   !> Reads all decks before any is run. Shows the problems of all of them and ends the program if there are any.
    subroutine read_decks(command_line, scenes)
       type(command_line_type), intent(in) :: command_line
       type(scene_item), allocatable, intent(out) :: scenes(:)
@@ -102,7 +103,7 @@ contains
       end do
    end subroutine read_decks
 
-   !> Ends the program if there is an error.
+   !> Writes the message of an error, if there is one, and ends the program with its status.
    subroutine stop_on(error)
       type(error_type), allocatable, intent(in) :: error
 
@@ -112,7 +113,7 @@ contains
       call finish(error%status)
    end subroutine stop_on
 
-   !> Ends the program without a word, which `stop` does not everywhere.
+   !> Ends the program with an exit status. `stop` would write a message with some compilers.
    subroutine finish(status)
       use, intrinsic :: iso_c_binding, only: c_int
       integer, intent(in) :: status

@@ -1,4 +1,4 @@
-!> A scene from beginning to end: solver, solutions, tables.
+!> Runs a scene from beginning to end: starts the solver, solves all loads, writes the tables.
 module wavycon_run_scene
    use wavycon_checkpoint, only: checkpoint_file, checkpoint_name, read_checkpoint
    use wavycon_contact_status, only: converged
@@ -20,11 +20,12 @@ module wavycon_run_scene
 
 contains
 
-   !> Runs a scene. Errors: exit_bad_input, exit_file_trouble.
+   !> Runs a scene. Errors: exit_bad_input for a checkpoint that is damaged or of another deck; exit_file_trouble for
+   !> a file that cannot be read or written.
    subroutine run_scene(scene, quiet, resume, status, error)
-      type(scene_type), allocatable, intent(inout) :: scene   !! moves into the results
-      logical, intent(in) :: quiet
-      logical, intent(in) :: resume    !! continue from the checkpoint of an interrupted run
+      type(scene_type), allocatable, intent(inout) :: scene   !! not allocated afterwards: the results own it
+      logical, intent(in) :: quiet     !! whether to write no log
+      logical, intent(in) :: resume    !! whether to continue from the checkpoint of an interrupted run
       integer, intent(out) :: status   !! exit_fine or exit_not_converged
       type(error_type), allocatable, intent(out) :: error
 
@@ -57,7 +58,7 @@ contains
       call sum_up(results, log, status)
    end subroutine run_scene
 
-   !> The tables that a deck requests. Of a flat surface, whose p* and Delta are zero, only those that make sense.
+   !> The tables that a deck requests; for a flat surface, whose p* and Delta are zero, only those that allow it.
    subroutine requested_tables(scene, tables)
       type(scene_type), intent(in) :: scene
       type(table_item), allocatable, intent(out) :: tables(:)
@@ -82,6 +83,7 @@ contains
       end do
    end subroutine requested_tables
 
+   !> Whether any of the tables is made from fields, edges or details.
    pure logical function need_fields(tables)
       type(table_item), intent(in) :: tables(:)
 
@@ -93,7 +95,7 @@ contains
       end do
    end function need_fields
 
-   !> Takes the loads that are solved. Errors: exit_bad_input, exit_file_trouble.
+   !> Reads the solutions in the checkpoint, if there is one. Errors: exit_bad_input, exit_file_trouble.
    subroutine take_checkpoint(results, log, error)
       type(results_type), intent(inout) :: results
       type(run_log), intent(inout) :: log
@@ -114,7 +116,8 @@ contains
       end if
    end subroutine take_checkpoint
 
-   !> Makes the output directory and writes the resolved deck into it, so that file trouble shows before the work.
+   !> Makes the output directory and writes the resolved deck into it, so that a directory that cannot be written to is
+   !> reported before the loads are solved. Errors: exit_file_trouble.
    subroutine prepare_directory(scene, error)
       type(scene_type), intent(in) :: scene
       type(error_type), allocatable, intent(out) :: error
@@ -133,7 +136,7 @@ contains
       call file%finish(error)
    end subroutine prepare_directory
 
-   !> Errors: exit_file_trouble.
+   !> Writes the tables. Errors: exit_file_trouble.
    subroutine write_tables(results, tables, error)
       type(results_type), intent(in) :: results
       type(table_item), intent(in) :: tables(:)
@@ -147,7 +150,7 @@ contains
       end do
    end subroutine write_tables
 
-   !> The last lines of the log, and the exit status.
+   !> Writes the last lines of the log and finds the exit status.
    subroutine sum_up(results, log, status)
       type(results_type), intent(in) :: results
       type(run_log), intent(inout) :: log

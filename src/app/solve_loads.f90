@@ -1,4 +1,4 @@
-!> All loads of a scene.
+!> Solves all loads of a scene.
 module wavycon_solve_loads
    use, intrinsic :: iso_c_binding, only: c_size_t
    use wavycon_checkpoint, only: checkpoint_file
@@ -18,12 +18,13 @@ module wavycon_solve_loads
 
 contains
 
-   !> Solves and measures all loads, from the highest to the lowest so that each can start from the last one. Loads whose
-   !> solutions were kept from an interrupted run are not solved again if their digits do not depend on the last load.
+   !> Solves and measures all loads, from the highest to the lowest so that each can start from the last one. Loads
+   !> whose solutions were kept from an interrupted run are not solved again if their digits do not depend on the last
+   !> load.
    subroutine solve_loads(results, checkpoint, log)
-      type(results_type), intent(inout) :: results       !! loads that are known are allocated
-      type(checkpoint_file), intent(inout) :: checkpoint !! which the other solutions are added to
-      type(run_log), intent(inout), target :: log
+      type(results_type), intent(inout) :: results       !! with the solver started; solutions read from a checkpoint
+      type(checkpoint_file), intent(inout) :: checkpoint !! the solutions computed here are added to it
+      type(run_log), intent(inout), target :: log        !! shows the progress
 
       integer :: i, load, order(size(results%loads))
       logical :: known
@@ -53,6 +54,7 @@ contains
       end associate
    end subroutine solve_loads
 
+   !> Solves one load, or finds the load of a given mean gap or area.
    subroutine solve_one(solver, loads_by, target, solution)
       class(contact_solver), intent(inout) :: solver
       integer, intent(in) :: loads_by     !! a name of wavycon_scene
@@ -69,7 +71,7 @@ contains
       end select
    end subroutine solve_one
 
-   !> The order of some numbers from the largest to the smallest.
+   !> The indices of an array from its largest to its smallest value.
    function descending(values) result(order)
       real(dp), intent(in) :: values(:)
       integer :: order(size(values))

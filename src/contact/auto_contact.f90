@@ -1,5 +1,5 @@
-!> solver = 'auto': the closed form where there is one, otherwise fitted expansions where these exist for the surface, with
-!> grids for loads at which they are not accurate enough, otherwise grids.
+!> solver = 'auto': the closed form where there is one, otherwise fitted expansions where these exist for the surface,
+!> with grids for loads at which they are not accurate enough, otherwise grids.
 module wavycon_auto_contact
    use wavycon_closed_form_contact, only: closed_form_contact, closed_form_exists
    use wavycon_contact_solution, only: contact_solution
@@ -21,8 +21,8 @@ module wavycon_auto_contact
    public :: auto_contact
 
    type, extends(contact_solver) :: auto_contact
-      class(contact_solver), allocatable, private :: first     !! tried first
-      type(grid_contact), allocatable, private :: second       !! tried where the first fails or is not accurate enough
+      class(contact_solver), allocatable, private :: first     !! solves every load
+      type(grid_contact), allocatable, private :: second       !! solves the loads that the first one failed to
    contains
       procedure, nopass :: name
       procedure, nopass :: meaning
@@ -53,8 +53,8 @@ contains
    pure function meaning() result(words)
       character(:), allocatable :: words
 
-      words = "the closed form where there is one, otherwise 'fitted' where its expansions exist, with 'grid' for loads at "// &
-              "which these are not accurate enough, otherwise 'grid'"
+      words = "the closed form where there is one, otherwise 'fitted' where its expansions exist, with 'grid' for "// &
+              "loads at which these are not accurate enough, otherwise 'grid'"
    end function meaning
 
    function keys() result(rows)
@@ -63,7 +63,7 @@ contains
       rows = [accuracy_key(), grid_points_key()]
    end function keys
 
-   !> For every surface that no other solver is the default for.
+   !> For every surface: as the last of the list it is the default if no other solver is.
    logical function is_default_for(surface, kind)
       type(surface_type), intent(in) :: surface
       character(*), intent(in) :: kind
@@ -90,12 +90,13 @@ contains
       call self%start(surface, values%real('accuracy'), keep_fields, points_of_grid(values, surface))
    end subroutine start_from_keys
 
+   !> Selects and starts the solvers.
    subroutine start(self, surface, accuracy, keep_fields, points)
       class(auto_contact), intent(out) :: self
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: accuracy                 !! of mean gap [Delta], contact area fraction, peak pressure [p*]
       logical, intent(in) :: keep_fields               !! whether solutions keep their fields and edges
-      integer, intent(in), optional :: points(2)       !! of a grid, in place of accuracy; zeros: by accuracy
+      integer, intent(in), optional :: points(2)       !! of the one grid to solve; absent or zeros: to the accuracy
 
       type(closed_form_contact), allocatable :: closed_form
       type(fitted_contact), allocatable :: fitted
@@ -123,6 +124,8 @@ contains
       end if
    end subroutine start
 
+   !> If the first solution is not good, the load is solved on grids too, and the better of the two solutions is
+   !> returned.
    subroutine solve_partial_contact(self, pbar_over_pstar, solution)
       class(auto_contact), intent(inout) :: self
       real(dp), intent(in) :: pbar_over_pstar
@@ -164,7 +167,8 @@ contains
       starts_from_last_load = self%first%starts_from_last_load()
    end function starts_from_last_load
 
-   !> The next expansion starts from the expansion of this load, even if the grids' solution was the one taken.
+   !> The expansion of the next load starts from the expansion of this one. Only loads solved on grids are in
+   !> checkpoints, so that the expansion is computed again.
    subroutine skip_load(self, pbar_over_pstar)
       class(auto_contact), intent(inout) :: self
       real(dp), intent(in) :: pbar_over_pstar

@@ -1,5 +1,5 @@
-!> solver = 'beale': the method of Johnson, Greenwood & Higginson (1985). The pressure is a truncated Fourier series; its
-!> amplitudes minimise the complementary energy by Beale's quadratic programming.
+!> solver = 'beale': the method of Johnson, Greenwood & Higginson (1985). The pressure is a truncated Fourier series
+!> whose coefficients minimise the complementary energy; Beale's quadratic programming finds the minimum.
 module wavycon_beale_contact
    use wavycon_beale, only: beale_solver
    use wavycon_complementary_energy, only: energy_problem
@@ -7,6 +7,7 @@ module wavycon_beale_contact
    use wavycon_contact_measures, only: measure_series, measuring_intervals
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver
+   use wavycon_contact_tuning, only: starting_load
    use wavycon_edge_curves, only: edge_curve, strip_ends, trace_edges, turn_curves
    use wavycon_fourier_series, only: fourier_series
    use wavycon_fourier_terms, only: choose_terms, fourier_terms, symmetry_diagonal, symmetry_full, symmetry_none
@@ -29,11 +30,6 @@ module wavycon_beale_contact
 
    character(*), parameter :: solver_name = 'beale'
 
-   !> Beale's method starts at this load, or at the load itself if that is higher; the dual pass then goes down to the load.
-   !> Few constraints are active this close to full contact. At a light load Beale's method would start from x = 0 and meet
-   !> nearly dependent sets of neighbouring points near the troughs, which costs more.
-   real(dp), parameter :: starting_load = 0.9_dp
-
    !> What the solver and its solutions share.
    type :: series_setup
       type(fourier_terms) :: terms
@@ -43,16 +39,16 @@ module wavycon_beale_contact
 
    !> The paper's numbers, for 1-D and 2-D waves.
    integer, parameter :: default_harmonics(2) = [10, 9], default_constraint_points(2) = [26, 27]
-   !> Bounds of the time and memory that a slip of the hand can cost, for 1-D and 2-D waves.
+   !> Largest values accepted from a deck, for 1-D and 2-D waves, so that a mistyped number does not run for hours.
    integer, parameter :: most_harmonics = 60, most_constraint_points(2) = [6001, 601]
-   !> Of the matrix of the constraints, of which a handful of copies are held: 160 MB each.
+   !> Most elements of the constraints' matrix. A few copies of it exist at a time, each of 160 MB.
    real(dp), parameter :: most_elements = 2.0e7_dp
 
    type, extends(contact_solver) :: beale_contact
       type(series_setup) :: setup
       type(qp_problem) :: problem                      !! at zero load
       type(beale_solver), private :: solver
-      real(dp), private :: last_load = -1.0_dp         !! of the solution that `solver` holds; negative: none
+      real(dp), private :: last_load = -1.0_dp         !! P of the minimum in `solver`; negative: none
    contains
       procedure, nopass :: name
       procedure, nopass :: meaning
@@ -103,11 +99,13 @@ contains
          integer_key('harmonics', '9 (2-D), 10 (1-D)', 'highest harmonic of the pressure, in each direction.', &
             1, most_harmonics), &
          integer_key('constraint_points', '27 (2-D), 26 (1-D)', &
-            'equally spaced points on half a wavelength, ends included, in each direction, at which the pressure is '// &
-            'constrained to be >= 0. More than harmonics; at most 601 in 2-D.', 2, maxval(most_constraint_points)), &
+            'equally spaced points on half a wavelength, ends included, in each direction, at which the pressure '// &
+            'is constrained to be >= 0. More than harmonics; at most 601 in 2-D.', 2, &
+            maxval(most_constraint_points)), &
          choice_key('symmetry', "'full'", &
-            "in 2-D, symmetry of the pressure. 'full': alike in x and y and at both crests (29 unknowns, 196 points by "// &
-            "default); 'diagonal': at both crests (49, 378); 'none' (99, 729).", ['full    ', 'diagonal', 'none    ']), &
+            "in 2-D, symmetry of the pressure. 'full': alike in x and y and at both crests (29 unknowns, 196 "// &
+            "points by default); 'diagonal': at both crests (49, 378); 'none' (99, 729).", &
+            ['full    ', 'diagonal', 'none    ']), &
          real_key('edge_level', '0.1', 'p*', 'the isobar that is taken as the edge of contact.', &
             above=0.0_dp, below=1.0_dp)]
    end function keys
@@ -120,7 +118,8 @@ contains
       if (.not. surface%is_paper_wave()) words = 'is for the waves of the paper: '//paper_waves()
    end function refusal
 
-   !> A sum of waves that happens to be the paper's wave is solved to an accuracy, as other sums are.
+   !> Kinds that are waves of the paper by definition. A sum of waves that equals one is solved to an accuracy by
+   !> default, as all other sums are.
    logical function is_default_for(surface, kind)
       type(surface_type), intent(in) :: surface
       character(*), intent(in) :: kind
@@ -244,11 +243,11 @@ contains
       call move_alloc(own, solution)
    end subroutine solve_partial_contact
 
-   !> Solves for the series alone, without measures.
+   !> Solves the quadratic programme (17), (18) or (26), (27) of the paper without measuring the solution.
    subroutine solve_series(self, pbar_over_pstar, solution)
       class(beale_contact), intent(inout) :: self
       real(dp), intent(in) :: pbar_over_pstar       !! 0 < P < 1
-      type(beale_solution), intent(out) :: solution
+      type(beale_solution), intent(out) :: solution !! status of wavycon_qp_problem; x = 0 if no minimum was found
 
       type(qp_problem) :: problem
       type(qp_solution) :: programme
@@ -277,7 +276,7 @@ contains
       solution%active_constraints = size(programme%active)
    end subroutine solve_series
 
-   !> A truncated series has none.
+   !> The error of a truncated series is not estimated.
    pure logical function has_error_estimates(self)
       class(beale_contact), intent(in) :: self
 
@@ -314,7 +313,7 @@ contains
       series%c(0, 0) = solution%pbar_over_pstar
    end function pressure_series
 
-   !> (u - ubar)/Delta, likewise: eqs. (13), (A10).
+   !> (u - ubar)/Delta as a series in phi and theta: eqs. (13), (A10).
    type(fourier_series) function displacement_series(solution) result(series)
       type(beale_solution), intent(in) :: solution
 

@@ -1,10 +1,11 @@
-!> The 1-D wave in closed form: Westergaard's solution. Fields are its exact Fourier series, truncated.
+!> solver = 'closed_form': Westergaard's solution of the 1-D wave. Its fields are its Fourier series, truncated.
 module wavycon_closed_form_contact
    use wavycon_constants, only: pi
    use wavycon_contact_measures, only: contact_measures
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver
    use wavycon_contact_status, only: closed_form
+   use wavycon_contact_tuning, only: field_terms
    use wavycon_fourier_series, only: fourier_series
    use wavycon_dundurs, only: dundurs_coefficients
    use wavycon_edge_curves, only: edge_curve, strip_ends
@@ -21,10 +22,6 @@ module wavycon_closed_form_contact
    public :: closed_form_contact, closed_form_exists
 
    character(*), parameter :: solver_name = 'closed_form'
-
-   !> Terms of the fields' series. The coefficients of the pressure fall as i^(-3/2): the series is then within 1e-5 p* of the
-   !> pressure except next to the edge.
-   integer, parameter :: field_terms = 2000
 
    type, extends(contact_solver) :: closed_form_contact
    contains
@@ -89,6 +86,7 @@ contains
       call self%start(surface)
    end subroutine start_from_keys
 
+   !> Starts the solver.
    subroutine start(self, surface)
       class(closed_form_contact), intent(out) :: self
       type(surface_type), intent(in) :: surface   !! the 1-D wave of the paper
@@ -96,6 +94,7 @@ contains
       self%surface = surface
    end subroutine start
 
+   !> Westergaard's solution: eqs. (4), (7), and (20) of the paper.
    subroutine solve_partial_contact(self, pbar_over_pstar, solution)
       class(closed_form_contact), intent(inout) :: self
       real(dp), intent(in) :: pbar_over_pstar

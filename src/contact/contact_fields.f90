@@ -1,4 +1,4 @@
-!> The pressure and the displacement of one solution, anywhere on the surface.
+!> The pressure and the displacement of one solution, at points and on the grid of a cell.
 module wavycon_contact_fields
    use wavycon_fourier_series, only: fourier_series
    use wavycon_kinds, only: dp
@@ -14,6 +14,7 @@ module wavycon_contact_fields
    end type contact_fields
 
    abstract interface
+      !> At one point.
       subroutine fields_at_point(self, x, y, pressure, displacement)
          import :: contact_fields, dp
          class(contact_fields), intent(inout) :: self
@@ -26,11 +27,12 @@ module wavycon_contact_fields
          import :: contact_fields, dp
          class(contact_fields), intent(inout) :: self
          integer, intent(in) :: intervals, dimension   !! N; 1 or 2
-         real(dp), allocatable, intent(out) :: pressure(:, :), displacement(:, :)   !! shape (0:N, 0:N) or (0:N, 0:0)
+         !> p/p* and (u - ubar)/Delta, shape (0:N, 0:N) in 2-D, (0:N, 0:0) in 1-D.
+         real(dp), allocatable, intent(out) :: pressure(:, :), displacement(:, :)
       end subroutine fields_on_cell
    end interface
 
-   !> Both as Fourier series.
+   !> Pressure and displacement as Fourier series in X and Y.
    type, extends(contact_fields) :: series_fields
       type(fourier_series) :: pressure, displacement
    contains
@@ -49,7 +51,7 @@ contains
       displacement = self%displacement%at(x, y)
    end subroutine series_at
 
-   !> The dimension is that of the series.
+   !> The argument `dimension` is not used: the series have one.
    subroutine series_on_cell(self, intervals, dimension, pressure, displacement)
       class(series_fields), intent(inout) :: self
       integer, intent(in) :: intervals, dimension

@@ -1,7 +1,7 @@
-!> The solution at one load.
+!> The solution at one load: its measures, fields, edge of contact and details.
 !>
-!> Every solver extends `contact_solution`; a caller needs to know nothing of the solver that made one. Positions of fields
-!> and edges are the angles X, Y of the surface's cell.
+!> Every solver extends `contact_solution`; callers use a solution without regard to its solver. Positions of fields and
+!> edges are the angles X, Y of the surface's cell.
 module wavycon_contact_solution
    use wavycon_contact_details, only: contact_details
    use wavycon_contact_fields, only: contact_fields, series_fields
@@ -14,18 +14,19 @@ module wavycon_contact_solution
    implicit none (type, external)
    private
 
-   public :: contact_solution, contact_solution_item, solution_without_contact_edge, no_solution, pack_common, unpack_common
+   public :: contact_solution, contact_solution_item, solution_without_contact_edge, no_solution
+   public :: pack_common, unpack_common
 
-   !> Numbers that pack_kept puts first.
+   !> Size of the array that pack_common makes.
    integer, parameter, public :: packed_values = 12
 
    type, abstract :: contact_solution
       real(dp) :: pbar_over_pstar = 0.0_dp    !! P >= 0, the mean pressure over p*
       type(contact_measures) :: measures
       character(12) :: solver = 'none'        !! name of the solver; 'none' if no solver was needed
-      integer :: active_constraints = 0       !! points at which the pressure is held at zero
-      integer :: iterations = 0               !! of the solver; exchanges of variables since the last load for a QP
-      real(dp) :: residual = 0.0_dp           !! relative; of a QP that of the Karush-Kuhn-Tucker conditions
+      integer :: active_constraints = 0       !! points at which the pressure is constrained to zero
+      integer :: iterations = 0               !! for a quadratic programme, exchanges of variables since the last load
+      real(dp) :: residual = 0.0_dp           !! relative, as each solver defines it
       character(16) :: status = ''            !! one of wavycon_contact_status, or of wavycon_qp_problem
    contains
       procedure :: is_good
@@ -48,8 +49,8 @@ module wavycon_contact_solution
          class(contact_fields), allocatable, intent(out) :: answer
       end subroutine fields_of_solution
 
-      !> The edge of contact: closed curves in 2-D, the two ends of each strip in 1-D. No curves for full contact and for no
-      !> load, nor if the solver was started without keep_fields.
+      !> The edge of contact: closed curves in 2-D, the two ends of each strip in 1-D. There are no curves for full
+      !> contact, for no load, and if the solver was started without keep_fields.
       subroutine edge_of_solution(self, surface, curves)
          import :: contact_solution, edge_curve, surface_type
          class(contact_solution), intent(in) :: self
@@ -80,7 +81,7 @@ contains
       is_good = is_good_status(self%status)
    end function is_good
 
-   !> The largest of the three error estimates, each in its own unit.
+   !> The largest error estimate of mean gap [Delta], contact area fraction and peak pressure [p*].
    pure real(dp) function largest_error(self)
       class(contact_solution), intent(in) :: self
 
@@ -89,7 +90,7 @@ contains
       end associate
    end function largest_error
 
-   !> p/p* as the Fourier series that the solver computed, in X and Y. Not allocated (series%c) where the solver has none.
+   !> p/p* as the Fourier series in X and Y that the solver computed; series%c is not allocated if it computed none.
    subroutine coefficients(self, surface, series)
       class(contact_solution), intent(in) :: self
       type(surface_type), intent(in) :: surface      !! that was solved
@@ -98,17 +99,18 @@ contains
       associate (unused => self, unused_too => surface, none => series); end associate
    end subroutine coefficients
 
-   !> Numbers beyond the summary's.
+   !> Further numbers of the solution, such as the strain energy. Here there are none.
    subroutine details(self, answer, found)
       class(contact_solution), intent(in) :: self
-      type(contact_details), intent(out) :: answer
-      logical, intent(out) :: found                  !! whether the solver has them for this load
+      type(contact_details), intent(out) :: answer   !! to be used only if found
+      logical, intent(out) :: found                  !! whether this solution has them
 
       associate (unused => self, none => answer); end associate
       found = .false.
    end subroutine details
 
-   !> Whether an interrupted run keeps the solution for its resumption; every other solution is computed again.
+   !> Whether the solution is written to the checkpoint, so that a resumed run need not compute it again. Here it is
+   !> not.
    pure logical function is_kept(self)
       class(contact_solution), intent(in) :: self
 
@@ -116,38 +118,43 @@ contains
       is_kept = .false.
    end function is_kept
 
-   !> The numbers of the solution in one array, from which unpack_kept restores it. An extension of the type adds its own.
+   !> `pack_kept`: the numbers of the solution in one array, from which `unpack_kept` restores it. An extension of the
+   !> type appends its own numbers to those of pack_common.
    pure subroutine pack_common(self, values)
       class(contact_solution), intent(in) :: self
       real(dp), allocatable, intent(out) :: values(:)   !! not allocated if there is not enough memory
 
       associate (measures => self%measures)
          values = [self%pbar_over_pstar, measures%mean_gap_over_amplitude, measures%approach_over_amplitude, &
-                   measures%contact_area_fraction, measures%peak_pressure_over_pstar, measures%min_pressure_over_pstar, &
-                   measures%mean_gap_error, measures%contact_area_error, measures%peak_pressure_error, &
+                   measures%contact_area_fraction, measures%peak_pressure_over_pstar, &
+                   measures%min_pressure_over_pstar, measures%mean_gap_error, measures%contact_area_error, &
+                   measures%peak_pressure_error, &
                    real([self%active_constraints, self%iterations], dp), self%residual]
       end associate
    end subroutine pack_common
 
+   !> `unpack_kept`: restores the solution from the array of `pack_kept`, except the names of solver and status.
    pure subroutine unpack_common(self, values, understood)
       class(contact_solution), intent(inout) :: self
-      real(dp), intent(in) :: values(:)
+      real(dp), intent(in) :: values(:)                 !! size >= packed_values
       logical, intent(out) :: understood                !! .false. if these are not the numbers of such a solution
 
       understood = size(values) >= packed_values
       if (.not. understood) return
       self%pbar_over_pstar = values(1)
-      self%measures = contact_measures(values(2), values(3), values(4), values(5), values(6), values(7), values(8), values(9))
+      self%measures = contact_measures(values(2), values(3), values(4), values(5), values(6), values(7), values(8), &
+                                       values(9))
       self%active_constraints = nint(values(10))
       self%iterations = nint(values(11))
       self%residual = values(12)
    end subroutine unpack_common
 
-   !> The solution of a solver that found none.
+   !> Makes the solution that stands for a failure: no fields, no edge, and the largest possible error estimates.
    subroutine no_solution(pbar_over_pstar, surface, solver, status, solution)
       real(dp), intent(in) :: pbar_over_pstar        !! P
       type(surface_type), intent(in) :: surface
-      character(*), intent(in) :: solver, status     !! why there is none: a name of wavycon_contact_status
+      character(*), intent(in) :: solver             !! name of the solver that failed
+      character(*), intent(in) :: status             !! why: a name of wavycon_contact_status
       class(contact_solution), allocatable, intent(out) :: solution
 
       allocate (solution_without_contact_edge :: solution)

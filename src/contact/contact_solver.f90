@@ -1,4 +1,5 @@
-!> What every solver that a user can select declares and does. src/README.md describes how to add one.
+!> The type that all solvers of &method extend. src/README.md describes how to add a solver, README.md in this directory
+!> how solvers and solutions work together.
 module wavycon_contact_solver
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_contact_measures, only: full_contact_measures
@@ -15,10 +16,11 @@ module wavycon_contact_solver
 
    public :: contact_solver
 
-   !> A solver of one surface. Some solvers start each load from the last one: give the loads from the highest to the lowest.
+   !> A solver of one surface. Some solvers start each load from the solution of the last one: solve the loads from the
+   !> highest to the lowest. Of the procedures below the deferred ones must be written; the others have defaults.
    type, abstract :: contact_solver
       type(surface_type) :: surface
-      class(solver_progress), pointer :: progress => null()   !! shown the progress within a load, if associated
+      class(solver_progress), pointer :: progress => null()   !! called within each load, if associated
    contains
       procedure(words_interface), deferred, nopass :: name
       procedure(words_interface), deferred, nopass :: meaning
@@ -45,45 +47,48 @@ module wavycon_contact_solver
    end type contact_solver
 
    abstract interface
-      !> `name`: in decks and tables, at most 12 characters. `meaning`: one clause for the key reference.
+      !> `name`: the value of the key `solver` in decks, at most 12 characters. `meaning`: one clause for the key
+      !> reference.
       pure function words_interface() result(words)
          character(:), allocatable :: words
       end function words_interface
 
-      !> The keys of &method that the solver reads, besides `solver`.
+      !> `keys`: the keys of &method that the solver reads, besides `solver`. A key that two solvers read must have
+      !> the same type, unit and bounds in both; its meaning may differ.
       function keys_interface() result(keys)
          import :: key_type
          type(key_type), allocatable :: keys(:)
       end function keys_interface
 
-      !> Starts the solver as the keys of a deck say.
+      !> `start_from_keys`: starts the solver with the values of &method.
       subroutine start_interface(self, surface, values, keep_fields)
          import :: contact_solver, group_values, surface_type
          class(contact_solver), intent(inout) :: self
-         type(surface_type), intent(in) :: surface     !! that is not refused
-         type(group_values), intent(in) :: values      !! of &method, without problems
+         type(surface_type), intent(in) :: surface     !! for which `refusal` is empty
+         type(group_values), intent(in) :: values      !! of &method, after `set_defaults` and `check`, without problems
          logical, intent(in) :: keep_fields            !! whether fields, edges or details of solutions will be needed
       end subroutine start_interface
 
-      !> The discretisation, for the log and the heads of tables.
+      !> `describe`: the discretisation in words, for the log and the heads of tables.
       pure function words_of_solver(self) result(words)
          import :: contact_solver
          class(contact_solver), intent(in) :: self
          character(:), allocatable :: words
       end function words_of_solver
 
-      !> Solves and measures one load between no load and full contact. The solution is always allocated and has a status.
+      !> `solve_partial_contact`: solves one load between no load and full contact and measures the solution.
       subroutine solve_load(self, pbar_over_pstar, solution)
          import :: contact_solution, contact_solver, dp
          class(contact_solver), intent(inout) :: self
          real(dp), intent(in) :: pbar_over_pstar     !! 0 < P < 1
-         class(contact_solution), allocatable, intent(out) :: solution
+         class(contact_solution), allocatable, intent(out) :: solution   !! always allocated, with a status
       end subroutine solve_load
    end interface
 
 contains
 
-   !> `refusal`: why the solver cannot solve a surface, such as 'is for profiles'; empty if it can.
+   !> `refusal`: why the solver cannot solve a surface, as the end of a sentence such as 'is for the 1-D wave'; empty
+   !> if it can. Here it is empty.
    function no_refusal(surface) result(words)
       type(surface_type), intent(in) :: surface
       character(:), allocatable :: words
@@ -92,7 +97,8 @@ contains
       words = ''
    end function no_refusal
 
-   !> `is_default_for`: whether a deck that names no solver gets this one. The first in the list that says so is taken.
+   !> `is_default_for`: whether this solver is the default for a surface. If several are, the first of the list is
+   !> taken. Here it is not.
    logical function never(surface, kind)
       type(surface_type), intent(in) :: surface
       character(*), intent(in) :: kind           !! of the surface, as the deck names it
@@ -101,36 +107,38 @@ contains
       never = .false.
    end function never
 
-   !> `set_defaults`: sets the defaults that depend on the surface and leaves out keys that mean nothing for it.
+   !> `set_defaults`: sets the defaults that depend on the surface and leaves keys without a meaning for it out of the
+   !> resolved deck. Here there are none.
    subroutine no_defaults(values, surface)
-      type(group_values), intent(inout) :: values
+      type(group_values), intent(inout) :: values   !! of &method
       type(surface_type), intent(in) :: surface
 
       associate (unused => values, unused_too => surface); end associate
    end subroutine no_defaults
 
-   !> `check`: reports values that contradict each other or the surface.
+   !> `check`: reports values that contradict each other or the surface. Here there are none.
    subroutine no_check(values, surface, problems)
       type(group_values), intent(in) :: values           !! after `set_defaults`
       type(surface_type), intent(in) :: surface
-      type(problem_list_type), intent(inout) :: problems
+      type(problem_list_type), intent(inout) :: problems   !! to which they are added
 
       associate (unused => values, unused_too => surface, also_unused => problems); end associate
    end subroutine no_check
 
-   !> `advice`: what to add to "key is a key of 'a', not of 'b'", such as ': it has no grid'.
+   !> `advice`: what to give instead of a key of another solver, or why this one has no such key, as the end of a
+   !> sentence such as ': it has no grid'. Here it is empty.
    function no_advice(key) result(words)
-      character(*), intent(in) :: key
+      character(*), intent(in) :: key   !! that other solvers read
       character(:), allocatable :: words
 
       words = key(:0)
    end function no_advice
 
-   !> Solves and measures one load. The solution is always allocated and has a status.
+   !> Solves one load and measures the solution. No load and full contact need no solver.
    subroutine solve(self, pbar_over_pstar, solution)
-      class(contact_solver), intent(inout) :: self
-      real(dp), intent(in) :: pbar_over_pstar        !! P
-      class(contact_solution), allocatable, intent(out) :: solution
+      class(contact_solver), intent(inout) :: self   !! started
+      real(dp), intent(in) :: pbar_over_pstar        !! P; the status of the solution is not_finite if it is no number
+      class(contact_solution), allocatable, intent(out) :: solution   !! always allocated, with a status
 
       logical :: is_number
 
@@ -162,7 +170,8 @@ contains
       has_error_estimates = .true.
    end function has_error_estimates
 
-   !> Why a converged solution may show no contact area, such as 'no pressure reaches 0.1 p*'; empty if it always shows one.
+   !> Why a converged solution may have no contact area, such as 'no pressure reaches 0.1 p*'; empty if it always has
+   !> one.
    function why_no_area(self) result(words)
       class(contact_solver), intent(in) :: self
       character(:), allocatable :: words
@@ -171,7 +180,7 @@ contains
       words = ''
    end function why_no_area
 
-   !> Whether every solution has the coefficients of a pressure series that the solver computed.
+   !> Whether every solution has `coefficients`: those of the Fourier series of the pressure that the solver computed.
    pure logical function has_coefficients(self)
       class(contact_solver), intent(in) :: self
 
@@ -179,7 +188,7 @@ contains
       has_coefficients = .false.
    end function has_coefficients
 
-   !> Whether solutions have `contact_details`.
+   !> Whether every partial contact has `details`.
    pure logical function has_details(self)
       class(contact_solver), intent(in) :: self
 
@@ -187,15 +196,16 @@ contains
       has_details = .false.
    end function has_details
 
-   !> Shows the progress within each load to come.
+   !> Sets the object that is called with the progress within each load.
    subroutine show_progress(self, progress)
       class(contact_solver), intent(inout) :: self
-      class(solver_progress), intent(in), pointer :: progress   !! null: no more
+      class(solver_progress), intent(in), pointer :: progress   !! null: none is called
 
       self%progress => progress
    end subroutine show_progress
 
-   !> Number of levels at which loads can be solved faster and less accurately, while a load is searched for.
+   !> Number of levels of lower accuracy at which loads can be solved faster. The search for the load of a given area or
+   !> gap begins at the coarsest.
    integer function coarser_levels(self)
       class(contact_solver), intent(in) :: self
 
@@ -203,15 +213,16 @@ contains
       coarser_levels = 0
    end function coarser_levels
 
-   !> Selects the level of the loads to come.
+   !> Selects the level at which the next loads are solved.
    subroutine use_level(self, level)
       class(contact_solver), intent(inout) :: self
-      integer, intent(in) :: level   !! 0, as accurate as requested, to coarser_levels
+      integer, intent(in) :: level   !! 0, the accuracy requested, to `coarser_levels`, the coarsest
 
       associate (unused => self, unused_too => level); end associate
    end subroutine use_level
 
-   !> Whether a solution depends, if only in its last digits, on the load solved before.
+   !> Whether a solution depends, if only in its last digits, on the load solved before. A resumed run then solves the
+   !> loads of a search again.
    pure logical function starts_from_last_load(self)
       class(contact_solver), intent(in) :: self
 
@@ -219,7 +230,8 @@ contains
       starts_from_last_load = .false.
    end function starts_from_last_load
 
-   !> Brings the solver to where it would be after solving a load whose solution was kept from an interrupted run.
+   !> Makes the state of the solver that which it would have after solving a load. Called for loads whose solutions were
+   !> read from the checkpoint of an interrupted run.
    subroutine skip_load(self, pbar_over_pstar)
       class(contact_solver), intent(inout) :: self
       real(dp), intent(in) :: pbar_over_pstar        !! P
@@ -227,7 +239,8 @@ contains
       associate (unused => self, unused_too => pbar_over_pstar); end associate
    end subroutine skip_load
 
-   !> An empty solution of the type that this solver's is_kept solutions have. Not allocated if it keeps none.
+   !> Allocates an empty solution of the type whose `is_kept` is true, for `unpack_kept`. Not allocated if the
+   !> solutions of this solver are not written to checkpoints.
    subroutine new_kept_solution(self, solution)
       class(contact_solver), intent(in) :: self
       class(contact_solution), allocatable, intent(out) :: solution

@@ -1,16 +1,18 @@
 !> The statuses of a solution.
 !>
-!> A quadratic programme that is not solved has the status of wavycon_qp_problem instead, such as 'iteration_limit'.
+!> A solution whose iteration or quadratic programme failed has a status of wavycon_qp_problem instead, such as
+!> 'iteration_limit'.
 module wavycon_contact_status
    implicit none (type, external)
    private
 
    public :: is_good_status
 
-   !> Good: solved to the tolerance; solved in closed form; no solver needed.
+   !> Good statuses: the solver converged, to the accuracy requested if it estimates errors; the solution is a closed
+   !> form; the contact is full; there is no load.
    character(*), parameter, public :: converged = 'converged', closed_form = 'closed_form', &
                                       full_contact = 'full_contact', no_load = 'no_load'
-   !> The load is not a number.
+   !> The load is NaN.
    character(*), parameter, public :: not_finite = 'not_finite'
    !> The error estimate exceeds the accuracy requested.
    character(*), parameter, public :: not_accurate = 'not_accurate'

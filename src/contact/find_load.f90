@@ -1,48 +1,50 @@
-!> The load that leaves a given mean gap, or makes a given contact area.
+!> Finds the load at which the contact area or the mean gap has a given value.
+!>
+!> Equation (C18) of README.md in this directory: with t the area or 1 - G, the secant method solves logit t(P) =
+!> logit t for logit P, where logit x = ln(x/(1 - x)). The two logits are nearly a straight line against each other.
 module wavycon_find_load
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver
    use wavycon_contact_status, only: not_accurate
+   use wavycon_contact_tuning, only: flattest, fraction_of_error, largest_fraction, least_fraction, longest_step, &
+      most_solves, steepest
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
 
    public :: solve_for_contact_area, solve_for_mean_gap
 
-   !> Tolerance of the value found: this fraction of its error estimate, bounded by these fractions of min(t, 1 - t), where t
-   !> is the target.
-   real(dp), parameter :: fraction_of_error = 0.01_dp, least_fraction = 1e-12_dp, largest_fraction = 1e-4_dp
-   integer, parameter :: most_solves = 60
-
-   !> The search is for ln P/(1-P). Against it ln A/(1-A) of the contact area, or ln (1-G)/G of the mean gap, is nearly a
-   !> straight line, with a slope from 2/3 to 5/2.
+   !> What is searched for, and how far the search is. The slope lies between 1/2 (area of a line contact at light load)
+   !> and 5/2 (gap near full contact in 2-D).
    type :: root_search
-      real(dp) :: target = 0.5_dp          !! 0 < target < 1
-      logical :: of_gap = .false.
-      real(dp) :: logit_p = 0.0_dp         !! ln P/(1-P)
-      real(dp) :: slope = 1.0_dp
+      real(dp) :: target = 0.5_dp          !! t, the contact area fraction or 1 - G
+      logical :: of_gap = .false.          !! whether t is 1 - G
+      real(dp) :: logit_p = 0.0_dp         !! logit P of the next solution
+      real(dp) :: slope = 1.0_dp           !! of logit t against logit P
    end type root_search
 
 contains
 
-   !> Solves for the load with a given contact area. The status is not_accurate if no load was found for it.
+   !> Solves for the load at which the contact area has a given value: (C18). The solution has the status not_accurate
+   !> if the search did not find such a load.
    subroutine solve_for_contact_area(solver, contact_area_fraction, solution)
-      class(contact_solver), intent(inout) :: solver
-      real(dp), intent(in) :: contact_area_fraction   !! 0 .. 1
-      class(contact_solution), allocatable, intent(out) :: solution
+      class(contact_solver), intent(inout) :: solver        !! started
+      real(dp), intent(in) :: contact_area_fraction         !! 0 .. 1: no load at 0, P = 1 at 1
+      class(contact_solution), allocatable, intent(out) :: solution   !! of the load found
 
       call solve_for(solver, root_search(target=contact_area_fraction, of_gap=.false.), solution)
    end subroutine solve_for_contact_area
 
-   !> Solves for the load with a given mean gap, likewise.
+   !> Solves for the load at which the mean gap has a given value, likewise.
    subroutine solve_for_mean_gap(solver, mean_gap_over_amplitude, solution)
-      class(contact_solver), intent(inout) :: solver
-      real(dp), intent(in) :: mean_gap_over_amplitude   !! G, 0 .. 1
-      class(contact_solution), allocatable, intent(out) :: solution
+      class(contact_solver), intent(inout) :: solver        !! started
+      real(dp), intent(in) :: mean_gap_over_amplitude       !! G, 0 .. 1: P = 1 at 0, no load at 1
+      class(contact_solution), allocatable, intent(out) :: solution   !! of the load found
 
       call solve_for(solver, root_search(target=1.0_dp - mean_gap_over_amplitude, of_gap=.true.), solution)
    end subroutine solve_for_mean_gap
 
+   !> Searches at each coarser level of the solver, each from the load of the one before, and then at full accuracy.
    subroutine solve_for(solver, search_for, solution)
       class(contact_solver), intent(inout) :: solver
       type(root_search), intent(in) :: search_for
@@ -63,15 +65,14 @@ contains
       end do
    end subroutine solve_for
 
-   !> The secant method, kept inside the bracket once there is one.
+   !> The secant method. A step that would leave the bracket of the root is replaced by bisection.
    subroutine find_root(solver, search, solution)
       class(contact_solver), intent(inout) :: solver
-      type(root_search), intent(inout) :: search
+      type(root_search), intent(inout) :: search   !! on entry with a first estimate of logit P and slope
       class(contact_solution), allocatable, intent(out) :: solution
 
-      !> Of ln P/(1-P): the longest step, and the smallest that is not rounding.
-      real(dp), parameter :: longest_step = 3.0_dp, shortest_step = 1e-13_dp
-      real(dp), parameter :: flattest = 0.2_dp, steepest = 20.0_dp
+      !> Relative steps of logit P below this are rounding.
+      real(dp), parameter :: shortest_step = 1e-13_dp
       real(dp) :: error, high, last_miss, last_logit_p, low, met, miss, next
       integer :: i
 
@@ -100,13 +101,13 @@ contains
          if (abs(next - search%logit_p) <= shortest_step*max(1.0_dp, abs(next))) exit
          search%logit_p = next
       end do
-      ! The area of a grid may jump across the target as points enter the contact, by less than its error estimate. An
-      ! estimate of one is the largest possible error and does not confirm that.
+      ! The area on a grid jumps as points enter the contact: the target may lie within a jump. This is good enough if
+      ! the distance is within the error estimate. An estimate of 1 is the largest error possible and proves nothing.
       if (abs(met - search%target) <= error .and. error < 1.0_dp) return
       if (solution%is_good()) solution%status = not_accurate
    end subroutine find_root
 
-   !> The tolerance of a value.
+   !> The largest difference from the target at which a value is accepted.
    pure real(dp) function allowed(error, target)
       real(dp), intent(in) :: error   !! error estimate of the value; 0 if there is none
       real(dp), intent(in) :: target
@@ -116,7 +117,7 @@ contains
       end associate
    end function allowed
 
-   !> ln x/(1-x). Values of 0 and 1, which a coarse solution may have, count as almost 0 and 1.
+   !> ln(x/(1 - x)). The values 0 and 1, which a solution on a coarse grid may have, are replaced by almost 0 and 1.
    pure real(dp) function logit(x)
       real(dp), intent(in) :: x
 

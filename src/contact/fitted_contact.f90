@@ -1,4 +1,5 @@
-!> solver = 'fitted': contact by expansions fitted to the edge of contact. Their accuracy is limited by rounding, not by a grid.
+!> solver = 'fitted': contact by expansions fitted to the edge of contact. Their accuracy is limited by rounding, not
+!> by a grid.
 module wavycon_fitted_contact
    use wavycon_contact_measures, only: contact_measures
    use wavycon_contact_solution, only: contact_solution, no_solution
@@ -26,7 +27,7 @@ module wavycon_fitted_contact
       type(wave_lattice), private :: lattice
       real(dp), private :: accuracy = 1e-3_dp
       logical, private :: keep_fields = .true.
-      type(fitted_answer), private :: last         !! of the last load that was solved
+      type(fitted_answer), private :: last         !! of the last load solved, from which the next one starts
    contains
       procedure, nopass :: name
       procedure, nopass :: meaning
@@ -69,7 +70,7 @@ contains
 
       call find_frame(surface, frame)
       words = ''
-      ! A flat surface has no contact to solve.
+      ! A flat surface is in full contact at every load: no expansion is needed.
       if (.not. frame%is_found() .and. surface%amplitude > 0.0_dp) words = 'has expansions for '//surfaces_with_frames()
    end function refusal
 
@@ -90,9 +91,10 @@ contains
       call self%start(surface, values%real('accuracy'), keep_fields)
    end subroutine start_from_keys
 
+   !> Starts the solver.
    subroutine start(self, surface, accuracy, keep_fields)
       class(fitted_contact), intent(out) :: self
-      type(surface_type), intent(in) :: surface   !! with a frame; for any other no load has a solution (not_found)
+      type(surface_type), intent(in) :: surface   !! if it has no frame all solutions have the status not_found
       real(dp), intent(in) :: accuracy            !! of mean gap [Delta], contact area fraction, peak pressure [p*]
       logical, intent(in) :: keep_fields          !! whether fields or details of the solutions will be needed
 
@@ -103,6 +105,7 @@ contains
       if (self%frame%is_found()) call make_lattice(self%frame, self%lattice)
    end subroutine start
 
+   !> Solves one load by solve_fitted and converts its answer to p* and Delta.
    subroutine solve_partial_contact(self, pbar_over_pstar, solution)
       class(fitted_contact), intent(inout) :: self
       real(dp), intent(in) :: pbar_over_pstar
@@ -112,7 +115,8 @@ contains
       type(fitted_solution), allocatable :: own
 
       if (self%frame%is_found()) then
-         ! The solver's accuracy is relative; the largest of the three values is the peak pressure in full contact.
+         ! solve_fitted takes a relative accuracy. The largest of the three values, the peak pressure, is less than
+         ! that of full contact at P = 1.
          call solve_fitted(self%lattice, pbar_over_pstar/self%frame%pressure_unit, &
                            self%accuracy/(1.0_dp + self%surface%full_contact_peak), answer, self%last, self%keep_fields)
       end if

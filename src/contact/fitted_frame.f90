@@ -1,7 +1,9 @@
-!> The lattice of the fitted expansions that a surface has, and how the surface lies on it.
+!> Finds the lattice of crests of a surface, if fitted expansions exist for it, and the coordinates on that lattice.
 module wavycon_fitted_frame
    use wavycon_constants, only: pi, sqrt2, sqrt3
+   use wavycon_contact_tuning, only: largest_aspect_ratio, largest_curvature_ratio
    use wavycon_kinds, only: dp
+   use wavycon_plain_text, only: short_number
    use wavycon_surface, only: no_paper_wave, surface_type, turned_paper_wave
    use wavycon_wave_lattice, only: hexagonal_lattice, rectangular_lattice, rhombic_lattice, square_lattice, &
       wave_lattice
@@ -13,11 +15,10 @@ module wavycon_fitted_frame
    !> Lattices that expansions exist for.
    integer, parameter :: no_lattice = 0, square = 1, rectangular = 2, rhombic = 3, hexagonal = 4
 
-   !> A point x, y of the surface, measured from a crest, is (x + i y) turn/side on the lattice. Turns are rotations, without
-   !> reflection.
+   !> The point x, y of the surface, measured from a crest, is the point (x + i y) turn/side of the lattice.
    type :: fitted_frame
-      real(dp) :: side = 1.0_dp                !! s [length]
-      complex(dp) :: turn = (1.0_dp, 0.0_dp)
+      real(dp) :: side = 1.0_dp                !! s, shorter side of the lattice's cell [length]
+      complex(dp) :: turn = (1.0_dp, 0.0_dp)   !! rotation, of modulus 1
       integer :: crests = 1                    !! in the surface's cell: at its corners and, if two, at its centre
       real(dp) :: pressure_unit = 1.0_dp       !! the lattice's, pi E* Delta/s [p*]
       integer, private :: lattice = no_lattice
@@ -28,19 +29,16 @@ module wavycon_fitted_frame
       procedure :: place
    end type fitted_frame
 
-   !> Limits of the long over the short side of a cell and of the ratio of a crest's curvatures: longer spots need
-   !> polynomials of higher degree.
-   real(dp), parameter :: largest_aspect_ratio = 3.0_dp, largest_curvature_ratio = 50.0_dp
-   !> Relative difference of coefficients and lengths that count as equal.
+   !> Coefficients and lengths that differ by less than this, relatively, are equal.
    real(dp), parameter :: rounding = 1e-13_dp
 
 contains
 
-   !> Finds the frame of a surface. Expansions exist for the wave (21), also with two wavelengths, for two crossed waves that
-   !> differ by no more than the limits above, and for the hexagonal wave.
+   !> Finds the frame of a surface. Expansions exist for the wave (21), also with two wavelengths, for two crossed waves
+   !> within the limits of wavycon_contact_tuning, and for the hexagonal wave.
    subroutine find_frame(surface, frame)
       type(surface_type), intent(in) :: surface
-      type(fitted_frame), intent(out) :: frame
+      type(fitted_frame), intent(out) :: frame   !! is_found() is .false. for all other surfaces
 
       real(dp) :: curvature(2)
 
@@ -110,24 +108,25 @@ contains
 
    end subroutine find_frame
 
-   !> The surfaces that have a frame, in words.
+   !> The surfaces that have a frame, for messages and the key reference.
    pure function surfaces_with_frames() result(words)
       character(:), allocatable :: words
 
-      words = "the paper's wave, also with two wavelengths up to 3:1, for crossed waves with crest curvatures up to 50:1 "// &
-              'and for three equal waves at 60 degrees'
+      words = "the paper's wave, also with two wavelengths up to "//short_number(largest_aspect_ratio)// &
+              ':1, for crossed waves with crest curvatures up to '//short_number(largest_curvature_ratio)// &
+              ':1 and for three equal waves at 60 degrees'
    end function surfaces_with_frames
 
-   !> Whether there are expansions for the surface.
+   !> Whether expansions exist for the surface.
    pure logical function is_found(self)
       class(fitted_frame), intent(in) :: self
 
       is_found = self%lattice /= no_lattice
    end function is_found
 
-   !> The lattice of a frame that is found, with its kernel, which takes some time to make.
+   !> Makes the lattice of a frame and its kernel, whose series are summed here once for all loads.
    subroutine make_lattice(frame, lattice)
-      type(fitted_frame), intent(in) :: frame
+      type(fitted_frame), intent(in) :: frame        !! is_found() is .true.
       type(wave_lattice), intent(out) :: lattice
 
       select case (frame%lattice)
@@ -142,7 +141,7 @@ contains
       end select
    end subroutine make_lattice
 
-   !> Where a point of the surface's cell is on the lattice.
+   !> The coordinates on the lattice [s] of a point of the surface.
    elemental complex(dp) function place(self, x, y)
       class(fitted_frame), intent(in) :: self
       real(dp), intent(in) :: x, y   !! from a crest [length]

@@ -1,4 +1,4 @@
-!> The solution of the fitted expansions at one load: fields, edge and details.
+!> The solution of solver = 'fitted' at one load: fields, edge and details.
 module wavycon_fitted_solution
    use wavycon_constants, only: pi
    use wavycon_contact_details, only: contact_details
@@ -20,7 +20,7 @@ module wavycon_fitted_solution
    type, extends(contact_solution) :: fitted_solution
       type(fitted_frame) :: frame
       type(wave_lattice) :: lattice
-      type(fitted_answer) :: answer     !! in the lattice's units
+      type(fitted_answer) :: answer     !! in the units of src/fitted
    contains
       procedure :: fields
       procedure :: edge_curves
@@ -37,7 +37,7 @@ module wavycon_fitted_solution
       procedure :: on_cell
    end type fitted_solution_fields
 
-   !> Points of an edge in a table.
+   !> Points of each edge curve.
    integer, parameter :: edge_points = 256
 
 contains
@@ -72,8 +72,8 @@ contains
       pressure = pressure*self%frame%pressure_unit
    end subroutine at
 
-   !> Points that are equivalent by mirror symmetry, by the diagonals of a square cell or by the second crest are evaluated
-   !> once.
+   !> Points that are equivalent by mirror symmetry, by the diagonals of a square cell or by the second crest are
+   !> evaluated once.
    subroutine on_cell(self, intervals, dimension, pressure, displacement)
       class(fitted_solution_fields), intent(inout) :: self
       integer, intent(in) :: intervals, dimension
@@ -97,7 +97,7 @@ contains
 
    contains
 
-      !> The first of the points equivalent to this one.
+      !> Of all points equivalent to this one, the one that the loop reaches first.
       pure function first_image(i, j) result(first)
          integer, intent(in) :: i, j
          integer :: first(2)
@@ -111,6 +111,7 @@ contains
          end if
       end function first_image
 
+      !> The point or, on a square cell, the equivalent one on the other side of the diagonal with k >= l.
       pure function ordered(point)
          integer, intent(in) :: point(2)
          integer :: ordered(2)
@@ -121,7 +122,7 @@ contains
 
    end subroutine on_cell
 
-   !> A closed curve about each crest or, above merging, about each trough.
+   !> A closed curve about each crest or, once the spots have merged, about each trough.
    subroutine edge_curves(self, surface, curves)
       class(fitted_solution), intent(in) :: self
       type(surface_type), intent(in) :: surface
@@ -155,7 +156,7 @@ contains
       pure real(dp) function in_cell(angle)
          real(dp), intent(in) :: angle
 
-         !> Keeps angles of 0 or 2 pi, less rounding, from changing by 2 pi.
+         !> An angle of 2 pi less rounding becomes 0, as 2 pi does.
          real(dp), parameter :: rounding = 1e-9_dp
 
          in_cell = angle - 2*pi*floor(angle/(2*pi) + rounding)

@@ -1,6 +1,8 @@
-!> Solves on grids, each with half the step of the one before, until the error estimates meet an accuracy.
+!> Solves one load on a sequence of grids, each with half the step of the one before, until the error estimates are
+!> within an accuracy.
 !>
-!> The solution on one grid is the start on the next, and the changes from grid to grid give the error estimates.
+!> The solution on one grid is the start on the next, and the error estimates follow from the changes from grid to grid.
+!> Numbers (C..) are the equations of README.md in this directory.
 module wavycon_grid_cascade
    use wavycon_compliance_operator, only: compliance_operator
    use wavycon_contact_measures, only: largest_errors
@@ -20,11 +22,11 @@ module wavycon_grid_cascade
    public :: cascade_answer, solve_by_cascade
 
    type :: cascade_answer
-      type(grid_state) :: state            !! on the finest grid; no gap where not even the first fits into memory
+      type(grid_state) :: state            !! on the finest grid; gap not allocated if the first did not fit into memory
       real(dp) :: values(3) = 0.0_dp       !! mean gap [Delta], contact area fraction, peak pressure [p*]
       real(dp) :: errors(3) = huge(1.0_dp) !! their error estimates, in the same units, at most `largest_errors`
       logical :: accurate = .false.        !! whether all error estimates are within the accuracy
-      logical :: out_of_memory = .false.   !! whether a finer grid would have been needed, but not its memory
+      logical :: out_of_memory = .false.   !! whether a grid was needed that does not fit into memory
       integer :: grids = 0
       integer :: iterations = 0            !! on all grids
       real(dp) :: transform_pairs = 0.0_dp !! in units of one on the finest grid
@@ -32,13 +34,13 @@ module wavycon_grid_cascade
 
 contains
 
-   !> Solves for one mean pressure, to an accuracy or on a given grid and its coarser ones. The sequence ends early
-   !> where a grid does not fit into memory (`out_of_memory`) or its iteration does not converge (`state%converged`).
+   !> Solves one load, to an accuracy or up to a given grid. The sequence ends early if a grid does not fit into memory
+   !> (`out_of_memory`) or the iteration on it does not converge (`state%converged` is false).
    subroutine solve_by_cascade(surface, mean_pressure, accuracy, points, answer, progress)
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: mean_pressure           !! P in (0, 1)
-      real(dp), intent(in) :: accuracy                !! of all three values, absolute, >= 0
-      integer, intent(in) :: points(2)                !! of the last grid's whole cell; zeros: the accuracy decides
+      real(dp), intent(in) :: accuracy                !! largest error estimate allowed of the three values, >= 0
+      integer, intent(in) :: points(2)                !! of the last grid, on the whole cell; zeros: to the accuracy
       type(cascade_answer), intent(out) :: answer
       class(solver_progress), intent(in), optional :: progress   !! is called after each grid
 
@@ -80,13 +82,13 @@ contains
    pure real(dp) function tolerance_of(grid, mean_pressure, given) result(tolerance)
       integer, intent(in) :: grid(2)
       real(dp), intent(in) :: mean_pressure
-      logical, intent(in) :: given   !! whether the user has asked for this grid
+      logical, intent(in) :: given   !! whether this is the grid whose points the user gave
 
       tolerance = tolerance_factor*mean_pressure**(1.0_dp/3)/maxval(grid)**1.5_dp
       if (given) tolerance = given_grid_tolerance
    end function tolerance_of
 
-   !> Solves on the grid of the answer's pressure, from that pressure.
+   !> Solves on one grid, that of answer%state%pressure, and starts from that pressure.
    subroutine solve_level(surface, mean_pressure, tolerance, answer)
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: mean_pressure, tolerance
@@ -108,7 +110,8 @@ contains
       answer%transform_pairs = answer%transform_pairs/2**surface%dimension + half_space%transform_pairs
    end subroutine solve_level
 
-   !> Mean gap, contact area and peak pressure of the present grid, and their error estimates.
+   !> Mean gap, contact area (C11), (C12) and peak pressure (C13) on the present grid, and their error estimates (C14)
+   !> to (C17).
    subroutine measure_level(surface, history, answer)
       type(surface_type), intent(in) :: surface
       type(change_history), intent(inout) :: history

@@ -1,8 +1,8 @@
 !> solver = 'grid': contact on grids, refined to an accuracy or with a given number of points.
 !>
-!> A surface with mirror symmetry is solved on a quarter of its cell. The wave (21), and any surface like it, also repeats
-!> itself on a square of half the area turned by 45 degrees; a quarter of that square is then enough, unless the number of
-!> points, which refers to the user's cell, is given.
+!> An even surface is solved on a quarter of its cell. The wave (21), and any surface with the same symmetry, is also
+!> periodic on a square of half the area turned by 45 degrees; a quarter of that square is then enough, unless
+!> the number of points, which refers to the user's cell, is given.
 module wavycon_grid_contact
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_constants, only: pi
@@ -10,6 +10,7 @@ module wavycon_grid_contact
    use wavycon_contact_solution, only: contact_solution, no_solution, pack_common, packed_values, unpack_common
    use wavycon_contact_solver, only: contact_solver
    use wavycon_contact_status, only: converged, no_memory, not_accurate
+   use wavycon_contact_tuning, only: least_search_points, worst_search_accuracy
    use wavycon_edge_curves, only: edge_curve, strip_ends, trace_edges, turn_curves, whole_strips
    use wavycon_fourier_series, only: fourier_series
    use wavycon_grid_cascade, only: cascade_answer, solve_by_cascade
@@ -35,9 +36,10 @@ module wavycon_grid_contact
    type, extends(contact_solver) :: grid_contact
       real(dp), private :: accuracy = 0.0_dp                 !! requested
       integer, private :: points(2) = 0                      !! requested
-      integer, private :: level = 0
-      logical, private :: keep_fields = .true., turned = .false.
-      type(surface_type), private :: solved                  !! the surface on the cell that is solved
+      integer, private :: level = 0                          !! of `use_level`
+      logical, private :: keep_fields = .true.
+      logical, private :: turned = .false.                   !! whether the smaller cell is solved
+      type(surface_type), private :: solved                  !! the surface, on the smaller cell if it has one
    contains
       procedure, nopass :: name
       procedure, nopass :: meaning
@@ -64,7 +66,7 @@ module wavycon_grid_contact
       procedure :: unpack_kept
    end type grid_solution
 
-   !> Numbers that pack_kept puts between the common ones and the field.
+   !> Numbers in the array of pack_kept between those of pack_common and the field.
    integer, parameter :: own_values = 4
 
 contains
@@ -105,13 +107,14 @@ contains
       call self%start(surface, values%real('accuracy'), keep_fields, points_of_grid(values, surface))
    end subroutine start_from_keys
 
+   !> Starts the solver.
    subroutine start(self, surface, accuracy, keep_fields, points)
       class(grid_contact), intent(out) :: self
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: accuracy      !! of mean gap [Delta], contact area fraction and peak pressure [p*]
       logical, intent(in) :: keep_fields    !! whether solutions keep their fields and edges
-      !> Of the whole cell; if present and above zero the grid to be solved, whatever the accuracy. Even numbers for
-      !> a surface with mirror symmetry; of a profile only the first counts.
+      !> Points of the whole cell along x and y of the one grid to solve, in place of the accuracy; absent or zeros:
+      !> solve to the accuracy. Even numbers for an even surface; the second is ignored in 1-D.
       integer, intent(in), optional :: points(2)
 
       self%surface = surface
@@ -124,22 +127,18 @@ contains
       if (self%turned) self%solved = surface%smaller_cell()
    end subroutine start
 
-   !> Each level is ten times less accurate than the one before, or has half the points each way.
+   !> Each level has ten times the error of the one before it or, if the points are given, half the points each way.
    integer function coarser_levels(self) result(levels)
       class(grid_contact), intent(in) :: self
-
-      !> Coarser levels do not help the search.
-      real(dp), parameter :: worst_accuracy = 1e-2_dp
-      integer, parameter :: least_points = 64
 
       levels = 0
       if (all(self%points > 0)) then
          do while (all(mod(self%points, 2**(levels + 2)) == 0 .or. self%points == 1) .and. &
-                   maxval(self%points)/2**(levels + 1) >= least_points)
+                   maxval(self%points)/2**(levels + 1) >= least_search_points)
             levels = levels + 1
          end do
       else
-         do while (self%accuracy*10.0_dp**levels < worst_accuracy)
+         do while (self%accuracy*10.0_dp**levels < worst_search_accuracy)
             levels = levels + 1
          end do
       end if
@@ -152,6 +151,7 @@ contains
       self%level = level
    end subroutine use_level
 
+   !> Solves one load by solve_by_cascade.
    subroutine solve_partial_contact(self, pbar_over_pstar, solution)
       class(grid_contact), intent(inout) :: self
       real(dp), intent(in) :: pbar_over_pstar
@@ -238,7 +238,7 @@ contains
       end if
    end subroutine edge_curves
 
-   !> Grids are the solver that takes long.
+   !> Solutions on grids are written to checkpoints: they may take minutes, those of other solvers take seconds.
    pure logical function is_kept(self)
       class(grid_solution), intent(in) :: self
 
@@ -254,7 +254,8 @@ contains
       allocate (grid_solution :: solution)
    end subroutine new_kept_solution
 
-   !> The number of points, zero if the fields were not kept, then two symmetries and the pressures and gaps.
+   !> After the numbers of pack_common: the points along x and y (zeros if the fields were not kept), whether the cell
+   !> is turned, whether the grid covers a quarter of it, and the pressures and gaps.
    pure subroutine pack_kept(self, values)
       class(grid_solution), intent(in) :: self
       real(dp), allocatable, intent(out) :: values(:)
@@ -299,7 +300,8 @@ contains
       call start_grid_edge(self%edge, field, -field, values(first) > 0.0_dp)
    end subroutine unpack_kept
 
-   !> From the smaller cell to the surface's own, which has twice its area: the other half repeats it, half a cell away.
+   !> Transforms curves from the smaller cell to the surface's cell, which has twice its area, and adds the curves of
+   !> the other half: the same, translated by half a cell in both directions.
    subroutine fill_whole_cell(curves)
       type(edge_curve), allocatable, intent(inout) :: curves(:)
 

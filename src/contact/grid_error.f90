@@ -1,8 +1,9 @@
 !> Error estimates of mean gap [Delta], contact area fraction and peak pressure [p*] on a sequence of grids.
 !>
-!> The estimate of each number is the largest of three: from its changes on the last three grids; from what no change
-!> contains, as the grid does not resolve it; and, of mean gap and peak pressure, from the error of the area. The
-!> equations (C..) and the share of estimates that hold are in README.md in this directory. None is a bound.
+!> Each estimate is the largest of three: from the changes over the last three grids (C14); from features that the
+!> grid does not resolve, whose error no change shows (C15), (C16); and, for mean gap and peak pressure, from the
+!> error of the area (C17). README.md in this directory has the equations and the share of estimates that hold. None
+!> is a bound.
 module wavycon_grid_error
    use wavycon_constants, only: pi
    use wavycon_contact_tuning, only: area_safety, edge_bias_even, edge_bias_whole, edge_scatter, gap_safety, &
@@ -15,11 +16,11 @@ module wavycon_grid_error
 
    public :: change_history, estimate_errors, implied_errors, unresolved_errors
 
-   !> In place of a number that no grid has given yet: so large that estimates from fewer than three grids exceed every
-   !> accuracy.
+   !> Stands for the values of grids that do not exist yet. It is so large that estimates from fewer than three grids
+   !> exceed every accuracy.
    real(dp), parameter :: unknown = 1e30_dp
 
-   !> The three numbers of the last grid, and their last two changes.
+   !> Mean gap, contact area and peak pressure on the last grid, and their last two changes.
    type :: change_history
       real(dp) :: values(3) = unknown
       real(dp) :: change(3) = unknown
@@ -31,19 +32,19 @@ module wavycon_grid_error
 
 contains
 
-   !> Estimates the errors of the numbers of the last grid of a history.
+   !> Estimates the errors of mean gap [Delta], contact area fraction and peak pressure [p*] on the last grid.
    pure function estimate_errors(history, surface, edge, peak_resolved) result(errors)
-      type(change_history), intent(in) :: history
+      type(change_history), intent(in) :: history   !! of all grids up to the last
       type(surface_type), intent(in) :: surface
       type(grid_edge), intent(in) :: edge        !! of the last grid
-      logical, intent(in) :: peak_resolved       !! as of grid_peak_pressure
+      logical, intent(in) :: peak_resolved       !! from grid_peak_pressure: whether the points of (C13) are in contact
       real(dp) :: errors(3)
 
       errors = max(history%errors(), unresolved_errors(surface, edge, peak_resolved))
       errors = max(errors, implied_errors(surface%dimension, history%values, errors(2)))
    end function estimate_errors
 
-   !> Adds the numbers of a finer grid.
+   !> Adds the values of a finer grid.
    pure subroutine push(self, values)
       class(change_history), intent(inout) :: self
       real(dp), intent(in) :: values(3)
@@ -53,8 +54,8 @@ contains
       self%values = values
    end subroutine push
 
-   !> Errors from the changes (C14): the last change, or half of the one before, so that a change that is small by
-   !> chance does not pass for accuracy.
+   !> Errors from the changes (C14): the last change, but at least half of the one before, because a single change may
+   !> be small by chance.
    pure function errors_of_changes(self) result(errors)
       class(change_history), intent(in) :: self
       real(dp) :: errors(3)
@@ -64,9 +65,9 @@ contains
       errors = max(safety*self%change, kept_change*safety*self%change_before)
    end function errors_of_changes
 
-   !> Errors that no change contains (C15): the area's, from the place of the edge between points, where all grids may
-   !> err alike; while the grid is too coarse to show it, the last open gap, between points that are all in contact;
-   !> and a peak of fewer points than its polynomial takes.
+   !> Errors that changes do not show (C15), (C16): of the area, because the position of the edge between points is
+   !> uncertain and all grids may err alike; of all values, if all points are in contact but a small gap may lie
+   !> between them; of the peak pressure, if too few points are in contact for the polynomial (C13).
    pure function unresolved_errors(surface, edge, peak_resolved) result(errors)
       type(surface_type), intent(in) :: surface
       type(grid_edge), intent(in) :: edge
@@ -91,7 +92,7 @@ contains
       end associate
    end function unresolved_errors
 
-   !> Neighbouring points between which the edge of contact lies.
+   !> Number of pairs of neighbouring points between which the edge of contact lies, q of (C15).
    pure integer function count_crossings(edge) result(crossings)
       type(grid_edge), intent(in) :: edge
 
@@ -101,7 +102,8 @@ contains
       end associate
    end function count_crossings
 
-   !> Points in contact whose pressure is so far below a neighbour's that there may be a gap beside them.
+   !> Number of points in contact whose pressure is so far below that of a neighbour that a gap may lie beside them, o
+   !> of (C15).
    pure integer function possible_openings(edge) result(openings)
       type(grid_edge), intent(in) :: edge
 
@@ -120,13 +122,14 @@ contains
       end associate
    end function possible_openings
 
-   !> The peak pressure [p*] of Hertz's contact of the half width or radius that a grid does not resolve (C16). In 2-D
-   !> with the sum of both curvatures in place of their mean, so that it is large enough for elliptic contacts too.
+   !> Hertz's peak pressure [p*] of a contact whose half width or radius is `unresolved_width` steps (C16). In 2-D it
+   !> has the sum of both curvatures in place of their mean, so that it is large enough for elliptic contacts too.
    pure real(dp) function unresolved_peak(surface, edge) result(peak)
       type(surface_type), intent(in) :: surface
       type(grid_edge), intent(in) :: edge
 
-      !> Of line contact and of point contact, over half width or radius, curvature/(4 pi^2 Delta) and stiffness.
+      !> Peak pressure of line contact and of point contact over half width or radius, curvature/(4 pi^2 Delta) and
+      !> stiffness.
       real(dp), parameter :: hertz_peak(2) = [2*pi, 8.0_dp]
       real(dp) :: step(2)
 
@@ -135,14 +138,16 @@ contains
       peak = hertz_peak(surface%dimension)*unresolved_width*maxval(step)*surface%stiffness*surface%crest_curvature
    end function unresolved_peak
 
-   !> Errors of mean gap and peak pressure that their changes on three grids may not show, from the area's (C17).
+   !> Least errors of mean gap and peak pressure, from the error of the area (C17): their changes may be small by
+   !> chance.
    pure function implied_errors(dimension, values, area_error) result(errors)
       integer, intent(in) :: dimension       !! 1 or 2
-      real(dp), intent(in) :: values(3), area_error
-      real(dp) :: errors(3)                  !! that of the area zero
+      real(dp), intent(in) :: values(3)      !! mean gap [Delta], contact area fraction, peak pressure [p*]
+      real(dp), intent(in) :: area_error     !! error estimate of the area
+      real(dp) :: errors(3)                  !! of the same values; zero for the area
 
-      !> With these powers of the open part the mean gap falls towards full contact: eqs. (20), (30) of Johnson,
-      !> Greenwood & Higginson (1985) with (7), (24).
+      !> Powers of the open part of the surface with which the mean gap falls towards full contact, in 1-D and 2-D: eqs.
+      !> (20), (30) of Johnson, Greenwood & Higginson (1985) with (7), (24).
       real(dp), parameter :: closing_power(2) = [4.0_dp, 2.5_dp]
       real(dp) :: open_part
 
@@ -151,7 +156,7 @@ contains
       associate (gap => values(1), area => values(2), peak => values(3))
          if (.not. min(gap, area, open_part) > 0.0_dp) return
          errors = least_of_area*area_error*[min(gap, 1.0_dp - gap)/min(area, open_part), 0.0_dp, peak/area]
-         ! A last gap of a few points may be much larger than it appears.
+         ! A gap of only a few points may be much larger than the grid shows.
          if (area_error >= open_part) errors(1) = max(errors(1), min(area_error**2, &
             gap*((1.0_dp + area_error/open_part)**closing_power(dimension) - 1.0_dp)))
       end associate

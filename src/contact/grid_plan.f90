@@ -1,7 +1,8 @@
-!> The sequence of grids, each with half the step of the one before, and whether there is memory for one.
+!> Plans the sequence of grids, each with half the step of the one before, and estimates whether a grid fits into
+!> memory.
 !>
-!> Grids are counted by the points of the part of the cell that is solved: in 2-D a quarter, in 1-D a half of an even
-!> surface's cell, the whole cell of any other. In 1-D the second number is 1.
+!> Numbers of points are those of the part of the cell that is solved: of an even surface half the cell in 1-D and a
+!> quarter in 2-D, of any other surface the whole cell. In 1-D the second number is 1.
 module wavycon_grid_plan
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_tuning, only: first_points, most_points_line, most_points_plane
@@ -15,7 +16,7 @@ module wavycon_grid_plan
 
    type :: grid_plan
       integer :: first(2) = 1     !! the coarsest grid
-      integer :: trusted(2) = 1   !! the first grid whose changes contain errors of all waves of the surface
+      integer :: trusted(2) = 1   !! the first grid whose error estimates include the shortest waves of the surface
       integer :: last(2) = 1      !! the finest grid
    end type grid_plan
 
@@ -23,9 +24,9 @@ contains
 
    !> Plans the grids of a surface.
    !>
-   !> N.B. A height map is a sum of waves down to twice the step of its own points. Coarser grids leave the shortest
-   !> waves out, and the map's own grid has only two points to each of them: no change up to there contains their
-   !> error. So the first trusted grid has half the step of the map's.
+   !> N.B. The shortest waves of a height map have two steps of its own grid. Coarser grids leave them out, and its
+   !> own grid has only two points to each: the changes from grid to grid do not show their error before the step is
+   !> halved once more. So the first trusted grid has half the step of the map's.
    pure type(grid_plan) function plan_grids(surface, points) result(plan)
       type(surface_type), intent(in) :: surface
       integer, intent(in) :: points(2)   !! of the last grid's whole cell; zeros: the accuracy decides
@@ -60,7 +61,7 @@ contains
       finer = merge(2*grid, 1, grid > 1)
    end function finer_grid
 
-   !> A grid halved as often as its points are even and no fewer than the least are left.
+   !> Halves the numbers of points as often as they are even and at least `least` are left.
    pure function coarsest(grid, least)
       integer, intent(in) :: grid(2), least(2)
       integer :: coarsest(2)
@@ -72,7 +73,7 @@ contains
       end do
    end function coarsest
 
-   !> A grid doubled as often as it keeps within the most points.
+   !> Doubles the numbers of points as often as the limits of wavycon_contact_tuning allow.
    pure function finest(grid, surface)
       integer, intent(in) :: grid(2)
       type(surface_type), intent(in) :: surface
@@ -95,10 +96,11 @@ contains
       end do
    end function finest
 
-   !> The next number of points whose Fourier transform is fast: 1, 3 or 5 times a power of two.
+   !> The least number of points, not below a given one, whose Fourier transform is fast: 1, 3 or 5 times a power of
+   !> two.
    !>
-   !> With the least power p of two that 5 p reaches the number, the candidates are 5 p, 4 p and 3 p, and below
-   !> them, of the numbers up to 5, 2 and 1.
+   !> With p the least power of two for which 5 p is large enough, the result is 5 p, 4 p or 3 p; for numbers up to 5
+   !> also 2 p or p.
    elemental integer function fast_size(number)
       integer, intent(in) :: number   !! >= 1
 
@@ -115,12 +117,12 @@ contains
       if (power >= number) fast_size = power
    end function fast_size
 
-   !> Whether there is memory for the solution on a grid.
+   !> Whether the memory that the system has available is enough to solve on a grid.
    logical function fits_memory(grid)
-      integer, intent(in) :: grid(2)
+      integer, intent(in) :: grid(2)   !! points of the part of the cell that is solved
 
-      !> Numbers a point: pressure, gap, undeformed gap, four fields of the iteration, spectrum, the refined start, the
-      !> edge.
+      !> Real numbers for each point: pressure, gap, undeformed gap, four fields of the iteration, spectrum, the start
+      !> interpolated from the coarser grid, the edge.
       integer, parameter :: numbers = 10
 
       fits_memory = has_memory_for(numbers*product(int(grid, int64)))

@@ -1,4 +1,4 @@
-!> The pressure on a grid of half the step, linear between the points of the coarser one.
+!> Interpolates a pressure to a grid of half the step, linearly between the points of the coarser grid.
 module wavycon_grid_refinement
    use wavycon_kinds, only: dp
    implicit none (type, external)
@@ -8,7 +8,7 @@ module wavycon_grid_refinement
 
 contains
 
-   !> Points are those of wavycon_grid_transform. In 1-D the second direction stays. The mean of the pressure stays.
+   !> The points are those of wavycon_grid_transform. The mean of the pressure does not change.
    pure subroutine refine_pressure(coarse, even, fine)
       real(dp), intent(in) :: coarse(:, :)                 !! shape (M, N); N = 1 in 1-D
       logical, intent(in) :: even                          !! whether the points are those of a quarter of the cell
@@ -21,7 +21,8 @@ contains
       n = size(coarse, 2)
       allocate (half_way(2*m, n))
       if (even) then
-         ! Each coarse point lies midway between two fine ones; at the rim its mirror image is its own neighbour.
+         ! Each coarse point lies midway between two fine ones. The neighbour of the first point is its own mirror
+         ! image, and so is that of the last point.
          half_way(1::2, :) = 0.75_dp*coarse + 0.25_dp*coarse([(max(i - 1, 1), i=1, m)], :)
          half_way(2::2, :) = 0.75_dp*coarse + 0.25_dp*coarse([(min(i + 1, m), i=1, m)], :)
       else

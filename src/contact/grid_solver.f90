@@ -1,11 +1,12 @@
 !> Minimises the complementary energy 1/2 (p, Sp) + (p, h) over the pressures p >= 0 of given mean on a grid.
 !>
-!> Conjugate gradients on the points in contact, whose set is updated in each iteration, after Polonsky & Keer
-!> (Wear 231 (1999) 206-219), with three changes: the residual is preconditioned by the inverse of S, restricted to
-!> the contact; the search is not restarted when the set changes, but uses Polak & Ribiere's factor where that is
-!> positive (restarts take up to 1.5 times the iterations on rough surfaces); and points enter the contact at zero
-!> pressure.
-!> On a regular wave seven iterations or so, started from a coarser grid's solution, gain six digits on any grid.
+!> The method is that of Polonsky & Keer (Wear 231 (1999) 206-219): conjugate gradients on the points in contact,
+!> whose set is updated in each iteration. There are three changes: the residual is preconditioned by the inverse of
+!> S, restricted to the contact; the search is not restarted when the set changes, but uses Polak & Ribiere's factor
+!> where that is positive (restarts take up to 1.5 times the iterations on rough surfaces); and points enter the
+!> contact at zero pressure. On a regular wave about seven iterations, started from the solution on a coarser grid,
+!> are enough.
+!>
 !> Numbers (C..) are the equations of README.md in this directory.
 !>
 !> Sums are taken column by column and then over the columns, so that they do not depend on the number of threads.
@@ -20,7 +21,7 @@ module wavycon_grid_solver
 
    public :: grid_state, solve_on_grid
 
-   !> Residuals of this size over Delta are rounding: gaps are differences of numbers of the order of Delta.
+   !> Residuals below this, over Delta, are rounding: gaps are differences of numbers of the order of Delta.
    real(dp), parameter :: rounding = 32*epsilon(1.0_dp)
 
    type :: grid_state
@@ -32,16 +33,16 @@ module wavycon_grid_solver
       logical :: converged = .false.
    end type grid_state
 
-   !> The iteration's own fields, all of shape (m, n), and numbers.
+   !> The fields of the iteration, all of shape (m, n), and its numbers.
    type :: contact_iteration
-      logical(c_bool), allocatable :: contact(:, :)
+      logical(c_bool), allocatable :: contact(:, :)   !! K, the points in contact
       real(dp), allocatable :: residual(:, :)    !! r: the gap in contact, zero outside
       real(dp), allocatable :: direction(:, :)   !! d, of the pressure: zero mean, zero outside the contact
       real(dp), allocatable :: image(:, :)       !! in turn r, z (the preconditioned residual), d and Sd
       integer :: contact_points = 0
       real(dp) :: approach = 1.0_dp              !! of the mean planes, over Delta
-      real(dp) :: descent = 1.0_dp               !! (g, z) of the last direction
-      real(dp), allocatable :: sums(:), more_sums(:)   !! of the columns, shape (n)
+      real(dp) :: descent = 1.0_dp               !! (gap, z) of the last direction
+      real(dp), allocatable :: sums(:), more_sums(:)   !! sums over each column, shape (n)
       integer :: threads = 1
    contains
       procedure :: start
@@ -58,14 +59,15 @@ module wavycon_grid_solver
 
 contains
 
-   !> Solves (C1) on a grid, by the iteration (C3) to (C9). Whether it converged is in `state`.
+   !> Solves (C1) on a grid by the iteration (C3) to (C9). If it does not converge in most_iterations, state%converged
+   !> is false.
    subroutine solve_on_grid(half_space, undeformed_gap, mean_pressure, tolerance, most_iterations, state)
       type(compliance_operator), intent(inout) :: half_space   !! S, started on the grid
       real(dp), intent(in) :: undeformed_gap(:, :)   !! h/Delta, shape (m, n)
       real(dp), intent(in) :: mean_pressure          !! P in (0, 1)
       real(dp), intent(in) :: tolerance              !! for the residual (C9), > 0
       integer, intent(in) :: most_iterations
-      type(grid_state), intent(inout) :: state       !! `pressure` holds the start, >= 0, whose mean is P
+      type(grid_state), intent(inout) :: state       !! on entry `pressure` is the start, >= 0, with the mean P
 
       type(contact_iteration) :: work
       real(dp) :: allowed, step
@@ -94,9 +96,10 @@ contains
       end do
    end subroutine solve_on_grid
 
+   !> Allocates the fields. Points of positive pressure are in contact.
    subroutine start(self, state)
       class(contact_iteration), intent(out) :: self
-      type(grid_state), intent(inout) :: state   !! with its pressure; the gap is allocated here
+      type(grid_state), intent(inout) :: state   !! with the pressure; the gap is allocated here
 
       integer :: m, n
 
@@ -112,7 +115,7 @@ contains
       state%iterations = 0
    end subroutine start
 
-   !> The gap g = h + Sp - approach of the present pressure.
+   !> Computes the gap h + Sp - approach (C1) of the present pressure.
    subroutine compute_gap(self, half_space, undeformed_gap, state)
       class(contact_iteration), intent(in) :: self
       type(compliance_operator), intent(inout) :: half_space
@@ -129,7 +132,7 @@ contains
       end do
    end subroutine compute_gap
 
-   !> The mean of the gap over the points in contact, which are counted as well.
+   !> Counts the points in contact and computes the mean of the gap over them.
    subroutine mean_gap_in_contact(self, gap, mean)
       class(contact_iteration), intent(inout) :: self
       real(dp), intent(in) :: gap(:, :)
@@ -146,8 +149,8 @@ contains
       mean = sum(self%sums)/self%contact_points
    end subroutine mean_gap_in_contact
 
-   !> Chooses the approach so that the mean gap in contact is zero (C3), and measures the conditions on the gap (C9),
-   !> not yet over G. As the shifts add up, each is as exact as a number near zero.
+   !> Changes the approach so that the mean gap in contact is zero (C3), and computes the residual (C9) times G. The
+   !> approach is the sum of small changes: each is a mean of small gaps and loses no digits.
    subroutine shift_gap(self, state)
       class(contact_iteration), intent(inout) :: self
       type(grid_state), intent(inout) :: state
@@ -169,8 +172,8 @@ contains
       end associate
    end subroutine shift_gap
 
-   !> From the residual r in `image` to z (C4): the pressure that would cancel it, restricted to the contact and
-   !> without its mean there.
+   !> Computes z (C4) from the residual r, both in `image`: the pressure S^-1 r, restricted to the contact, less its
+   !> mean there.
    subroutine precondition(self, half_space)
       class(contact_iteration), intent(inout) :: self
       type(compliance_operator), intent(inout) :: half_space
@@ -190,8 +193,8 @@ contains
       end do
    end subroutine precondition
 
-   !> The next direction by Polak & Ribiere's factor (C5), in `direction` and `image`; `residual` becomes the present
-   !> one.
+   !> Computes the next direction by Polak & Ribiere's factor (C5), in `direction` and `image`, and sets `residual` to
+   !> the present one.
    subroutine update_direction(self, gap)
       class(contact_iteration), intent(inout) :: self
       real(dp), intent(in) :: gap(:, :)
@@ -205,7 +208,7 @@ contains
          self%more_sums(j) = dot_product(self%residual(:, j), self%image(:, j))
       end do
       descent = sum(self%sums)
-      ! After a contact of one point, which has no direction, the search starts afresh.
+      ! A contact of one point has no direction and (gap, z) = 0: the search restarts.
       beta = 0.0_dp
       if (self%descent > tiny(self%descent)) beta = max((descent - sum(self%more_sums))/self%descent, 0.0_dp)
       self%descent = descent
@@ -214,7 +217,7 @@ contains
          self%direction(:, j) = merge(self%image(:, j) + beta*self%direction(:, j), 0.0_dp, self%contact(:, j))
          self%sums(j) = sum(self%direction(:, j))
       end do
-      ! Points that have left the contact took part of the last direction with them: its mean is no longer zero.
+      ! If points have left the contact, the mean of the last direction over the others is not zero.
       mean = sum(self%sums)/self%contact_points
       !$omp parallel do num_threads(self%threads)
       do j = 1, size(gap, 2)
@@ -224,11 +227,11 @@ contains
       end do
    end subroutine update_direction
 
-   !> The step to the least energy along the direction (C6); `image` becomes Sd.
+   !> Computes the step to the least energy along the direction (C6); `image` becomes Sd.
    subroutine find_step(self, half_space, step)
       class(contact_iteration), intent(inout) :: self
       type(compliance_operator), intent(inout) :: half_space
-      real(dp), intent(out) :: step   !! zero for a contact of one point, where d = 0: it may still have to grow
+      real(dp), intent(out) :: step   !! zero for a contact of one point, where d = 0; overlaps may still be added
 
       real(dp) :: curvature
       integer :: j
@@ -272,7 +275,7 @@ contains
       end associate
    end subroutine move_pressure
 
-   !> The gap after a step in which no point left the contact.
+   !> Updates the gap after a step in which no point left the contact.
    subroutine move_gap(self, step, gap)
       class(contact_iteration), intent(in) :: self
       real(dp), intent(in) :: step
@@ -286,8 +289,8 @@ contains
       end do
    end subroutine move_gap
 
-   !> Points outside that overlap by more than an allowance enter the contact (C8). Smaller overlaps may be rounding:
-   !> such points would enter and leave without end.
+   !> Adds to the contact the points outside whose gap is below the mean gap in contact by more than an allowance (C8).
+   !> Smaller overlaps may be rounding: such points would enter and leave without end.
    subroutine add_overlaps(self, allowance, gap)
       class(contact_iteration), intent(inout) :: self
       real(dp), intent(in) :: allowance   !! [Delta]

@@ -1,4 +1,4 @@
-!> Solutions whose pressure is a Fourier series.
+!> Solutions whose pressure is a Fourier series. The displacement follows from it.
 module wavycon_series_solution
    use wavycon_contact_fields, only: contact_fields, series_fields
    use wavycon_contact_solution, only: contact_solution

@@ -14,20 +14,20 @@ contains
 
    pure type(key_type) function accuracy_key() result(key)
       key = real_key('accuracy', '1e-3', '-', &
-         'largest error allowed of mean gap [amplitude], contact area fraction and peak pressure [p*]; of expansions with '// &
-         'lines, map, contours or details also of the gap at a trough. A load that misses it has the status not_accurate.', &
-         least=1.0e-12_dp, most=0.1_dp)
+         'largest error allowed of mean gap [amplitude], contact area fraction and peak pressure [p*]; of '// &
+         'expansions with lines, map, contours or details also of the gap at a trough. A load that misses it has '// &
+         'the status not_accurate.', least=1.0e-12_dp, most=0.1_dp)
    end function accuracy_key
 
    pure type(key_type) function grid_points_key() result(key)
       key = integer_key('grid_points', '', &
-         'in place of accuracy: points of the cell along x and y of the one grid to solve; one number for both. Even '// &
-         'numbers. For a file the default is its own grid. Errors are estimated for multiples of 4 from 64 points a side; '// &
-         'for others the summary shows the largest possible errors.', 8, 8192, most_values=2)
+         'in place of accuracy: points of the cell along x and y of the one grid to solve; one number for both. '// &
+         'Even numbers. For a file the default is its own grid. Errors are estimated for multiples of 4 from 64 '// &
+         'points a side; for others the summary shows the largest possible errors.', 8, 8192, most_values=2)
    end function grid_points_key
 
-   !> The grid in effect, along x and y: that of the deck or, without an accuracy, that which the surface was given on. Zeros
-   !> if the accuracy decides.
+   !> The grid in effect, along x and y: that of the deck or, without an accuracy, that which the surface was given
+   !> on. Zeros if the accuracy decides.
    pure function points_of_grid(values, surface) result(points)
       type(group_values), intent(in) :: values     !! of &method
       type(surface_type), intent(in) :: surface
@@ -41,9 +41,10 @@ contains
       if (all(points == 0) .and. .not. values%real('accuracy') > 0.0_dp) points = surface%points
    end function points_of_grid
 
-   !> Where a grid is given, or the surface was given on one, there is no default accuracy.
+   !> Removes the default of `accuracy` if the deck gives grid_points or the surface is a height map: these are then
+   !> solved on one given grid. Writes grid_points in full to the resolved deck.
    subroutine set_grid_defaults(values, surface)
-      type(group_values), intent(inout) :: values
+      type(group_values), intent(inout) :: values  !! of &method
       type(surface_type), intent(in) :: surface
 
       integer :: points(2)
@@ -57,8 +58,9 @@ contains
       call values%leave_out('accuracy')
    end subroutine set_grid_defaults
 
+   !> Reports grid_points beside accuracy, and odd numbers of points.
    subroutine check_grid_points(values, problems)
-      type(group_values), intent(in) :: values
+      type(group_values), intent(in) :: values     !! of &method
       type(problem_list_type), intent(inout) :: problems
 
       call values%forbid(problems, 'accuracy', 'grid_points', 'give the one or the other')

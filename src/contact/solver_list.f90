@@ -22,7 +22,7 @@ module wavycon_solver_list
 
 contains
 
-   !> All solvers, in the order of the key reference. None is started.
+   !> All solvers, not started, in the order of the key reference.
    subroutine get_solvers(solvers)
       type(solver_item), allocatable, intent(out) :: solvers(:)
 
@@ -49,7 +49,7 @@ contains
       call move_alloc(longer, solvers)
    end subroutine add
 
-   !> The names of the solvers and the keys that each reads.
+   !> The name and the keys of each solver.
    subroutine keys_of_solvers(solvers, alternatives)
       type(solver_item), intent(in) :: solvers(:)
       type(alternative_type), allocatable, intent(out) :: alternatives(:)
@@ -63,7 +63,7 @@ contains
       end do
    end subroutine keys_of_solvers
 
-   !> The name of the solver of a deck that names none.
+   !> The name of the default solver of a surface.
    function default_solver(surface, kind) result(name)
       type(surface_type), intent(in) :: surface
       character(*), intent(in) :: kind           !! of the surface, as the deck names it
@@ -129,7 +129,7 @@ contains
       words = listed(in_quotes(pack(names, selected)), ' or ')
    end function names_of
 
-   !> Starts the solver that a deck names. Not allocated if there is none of that name.
+   !> Makes the solver that &method names and starts it. Not allocated if no solver has that name.
    subroutine start_solver(surface, values, keep_fields, solver)
       type(surface_type), intent(in) :: surface
       type(group_values), intent(in) :: values       !! of &method, without problems

@@ -1,4 +1,4 @@
-!> Progress of a solver within one load, for a caller that wants to display it.
+!> Interface to a procedure that a solver calls within a load, to display its progress.
 module wavycon_solver_progress
    use wavycon_kinds, only: dp
    implicit none (type, external)
@@ -16,9 +16,9 @@ module wavycon_solver_progress
       subroutine grid_is_solved(self, points, iterations, residual)
          import :: dp, solver_progress
          class(solver_progress), intent(in) :: self
-         integer, intent(in) :: points(2)     !! of the whole cell
-         integer, intent(in) :: iterations
-         real(dp), intent(in) :: residual     !! relative
+         integer, intent(in) :: points(2)     !! of the grid, on the whole cell along x and y
+         integer, intent(in) :: iterations    !! on this grid
+         real(dp), intent(in) :: residual     !! (C9)
       end subroutine grid_is_solved
    end interface
 

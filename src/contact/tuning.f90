@@ -59,4 +59,52 @@ module wavycon_contact_tuning
    !> but not by much more than this.
    real(dp), parameter, public :: least_of_area = 0.01_dp
 
+   ! Search for the load of a given area or gap, (C18). t is the target.
+
+   !> The search ends when the value differs from t by this fraction of its error estimate: a closer value would not be
+   !> more accurate.
+   real(dp), parameter, public :: fraction_of_error = 0.01_dp
+   !> The tolerance is at least this fraction of min(t, 1 - t): closed forms have no error estimate, and smaller
+   !> differences are rounding.
+   real(dp), parameter, public :: least_fraction = 1e-12_dp
+   !> The tolerance is at most this fraction of min(t, 1 - t): where the error estimate is as large as t the value must
+   !> still come close to t.
+   real(dp), parameter, public :: largest_fraction = 1e-4_dp
+   !> Solutions of a search at one accuracy, after which the status is not_accurate. To halve a step of `longest_step`
+   !> down to rounding takes 45.
+   integer, parameter, public :: most_solves = 60
+   !> Longest step in logit P, a factor of 20 in the load: over longer distances the two logits are no straight line.
+   real(dp), parameter, public :: longest_step = 3.0_dp
+   !> Least slope that the secant may have. Slopes lie between 1/2 and 5/2 (C18); where two values differ by less than
+   !> their errors the secant may have any slope.
+   real(dp), parameter, public :: flattest = 0.2_dp
+   !> Largest slope, likewise. The margin over 5/2 is wide: too steep a secant makes short steps, not wrong ones.
+   real(dp), parameter, public :: steepest = 20.0_dp
+   !> Grids refined to an accuracy search first with ten times, then a hundred times lower accuracies, down to this.
+   !> Less accurate solutions do not help the search: their areas differ too much from the final ones.
+   real(dp), parameter, public :: worst_search_accuracy = 1e-2_dp
+   !> Grids of given points search first on grids with half the points each way, down to this number along the longer
+   !> side, for the same reason.
+   integer, parameter, public :: least_search_points = 64
+
+   ! Beale's method.
+
+   !> Beale's method starts at this load, or at the load itself if that is higher; the dual pass then goes down to the
+   !> load. Few constraints are active this close to full contact. From x = 0 at a light load Beale's method would make
+   !> nearly dependent constraints of neighbouring points near the troughs active, which takes about five times as long.
+   real(dp), parameter, public :: starting_load = 0.9_dp
+
+   ! Expansions fitted to the edge.
+
+   !> Largest ratio of the sides of a cell: longer spots need polynomials of higher degree.
+   real(dp), parameter, public :: largest_aspect_ratio = 3.0_dp
+   !> Largest ratio of the two curvatures of a crest, for the same reason.
+   real(dp), parameter, public :: largest_curvature_ratio = 50.0_dp
+
+   ! Closed form.
+
+   !> Terms of the series of the pressure. Its coefficients fall as i^(-3/2): the series is then within 1e-5 p* of the
+   !> pressure except next to the edge.
+   integer, parameter, public :: field_terms = 2000
+
 end module wavycon_contact_tuning

@@ -23,12 +23,12 @@ module wavycon_deck
       character(:), allocatable :: path            !! the deck's file, as the caller named it
       type(group_values) :: scene, material, surface_values, load, method, output
       type(surface_type), allocatable :: surface   !! `make_scene` moves it into the scene
-      type(map_statistics), allocatable :: map     !! of a height map; moved likewise
+      type(map_statistics), allocatable :: map     !! allocated for a height map; `make_scene` moves it too
    end type deck_type
 
 contains
 
-   !> The tables of all groups, by the numbers above.
+   !> The tables of keys of all groups, indexed by the numbers above.
    function deck_tables() result(tables)
       type(key_group_type) :: tables(number_of_groups)
 

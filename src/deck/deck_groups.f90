@@ -17,7 +17,8 @@ module wavycon_deck_groups
 
 contains
 
-   !> Reads all groups and checks what follows from the tables alone.
+   !> Reads the values of all groups and checks them against the tables: names, types, bounds, required keys. Checks
+   !> of keys against each other follow in the modules of the groups.
    subroutine take_groups(text, scan, tables, groups, problems)
       type(deck_text_type), intent(in) :: text
       type(scan_type), intent(in) :: scan
@@ -40,7 +41,8 @@ contains
       end do
    end subroutine take_groups
 
-   !> Which table each group of the deck belongs to; 0 for a group that is unknown or there already.
+   !> Finds the table of each group of the deck. It is 0 for an unknown group and for one that is given twice; both are
+   !> reported.
    subroutine match_groups(text, scan, tables, table_of, problems)
       type(deck_text_type), intent(in) :: text
       type(scan_type), intent(in) :: scan
@@ -73,7 +75,7 @@ contains
          i = nearest_name(name(2:), group_names(tables))
          if (i == 0) cycle
          if (first_of_table(i) > 0) cycle
-         ! A misspelt group: what it holds is checked all the same, and it is not missing.
+         ! A misspelt group: its keys are checked too, and the group is not reported as missing.
          first_of_table(i) = g
          table_of(g) = i
       end do
@@ -88,7 +90,7 @@ contains
 
    end subroutine match_groups
 
-   !> What to say of a group that decks do not have.
+   !> The message for an unknown group.
    pure function unknown_group(name, tables) result(words)
       character(*), intent(in) :: name  !! with its '&'
       type(key_group_type), intent(in) :: tables(:)
@@ -136,7 +138,7 @@ contains
          key = word_of(text, scan, scan%entries(e)%key)
          if (key_index(values%table%keys, key) > 0) cycle
          call problems%add(place(e), unknown_key(key, values%table, tables))
-         ! Whoever misspells a key means to give it: no complaint that it is missing.
+         ! A misspelt key is not reported as missing too.
          k = nearest_name(key, key_names(values%table%keys))
          if (k == 0) cycle
          key = trim(values%table%keys(k)%name)
@@ -155,7 +157,7 @@ contains
 
    end subroutine take_keys
 
-   !> What to say of a key that the group does not have.
+   !> The message for a key that the group does not have.
    pure function unknown_key(key, table, tables) result(words)
       character(*), intent(in) :: key
       type(key_group_type), intent(in) :: table, tables(:)
@@ -181,7 +183,7 @@ contains
          words = words//'; its keys are '//listed(key_names(table%keys))
    end function unknown_key
 
-   !> Reports what every deck needs and this one does not have.
+   !> Reports a required group or required keys that are missing.
    subroutine report_missing(values, problems)
       type(group_values), intent(in) :: values
       type(problem_list_type), intent(inout) :: problems
@@ -252,7 +254,7 @@ contains
       end if
    end subroutine take_value
 
-   !> What to say of a value that a key has no use for.
+   !> The message for more values than a key takes.
    pure function one_too_many(key, table, word) result(words)
       type(key_type), intent(in) :: key
       type(key_group_type), intent(in) :: table

@@ -1,6 +1,6 @@
 !> Arranges the tokens of a deck into groups and their entries `key = values`.
 !>
-!> What the words mean is not looked at here. What does not fit the grammar is reported and left out.
+!> Only the grammar is checked here, not names or values. Tokens that do not fit the grammar are reported and ignored.
 module wavycon_deck_scanner
    use wavycon_deck_text, only: deck_text_type
    use wavycon_deck_tokens, only: is_broken_word, is_comma, is_equals, is_group, is_slash, is_word, quotes, &
@@ -12,7 +12,8 @@ module wavycon_deck_scanner
 
    public :: scan_type, entry_type, scan_deck, start_scan, read_group, read_values
 
-   !> Tokens, groups and entries of a deck; more are no deck. The longest list of loads takes 200000 tokens.
+   !> Most tokens, groups and entries of a deck, to bound time and memory. The longest list of loads takes 200000
+   !> tokens.
    integer, parameter, public :: most_tokens = 1000000, most_groups = 100, most_entries = 1000
 
    !> `key = values`.
@@ -30,7 +31,7 @@ module wavycon_deck_scanner
 
 contains
 
-   !> Scans a text; what does not fit the grammar is added to the problems and left out.
+   !> Scans a text. Adds a problem for each part that does not fit the grammar and ignores that part.
    subroutine scan_deck(text, scan, problems)
       type(deck_text_type), intent(in) :: text
       type(scan_type), intent(out) :: scan
@@ -69,7 +70,7 @@ contains
          'a deck has at most '//integer_text(most_tokens)//' words and separators: what follows is not read')
    end subroutine start_scan
 
-   !> Takes a group, from its name to the '/' that closes it.
+   !> Reads a group, from its name to the '/' that closes it.
    subroutine read_group(text, scan, t, problems)
       type(deck_text_type), intent(in) :: text
       type(scan_type), intent(inout) :: scan
@@ -109,12 +110,12 @@ contains
             end if
          end associate
       end do
-      ! Where a quote is open the '/' is likely to be behind it: no second problem.
+      ! If a quote is not closed, the '/' is likely within the quoted text: do not report it as missing.
       if (.not. quote_is_open) call problems%add(scan%tokens(name)%first, shown(text, scan%tokens(name))// &
          " is not closed: no '/' up to the end of the deck")
    end subroutine read_group
 
-   !> Takes an entry of the last group.
+   !> Reads an entry of the last group.
    subroutine read_entry(text, scan, t, quote_is_open, problems)
       type(deck_text_type), intent(in) :: text
       type(scan_type), intent(inout) :: scan
@@ -133,7 +134,7 @@ contains
       scan%entries = [scan%entries, entry]
    end subroutine read_entry
 
-   !> Takes the words and commas that follow 'key =', up to the next entry, group or '/'.
+   !> Reads the words and commas that follow 'key =', up to the next entry, group or '/'.
    subroutine read_values(text, tokens, t, quote_is_open, problems)
       type(deck_text_type), intent(in) :: text
       type(token_type), intent(in) :: tokens(:)
@@ -198,7 +199,7 @@ contains
       end do
    end function next_group
 
-   !> The first token, from t on, at which a group can be read on; one behind the last if there is none.
+   !> The first token, from t on, that begins an entry or ends the group; one behind the last if there is none.
    pure integer function next_in_group(tokens, t) result(next)
       type(token_type), intent(in) :: tokens(:)
       integer, intent(in) :: t
@@ -208,7 +209,7 @@ contains
       end do
    end function next_in_group
 
-   !> Whether a token is '&end', which closed a group before Fortran 90 and no longer does.
+   !> Whether a token is '&end', which closed a namelist group before Fortran 90. Decks do not allow it.
    pure logical function is_old_end(text, token)
       type(deck_text_type), intent(in) :: text
       type(token_type), intent(in) :: token
@@ -216,7 +217,7 @@ contains
       is_old_end = lower_case(text%content(token%first:token%last)) == '&end'
    end function is_old_end
 
-   !> A token as messages show it.
+   !> The text of a token for messages: an excerpt with unprintable bytes escaped.
    pure function shown(text, token) result(words)
       type(deck_text_type), intent(in) :: text
       type(token_type), intent(in) :: token

@@ -23,7 +23,7 @@ module wavycon_deck_text
 
    character(*), parameter :: line_feed = achar(10), carriage_return = achar(13)
 
-   !> Bytes of a file: a larger one is no deck. The largest useful deck has a tenth of this.
+   !> Most bytes of a deck. The longest list of loads takes a tenth of this.
    integer, parameter :: largest = 64*1024*1024
 
 contains
@@ -51,6 +51,7 @@ contains
       end do
    end function new_deck_text
 
+   !> Whether the byte at a place is the last of a line end: LF, CR LF or CR.
    pure logical function ends_line(content, place)
       character(*), intent(in) :: content
       integer, intent(in) :: place
@@ -80,7 +81,7 @@ contains
       end do
    end function line_of
 
-   !> First and last place of a line, without what ends it; last < first if the line is empty.
+   !> First and last place of a line without its line end; last < first if the line is empty.
    pure subroutine line_bounds(self, line, first, last)
       class(deck_text_type), intent(in) :: self
       integer, intent(in) :: line
@@ -95,7 +96,7 @@ contains
       end do
    end subroutine line_bounds
 
-   !> Reads a deck; all its errors have the status `exit_file_trouble`.
+   !> Reads the text of a deck file. Errors: exit_file_trouble.
    subroutine read_deck_text(path, text, error)
       character(*), intent(in) :: path
       type(deck_text_type), intent(out) :: text

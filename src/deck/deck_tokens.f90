@@ -1,6 +1,6 @@
 !> Cuts the text of a deck into tokens: words, separators and names of groups.
 !>
-!> The time is proportional to the length of the text, whatever bytes it holds.
+!> The time is proportional to the length of the text, for any bytes.
 module wavycon_deck_tokens
    implicit none (type, external)
    private
@@ -63,7 +63,7 @@ contains
       end do
    end subroutine tokenise
 
-   !> The last place before any byte of a set, from a place on.
+   !> The place before the first byte of a set at or after `place`; the last place if there is none.
    pure integer function end_before(content, place, set)
       character(*), intent(in) :: content, set
       integer, intent(in) :: place
@@ -76,8 +76,8 @@ contains
       end if
    end function end_before
 
-   !> The end of a word: a closing quote, or what comes before the next separator. A quote must be closed on
-   !> its line.
+   !> Finds the end of a word: the closing quote, or the byte before the next separator. If a quote is not closed on its
+   !> line, the word is broken.
    pure subroutine find_word_end(content, place, last, kind)
       character(*), intent(in) :: content
       integer, intent(in) :: place

@@ -1,4 +1,4 @@
-!> The reference of all groups and keys of a deck, made from the tables that check decks.
+!> The reference of all groups and keys for --help, generated from the same tables that decks are checked against.
 module wavycon_key_reference
    use wavycon_deck, only: deck_tables
    use wavycon_key_table, only: allowed_values, key_group_type, key_type
@@ -23,7 +23,7 @@ contains
       tables = deck_tables()
       call add_wrapped(reference, 0, &
          "A deck consists of Fortran namelist groups, '&group key = value ... /', "// &
-         "in any order; '!' begins a comment. A group or key may be left out unless it says required. "// &
+         "in any order; '!' begins a comment. A group or key may be left out unless marked as required. "// &
          'Lengths may be in any one unit and pressures in any one unit.')
       reference = reference//newline
       call add_wrapped(reference, 0, 'Loads are mean pressures pbar over the nominal area. p* is the mean '// &
@@ -42,6 +42,7 @@ contains
       end do
    end function key_reference
 
+   !> Adds a key: allowed values, unit, default and meaning.
    subroutine add_key(reference, key)
       character(:), allocatable, intent(inout) :: reference
       type(key_type), intent(in) :: key

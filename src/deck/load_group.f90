@@ -10,7 +10,7 @@ module wavycon_load_group
 
    public :: load_table, check_load_group, given_loads
 
-   !> Contact is complete at 1; a load beyond this is a mistake, most likely of units.
+   !> Largest load accepted. Contact is full from 1 on: a load far above it is most likely a mistake of units.
    real(dp), parameter, public :: largest_pbar_over_pstar = 1.0e6_dp
 
    integer, parameter :: most_loads = 100000
@@ -25,6 +25,7 @@ module wavycon_load_group
 
 contains
 
+   !> The table of keys of &load.
    function load_table() result(table)
       type(key_group_type) :: table
 
@@ -35,7 +36,8 @@ contains
          real_key('mean_pressure', '', 'unit of e_star', 'Mean pressures, over the nominal area.', &
             least=0.0_dp, most_values=most_loads), &
          real_key('mean_gap_over_amplitude', '', '-', &
-            'Mean gaps over the mean gap before load, which is the amplitude of a wave; the program finds their loads.', &
+            'Mean gaps over the mean gap before load, which is the amplitude of a wave; the program finds their '// &
+            'loads.', &
             least=0.0_dp, most=1.0_dp, most_values=most_loads), &
          real_key('mean_gap', '', 'length', 'Mean gaps; the program finds their loads.', least=0.0_dp, &
             most_values=most_loads), &
@@ -51,7 +53,7 @@ contains
             1, most_loads)], required=.true.)
    end function load_table
 
-   !> Reports loads that are given in no way, in several ways, or by an incomplete sweep.
+   !> Reports loads that are not given, given in more than one way, or given by an incomplete sweep.
    subroutine check_load_group(values, problems)
       type(group_values), intent(in) :: values
       type(problem_list_type), intent(inout) :: problems
@@ -78,7 +80,7 @@ contains
    !> The loads in the deck's order; a sweep is a list of pbar_over_pstar.
    pure subroutine given_loads(values, key, loads_by, loads)
       type(group_values), intent(in) :: values              !! of a &load group without problems
-      character(:), allocatable, intent(out) :: key         !! that gives them: one of `lists`
+      character(:), allocatable, intent(out) :: key         !! the key that gives them; pbar_over_pstar for a sweep
       integer, intent(out) :: loads_by                      !! by_pressure, by_mean_gap or by_contact_area
       real(dp), allocatable, intent(out) :: loads(:)        !! [unit of the key]
 

@@ -1,4 +1,4 @@
-!> The scene that a deck describes.
+!> Makes the scene that a deck describes; converts its loads to the program's normalisation.
 module wavycon_make_scene
    use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_value
    use wavycon_deck, only: deck_type
@@ -16,9 +16,10 @@ module wavycon_make_scene
 
 contains
 
-   !> Makes the scene. Errors: exit_bad_input for loads that the surface cannot have.
+   !> Makes the scene. Errors: exit_bad_input for a mean gap above that before load, for a pressure of more than
+   !> largest_pbar_over_pstar p*, and for a gap or an area on a flat surface.
    subroutine make_scene(deck, scene, error)
-      type(deck_type), intent(inout) :: deck   !! its surface and map, which may be large, move into the scene
+      type(deck_type), intent(inout) :: deck   !! surface and map, which may be large, are moved into the scene
       type(scene_type), intent(out) :: scene
       type(error_type), allocatable, intent(out) :: error
 
@@ -47,7 +48,7 @@ contains
       scene%resolved_deck = resolved_deck_text(essence)
    end subroutine make_scene
 
-   !> Errors: exit_bad_input.
+   !> Sets the loads of the scene. Errors: exit_bad_input, as of make_scene.
    subroutine take_loads(deck, scene, error)
       type(deck_type), intent(in) :: deck
       type(scene_type), intent(inout) :: scene
@@ -60,7 +61,7 @@ contains
       call given_loads(deck%load, key, scene%loads_by, loads)
       if (scene%loads_by /= by_pressure .and. scene%p_star <= 0.0_dp) then
          call fatal_error(error, exit_bad_input, escaped(deck%path)// &
-                          ': the surface is flat: it has neither a gap nor a part in contact to ask for')
+                          ': the surface is flat: give its loads by pressure, not by gap or area')
          return
       end if
       worst = maxval(loads)
@@ -69,7 +70,7 @@ contains
          scene%mean_pressure = scene%p_star*loads
          if (scene%p_star <= 0.0_dp) loads = in_p_star(scene%mean_pressure, scene%p_star)
       case ('mean_pressure')
-         ! Before the division, which may overflow.
+         ! Checked before the division by p*, which may overflow.
          if (scene%p_star > 0.0_dp .and. worst > largest_pbar_over_pstar*scene%p_star) then
             call fatal_error(error, exit_bad_input, escaped(deck%path)//': mean_pressure = '// &
                              short_number(worst)// &
@@ -92,7 +93,8 @@ contains
       call move_alloc(loads, scene%target)
    end subroutine take_loads
 
-   !> A mean pressure over p*. On a flat surface p* = 0 and any pressure is full contact: none at all is p* itself.
+   !> A mean pressure over p*. On a flat surface p* = 0 and contact is full at every load: the result is 1 without
+   !> load and infinity otherwise.
    elemental real(dp) function in_p_star(mean_pressure, p_star)
       real(dp), intent(in) :: mean_pressure, p_star   !! both >= 0
 

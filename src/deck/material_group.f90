@@ -11,6 +11,7 @@ module wavycon_material_group
 
 contains
 
+   !> The table of keys of &material.
    function material_table() result(table)
       type(key_group_type) :: table
 
@@ -24,6 +25,8 @@ contains
          real_key('nu2', '', '-', "Poisson's ratio of the second body.", above=-1.0_dp, most=0.5_dp)])
    end function material_table
 
+   !> Reports moduli without their Poisson's ratios, and moduli beside e_star. Leaves e_star out of the resolved deck
+   !> if e1 is given.
    subroutine check_material_group(values, problems)
       type(group_values), intent(inout) :: values
       type(problem_list_type), intent(inout) :: problems
@@ -43,8 +46,8 @@ contains
       if (values%has('e1')) call values%leave_out('e_star')
    end subroutine check_material_group
 
-   !> E* of the pair: as given, or 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2, in which a rigid body adds nothing
-   !> [unit of e1].
+   !> E* of the pair [pressure]: as given, or from 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2, without the second term if
+   !> the second body is rigid.
    pure real(dp) function plane_strain_modulus(values) result(e_star)
       type(group_values), intent(in) :: values   !! of a &material group without problems
 

@@ -13,6 +13,7 @@ module wavycon_method_group
 
 contains
 
+   !> The table of keys of &method: `solver` and the keys of all solvers.
    function method_table() result(table)
       type(key_group_type) :: table
 
@@ -56,11 +57,11 @@ contains
       do k = 1, size(values%table%keys)
          key = trim(values%table%keys(k)%name)
          if (is_misplaced(alternatives, chosen, key, values)) call values%complain(problems, key, &
-            key//' is a key of solver = '//names_reading(alternatives, key)//", not of '"//values%text('solver')//"'"// &
-            solvers(chosen)%solver%advice(key))
+            key//' is a key of solver = '//names_reading(alternatives, key)//", not of '"// &
+            values%text('solver')//"'"//solvers(chosen)%solver%advice(key))
       end do
       call leave_out_other_keys(alternatives, chosen, values)
-      ! Problems that only follow from a bad surface would mislead.
+      ! Without a surface the remaining checks would report problems that are not there.
       if (.not. allocated(surface)) return
       refusal = solvers(chosen)%solver%refusal(surface)
       if (refusal /= '') then

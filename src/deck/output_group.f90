@@ -11,11 +11,12 @@ module wavycon_output_group
 
    public :: output_table, check_output_group, plain_directory
 
-   !> Bytes. More than the longest name of a case: the default must fit.
+   !> Bytes of a directory's name. The default, 'outputs/' and the name of the case, must fit.
    integer, parameter, public :: longest_directory = 250
 
 contains
 
+   !> The table of keys of &output: the directory, and a logical key for each table that can be requested.
    function output_table() result(table)
       type(key_group_type) :: table
 
@@ -40,7 +41,7 @@ contains
    !> Sets the directory and checks the tables against the solver and the surface.
    subroutine check_output_group(values, case, solver, surface, problems)
       type(group_values), intent(inout) :: values
-      character(*), intent(in) :: case     !! that the default directory is named after
+      character(*), intent(in) :: case     !! name of the case; the default directory is outputs/<case>
       character(*), intent(in) :: solver   !! of &method
       type(surface_type), allocatable, intent(in) :: surface   !! not allocated if it has problems
       type(problem_list_type), intent(inout) :: problems
@@ -67,7 +68,7 @@ contains
       end do
    end subroutine check_output_group
 
-   !> The name of a directory without needless './' and '/', so that one place has one name.
+   !> The path of a directory without superfluous './' and '/', so that equal paths are equal texts.
    pure function plain_directory(name) result(plain)
       character(*), intent(in) :: name
       character(:), allocatable :: plain
@@ -81,7 +82,7 @@ contains
 
    contains
 
-      !> Removes so many bytes wherever the text stands.
+      !> Removes the first `bytes` bytes of each occurrence of a text.
       pure subroutine drop(text, bytes)
          character(*), intent(in) :: text
          integer, intent(in) :: bytes

@@ -1,4 +1,4 @@
-!> The report of the problems in a deck.
+!> The report of all problems in a deck, as the message of one error.
 module wavycon_problem_report
    use wavycon_deck_text, only: deck_text_type
    use wavycon_plain_text, only: character_count, escaped, integer_text, is_continuation, newline
@@ -8,7 +8,7 @@ module wavycon_problem_report
 
    public :: problem_report
 
-   !> Problems in a report: more would not help to correct the deck.
+   !> Most problems in a report. The remaining ones are only counted.
    integer, parameter, public :: most_printed = 50
 
 contains
@@ -47,7 +47,7 @@ contains
       if (problems%is_full()) words = 'at least '
    end function at_least
 
-   !> The order of the problems by place; problems at one place keep their order.
+   !> The indices of the problems sorted by place; problems at the same place keep their order.
    pure function in_order(problems) result(order)
       type(problem_list_type), intent(in) :: problems
       integer :: order(problems%number)

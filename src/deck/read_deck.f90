@@ -1,7 +1,8 @@
-!> Reads a deck file into a deck, or into the complete list of what is wrong with it.
+!> Reads a deck file and reports all problems in it at once.
 !>
-!> The text is scanned by own code, because a compiler's own NAMELIST errors mislead: a misspelt group reads as the end
-!> of the file, a repeated key or an empty value as nothing at all. Words mean what they mean to NAMELIST.
+!> The text is scanned here rather than by Fortran's NAMELIST, whose errors mislead: gfortran 12 reports a misspelt
+!> group as the end of the file, and does not report a repeated key or an empty value at all. The syntax is that of
+!> NAMELIST.
 module wavycon_read_deck
    use wavycon_deck, only: deck_tables, deck_type, load_number, material_number, method_number, &
       number_of_groups, output_number, scene_number, surface_number
@@ -28,8 +29,8 @@ contains
 
    !> Reads a deck file.
    !>
-   !> Errors: exit_file_trouble if the deck or its height map cannot be read, exit_bad_input with a report of all
-   !> problems if the file is no deck, exit_bad_input if the height map is none.
+   !> Errors: exit_file_trouble if the deck or its height map cannot be read; exit_bad_input, with a report of all
+   !> problems, for a bad deck; exit_bad_input for a bad height map.
    subroutine read_deck(path, deck, error)
       character(*), intent(in) :: path
       type(deck_type), intent(out) :: deck  !! to be used only if there is no error
@@ -42,7 +43,7 @@ contains
       call parse_deck(text, deck, error)
    end subroutine read_deck
 
-   !> Reads a deck from its text. Errors: as `read_deck`.
+   !> Reads a deck from its text. Errors: as of `read_deck`.
    subroutine parse_deck(text, deck, error)
       type(deck_text_type), intent(in) :: text
       type(deck_type), intent(out) :: deck  !! to be used only if there is no error
@@ -72,14 +73,15 @@ contains
       call check_load_group(deck%load, problems)
       call check_method_group(deck%method, deck%surface_values%text('kind'), deck%surface, problems)
       call check_output_group(deck%output, deck%scene%text('case'), deck%method%text('solver'), deck%surface, problems)
-      ! Before any trouble with a height map: the deck must be corrected first.
+      ! Problems of the deck are reported rather than an error of its height map: the path of the map may be one of
+      ! them.
       if (problems%number > 0) then
          if (allocated(error)) deallocate (error)
          call fatal_error(error, exit_bad_input, problem_report(problems, text))
       end if
    end subroutine parse_deck
 
-   !> Checks &surface and makes the surface if there are no problems. Errors: as `make_surface`.
+   !> Checks &surface and, if it has no problems, makes the surface. Errors: as of `make_surface`.
    subroutine read_surface(deck, problems, error)
       type(deck_type), intent(inout) :: deck
       type(problem_list_type), intent(inout) :: problems

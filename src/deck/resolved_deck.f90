@@ -1,4 +1,4 @@
-!> The resolved deck: every key that applies with the value in effect. Read again, it gives the same run.
+!> The resolved deck: every key that applies, with the value in effect. To run it repeats the run.
 module wavycon_resolved_deck
    use wavycon_deck, only: deck_type
    use wavycon_group_values, only: group_values
@@ -12,11 +12,12 @@ module wavycon_resolved_deck
 
 contains
 
+   !> Writes the resolved deck to a unit.
    subroutine write_resolved_deck(deck, unit, iostat, iomsg)
       type(deck_type), intent(in) :: deck  !! as read
       integer, intent(in) :: unit          !! open for formatted writing
       integer, intent(out), optional :: iostat          !! 0 if all was written
-      character(*), intent(inout), optional :: iomsg    !! why not
+      character(*), intent(inout), optional :: iomsg    !! the error message if iostat is not 0; else unchanged
 
       character(200) :: message
       integer :: status
@@ -52,7 +53,7 @@ contains
 
    !> "key = value   ! [unit] allowed values", and a line for each further value.
    !>
-   !> N.B. No commas between the values: gfortran's NAMELIST takes one with a comment behind it for a value left out.
+   !> N.B. Without commas between the values: gfortran's NAMELIST reads a comma before a comment as an omitted value.
    function key_text(values, key) result(text)
       type(group_values), intent(in) :: values
       type(key_type), intent(in) :: key
@@ -90,7 +91,7 @@ contains
       character(:), allocatable :: line, room
       integer :: i, used
 
-      ! Appending to `text` 100000 times would copy it as often.
+      ! To append to `text` would copy it each time, for up to 100000 numbers.
       allocate (character(most_bytes*size(numbers)) :: room)
       used = 0
       do i = 2, size(numbers)

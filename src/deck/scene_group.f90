@@ -14,6 +14,7 @@ module wavycon_scene_group
 
 contains
 
+   !> The table of keys of &scene.
    function scene_table() result(table)
       type(key_group_type) :: table
 
@@ -25,7 +26,7 @@ contains
             ". The deck's name is that of its file without '.nml'.", longest_name)])
    end function scene_table
 
-   !> A case that is not given is named after the deck's file.
+   !> Checks the name of the case. Its default is the name of the deck's file without '.nml'.
    subroutine check_scene_group(values, problems)
       type(group_values), intent(inout) :: values
       type(problem_list_type), intent(inout) :: problems
@@ -41,6 +42,7 @@ contains
          'case must be a plain file name of '//plain_in_words)
    end subroutine check_scene_group
 
+   !> Whether a text can be the stem of file names: as plain_in_words.
    pure logical function is_plain_name(name)
       character(*), intent(in) :: name
 

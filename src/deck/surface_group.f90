@@ -16,6 +16,7 @@ module wavycon_surface_group
 
 contains
 
+   !> The table of keys of &surface: `kind` and the keys of all kinds of surface.
    function surface_table() result(table)
       type(key_group_type) :: table
 

@@ -1,4 +1,4 @@
-!> Decimal numbers as decks and height maps write them.
+!> Reads decimal numbers of decks and height maps.
 module wavycon_decimal_number
    use, intrinsic :: iso_c_binding, only: c_null_char
    use wavycon_kinds, only: dp
@@ -8,18 +8,18 @@ module wavycon_decimal_number
 
    public :: read_decimal
 
-   !> A number of more bytes is taken for a mistake.
+   !> Most bytes of a number.
    integer, parameter :: longest_number = 100
 
 contains
 
    !> Reads a sign, digits with at most one point, and an exponent with the letter e or d.
    !>
-   !> N.B. Fortran reads 1+3 as 1e3 too. Here that is no number: it is more likely a sum, which decks do not have.
-   !> N.B. A number that is too large signals overflow; the caller switches off traps of it.
+   !> N.B. Fortran reads 1+3 as 1e3. Here it is not a number, because it is more likely meant as a sum.
+   !> N.B. A number that is too large signals overflow: callers must switch off traps of overflow.
    subroutine read_decimal(word, value, is_number)
       character(*), intent(in) :: word
-      real(dp), intent(out) :: value      !! the nearest double: infinity, or 0, for what is out of range
+      real(dp), intent(out) :: value      !! the nearest double; infinity or 0 if out of range
       logical, intent(out) :: is_number   !! whether the whole word is a number
 
       character(longest_number + 1) :: number

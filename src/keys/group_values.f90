@@ -1,4 +1,4 @@
-!> What one group of one deck says: for each key of the group's table the deck's value, or else its default.
+!> The values of one group of a deck: for each key of the group's table the value that the deck gives, or its default.
 module wavycon_group_values
    use wavycon_assertion, only: assert
    use wavycon_key_table, only: choice_value, integer_value, key_group_type, key_index, logical_value, real_value, &
@@ -11,7 +11,7 @@ module wavycon_group_values
 
    public :: group_values
 
-   !> What is known of one key. Reals and integers are in `numbers`, texts and choices in `text`.
+   !> The value of one key and how it was given. Reals and integers are in `numbers`, texts and choices in `text`.
    type :: key_entry
       integer :: place = 0                     !! byte of the deck's text where the key stands; 0 if it is absent
       logical :: is_bad = .false.              !! given, but its value cannot be used
@@ -22,8 +22,8 @@ module wavycon_group_values
       character(:), allocatable :: text
    end type key_entry
 
-   !> A key that is not in the table, or has another type, is a programming error: a Debug build stops, any other build
-   !> takes the neutral value false, 0, or an empty list or text.
+   !> To ask for a key that is not in the table, or by the wrong type, is a programming error: a Debug build stops,
+   !> any other build returns false, 0, or an empty list or text.
    type :: group_values
       type(key_group_type) :: table
       character(:), allocatable :: deck_path   !! the deck's file, as the caller named it
@@ -64,7 +64,7 @@ module wavycon_group_values
 
 contains
 
-   !> Starts with the defaults of the table. Defaults in words have no value until `set_default` gives one.
+   !> Sets the defaults of the table. A key whose default is in words has no value until `set_default` is called.
    subroutine start(self, table, deck_path)
       class(group_values), intent(out) :: self
       type(key_group_type), intent(in) :: table
@@ -87,7 +87,7 @@ contains
       end do
    end subroutine start
 
-   !> Notes that the deck gives a key. `take` or `note_bad` follows with its value.
+   !> Records that the deck gives a key. Call `take` or `note_bad` next, for its value.
    pure subroutine note_key(self, key, place)
       class(group_values), intent(inout) :: self
       character(*), intent(in) :: key
@@ -99,7 +99,7 @@ contains
       if (k > 0) self%entries(k)%place = place
    end subroutine note_key
 
-   !> Notes that the deck's value of a key cannot be used: the default stays in effect.
+   !> Records that the deck's value of a key cannot be used. The default stays in effect.
    pure subroutine note_bad(self, key)
       class(group_values), intent(inout) :: self
       character(*), intent(in) :: key
@@ -110,7 +110,7 @@ contains
       if (k > 0) self%entries(k)%is_bad = .true.
    end subroutine note_bad
 
-   !> Takes the deck's value of a key in place of the default.
+   !> Replaces the default of a key by the deck's value.
    pure subroutine take(self, key, value, numbers)
       class(group_values), intent(inout) :: self
       character(*), intent(in) :: key
@@ -142,7 +142,7 @@ contains
       has = self%entries(self%find(key))%place > 0
    end function has
 
-   !> Whether a key was given a value that cannot be used: checks that depend on it would mislead.
+   !> Whether the deck gives a key a value that cannot be used. Checks that depend on the key should then be omitted.
    pure logical function is_bad(self, key)
       class(group_values), intent(in) :: self
       character(*), intent(in) :: key
@@ -157,7 +157,7 @@ contains
       any_bad = any(self%entries%is_bad)
    end function any_bad
 
-   !> Where a problem with a key is shown: at the key, or at the group where the key is absent.
+   !> The place at which a problem with a key is reported: that of the key or, if it is absent, of the group.
    pure integer function place_of(self, key)
       class(group_values), intent(in) :: self
       character(*), intent(in) :: key
@@ -176,7 +176,7 @@ contains
       end associate
    end function in_effect
 
-   !> Leaves a key out of the resolved deck: it means nothing beside the other values of this deck.
+   !> Leaves a key out of the resolved deck, because it has no effect beside the other values of this deck.
    pure subroutine leave_out(self, key)
       class(group_values), intent(inout) :: self
       character(*), intent(in) :: key
@@ -246,7 +246,7 @@ contains
       words = self%entries(self%find(key, [text_value, choice_value]))%text
    end function text
 
-   !> `set`: sets a value, whatever the deck says.
+   !> `set`: sets a value in place of the deck's or the default.
    pure subroutine set_flag(self, key, flag)
       class(group_values), intent(inout) :: self
       character(*), intent(in) :: key
@@ -270,7 +270,7 @@ contains
       call put(self, self%find(key, [text_value, choice_value]), words=words)
    end subroutine set_text
 
-   !> `set_default`: sets the default of a key that depends on other values. The deck's value goes before it.
+   !> `set_default`: sets a default that depends on other values. It has no effect if the deck gives the key.
    pure subroutine default_reals(self, key, numbers)
       class(group_values), intent(inout) :: self
       character(*), intent(in) :: key
@@ -310,7 +310,7 @@ contains
       if (.not. gives(self, key)) call self%set(key, words)
    end subroutine default_text
 
-   !> Sets what is given of the value of key number k; nothing for the neutral entry.
+   !> Sets the value of key number k. Entry 0, which stands for keys that do not exist, is not changed.
    pure subroutine put(self, k, numbers, flag, words)
       class(group_values), intent(inout) :: self
       integer, intent(in) :: k
@@ -333,7 +333,7 @@ contains
       gives = self%has(key) .and. .not. self%is_bad(key)
    end function gives
 
-   !> Adds a problem at the place of a key.
+   !> Reports a problem at the place of a key.
    pure subroutine complain(self, problems, key, words)
       class(group_values), intent(in) :: self
       type(problem_list_type), intent(inout) :: problems
@@ -343,7 +343,7 @@ contains
       call problems%add(self%place_of(key), words)
    end subroutine complain
 
-   !> Adds a problem for a key that was given without another that it needs.
+   !> Reports a key that is given without another one that it needs.
    pure subroutine require(self, problems, key, other)
       class(group_values), intent(in) :: self
       type(problem_list_type), intent(inout) :: problems
@@ -353,7 +353,7 @@ contains
          call self%complain(problems, key, key//' needs '//other//' beside it')
    end subroutine require
 
-   !> Adds a problem for a key that was given together with another that contradicts it.
+   !> Reports a key that is given together with another one that contradicts it.
    pure subroutine forbid(self, problems, key, other, advice)
       class(group_values), intent(in) :: self
       type(problem_list_type), intent(inout) :: problems
@@ -365,7 +365,7 @@ contains
             key//' and '//other//' contradict each other: '//advice)
    end subroutine forbid
 
-   !> The number of a key in the table; 0, the neutral entry, if it is not there or has another type.
+   !> The number of a key in the table; 0 if it is not there or has another type.
    pure integer function find(self, key, kinds) result(k)
       class(group_values), intent(in) :: self
       character(*), intent(in) :: key

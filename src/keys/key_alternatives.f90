@@ -1,7 +1,7 @@
-!> Keys that belong to one alternative of a group: a kind of surface, a solver.
+!> The keys of groups with alternatives: &surface with its kinds of surface, &method with its solvers.
 !>
-!> Each alternative declares the keys that it reads. From these lists follow the group's table, the problems with keys
-!> of other alternatives, and which keys a resolved deck shows.
+!> Each alternative declares the keys that it reads. The table of the group, the problems with keys of other
+!> alternatives and the keys in the resolved deck follow from these declarations.
 module wavycon_key_alternatives
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: in_quotes, key_index, key_type, listed, meaning_length
@@ -15,7 +15,7 @@ module wavycon_key_alternatives
 
    type :: alternative_type
       character(name_length) :: name = ''
-      type(key_type), allocatable :: keys(:)   !! that it reads; `required` ones it cannot do without
+      type(key_type), allocatable :: keys(:)   !! the keys that it reads; a deck must give the `required` ones
    end type alternative_type
 
 contains
@@ -41,7 +41,7 @@ contains
       end do
    end function merged_keys
 
-   !> What a key means to each alternative: "Of a and b: this. Of c: that."
+   !> The meanings of a key for all alternatives: "Of a and b: this. Of c: that."
    pure function merged_meaning(alternatives, key) result(words)
       type(alternative_type), intent(in) :: alternatives(:)
       character(*), intent(in) :: key
@@ -65,7 +65,7 @@ contains
       end do
    end function merged_meaning
 
-   !> Empty if the alternative does not read the key.
+   !> The meaning of a key for one alternative; empty if it does not read the key.
    pure function meaning_to(alternative, key) result(meaning)
       type(alternative_type), intent(in) :: alternative
       character(*), intent(in) :: key

@@ -1,6 +1,6 @@
 !> Tables of the keys of each namelist group: name, type, bounds, default, unit and meaning.
 !>
-!> Decks are checked, the key reference printed and resolved decks commented from these tables alone.
+!> Checks of decks, the key reference of --help and the comments of resolved decks all follow from these tables.
 module wavycon_key_table
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: integer_text, short_number
@@ -25,17 +25,17 @@ module wavycon_key_table
       character(name_length) :: name = ''
       integer :: kind = real_value
       character(meaning_length) :: meaning = ''
-      !> As in a deck; in words where it depends on other keys: then the group's check sets it. Empty: no default.
+      !> As in a deck; in words if it depends on other keys: the group's check then sets it. Empty: no default.
       character(40) :: default = ''
-      character(24) :: unit = ''                         !! empty for what is no quantity
-      logical :: required = .false.                      !! wherever the key applies
+      character(24) :: unit = ''                         !! '-' if dimensionless; empty for texts, flags and counts
+      logical :: required = .false.                      !! whether a deck must give the key wherever it applies
       real(dp) :: least = -largest_number, most = largest_number
       logical :: above = .false., below = .false.        !! whether `least` and `most` themselves are excluded
       integer :: most_values = 1                         !! more than 1: a list
       integer :: longest = 0                             !! bytes of a text
       logical :: may_be_blank = .false.                  !! of a text
       integer :: number_of_choices = 0
-      character(choice_length) :: choices(most_choices) = ''   !! the first number_of_choices count
+      character(choice_length) :: choices(most_choices) = ''   !! only the first number_of_choices are set
    end type key_type
 
    type :: key_group_type
@@ -64,8 +64,8 @@ contains
    !> A key whose value is a number or, with most_values, a list of numbers.
    pure function real_key(name, default, unit, meaning, least, most, above, below, most_values, required) result(key)
       character(*), intent(in) :: name, default, unit, meaning
-      real(dp), intent(in), optional :: least, most    !! bounds that a value may have
-      real(dp), intent(in), optional :: above, below   !! bounds that it must not have
+      real(dp), intent(in), optional :: least, most    !! bounds, themselves allowed
+      real(dp), intent(in), optional :: above, below   !! bounds, themselves excluded
       integer, intent(in), optional :: most_values
       logical, intent(in), optional :: required
       type(key_type) :: key
@@ -166,7 +166,7 @@ contains
       names = groups%name
    end function group_names
 
-   !> What the values of a key may be, in words that follow "must be".
+   !> The allowed values of a key, as words that follow "must be".
    pure function allowed_values(key) result(words)
       type(key_type), intent(in) :: key
       character(:), allocatable :: words
@@ -189,7 +189,7 @@ contains
       end select
    end function allowed_values
 
-   !> The bounds of a number, with a blank before them; nothing where there are none.
+   !> The bounds of a number, with a blank before them; empty if there are none.
    pure function bounds(key) result(words)
       type(key_type), intent(in) :: key
       character(:), allocatable :: words

@@ -1,4 +1,4 @@
-!> The value that a word of a deck stands for, or what is wrong with the word.
+!> Reads the value of a key from a word of a deck, and checks its type and bounds.
 module wavycon_key_values
    use, intrinsic :: ieee_exceptions, only: ieee_get_status, ieee_overflow, ieee_set_halting_mode, ieee_set_status, &
       ieee_status_type
@@ -13,7 +13,7 @@ module wavycon_key_values
 
    public :: word_value, read_value
 
-   !> What a word stands for: by the type of its key a number, a flag or a text.
+   !> The value of a word: a number, a flag or a text, according to the type of the key.
    type :: word_value
       integer :: repeats = 1                 !! r of 'r*value'
       real(dp) :: number = 0.0_dp            !! of reals and integers
@@ -32,7 +32,7 @@ contains
       type(key_type), intent(in) :: key
       character(*), intent(in) :: word                    !! as in the deck, quotes included
       type(word_value), intent(out) :: value
-      character(:), allocatable, intent(out) :: trouble   !! what is wrong; not allocated if the word is good
+      character(:), allocatable, intent(out) :: trouble   !! message of the problem; not allocated if there is none
 
       integer :: start
 
@@ -59,7 +59,7 @@ contains
       end associate
    end subroutine read_value
 
-   !> Takes 'r*' off the front of a word.
+   !> Reads the repeat count 'r*' at the front of a word.
    pure subroutine split_repeat(word, repeats, start)
       character(*), intent(in) :: word
       integer, intent(out) :: repeats  !! 1 where there is no 'r*'; 0 if r is out of range or no value follows
@@ -98,7 +98,7 @@ contains
       end if
    end subroutine read_real
 
-   !> Whether all digits of a number before its exponent are 0: 1e-999 is not zero, though it is read as zero.
+   !> Whether all digits of a number before its exponent are 0. The value does not show it: 1e-999 is read as zero.
    pure logical function is_zero(number)
       character(*), intent(in) :: number
 
@@ -122,7 +122,7 @@ contains
       if (.not. is_number) trouble = must_be(key, word)
    end subroutine read_integer
 
-   !> Reads a number; 1e999 is bad input, not an exception, in builds that trap overflow.
+   !> Reads a number without trapping overflow: 1e999 must be reported as bad input in Debug builds too.
    subroutine read_without_traps(word, number, is_number)
       character(*), intent(in) :: word
       real(dp), intent(out) :: number
@@ -186,7 +186,7 @@ contains
       end associate
    end subroutine read_choice
 
-   !> Whether a word is nothing but one character constant.
+   !> Whether a word is one character constant in quotes.
    pure logical function is_constant(word)
       character(*), intent(in) :: word
 

@@ -1,20 +1,20 @@
-!> The known name that a misspelt one most likely stands for.
+!> Finds the known name nearest to a misspelt one, for "did you mean".
 module wavycon_nearest_name
    implicit none (type, external)
    private
 
    public :: nearest_name, edit_distance, did_you_mean
 
-   !> Letters: a longer name is no misspelling of any.
+   !> Most letters of a name that is compared; it bounds the time.
    integer, parameter :: longest = 40
-   !> Letters that an abbreviation must have.
+   !> Fewest letters of an abbreviation.
    integer, parameter :: shortest_abbreviation = 3
 
 contains
 
    !> Number of the known name nearest to the one given; 0 if none is near.
    !>
-   !> Near means at most one wrong letter in three, and one in a shorter name; or an abbreviation.
+   !> A name is near if at most a third of its letters, but at least one, are wrong, or if it abbreviates a known name.
    pure integer function nearest_name(name, known) result(nearest)
       character(*), intent(in) :: name      !! lower case
       character(*), intent(in) :: known(:)  !! lower case, padded with blanks

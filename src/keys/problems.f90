@@ -5,7 +5,7 @@ module wavycon_problems
 
    public :: problem_type, problem_list_type
 
-   !> A full list ends the search for more problems: it bounds time and memory for a file that is no deck at all.
+   !> Most problems of a list. When it is full the search for more ends, to bound time and memory.
    integer, parameter, public :: most_kept = 1000
 
    type :: problem_type
@@ -15,7 +15,7 @@ module wavycon_problems
 
    type :: problem_list_type
       integer :: number = 0
-      type(problem_type), allocatable :: items(:)   !! the first `number` count
+      type(problem_type), allocatable :: items(:)   !! only the first `number` are set
    contains
       procedure :: add
       procedure :: is_full

@@ -1,9 +1,9 @@
-!> <case>.checkpoint: the loads of a sweep that are solved, until its tables are written.
+!> <case>.checkpoint: the loads solved so far, for --resume. It is removed when the tables are written.
 !>
-!> Only solutions that a resumed run may keep are written (contact_solution%is_kept); the others are fast to solve again. The
-!> file holds a mark and a line feed, then records: the number of 8-byte words, the words and their checksum. The first
-!> record identifies the run, the second is a text that describes what is solved, each further one is a solution. A last
-!> record that was cut short by an interruption is ignored.
+!> Only solutions that a resumed run may keep are written (contact_solution%is_kept); the others are fast to solve
+!> again. The file holds a mark and a line feed, then records: the number of 8-byte words, the words and their
+!> checksum. The first record identifies the run, the second is a text that describes what is solved, each further one
+!> is a solution. A last record that was cut short by an interruption is ignored.
 !>
 !> Two runs of the same case do not mix: each writes to a file of its own, which a later run replaces as a whole.
 module wavycon_checkpoint
@@ -25,6 +25,7 @@ module wavycon_checkpoint
    character(*), parameter :: mark = 'wavycon checkpoint 2'//newline
    integer, parameter :: bytes_of_word = 8
    character(*), parameter :: end_of_text = '(end)'
+   !> End of all messages about a checkpoint that cannot be used.
    character(*), parameter :: way_out = '. Without --resume all loads are solved, and the checkpoint is replaced.'
 
    type :: checkpoint_file
@@ -32,7 +33,7 @@ module wavycon_checkpoint
       integer :: unit = -1
       logical :: opened = .false.
       integer(int64) :: run(3) = 0                    !! identifies the run
-      character(:), allocatable :: name, name_now     !! final name; name at present
+      character(:), allocatable :: name, name_now     !! final name; present name, temporary at first
    contains
       procedure :: create
       procedure :: is_complete
@@ -42,7 +43,7 @@ module wavycon_checkpoint
 
 contains
 
-   !> <directory>/<case>.checkpoint
+   !> The path of the checkpoint, <directory>/<case>.checkpoint.
    pure function checkpoint_name(results) result(name)
       type(results_type), intent(in) :: results
       character(:), allocatable :: name
@@ -54,7 +55,7 @@ contains
    !> checkpoint that cannot be written does not stop the run: see is_complete.
    subroutine create(self, results)
       class(checkpoint_file), intent(out) :: self
-      type(results_type), intent(in) :: results   !! whose directory exists; loads that are known are allocated
+      type(results_type), intent(in) :: results   !! its directory exists; solutions that are known are allocated
 
       character(:), allocatable :: failure
       integer :: clock(8), load, status
@@ -83,17 +84,17 @@ contains
       self%name_now = self%name
    end subroutine create
 
-   !> Whether all solutions so far could be written.
+   !> Whether all solutions added so far were written.
    pure logical function is_complete(self)
       class(checkpoint_file), intent(in) :: self
 
       is_complete = self%opened
    end function is_complete
 
-   !> Adds a solution, if a resumed run may keep it.
+   !> Adds a solution, if its `is_kept` is true.
    subroutine add(self, load, solution)
       class(checkpoint_file), intent(inout) :: self
-      integer, intent(in) :: load             !! its place in the deck
+      integer, intent(in) :: load             !! its number in the deck's order
       class(contact_solution), intent(in) :: solution
 
       character(len(solution%solver) + len(solution%status)) :: names
@@ -109,7 +110,7 @@ contains
       end if
    end subroutine add
 
-   !> Removes the checkpoint: the tables are written. One that another run has put in its place stays.
+   !> Removes the checkpoint after the tables are written, unless another run has replaced it meanwhile.
    subroutine remove(self)
       class(checkpoint_file), intent(inout) :: self
 
@@ -127,6 +128,7 @@ contains
       if (all(words == self%run)) call remove_file(self%name)
    end subroutine remove
 
+   !> Closes the file; nothing more is written to it.
    subroutine close_file(self)
       type(checkpoint_file), intent(inout) :: self
 
@@ -136,8 +138,8 @@ contains
       self%opened = .false.
    end subroutine close_file
 
-   !> Writes a record and compares the file's size: gfortran 12 does not report a full disk. Nothing is written any more once
-   !> another run has replaced the file.
+   !> Writes a record and compares the file's size: gfortran 12 does not report a full disk. Nothing is written any
+   !> more once another run has replaced the file.
    subroutine put(self, words)
       type(checkpoint_file), intent(inout) :: self
       integer(int64), intent(in) :: words(:)
@@ -155,12 +157,12 @@ contains
       if (status /= 0) call close_file(self)
    end subroutine put
 
-   !> Reads the record at a place. A damaged record is whole and has no words.
+   !> Reads the record at a place of the file.
    subroutine get(unit, place, words, whole)
       integer, intent(in) :: unit
       integer(int64), intent(in) :: place                   !! of its first byte
-      integer(int64), allocatable, intent(out) :: words(:)
-      logical, intent(out) :: whole
+      integer(int64), allocatable, intent(out) :: words(:)  !! size 0 if the record is damaged or cut short
+      logical, intent(out) :: whole                         !! .false. if the file ends before the record does
 
       integer(int64) :: bytes, length, sum_of_words
       integer :: status
@@ -169,7 +171,7 @@ contains
       inquire (unit=unit, size=bytes)
       read (unit, pos=place, iostat=status) length
       whole = status == 0
-      ! A length that is damaged must not allocate more than the file holds.
+      ! A damaged length may be huge: allocate no more than the file holds.
       if (whole) whole = length >= 0 .and. length <= (bytes - place + 1)/bytes_of_word - 2
       if (.not. whole) return
       deallocate (words)
@@ -180,8 +182,8 @@ contains
       allocate (words(0))
    end subroutine get
 
-   !> Reads the solutions of an interrupted run. Errors: exit_bad_input for a damaged checkpoint and for one of another run,
-   !> exit_file_trouble.
+   !> Reads the solutions of an interrupted run. Errors: exit_bad_input for a damaged checkpoint and for one of
+   !> another run, exit_file_trouble.
    subroutine read_checkpoint(results, found, error)
       type(results_type), intent(inout) :: results   !! the loads found are allocated
       logical, intent(out) :: found                  !! whether there is a checkpoint
@@ -220,12 +222,14 @@ contains
             if (.not. whole) exit
             call take_solution(words, results, understood)
          end do
-         if (.not. understood) call fatal_error(error, exit_bad_input, escaped(name)//': the checkpoint is damaged'//way_out)
+         if (.not. understood) &
+            call fatal_error(error, exit_bad_input, escaped(name)//': the checkpoint is damaged'//way_out)
       end if
       close (unit)
 
    contains
 
+      !> Reads the next record.
       subroutine next()
          call get(unit, place, words, whole)
          place = place + (size(words) + 2)*bytes_of_word
@@ -233,9 +237,9 @@ contains
 
    end subroutine read_checkpoint
 
-   !> Takes the solution of a record.
+   !> Restores the solution of a record.
    subroutine take_solution(words, results, understood)
-      integer(int64), intent(in) :: words(:)
+      integer(int64), intent(in) :: words(:)    !! number of the load; names of solver and status; array of pack_kept
       type(results_type), intent(inout) :: results
       logical, intent(out) :: understood        !! .false.: the record is no solution of a load of this deck
 
@@ -258,7 +262,8 @@ contains
       if (understood) call move_alloc(solution, results%loads(load)%solution)
    end subroutine take_solution
 
-   !> What is being solved: the program, the surface and the deck, without the places of its files.
+   !> A text that identifies what is solved: version, surface, and the resolved deck without the paths of deck and
+   !> results.
    function description(results) result(text)
       type(results_type), intent(in) :: results
       character(:), allocatable :: text
@@ -269,10 +274,10 @@ contains
       text = 'wavycon '//version//' ('//revision//')'//newline//'surface '//trim(number)//newline//results%scene%essence
    end function description
 
-   !> Errors: exit_bad_input where what was solved is not what is to be solved.
+   !> Compares the descriptions of two runs. Errors: exit_bad_input if they differ.
    subroutine compare(name, before, now, error)
       character(*), intent(in) :: name                    !! of the checkpoint
-      character(*), intent(in) :: before, now             !! descriptions
+      character(*), intent(in) :: before, now             !! descriptions of the interrupted run and of this one
       type(error_type), allocatable, intent(out) :: error
 
       character(:), allocatable :: words
@@ -294,7 +299,7 @@ contains
       call fatal_error(error, exit_bad_input, escaped(name)//': the checkpoint '//words//way_out)
    end subroutine compare
 
-   !> A line without its comment and the blanks around it; end_of_text after the last line.
+   !> A line of a text, without comment and without blanks at both ends; end_of_text after the last line.
    pure function line(text, number)
       character(*), intent(in) :: text
       integer, intent(in) :: number
@@ -317,7 +322,7 @@ contains
       line = trim(adjustl(line))
    end function line
 
-   !> A text, padded with blanks to whole words.
+   !> A text as 8-byte words, padded with blanks.
    pure function words_of(text) result(words)
       character(*), intent(in) :: text
       integer(int64), allocatable :: words(:)
@@ -325,7 +330,7 @@ contains
       words = transfer(text//repeat(' ', modulo(-len(text), bytes_of_word)), [0_int64])
    end function words_of
 
-   !> The text without the blanks at its end.
+   !> The text of 8-byte words, without blanks at its end.
    pure function text_of(words) result(text)
       integer(int64), intent(in) :: words(:)
       character(:), allocatable :: text
@@ -333,7 +338,7 @@ contains
       text = trim(transfer(words, repeat(' ', bytes_of_word*size(words))))
    end function text_of
 
-   !> A polynomial in the half words, modulo a prime: a change of any one word changes it.
+   !> Checksum: a polynomial whose coefficients are the half words, modulo a prime. A change of one word changes it.
    pure integer(int64) function checksum(words) result(total)
       integer(int64), intent(in) :: words(:)
 
@@ -347,7 +352,7 @@ contains
       end do
    end function checksum
 
-   !> Of the waves or the heights of a surface.
+   !> Checksum of a surface: amplitude, cell and Fourier coefficients.
    pure integer(int64) function surface_checksum(surface) result(total)
       type(surface_type), intent(in) :: surface
 

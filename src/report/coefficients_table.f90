@@ -1,5 +1,5 @@
-!> <case>.coefficients.dat: the Fourier coefficients of the pressure, A_i of eq. (12) or A_ij of eq. (25), a block a
-!> load.
+!> <case>.coefficients.dat: the Fourier coefficients of the pressure, A_i of eq. (12) or A_ij of eq. (25), a block for
+!> each load.
 module wavycon_coefficients_table
    use wavycon_contact_solver, only: contact_solver
    use wavycon_error, only: error_type

@@ -1,7 +1,8 @@
 !> <case>.contour.dat: the edge of contact as closed curves; with solver = 'beale' the isobar p = edge_level p*.
 !>
-!> A block for each load that has an edge, with a blank line between curves. In 2-D the contact lies on the left of a curve,
-!> which is in one piece and may extend beyond the cell. In 1-D a curve is the two ends of a strip.
+!> The table has a block for each load that has an edge, with a blank line between curves. In 2-D the contact lies to
+!> the left of a curve; curves are not cut at the border of the cell and may extend beyond it. In 1-D a curve consists
+!> of the two ends of a strip.
 module wavycon_contour_table
    use wavycon_constants, only: pi
    use wavycon_edge_curves, only: edge_curve

@@ -1,6 +1,7 @@
-!> <case>.details.dat: numbers beyond the summary's, with error estimates, of solvers that have them.
+!> <case>.details.dat: numbers that the summary does not have, with error estimates, from solvers that compute them.
 !>
-!> A line for each load. For a load without details (no load, full contact, no solution) a comment says so.
+!> The table has a line for each load; for a load without details (no load, full contact, no solution) that line is a
+!> comment with the status.
 module wavycon_details_table
    use wavycon_contact_details, only: contact_details
    use wavycon_contact_solver, only: contact_solver
@@ -16,8 +17,8 @@ module wavycon_details_table
 
    public :: details_table
 
-   !> The energy is per nominal area. The perimeter is that of one contact spot or, above merging, of one open island; the
-   !> paper's cell has two of each.
+   !> The energy is per nominal area. The perimeter is that of one contact spot or, above merging, of one open island;
+   !> the paper's cell has two of each.
    character(40), parameter :: columns(*) = [character(40) :: &
       'pbar_over_pstar[-]', 'mean_gap[Delta]', 'mean_gap_error[Delta]', 'contact_area_fraction[-]', &
       'contact_area_error[-]', 'peak_pressure[p*]', 'peak_pressure_error[p*]', 'trough_gap[Delta]', &
@@ -45,7 +46,8 @@ contains
    pure function meaning() result(words)
       character(:), allocatable :: words
 
-      words = "Gaps at trough and saddle, strain energy, perimeter and the summary's numbers, each with its error estimate."
+      words = 'Gaps at trough and saddle, strain energy, perimeter and the numbers of the summary, each with its '// &
+              'error estimate.'
    end function meaning
 
    function refusal(self, solver, surface) result(words)
@@ -56,8 +58,8 @@ contains
 
       associate (unused => self, unused_too => surface); end associate
       words = ''
-      if (.not. solver%has_details()) words = "solver = '"//solver%name()//"' does not compute them for every load; "// &
-         solvers_with_details()//' does'
+      if (.not. solver%has_details()) words = "solver = '"//solver%name()// &
+         "' does not compute them for every load; "//solvers_with_details()//' does'
    end function refusal
 
    pure logical function needs_fields(self)

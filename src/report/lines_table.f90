@@ -1,10 +1,10 @@
-!> <case>.lines.dat: pressure, displacement and gap along lines, a block a load.
+!> <case>.lines.dat: pressure, displacement and gap along lines, a block for each load.
 !>
-!> Line 1 goes from a crest along x, in 2-D line 2 from the same crest along the diagonal of the cell; a blank line
-!> parts the two. They end half a cell away if the surface mirrors itself there, else after a whole one. With
-!> `theory` the closed forms stand beside the numbers: in 1-D Westergaard's solution and the Dundurs-Tsai-Keer
-!> series of as many terms, in 2-D the Hertz pressure about the nearest crest (light load) and the pressure in the
-!> penny-shaped crack about the nearest trough and its opening (heavy load).
+!> Line 1 runs from a crest along x; in 2-D line 2 runs from the same crest along the diagonal of the cell, after a
+!> blank line. Lines end after half a cell if the surface has a mirror line there, otherwise after a whole cell. With
+!> `theory` further columns hold closed forms: in 1-D Westergaard's solution and the Dundurs-Tsai-Keer series with as
+!> many terms as the solver's; in 2-D the Hertz pressure about the nearest crest (light load), and the pressure and
+!> the opening of the penny-shaped crack about the nearest trough (heavy load).
 module wavycon_lines_table
    use wavycon_constants, only: pi
    use wavycon_contact_fields, only: contact_fields
@@ -90,6 +90,7 @@ contains
       call file%finish(error)
    end subroutine write_lines_table
 
+   !> Writes one line of one load.
    subroutine put_line(results, file, load, line, fields)
       type(results_type), intent(in) :: results
       type(output_file), intent(inout) :: file
@@ -129,13 +130,14 @@ contains
             call file%add(line)
             call file%add([norm2(surface%length*k*way)/(2*pi), surface%length*angles/(2*pi), &
                            p, u, gap_over_amplitude(surface%undeformed_gap_over_amplitude(angles(1), angles(2)), u, &
-                                                    results%loads(load)%solution%measures%approach_over_amplitude), beside])
+                                                    results%loads(load)%solution%measures%approach_over_amplitude), &
+                           beside])
             call file%end_row()
          end do
       end associate
    end subroutine put_line
 
-   !> Terms of the Dundurs series: those of the solver's series, else those of the paper.
+   !> Number of terms of the Dundurs-Tsai-Keer series: as many as the solver's series has, otherwise as in the paper.
    pure integer function series_terms(results)
       type(results_type), intent(in) :: results
 
@@ -145,7 +147,8 @@ contains
       if (results%scene%method%in_effect('harmonics')) series_terms = results%scene%method%integer('harmonics')
    end function series_terms
 
-   !> Distance from the nearest crest of the wave (21) over its wavelength.
+   !> Distance of a point from the nearest crest of the wave (21), over its wavelength. With phi - pi for phi, from the
+   !> nearest trough.
    pure real(dp) function nearest_crest(phi, theta)
       real(dp), intent(in) :: phi, theta
 
@@ -159,7 +162,7 @@ contains
       reduced = angle - 2*pi*nint(angle/(2*pi))
    end function reduced
 
-   !> (A4), zero outside the crack.
+   !> Pressure in the penny-shaped crack over p*, (A4); zero outside the crack.
    pure real(dp) function crack_pressure(r_over_wavelength, pbar_over_pstar) result(pressure)
       real(dp), intent(in) :: r_over_wavelength, pbar_over_pstar
 
@@ -168,7 +171,7 @@ contains
          pressure = penny_crack_pressure_over_pstar(r_over_wavelength, pbar_over_pstar)
    end function crack_pressure
 
-   !> (A6), zero outside the crack and where there is none.
+   !> Opening of the penny-shaped crack over Delta, (A6); zero outside the crack and if there is none.
    pure real(dp) function crack_opening(r_over_wavelength, pbar_over_pstar) result(opening)
       real(dp), intent(in) :: r_over_wavelength, pbar_over_pstar
 

@@ -1,4 +1,4 @@
-!> <case>.map.dat: the fields over one cell, a block a load, a blank line between rows (gnuplot's grid
+!> <case>.map.dat: the fields over one cell, a block for each load with a blank line between rows (gnuplot's grid
 !> format).
 module wavycon_map_table
    use wavycon_contact_fields, only: contact_fields
@@ -61,7 +61,8 @@ contains
       call file%finish(error)
    end subroutine write_map_table
 
-   !> The cell has as many intervals a side as points are asked for.
+   !> Writes the map of a load. The first and the last point of a row are both written: each side has
+   !> points_per_wavelength intervals.
    subroutine put_map(results, file, load)
       type(results_type), intent(in) :: results
       type(output_file), intent(inout) :: file

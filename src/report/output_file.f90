@@ -1,6 +1,6 @@
-!> Result files that appear whole or not at all: written under another name, then renamed.
+!> Result files. A file is written under a temporary name and renamed when it is complete.
 !>
-!> gnuplot reads them unaided: header lines start with '#', the last of them names the columns as name[unit].
+!> Tables are in gnuplot's format: header lines start with '#', and the last of them has the columns as name[unit].
 module wavycon_output_file
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_error, only: error_type, exit_file_trouble, fatal_error
@@ -19,13 +19,13 @@ module wavycon_output_file
 
    type :: output_file
       private
-      integer, public :: unit = -1                !! for writers of their own; `put` is to be preferred
+      integer, public :: unit = -1                !! for procedures that write by themselves; prefer `put`
       logical :: opened = .false.
       character(:), allocatable :: name           !! final name
-      character(:), allocatable :: working_name
-      character(:), allocatable :: trouble        !! the first thing that went wrong
-      integer, allocatable :: column_end(:)       !! where in a row each column ends
-      character(:), allocatable :: row            !! the row begun
+      character(:), allocatable :: working_name   !! temporary name
+      character(:), allocatable :: trouble        !! first error; not allocated if there was none
+      integer, allocatable :: column_end(:)       !! position in a row at which each column ends
+      character(:), allocatable :: row            !! the row being filled
       integer :: columns_filled = 0               !! of that row
    contains
       procedure :: open => open_file
@@ -45,11 +45,11 @@ module wavycon_output_file
 
 contains
 
-   !> Opens a file for writing. Trouble shows in `finish`.
+   !> Opens a file for writing. `finish` reports errors.
    subroutine open_file(self, directory, name)
       class(output_file), intent(out) :: self
-      character(*), intent(in) :: directory   !! that exists
-      character(*), intent(in) :: name        !! of the file in it
+      character(*), intent(in) :: directory   !! existing
+      character(*), intent(in) :: name        !! of the file in the directory
 
       character(12) :: process
       character(200) :: message
@@ -59,14 +59,14 @@ contains
       self%name = directory//'/'//name
       self%working_name = directory//'/.'//name//'.'//trim(process)//'.part'
       call remove_when_interrupted(self%working_name)
-      ! As a stream, so that `finish` can ask how far it was written.
+      ! As a stream, because close_file needs the number of bytes written.
       open (newunit=self%unit, file=self%working_name, access='stream', form='formatted', status='replace', &
             action='write', iostat=status, iomsg=message)
       self%opened = status == 0
       if (.not. self%opened) call self%note_trouble(message)
    end subroutine open_file
 
-   !> Whether it can be written to.
+   !> Whether the file is open and no error has occurred.
    pure logical function is_open(self)
       class(output_file), intent(in) :: self
 
@@ -86,7 +86,7 @@ contains
       if (status /= 0) call self%note_trouble(message)
    end subroutine put
 
-   !> Writes the header line that names the columns; rows are aligned with it.
+   !> Writes the header line with the names of the columns and sets the width of the columns to theirs.
    subroutine put_columns(self, names)
       class(output_file), intent(inout) :: self
       character(*), intent(in) :: names(:)   !! name[unit]
@@ -141,7 +141,7 @@ contains
 
    subroutine add_word(self, word)
       class(output_file), intent(inout) :: self
-      character(*), intent(in) :: word   !! without blanks, no longer than the column is wide
+      character(*), intent(in) :: word   !! without blanks, at most as long as the column is wide
 
       integer :: last
 
@@ -168,7 +168,7 @@ contains
       call self%end_row()
    end subroutine put_values
 
-   !> Takes note of something that went wrong; the file will not get its name.
+   !> Records an error: `finish` will report it and remove the file.
    subroutine note_trouble(self, message)
       class(output_file), intent(inout) :: self
       character(*), intent(in) :: message   !! as from iomsg
@@ -176,7 +176,8 @@ contains
       if (.not. allocated(self%trouble)) self%trouble = system_words(message)
    end subroutine note_trouble
 
-   !> Closes the file and gives it its name; if anything went wrong nothing of it stays. Errors: exit_file_trouble.
+   !> Closes the file and renames it to its final name; after an error the file is removed instead. Errors:
+   !> exit_file_trouble.
    subroutine finish(self, error)
       class(output_file), intent(inout) :: self
       type(error_type), allocatable, intent(out) :: error
@@ -194,9 +195,9 @@ contains
       end if
    end subroutine finish
 
-   !> Closes the file and makes sure that all of it is there.
+   !> Closes the file and compares its size with the number of bytes written.
    !>
-   !> N.B. On a full disk gfortran 12 reports nothing: neither write, flush nor close fails. The file is too short.
+   !> N.B. On a full disk neither write, flush nor close reports an error with gfortran 12: the file is only too short.
    subroutine close_file(self)
       type(output_file), intent(inout) :: self
 

@@ -1,4 +1,4 @@
-!> All that the tables of one scene are written from, and the header that they share.
+!> The data that the tables of one scene are written from, and the header lines that all tables have.
 module wavycon_results
    use wavycon_contact_solution, only: contact_solution_item
    use wavycon_contact_solver, only: contact_solver
@@ -24,10 +24,10 @@ module wavycon_results
 
 contains
 
-   !> Opens a table <case>.<kind>.dat and writes what heads all of them.
+   !> Opens a table <case>.<kind>.dat and writes the header lines that all tables have. Errors show in file%finish.
    subroutine open_table(self, kind, file)
       class(results_type), intent(in) :: self
-      character(*), intent(in) :: kind
+      character(*), intent(in) :: kind         !! name of the table, such as 'summary'
       type(output_file), intent(out) :: file
 
       call file%open(self%scene%directory, self%scene%case//'.'//kind//'.dat')
@@ -54,12 +54,13 @@ contains
 
    end subroutine open_table
 
-   !> Parts the block of a load from the one before it, as gnuplot's `index` wants it, and names the load.
+   !> Begins the block of a load: two blank lines, which separate the data sets of gnuplot's `index`, and a comment with
+   !> the load.
    subroutine put_load_heading(self, file, load, first)
       class(results_type), intent(in) :: self
       type(output_file), intent(inout) :: file
-      integer, intent(in) :: load
-      logical, intent(in) :: first   !! block of the file
+      integer, intent(in) :: load    !! number in the deck's order
+      logical, intent(in) :: first   !! whether it is the first block of the file: no blank lines
 
       if (.not. first) then
          call file%put('')
@@ -71,7 +72,7 @@ contains
       end associate
    end subroutine put_load_heading
 
-   !> pbar of a load [pressure]; as given, where it was.
+   !> The mean pressure of a load [pressure]. If the deck gives it, exactly that number.
    pure real(dp) function mean_pressure(self, load)
       class(results_type), intent(in) :: self
       integer, intent(in) :: load

@@ -1,4 +1,4 @@
-!> What the program says while it runs, on standard output.
+!> The log of a run on standard output.
 module wavycon_run_log
    use, intrinsic :: iso_fortran_env, only: int64, output_unit
    use wavycon_kinds, only: dp
@@ -33,19 +33,20 @@ module wavycon_run_log
       procedure :: show_loads
    end type run_log
 
-   !> Shows the grids of a load.
+   !> Shows the grids of a load as progress lines.
    type, extends(solver_progress) :: log_progress
       type(run_log), pointer :: log => null()
-      integer :: load = 0, loads = 0
+      integer :: load = 0, loads = 0   !! number of the load being solved; number of all loads
    contains
       procedure :: grid_solved
    end type log_progress
 
 contains
 
+   !> Starts the log and its clock.
    subroutine start(self, quiet)
       class(run_log), intent(out) :: self
-      logical, intent(in) :: quiet   !! say nothing
+      logical, intent(in) :: quiet   !! whether to write nothing
 
       self%quiet = quiet
       self%terminal = stdout_is_terminal()
@@ -53,6 +54,7 @@ contains
       self%last_progress = self%started
    end subroutine start
 
+   !> Writes a line.
    subroutine say(self, line)
       class(run_log), intent(inout) :: self
       character(*), intent(in) :: line
@@ -61,11 +63,11 @@ contains
 
       if (self%quiet) return
       call clear_progress(self)
-      ! A log that nobody can read is no reason to lose the results.
+      ! A closed or full standard output must not stop the run: the results go to files.
       write (output_unit, '(a)', iostat=ignored) line
    end subroutine say
 
-   !> Says a line with the time since the start.
+   !> Writes a line after the time since the start.
    subroutine say_timed(self, line)
       class(run_log), intent(inout) :: self
       character(*), intent(in) :: line
@@ -76,7 +78,7 @@ contains
       call self%say(trim(time)//' '//line)
    end subroutine say_timed
 
-   !> The input in effect.
+   !> Writes the input in effect: deck, surface, material, loads and method.
    subroutine show_scene(self, results)
       class(run_log), intent(inout) :: self
       type(results_type), intent(in) :: results
@@ -102,7 +104,7 @@ contains
       end associate
    end subroutine show_scene
 
-   !> "2 x 3"
+   !> The sides of the cell, such as "2 x 3".
    pure function cell_of(surface) result(words)
       type(surface_type), intent(in) :: surface
       character(:), allocatable :: words
@@ -111,13 +113,15 @@ contains
       if (surface%dimension == 2) words = words//' x '//short_number(surface%length(2))
    end function cell_of
 
+   !> Shows how many loads are solved.
    subroutine show_progress(self, done, all)
       class(run_log), intent(inout) :: self
-      integer, intent(in) :: done, all   !! loads
+      integer, intent(in) :: done, all   !! number of loads solved; number of all loads
 
       call put_progress(self, 'solved '//integer_text(done)//' of '//integer_text(all))
    end subroutine show_progress
 
+   !> Shows the grid that was solved last, as of `solver_progress`.
    subroutine grid_solved(self, points, iterations, residual)
       class(log_progress), intent(in) :: self
       integer, intent(in) :: points(2), iterations
@@ -128,7 +132,7 @@ contains
                         integer_text(iterations)//' iterations, residual '//short_number(residual))
    end subroutine grid_solved
 
-   !> A line that overwrites itself, on a terminal only and not too often.
+   !> Writes a progress line over the last one, only on a terminal and at most every progress_interval.
    subroutine put_progress(log, words)
       class(run_log), intent(inout) :: log
       character(*), intent(in) :: words
@@ -146,7 +150,7 @@ contains
       log%progress_shown = .true.
    end subroutine put_progress
 
-   !> A line a load.
+   !> Writes a table with a line for each load.
    subroutine show_loads(self, results)
       class(run_log), intent(inout) :: self
       type(results_type), intent(in) :: results
@@ -170,7 +174,7 @@ contains
       end do
    end subroutine show_loads
 
-   !> A number in a column of 12: with six decimals where that shows enough of it and fits, else with an exponent.
+   !> A number in 12 characters: with six decimals from 0.001 to 10000, otherwise with an exponent.
    character(12) function cell(number)
       real(dp), intent(in) :: number
 
@@ -183,8 +187,8 @@ contains
       end if
    end function cell
 
-   !> A number as 1.2345E+06. Where the exponent takes three digits, before which Fortran has no E unless asked for
-   !> them, as 1.2345E+249.
+   !> A number as 1.2345E+06, or as 1.2345E+249 if the exponent has three digits: there Fortran's `es` without an
+   !> exponent width would omit the E.
    function with_exponent(number, decimals) result(text)
       real(dp), intent(in) :: number
       integer, intent(in) :: decimals   !! at most 4, for a column of 12
@@ -199,6 +203,7 @@ contains
       text = trim(adjustl(buffer))
    end function with_exponent
 
+   !> Overwrites the progress line with blanks.
    subroutine clear_progress(self)
       class(run_log), intent(inout) :: self
 
@@ -207,6 +212,7 @@ contains
       self%progress_shown = .false.
    end subroutine clear_progress
 
+   !> Time since the start [s].
    real(dp) function elapsed(self)
       class(run_log), intent(in) :: self
 

@@ -1,4 +1,4 @@
-!> <case>.summary.dat: a line a load.
+!> <case>.summary.dat: mean gap, contact area, pressures, iterations, residual and status, a line for each load.
 module wavycon_summary_table
    use wavycon_error, only: error_type
    use wavycon_output_file, only: output_file
@@ -13,8 +13,7 @@ module wavycon_summary_table
       'pbar_over_pstar[-]', 'mean_pressure[pressure]', 'mean_gap_over_amplitude[-]', 'approach_over_amplitude[-]', &
       'contact_area_fraction[-]', 'peak_pressure_over_pstar[-]', 'min_pressure_over_pstar[-]', &
       'active_constraints[-]', 'iterations[-]', 'residual[-]']
-   !> Estimated errors, of the solvers that have them, and which solver it was; the truncated series of 'beale'
-   !> knows none.
+   !> Error estimates and the solver of each load. Written only if the solver estimates errors, which 'beale' does not.
    character(40), parameter :: error_columns(*) = [character(40) :: &
       'mean_gap_error[-]', 'contact_area_error[-]', 'peak_pressure_error[-]', 'solver[-]']
 

@@ -1,4 +1,4 @@
-!> What every table of results declares and does. src/README.md describes how to add one.
+!> The type that all tables of results extend. src/README.md describes how to add a table.
 module wavycon_table
    use wavycon_contact_solver, only: contact_solver
    use wavycon_error, only: error_type
@@ -9,6 +9,7 @@ module wavycon_table
 
    public :: table_type
 
+   !> A table of results. Of the procedures below the deferred ones must be written; the others have defaults.
    type, abstract :: table_type
    contains
       procedure(words_of_table), deferred, nopass :: key
@@ -20,26 +21,27 @@ module wavycon_table
    end type table_type
 
    abstract interface
-      !> key: the logical key of &output that requests the table; '' for the one that is always written.
-      !> meaning: what the table holds, for --help.
+      !> `key`: the logical key of &output that requests the table; empty for the one that is always written.
+      !> `meaning`: one sentence for the key reference.
       pure function words_of_table() result(words)
          character(:), allocatable :: words
       end function words_of_table
 
-      !> Writes the table. Errors: exit_file_trouble.
+      !> `write`: writes the table. Errors: exit_file_trouble.
       subroutine write_table(results, error)
          import :: error_type, results_type
-         type(results_type), intent(in) :: results
+         type(results_type), intent(in) :: results   !! with a solution for each load
          type(error_type), allocatable, intent(out) :: error
       end subroutine write_table
    end interface
 
 contains
 
-   !> Why a deck with this solver and this surface cannot have the table; '' if it can.
+   !> `refusal`: why the table cannot be written for a solver and a surface, as a sentence for a message; empty if it
+   !> can. Here it is empty.
    function refusal(self, solver, surface) result(words)
       class(table_type), intent(in) :: self
-      class(contact_solver), intent(in) :: solver
+      class(contact_solver), intent(in) :: solver   !! started or not
       type(surface_type), intent(in) :: surface
       character(:), allocatable :: words
 
@@ -47,7 +49,7 @@ contains
       words = ''
    end function refusal
 
-   !> Whether the table is made from fields, edges or details of the solutions.
+   !> Whether the table is made from fields, edges or details of the solutions. Here it is not.
    pure logical function needs_fields(self)
       class(table_type), intent(in) :: self
 
@@ -55,7 +57,7 @@ contains
       needs_fields = .false.
    end function needs_fields
 
-   !> Whether the table makes sense where p* and Delta are zero.
+   !> Whether the table is written for a flat surface, whose p* and Delta are zero. Here it is not.
    pure logical function is_for_flat_surfaces(self)
       class(table_type), intent(in) :: self
 

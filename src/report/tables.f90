@@ -1,4 +1,4 @@
-!> The list of all tables, in the order in which they are written.
+!> The list of all tables. A new table adds its line to `all_tables`.
 module wavycon_tables
    use wavycon_coefficients_table, only: coefficients_table
    use wavycon_contour_table, only: contour_table
@@ -19,7 +19,7 @@ module wavycon_tables
 
 contains
 
-   !> All tables. A new table adds its line here.
+   !> All tables, in the order in which they are written. A new table adds its line here.
    subroutine all_tables(tables)
       type(table_item), allocatable, intent(out) :: tables(:)
 

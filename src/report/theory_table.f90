@@ -1,8 +1,8 @@
-!> <case>.theory.dat: the closed forms at the loads of the scene, a line a load.
+!> <case>.theory.dat: the closed forms at the loads of the scene, a line for each load.
 !>
-!> 1-D: the exact solution (eqs. 4, 7, 20) and its limits (8), (11). 2-D: the asymptotes of the paper (23), (24),
-!> (29), (30), (29) with the coefficient of the whole lattice, the longer asymptotes, and the radii of the two
-!> limits.
+!> In 1-D: the exact solution (eqs. 4, 7, 20) and its limits (8), (11). In 2-D: the asymptotes (23), (24), (29), (30)
+!> of the paper; (29) with the coefficient of the whole lattice; asymptotes with further terms; and the radii of the
+!> contact spot at light load and of the crack at heavy load.
 module wavycon_theory_table
    use wavycon_contact_solver, only: contact_solver
    use wavycon_error, only: error_type

@@ -1,4 +1,4 @@
-!> What a deck describes, in the program's own normalisation: pressures in p*, displacements and gaps in Delta.
+!> A scene: all that a deck describes, with loads in the program's normalisation (pressures in p*, gaps in Delta).
 module wavycon_scene
    use wavycon_group_values, only: group_values
    use wavycon_kinds, only: dp
@@ -9,7 +9,7 @@ module wavycon_scene
 
    public :: scene_type, target_words
 
-   !> What the loads are given by.
+   !> The quantity by which a deck gives its loads.
    integer, parameter, public :: by_pressure = 1, by_mean_gap = 2, by_contact_area = 3
 
    type :: scene_type
@@ -17,24 +17,24 @@ module wavycon_scene
       character(:), allocatable :: title            !! one line for the heads of tables; may be empty
       character(:), allocatable :: case             !! stem of the names of result files
       character(:), allocatable :: directory        !! of the results
-      character(:), allocatable :: resolved_deck    !! the deck with every key's value in effect, ready to be run again
-      character(:), allocatable :: essence          !! the same without the places of deck and results
-      character(:), allocatable :: surface_kind     !! name in the deck
+      character(:), allocatable :: resolved_deck    !! text of a deck with the value in effect of every key
+      character(:), allocatable :: essence          !! the same without the paths of deck and results, for checkpoints
+      character(:), allocatable :: surface_kind     !! the key `kind` of &surface
       type(surface_type), allocatable :: surface
-      type(map_statistics), allocatable :: map      !! of a height map
+      type(map_statistics), allocatable :: map      !! allocated for a height map
       real(dp) :: e_star = 1.0_dp                   !! plane-strain modulus [pressure]
       real(dp) :: p_star = 0.0_dp                   !! p*, mean pressure that just closes the gap [pressure]
-      integer :: loads_by = by_pressure             !! one of the names above
-      real(dp), allocatable :: target(:)            !! in the deck's order: P, G or the contact area fraction
+      integer :: loads_by = by_pressure             !! by_pressure, by_mean_gap or by_contact_area
+      real(dp), allocatable :: target(:)            !! P, G or the contact area fraction, in the deck's order
       real(dp), allocatable :: mean_pressure(:)     !! [pressure]; allocated where loads are given by pressure
       type(group_values) :: method, output          !! the groups &method and &output
    end type scene_type
 
 contains
 
-   !> What the loads are given by, as a heading.
+   !> The quantity by which the loads are given, as a heading.
    pure function target_words(loads_by) result(words)
-      integer, intent(in) :: loads_by   !! one of the names above
+      integer, intent(in) :: loads_by   !! by_pressure, by_mean_gap or by_contact_area
       character(:), allocatable :: words
 
       select case (loads_by)

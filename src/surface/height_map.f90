@@ -63,7 +63,8 @@ contains
       call values%set_default('length_y', values%real('length_x'))
    end subroutine set_defaults
 
-   !> Reads the map. Errors: exit_file_trouble if the file cannot be read, exit_bad_input if it is no map.
+   !> Reads the map. Errors: exit_file_trouble if the file cannot be read, exit_bad_input if it is not a map or its
+   !> heights are out of range.
    subroutine make(values, surface, map, error)
       type(group_values), intent(in) :: values
       type(surface_type), intent(out) :: surface
@@ -86,7 +87,7 @@ contains
          if (all(step > 0.0_dp)) length = step*shape(height)
          if (step(1) > 0.0_dp .and. size(height, 2) == 1) length = step(1)*size(height, 1)
          if (maxval(height) <= minval(height)) then
-            ! The mean is rounded: equal heights less their mean would not be flat.
+            ! Equal heights less their rounded mean would not be zero.
             height = 0.0_dp
          else
             height = values%real('height_scale')*(height - sum(height)/size(height))
@@ -104,7 +105,7 @@ contains
       map = statistics_of(heights%height, heights%format, full_path(path))
    end subroutine make
 
-   !> The file is looked for beside the deck, then where the program was started.
+   !> The path of the map: in the directory of the deck or, if it is not there, in the one the program was started in.
    function place_of_map(deck_path, file) result(path)
       character(*), intent(in) :: deck_path, file
       character(:), allocatable :: path

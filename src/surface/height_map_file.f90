@@ -1,4 +1,4 @@
-!> Height maps from files: gnuplot's matrix, or lines of x, y and z.
+!> Reads height maps from files: a matrix in gnuplot's format, or lines of x, y and z.
 module wavycon_height_map_file
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
@@ -19,13 +19,14 @@ module wavycon_height_map_file
       character(6) :: format = ''             !! 'matrix' or 'xyz'
    end type height_map_type
 
-   !> Points along a side: fewer make no surface, more do not fit the memory of most machines.
+   !> Fewest and most points along a side; more do not fit into the memory of most machines.
    integer, parameter :: least_points = 4, most_points = 8192
+   !> Most bytes of a file, near the largest default integer.
    integer, parameter :: most_bytes = 2000000000
 
 contains
 
-   !> Reads a map. Errors: exit_file_trouble if the file cannot be read, exit_bad_input if it is no map.
+   !> Reads a map. Errors: exit_file_trouble if the file cannot be read, exit_bad_input if it is not a map.
    subroutine read_height_map(path, format, map, error)
       character(*), intent(in) :: path
       character(*), intent(in) :: format   !! 'matrix', 'xyz' or 'auto'
@@ -34,7 +35,7 @@ contains
 
       type(number_table), target :: table
 
-      ! A pipe may block, a device may never end, and the resolved deck could read neither again.
+      ! A pipe may block, a device may never end, and a run of the resolved deck could not read either again.
       if (path_kind(path) == path_device) then
          call fatal_error(error, exit_file_trouble, escaped(path)//': this is a pipe or a device, not a file')
          return
@@ -58,18 +59,18 @@ contains
       if (.not. allocated(error)) call check_size(path, map, error)
    end subroutine read_height_map
 
-   !> Whether the memory suffices for a map and its surface besides the numbers read. Later failures to allocate could
-   !> not be reported.
+   !> Whether there is memory for a map and its surface besides the numbers read. It is checked here because later
+   !> allocations have no error handling.
    logical function there_is_room(heights)
       integer, intent(in) :: heights   !! of the map
 
-      !> Numbers for each height: the map, the Fourier coefficients and their copies, the work space of the transforms.
+      !> Real numbers for each height: the map, the Fourier coefficients and their copies, work space of the transforms.
       integer(int64), parameter :: copies = 5
 
       there_is_room = has_memory_for(copies*heights)
    end function there_is_room
 
-   !> Takes a map with a row of heights on each line. Errors: exit_bad_input for rows of unequal length.
+   !> Makes a map from lines with a row of heights each. Errors: exit_bad_input for rows of unequal length.
    subroutine take_matrix(table, map, error)
       type(number_table), intent(in) :: table
       type(height_map_type), intent(inout) :: map
@@ -88,14 +89,14 @@ contains
       map%height = reshape(table%values, [columns, table%rows()])
    end subroutine take_matrix
 
-   !> Takes a map with x, y and z on each line; either x or y varies first. Errors: exit_bad_input if the points form no
+   !> Makes a map from lines of x, y and z; x or y varies fastest. Errors: exit_bad_input if the points do not form a
    !> regular grid.
    subroutine take_points(table, map, error)
       type(number_table), intent(in), target :: table
       type(height_map_type), intent(inout) :: map
       type(error_type), allocatable, intent(out) :: error
 
-      !> Fraction of a step: coordinates are often rounded.
+      !> Largest deviation of a point from the grid, in steps: coordinates in files are often rounded.
       real(dp), parameter :: tolerance = 0.01_dp
       real(dp), pointer :: xyz(:, :)
       integer :: fast, i, j, k, m, n, slow
@@ -103,7 +104,7 @@ contains
       do k = 1, table%rows()
          if (table%length(k) /= 3) then
             call bad_line(k, 'this line has '//integer_text(table%length(k))// &
-                          " numbers: file_format = 'xyz' wants x, y and z")
+                          " numbers: file_format = 'xyz' needs x, y and z")
             return
          end if
       end do
@@ -144,7 +145,8 @@ contains
       else
          map%height = transpose(reshape(xyz(3, :), [m, n]))
       end if
-      ! Falling coordinates are taken as rising: the map is mirrored, which changes no pressure or gap but its place.
+      ! Falling coordinates are treated as rising: this mirrors the map and moves pressures and gaps, but does not
+      ! change their values.
       map%step = abs(map%step)
 
    contains
@@ -159,14 +161,14 @@ contains
 
    end subroutine take_points
 
-   !> Counts the coordinates that follow each other in equal steps. The step is their mean: the rounding of a single one
-   !> would add up.
+   !> Counts the coordinates that follow each other in equal steps. The step is the mean of these: the rounding error
+   !> of a single step would add up.
    pure subroutine take_steps(coordinate, number, step)
       real(dp), intent(in) :: coordinate(:)   !! shape (n), n >= 2
       integer, intent(out) :: number          !! >= 2
       real(dp), intent(out) :: step
 
-      !> Fraction of the first step.
+      !> Steps count as equal if they differ from the first one by less than this fraction of it.
       real(dp), parameter :: tolerance = 0.1_dp
 
       step = coordinate(2) - coordinate(1)

@@ -1,4 +1,4 @@
-!> Three equal waves at 60 degrees to each other.
+!> Three equal waves whose directions differ by 60 degrees.
 module wavycon_hexagonal
    use wavycon_constants, only: sqrt3
    use wavycon_error, only: error_type
@@ -25,8 +25,9 @@ module wavycon_hexagonal
 
 contains
 
-   !> Three equal waves at 60 degrees to each other: h = Delta [1 - (cos k1.r + cos k2.r + cos k3.r)/3]. The crests
-   !> form rows along x, 2 lambda/sqrt3 apart in each; the rectangular cell holds two of them.
+   !> Three equal waves whose directions differ by 60 degrees: h = Delta [1 - (cos k1.r + cos k2.r + cos k3.r)/3] with
+   !> wave vectors k1, k2, k3 = k2 - k1 of length 2 pi/lambda. The crests form rows along x with a distance of 2
+   !> lambda/sqrt3 in each; the rectangular cell has two crests.
    type(surface_type) function hexagonal(amplitude, wavelength) result(surface)
       real(dp), intent(in) :: amplitude    !! Delta [length], >= 0
       real(dp), intent(in) :: wavelength   !! of each wave [length], > 0

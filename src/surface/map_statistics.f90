@@ -1,4 +1,4 @@
-!> What a height map is like, for the log.
+!> Size, format and statistics of a height map, for the log.
 module wavycon_map_statistics
    use wavycon_kinds, only: dp
    implicit none (type, external)
@@ -15,6 +15,7 @@ module wavycon_map_statistics
 
 contains
 
+   !> The statistics of a map.
    type(map_statistics) function statistics_of(height, format, path) result(statistics)
       real(dp), intent(in) :: height(:, :)   !! over the mean [length]
       character(*), intent(in) :: format     !! of the file: 'matrix' or 'xyz'

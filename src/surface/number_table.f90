@@ -1,6 +1,6 @@
-!> Lines of numbers from a file.
+!> Reads a file of lines of numbers.
 !>
-!> Comments from '#' to the end of their line and lines without numbers are left out. Numbers are separated by blanks,
+!> Comments, from '#' to the end of the line, and lines without numbers are ignored. Numbers are separated by blanks,
 !> tabs, commas or semicolons, and written as in a deck. Lines end in LF, CR LF or CR.
 module wavycon_number_table
    use, intrinsic :: ieee_exceptions, only: ieee_get_status, ieee_overflow, ieee_set_halting_mode, &
@@ -19,8 +19,8 @@ module wavycon_number_table
    type :: number_table
       character(:), allocatable :: path  !! as the user named the file
       real(dp), allocatable :: values(:)
-      integer, allocatable :: first(:)   !! of each line that has numbers, its first; and one behind the last
-      integer, allocatable :: line(:)    !! of these lines, the number in the file
+      integer, allocatable :: first(:)   !! index of the first value of each row; one more element: size(values) + 1
+      integer, allocatable :: line(:)    !! line of the file of each row
    contains
       procedure :: rows
       procedure :: length
@@ -30,14 +30,14 @@ module wavycon_number_table
 
 contains
 
-   !> Lines that have numbers.
+   !> The number of rows: lines that have numbers.
    pure integer function rows(self)
       class(number_table), intent(in) :: self
 
       rows = size(self%line)
    end function rows
 
-   !> Numbers of one of them.
+   !> The number of values of a row.
    pure integer function length(self, row)
       class(number_table), intent(in) :: self
       integer, intent(in) :: row
@@ -45,9 +45,9 @@ contains
       length = self%first(row + 1) - self%first(row)
    end function length
 
-   !> Reads a file. Errors: exit_file_trouble if it cannot be read; exit_bad_input for a word that is no number or a
-   !> number too large for a deck, for numbers left out between commas, for a possible decimal comma, and for a file
-   !> without numbers.
+   !> Reads a file. Errors: exit_file_trouble if it cannot be read; exit_bad_input for a word that is not a number, a
+   !> number above largest_number, a missing number between commas, a possible decimal comma, and a file without
+   !> numbers.
    subroutine read_number_table(path, most_bytes, table, error)
       character(*), intent(in) :: path
       integer, intent(in) :: most_bytes   !! a larger file is not read
@@ -67,14 +67,14 @@ contains
          call fatal_error(error, exit_file_trouble, escaped(path)//': there is not the memory for its numbers')
          return
       end if
-      ! 1e999 is bad input, not an exception, in builds that trap those.
+      ! 1e999 must be reported as bad input in builds that trap overflow too.
       call ieee_get_status(floating_point)
       call ieee_set_halting_mode(ieee_overflow, .false.)
       call take_numbers(content, table, error)
       call ieee_set_status(floating_point)
    end subroutine read_number_table
 
-   !> Upper bounds of the number of numbers and of lines with numbers: comments count too.
+   !> Counts words and lines, those of comments too: upper bounds for the numbers and the rows.
    pure subroutine count_words(content, words, lines)
       character(*), intent(in) :: content
       integer, intent(out) :: words, lines
@@ -158,12 +158,12 @@ contains
       behind = behind + 1
    end subroutine next_line
 
-   !> Adds the numbers of a line to those before them.
+   !> Adds the numbers of a line to those of the lines before it.
    subroutine read_line(line, values, used, trouble)
       character(*), intent(in) :: line         !! without comment and line end
       real(dp), intent(inout) :: values(:)     !! with room for the numbers
-      integer, intent(inout) :: used           !! how many of the values there are
-      character(:), allocatable, intent(out) :: trouble   !! what is wrong; not allocated if the line is good
+      integer, intent(inout) :: used           !! number of values so far
+      character(:), allocatable, intent(out) :: trouble   !! message of the problem; not allocated if there is none
 
       integer :: behind                !! the number before, place behind its last byte; 0 at the start of the line
       integer :: first, last, tight
@@ -197,8 +197,8 @@ contains
       last = last - 1
    end subroutine next_word
 
-   !> Reports numbers left out between commas, and what may be a decimal comma: on one line a comma without blanks
-   !> around it, and numbers without a comma between them.
+   !> Reports missing numbers between commas, and a possible decimal comma: a line with both a comma without blanks
+   !> around it and numbers without a comma between them.
    pure subroutine check_gap(line, behind, first, tight, is_loose, trouble)
       character(*), intent(in) :: line
       integer, intent(in) :: behind         !! place behind the number before; 0 at the start of the line
@@ -246,7 +246,7 @@ contains
       end do
    end function word_end
 
-   !> Adds the number that a word is.
+   !> Reads a word as a number and adds it to the values.
    subroutine read_number(word, values, used, trouble)
       character(*), intent(in) :: word
       real(dp), intent(inout) :: values(:)
@@ -264,7 +264,7 @@ contains
       end if
       select case (lower_case(word(merge(2, 1, scan(word(1:1), '+-') == 1):)))
       case ('nan', 'inf', 'infinity')
-         trouble = "'"//excerpt(word)//"' is no height: a map must be whole"
+         trouble = "'"//excerpt(word)//"' is not a height: maps must be complete"
       case default
          trouble = "'"//excerpt(word)//"' is no number"
       end select

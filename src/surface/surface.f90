@@ -42,7 +42,7 @@ module wavycon_surface
       procedure :: smaller_cell
    end type surface_type
 
-   !> Coefficients of a shape that differ by less are equal: they are sums of a few numbers below 1.
+   !> Coefficients of a shape that differ by less than this are equal.
    real(dp), parameter :: rounding = 1e-13_dp
 
 contains
@@ -71,8 +71,8 @@ contains
       call find_peak(weighted(surface, surface%shape, 2), surface%crest_curvature, unused)
    end function surface_of_series
 
-   !> The surface through given heights on a grid of its whole cell; between the points it is their Fourier series.
-   !> Crest, peak pressure and curvature are those of the points.
+   !> The surface through given heights on a grid of its whole cell. Between the points it is their Fourier series.
+   !> Crest, full-contact pressure and curvature are the extremes over the points.
    type(surface_type) function surface_of_points(length, height) result(surface)
       real(dp), intent(in) :: length(2)                      !! L_x, L_y [length], > 0
       real(dp), intent(inout), contiguous :: height(:, :)    !! [length], shape (M, N), N = 1 for a profile; unchanged
@@ -104,8 +104,8 @@ contains
       surface%crest_curvature = maxval(values)
    end function surface_of_points
 
-   !> p*, the mean pressure that just closes the gap everywhere: pi E* Delta/lambda in 1-D (eq. 7), sqrt2 times that
-   !> in 2-D (eq. 22); for any surface the largest tension, p - pbar < 0, of its full-contact pressure.
+   !> p* [pressure], the mean pressure that just closes the gap everywhere: pi E* Delta/lambda for the 1-D wave (eq. 7),
+   !> sqrt2 times that for the 2-D wave (eq. 22); for any surface the largest tension, pbar - p, in full contact.
    elemental real(dp) function full_contact_pressure(self, e_star)
       class(surface_type), intent(in) :: self
       real(dp), intent(in) :: e_star   !! plane-strain modulus E* [pressure]
@@ -163,7 +163,7 @@ contains
       pressure%c(0, 0) = pbar_over_pstar
    end function full_contact_series
 
-   !> A series with each term times a power of its frequency; the mean becomes 0.
+   !> A series with each term multiplied by a power of its frequency; the mean becomes 0.
    type(fourier_series) function weighted(surface, series, power)
       class(surface_type), intent(in) :: surface
       type(fourier_series), intent(in) :: series
@@ -200,7 +200,7 @@ contains
       divided%ss = divided%ss/unit
    end function divided
 
-   !> no_paper_wave, straight_paper_wave or turned_paper_wave.
+   !> Whether the surface is a wave of the paper: no_paper_wave, straight_paper_wave or turned_paper_wave.
    pure integer function paper_wave(self)
       class(surface_type), intent(in) :: self
 
@@ -236,7 +236,8 @@ contains
 
    end function paper_wave
 
-   !> Whether it is a wave of the paper. A flat surface on the cell of one counts as a wave of amplitude 0.
+   !> Whether the surface is a wave of the paper. A flat surface that is not a height map counts as one of amplitude 0
+   !> in 1-D and on a square cell.
    pure logical function is_paper_wave(self)
       class(surface_type), intent(in) :: self
 
@@ -245,7 +246,7 @@ contains
          (self%dimension == 1 .or. is_square(self))
    end function is_paper_wave
 
-   !> lambda of phi and theta [length].
+   !> The wavelength lambda of eq. (3) or (21) [length].
    pure real(dp) function paper_wavelength(self)
       class(surface_type), intent(in) :: self   !! a wave of the paper
 
@@ -253,7 +254,7 @@ contains
       if (self%paper_wave() == turned_paper_wave) paper_wavelength = sqrt2*self%length(1)
    end function paper_wavelength
 
-   !> phi and theta of a point.
+   !> The angles phi and theta of eq. (3) or (21) at a point.
    pure subroutine paper_angles(self, x, y, phi, theta)
       class(surface_type), intent(in) :: self   !! a wave of the paper
       real(dp), intent(in) :: x, y              !! X, Y [rad]
@@ -286,7 +287,7 @@ contains
       end do
    end function has_smaller_cell
 
-   !> The same surface on that cell: its angles are X + Y and X - Y.
+   !> The same surface on its smaller cell, see has_smaller_cell: the angles of that cell are X + Y and X - Y.
    type(surface_type) function smaller_cell(self) result(surface)
       class(surface_type), intent(in) :: self   !! has_smaller_cell() is true
 

@@ -1,6 +1,4 @@
-!> What a kind of surface declares of itself: a deck's `kind` names it, &surface holds its keys.
-!>
-!> To add a kind: extend this type in a file of its own and add it to the list in surface_kinds.f90.
+!> The type that all kinds of surface of &surface extend. src/README.md describes how to add a kind.
 module wavycon_surface_kind
    use wavycon_error, only: error_type
    use wavycon_group_values, only: group_values
@@ -13,7 +11,9 @@ module wavycon_surface_kind
 
    public :: surface_kind
 
-   !> N.B. Without components: the list of kinds copies what it is given.
+   !> A kind of surface. Of the procedures below the deferred ones must be written; the others have defaults.
+   !>
+   !> N.B. A kind has no components: `get_surface_kinds` makes its list by copying.
    type, abstract :: surface_kind
    contains
       procedure(words_interface), deferred, nopass :: name
@@ -27,23 +27,24 @@ module wavycon_surface_kind
    end type surface_kind
 
    abstract interface
-      !> `name`: as a deck gives it, at most 12 characters. `meaning`: one clause for the key reference.
+      !> `name`: the value of the key `kind` in decks, at most 12 characters. `meaning`: one clause for the key
+      !> reference.
       function words_interface() result(words)
          character(:), allocatable :: words
       end function words_interface
 
-      !> The keys that the kind reads, besides `kind`. `required` ones it cannot do without. A key that two kinds read
-      !> must have the same type, unit and bounds in both; its meaning may differ.
+      !> `keys`: the keys of &surface that the kind reads, besides `kind`. A key that two kinds read must have the
+      !> same type, unit and bounds in both; its meaning may differ.
       function keys_interface() result(keys)
          import :: key_type
          type(key_type), allocatable :: keys(:)
       end function keys_interface
 
-      !> Makes the surface of a group without problems. Errors: exit_file_trouble for a file that cannot be read,
-      !> exit_bad_input for what it holds.
+      !> `make`: makes the surface. Errors: exit_file_trouble for a height map that cannot be read, exit_bad_input for
+      !> a bad one.
       subroutine make_interface(values, surface, map, error)
          import :: error_type, group_values, map_statistics, surface_type
-         type(group_values), intent(in) :: values   !! after `set_defaults`, without problems
+         type(group_values), intent(in) :: values   !! of &surface, after `set_defaults` and `check`, without problems
          type(surface_type), intent(out) :: surface
          type(map_statistics), allocatable, intent(out) :: map   !! allocated for a height map
          type(error_type), allocatable, intent(out) :: error
@@ -54,7 +55,7 @@ contains
 
    !> `set_defaults`: sets the defaults that depend on other keys. Here there are none.
    subroutine no_defaults(values)
-      type(group_values), intent(inout) :: values
+      type(group_values), intent(inout) :: values   !! of &surface
 
       associate (unused => values)
       end associate
@@ -62,24 +63,24 @@ contains
 
    !> `check`: reports values that contradict each other. Here there are none.
    subroutine no_check(values, problems)
-      type(group_values), intent(in) :: values
-      type(problem_list_type), intent(inout) :: problems
+      type(group_values), intent(in) :: values             !! after `set_defaults`
+      type(problem_list_type), intent(inout) :: problems   !! to which they are added
 
       associate (unused_values => values, unused_problems => problems)
       end associate
    end subroutine no_check
 
-   !> `advice`: what to give instead of a key of another kind, as the end of a sentence such as ': give amplitudes'.
-   !> Here there is none.
+   !> `advice`: what to give instead of a key of another kind, or why this one has no such key, as the end of a sentence
+   !> such as ': give amplitudes'. Here it is empty.
    function no_advice(key) result(words)
-      character(*), intent(in) :: key
+      character(*), intent(in) :: key   !! that other kinds read
       character(:), allocatable :: words
 
       words = key(:0)
    end function no_advice
 
-   !> `paper_wave_if`: when the kind is a wave of Johnson, Greenwood & Higginson (1985), such as 'wave_2d with one
-   !> wavelength'. Empty for a kind that is none by its form.
+   !> `paper_wave_if`: on what condition the kind is a wave of Johnson, Greenwood & Higginson (1985), eq. (3) or (21),
+   !> such as 'wave_2d with one wavelength'; empty if it is none by definition. Here it is empty.
    function never() result(words)
       character(:), allocatable :: words
 

@@ -47,7 +47,7 @@ contains
       call move_alloc(longer, kinds)
    end subroutine add
 
-   !> The names of the kinds and the keys that each reads.
+   !> The name and the keys of each kind.
    subroutine keys_of_kinds(kinds, alternatives)
       type(surface_kind_item), intent(in) :: kinds(:)
       type(alternative_type), allocatable, intent(out) :: alternatives(:)
@@ -61,7 +61,8 @@ contains
       end do
    end subroutine keys_of_kinds
 
-   !> Which kinds make waves of Johnson, Greenwood & Higginson (1985), eqs. (3) and (21), and when.
+   !> The kinds that are waves of Johnson, Greenwood & Higginson (1985), eqs. (3) and (21), and their conditions, for
+   !> messages.
    function paper_waves() result(words)
       character(:), allocatable :: words
 
@@ -79,9 +80,10 @@ contains
       end do
    end function paper_waves
 
-   !> Whether a kind makes waves of the paper by its form. A sum may be one too; that only its surface shows.
+   !> Whether a kind is by definition a wave of the paper, perhaps on a condition. A sum of waves may equal one; use
+   !> surface_type%is_paper_wave to find out.
    logical function is_paper_kind(name)
-      character(*), intent(in) :: name   !! of a kind; any other text is none
+      character(*), intent(in) :: name   !! of a kind; .false. for any other text
 
       type(surface_kind_item), allocatable :: kinds(:)
       integer :: i

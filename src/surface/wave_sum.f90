@@ -1,4 +1,4 @@
-!> A sum of any waves.
+!> A sum of any waves that are periodic on one cell.
 module wavycon_wave_sum
    use wavycon_constants, only: pi
    use wavycon_error, only: error_type
@@ -36,11 +36,12 @@ contains
    !> the sum, so that the surfaces just touch.
    type(surface_type) function wave_sum(length, a, m, n, phase) result(surface)
       real(dp), intent(in) :: length(2)      !! L_x, L_y [length], > 0
-      real(dp), intent(in) :: a(:)           !! [length], of either sign
-      integer, intent(in) :: m(:), n(:)      !! not both zero; in one dimension all n = 0
-      real(dp), intent(in) :: phase(:)       !! [rad]
+      real(dp), intent(in) :: a(:)           !! amplitudes [length], of either sign
+      integer, intent(in) :: m(:), n(:)      !! wave numbers, shape of a; not both zero; all n = 0 for a profile
+      real(dp), intent(in) :: phase(:)       !! phases [rad], shape of a
 
-      !> Sine coefficients below this fraction of the sum of all amplitudes are rounding errors of waves that cancel.
+      !> If all sine coefficients are below this fraction of the sum of the amplitudes they are rounding: the sum is
+      !> even.
       real(dp), parameter :: rounding = 1e-15_dp
       type(fourier_series) :: waves
       integer :: k, l, q
@@ -113,7 +114,7 @@ contains
       call check_waves(values, values%integers('waves_x'), values%integers('waves_y'), problems)
    end subroutine check
 
-   !> Reports a wave that is a mere height, and a profile along y.
+   !> Reports a wave without wave numbers, which is a constant height, and a profile along y.
    subroutine check_waves(values, m, n, problems)
       type(group_values), intent(in) :: values
       integer, intent(in) :: m(:), n(:)   !! waves_x and waves_y
@@ -132,7 +133,7 @@ contains
          'all waves_x are 0: turn the profile, so that it runs along x')
    end subroutine check_waves
 
-   !> Reports a list that does not have a value for each amplitude.
+   !> Reports a list whose number of values differs from that of the amplitudes.
    subroutine check_count(values, problems, key, number)
       type(group_values), intent(in) :: values
       type(problem_list_type), intent(inout) :: problems
