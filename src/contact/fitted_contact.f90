@@ -24,7 +24,7 @@ module wavycon_fitted_contact
 
    type, extends(contact_solver) :: fitted_contact
       type(fitted_frame), private :: frame
-      type(wave_lattice), private :: lattice
+      type(wave_lattice), allocatable, private :: lattice
       real(dp), private :: accuracy = 1e-3_dp
       logical, private :: keep_fields = .true.
       type(fitted_answer), private :: last         !! of the last load solved, from which the next one starts
@@ -102,7 +102,9 @@ contains
       self%accuracy = accuracy
       self%keep_fields = keep_fields
       call find_frame(surface, self%frame)
-      if (self%frame%is_found()) call make_lattice(self%frame, self%lattice)
+      if (.not. self%frame%is_found()) return
+      allocate (self%lattice)
+      call make_lattice(self%frame, self%lattice)
    end subroutine start
 
    !> Solves one load by solve_fitted and converts its answer to p* and Delta.

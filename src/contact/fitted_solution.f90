@@ -19,7 +19,7 @@ module wavycon_fitted_solution
 
    type, extends(contact_solution) :: fitted_solution
       type(fitted_frame) :: frame
-      type(wave_lattice) :: lattice
+      type(wave_lattice), allocatable :: lattice
       type(fitted_answer) :: answer     !! in the units of src/fitted
    contains
       procedure :: fields
@@ -31,7 +31,7 @@ module wavycon_fitted_solution
       real(dp) :: length(2) = 1.0_dp    !! sides of the surface's cell [length]
       logical :: is_square = .false.    !! whether x and y are equivalent
       type(fitted_frame) :: frame
-      type(fitted_fields) :: fitted
+      type(fitted_fields), allocatable :: fitted
    contains
       procedure :: at
       procedure :: on_cell
@@ -53,6 +53,7 @@ contains
       own%length = surface%length
       own%is_square = self%lattice%square
       own%frame = self%frame
+      allocate (own%fitted)
       call start_fitted_fields(own%fitted, self%lattice, self%answer)
       call move_alloc(own, answer)
    end subroutine fields
