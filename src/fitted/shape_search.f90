@@ -15,12 +15,11 @@ module wavycon_shape_search
    integer, parameter :: most_inverse_steps = 40
    !> Guard: Jacobian over b_0^2 below which the inversion ends without a preimage, as Newton's method would step across
    !> the fold of the continued map. The place then counts as outside, and integrals to it take the rule over the disc.
+   !> It matters in fields near merging: without it a map of the hexagonal wave at P = 0.7 p* takes four times as long.
    real(dp), parameter :: least_inverse_jacobian = 1e-3_dp
-   !> Guard: |w| beyond which the inversion ends without a preimage. No place so far away needs one: chords are used up
-   !> to chord_field_radius, which must be smaller.
-   real(dp), parameter :: farthest_inverse = 4.0_dp
    !> Guard: least derivative of the edge's polar angle that a Newton step divides by. It is smaller only at sharp tips,
-   !> where a full step would overshoot; a smaller step takes longer.
+   !> where a full step would overshoot; a smaller step takes longer. Without it some 0.3 % of the lines of maps of the
+   !> square lattice at loads from 0.01 to 0.95 p* change.
    real(dp), parameter :: least_turning = 0.2_dp
 
 contains
@@ -51,7 +50,7 @@ contains
          slope = shape%conjugate_slope(w)
          analytic = shape%b(0)*shape%analytic_slope(w)
          jacobian = analytic%re**2 + analytic%im**2 - (slope%re**2 + slope%im**2)
-         if (.not. jacobian > least_inverse_jacobian*shape%b(0)**2 .or. .not. abs(w) < farthest_inverse) return
+         if (.not. jacobian > least_inverse_jacobian*shape%b(0)**2) return
          step = (conjg(analytic)*left - slope*conjg(left))/jacobian
          w = w + step*min(1.0_dp, longest_inverse_step/max(abs(step), tiny(1.0_dp)))
          found = abs(step) <= rounding .or. abs(left) <= rounding*shape%b(0)
