@@ -5,16 +5,16 @@
 !> In phi the midpoint rule over half a turn (target inside) or Gauss's rule between the tangents (target outside)
 !> converges exponentially. What is integrated is
 !>
-!>     power 1/2: f(w)/|t|, so that the area element cancels the singularity;
-!>     power 3/2: f(w)/|t|^3 as Hadamard's finite part, for targets inside.
+!>     power 1/2: f(w)/|t|, so that the area element cancels the singularity, README.md (F30);
+!>     power 3/2: f(w)/|t|^3 as Hadamard's finite part, for targets inside, README.md (F31).
 !>
 !> For the finite part let s be the place along a chord, from -1 to 1, and s_0 the target's. Then
 !>
-!>     finite part of the integral of (1 - s^2)^(3/2) C_m(s)/(s - s_0)^2 ds = (pi/2)(m+1)(m+3) T_(m+2)(s_0),
+!>     finite part of the integral of (1 - s^2)^(3/2) C_m(s)/(s - s_0)^2 ds = (pi/2)(m+1)(m+3) T_(m+2)(s_0),   (F33)
 !>
-!> with Gegenbauer's polynomials C_m of this weight, whose squares have the integrals (pi/8)(m+1)(m+3), and Chebyshev's
-!> T_m. The part left out about the target is round in the image, not in the disc; what that changes is odd in t and
-!> cancels.
+!> with Gegenbauer's polynomials C_m of this weight, whose squares have the integrals (pi/8)(m+1)(m+3) (F34), and
+!> Chebyshev's T_m. The part left out about the target is round in the image, not in the disc; what that changes is odd
+!> in t and cancels.
 module wavycon_chord_points
    use wavycon_constants, only: pi
    use wavycon_gauss_rules, only: gauss_jacobi
@@ -111,7 +111,7 @@ contains
       end do
    end subroutine place
 
-   !> Weights along a chord for the finite part with 1/(s - s_0)^2.
+   !> Weights along a chord for the finite part with 1/(s - s_0)^2: W_j(s_0) of README.md (F32).
    pure function finite_part_weights(self, s_0) result(weight)
       class(chord_points), intent(in) :: self
       real(dp), intent(in) :: s_0               !! the target's place on the chord, between -1 and 1

@@ -2,7 +2,7 @@
 !>
 !> On the chord w = w_t + t e^(i phi) the quotient
 !>
-!>     Q = (z(w) - z(w_t))/(t e^(i phi)) = b_0 A(w) + sum over k of b_k D_k(w)
+!>     Q = (z(w) - z(w_t))/(t e^(i phi)) = b_0 A(w) + sum over k of b_k D_k(w),   README.md (F26),
 !>
 !> is a polynomial in t that does not vanish where the map is one to one. With v = w_t its terms are
 !>
@@ -31,7 +31,7 @@ module wavycon_chord_quotient
       real(dp), allocatable :: slope(:, :)                 !! dz/d conj(w), shape (n, 2)
       real(dp), allocatable :: slope_terms(:, :, :)        !! d(dz/d conj(w))/d b_k, shape (n, 2, K)
       real(dp), allocatable :: analytic_square(:)          !! |dz/dw|^2/b_0^2, shape (n)
-      real(dp), allocatable :: jacobian(:)                 !! |dz/dw|^2 - |dz/d conj(w)|^2, shape (n)
+      real(dp), allocatable :: jacobian(:)                 !! |dz/dw|^2 - |dz/d conj(w)|^2 (F16), shape (n)
       ! Work space.
       real(dp), allocatable, private :: w(:, :), step(:, :), last(:, :)
    contains
@@ -82,7 +82,7 @@ contains
       end do
    end subroutine evaluate
 
-   !> The terms' differences of powers, without e^(2 i phi), and their slopes.
+   !> The terms' differences of powers, README.md (F27), without e^(2 i phi), and their slopes.
    subroutine find_terms(self, shape, target)
       type(chord_quotient), intent(inout) :: self
       type(shape_map), intent(in) :: shape

@@ -5,8 +5,8 @@
 !>
 !>     integral of f J/|z(w) - z(w_t)| over the disc = integral of f J/|Q| over all chords, dt dphi,
 !>
-!> and with 1/|z - z'|^3 it is the finite part of f J/(t^2 |Q|^3). Q does not vanish, so that quadrature along the
-!> chords and over their angles converges exponentially.
+!> README.md (F28), and with 1/|z - z'|^3 it is the finite part of f J/(t^2 |Q|^3) (F29). Q does not vanish, so that
+!> quadrature along the chords and over their angles converges exponentially.
 module wavycon_chord_rule
    use wavycon_chord_points, only: chord_points, start_chord_points
    use wavycon_chord_quotient, only: chord_quotient, start_chord_quotient
@@ -52,8 +52,8 @@ contains
       allocate (rule%density(n), rule%f(n), rule%f_slope(n), rule%values(n, basis%terms))
    end subroutine start_chord_rule
 
-   !> The integral for one target, for each polynomial of the basis, and its derivatives with respect to the shape for a
-   !> sum of them.
+   !> The integral for one target, README.md (F30) or (F31), for each polynomial of the basis, and its derivatives with
+   !> respect to the shape for a sum of them.
    !>
    !> N.B. The derivatives are at fixed w_t: the target moves with the shape.
    subroutine rows(self, basis, shape, target, c, row, shape_row)
@@ -88,8 +88,8 @@ contains
       call add_shape_slopes(self, shape, shape_row)
    end subroutine rows
 
-   !> Derivatives of the sum's integral: by the Jacobian, dJ/db_k, and by the distance, -p J/|Q|^2 Re(conj(Q) dQ/db_k),
-   !> both times the sum's value and the weight, which `density` holds.
+   !> Derivatives of the sum's integral, README.md (F39): by the Jacobian, dJ/db_k, and by the distance, -p J/|Q|^2
+   !> Re(conj(Q) dQ/db_k), both times the sum's value and the weight, which `density` holds.
    subroutine add_shape_slopes(self, shape, shape_row)
       type(chord_rule), intent(inout) :: self
       type(shape_map), intent(in) :: shape

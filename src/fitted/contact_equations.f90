@@ -1,11 +1,11 @@
 !> The equations of contact of one spot below merging, or of one open island above, at points of the mapped disc.
 !>
 !> Spot: its pressure p and that of all its images displace the surface by u, and u + h = delta in contact. The pressure
-!> bears the load, P times the area of a cell. Island: its gap g makes the pressure vanish in it. In full contact the
-!> pressure is P + the sum of a_i |k_i| cos 2 pi k_i.x; a gap changes it by -(1/4 pi^2) times the finite part of the
-!> integral of g and the Laplacian of Gp. Therefore
+!> bears the load, P times the area of a cell: README.md (F8) and (F9). Island: its gap g makes the pressure vanish in
+!> it. In full contact the pressure is P + the sum of a_i |k_i| cos 2 pi k_i.x; a gap changes it by -(1/4 pi^2) times
+!> the finite part of the integral of g and the Laplacian of Gp. Therefore
 !>
-!>     (1/4 pi^2) integral of Laplacian(Gp) g = pressure rise from the trough - (closing pressure - P).
+!>     (1/4 pi^2) integral of Laplacian(Gp) g = pressure rise from the trough - (closing pressure - P).   (F12)
 !>
 !> The weight (1 - |w|^2)^power leaves out the singular term that a wrong edge would bring in, so that the equations
 !> can only be met with the right edge. They are more than the unknowns, which are the coefficients, a spot's approach
@@ -95,7 +95,8 @@ contains
       end associate
    end subroutine choose_rules
 
-   !> Points of collocation: on rays at the midpoints of equal angles, clustered towards the edge along each.
+   !> Points of collocation, README.md, section 8: on rays at the midpoints of equal angles, clustered towards the edge
+   !> along each.
    subroutine choose_targets(equations, like, merging_ratio)
       type(contact_equations), intent(inout) :: equations
       type(expansion), intent(in) :: like
@@ -124,7 +125,7 @@ contains
       end do
    end subroutine choose_targets
 
-   !> Sets the matrix, the residual and, for a spot, the load's derivatives at an expansion.
+   !> Sets the matrix, the residual, README.md (F37) or (F38), and, for a spot, the load's derivatives at an expansion.
    subroutine linearise(self, lattice, load, now)
       class(contact_equations), intent(inout) :: self
       type(wave_lattice), intent(in) :: lattice
@@ -178,7 +179,7 @@ contains
       end do
    end subroutine linearise_known_side
 
-   !> Derivatives of the load that a spot bears.
+   !> Derivatives of the load that a spot bears, the left side of README.md (F9).
    subroutine linearise_load(self, now)
       class(contact_equations), intent(inout) :: self
       type(expansion), intent(in) :: now

@@ -4,7 +4,7 @@ module wavycon_degree_history
    use wavycon_expansion, only: expansion
    use wavycon_fitted_answer, only: most_previous
    use wavycon_fitted_measures, only: all_measures, centre_measure, energy_measure, peak_measure
-   use wavycon_fitted_tuning, only: error_of_square, round_shape_ratio
+   use wavycon_fitted_tuning, only: round_shape_ratio
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
@@ -30,6 +30,10 @@ module wavycon_degree_history
 
    !> Solutions that it takes for an estimate to be used: a single difference may be small by chance.
    integer, parameter :: least_solutions = 3
+   !> Guard: lower limit of the relative errors, over the square of the last Newton step's relative change. A step that
+   !> meets its tolerance keeps the limit below a tenth of the accuracy; it matters where the iteration ended at its
+   !> limit of steps, with a change up to largest_change.
+   real(dp), parameter, public :: error_of_square = 10.0_dp
 
 contains
 
@@ -77,7 +81,8 @@ contains
       call estimate_group(self, 1, peak_measure)
       call estimate_group(self, centre_measure, centre_measure)
       call estimate_group(self, energy_measure, all_measures)
-      ! Newton's method converges quadratically: what its last step leaves is of the order of the step's square.
+      ! The last term of README.md (F44). Newton's method converges quadratically: what its last step leaves is of the
+      ! order of the step's square.
       self%error = max(self%error, error_of_square*change**2*measures)
 
    contains

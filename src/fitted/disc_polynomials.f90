@@ -1,7 +1,7 @@
 !> Polynomials on the unit disc, orthonormal with the weight (1 - |w|^2)^power, with the symmetry of a contact.
 !>
 !> They are multiples of Re(w^(fold k)) P_l^(power, fold k)(2 |w|^2 - 1), fold k + 2 l <= degree, with Jacobi's
-!> polynomials P: invariant under turns by 1/fold of a full turn and under reflection at the x axis.
+!> polynomials P, README.md (F24): invariant under turns by 1/fold of a full turn and under reflection at the x axis.
 module wavycon_disc_polynomials
    use wavycon_constants, only: pi
    use wavycon_kinds, only: dp
@@ -69,7 +69,7 @@ contains
       end do
    end subroutine start_disc_polynomials
 
-   !> Norm of a term: the root of the integral over the disc of its square times the weight.
+   !> Norm of a term, README.md (F25): the root of the integral over the disc of its square times the weight.
    pure real(dp) function norm_over_disc(k, l, a) result(norm)
       integer, intent(in) :: k     !! fold k of the term
       integer, intent(in) :: l

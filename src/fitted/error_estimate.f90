@@ -11,7 +11,8 @@ contains
 
    !> Errors of values from the differences of the last degrees.
    !>
-   !> With the differences d of the last two degrees and d' of the two before, the error is taken for the larger of
+   !> README.md (F43) and, but for its last term, (F44). With the differences d of the last two degrees and d' of the
+   !> two before, the error is taken for the larger of
    !>
    !>     d times the root of d/d', not less than fastest_decay nor more than 1, and
    !>     d' times the root of the decay from d'' to d', not more than previous_difference_share,

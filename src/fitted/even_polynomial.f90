@@ -1,6 +1,7 @@
 !> A function that is even in x and in y, as a polynomial in x^2 and y^2 on the rectangle |x| <= 1/2, |y| <= height/2.
 !>
-!> It is interpolated by Chebyshev's polynomials in u = 8 x^2 - 1 and v = 8 (y/height)^2 - 1, both between -1 and 1.
+!> It is interpolated by Chebyshev's polynomials in u = 8 x^2 - 1 and v = 8 (y/height)^2 - 1, both between -1 and 1:
+!> README.md (F22).
 !> Coefficients below rounding are dropped, and the rest is turned into powers of u and v, evaluated by Horner's scheme.
 module wavycon_even_polynomial
    use wavycon_constants, only: pi

@@ -8,7 +8,7 @@
 !>     Gp(x) = sum over n of erfc(e |x-n|)/|x-n|
 !>             + (1/A) [ sum over k /= 0 of erfc(pi |k|/e)/|k| cos(2 pi k.x) - 2 sqrt(pi)/e ],   e = sqrt(pi/A).
 !>
-!> Source: P. P. Ewald, Ann. Phys. 369 (1921) 253-287, for the potential 1/r in the plane.
+!> This is README.md (F20). Source: P. P. Ewald, Ann. Phys. 369 (1921) 253-287, for the potential 1/r in the plane.
 module wavycon_ewald_sum
    use wavycon_constants, only: pi
    use wavycon_kinds, only: dp
@@ -25,7 +25,8 @@ module wavycon_ewald_sum
 
 contains
 
-   !> Gp - 1/r and its Laplacian less 1/r^3, which is the sum of 1/|x - n|^3 over all lattice points but the origin.
+   !> Gp - 1/r, README.md (F20), and its Laplacian less 1/r^3, which is the sum of 1/|x - n|^3 over all lattice points
+   !> but the origin.
    pure subroutine ewald_sum(rows, n, along, across, value, laplacian)
       type(row_lattice), intent(in) :: rows
       integer, intent(in) :: n
@@ -46,7 +47,7 @@ contains
       call add_waves(rows, e, n, along, across, value, laplacian)
    end subroutine ewald_sum
 
-   !> Adds the terms erfc(e r)/r of the lattice points but the origin, and their Laplacian.
+   !> Adds the terms erfc(e r)/r of the lattice points but the origin, and their Laplacian by README.md (F21).
    pure subroutine add_lattice_points(rows, e, n, along, across, value, laplacian)
       type(row_lattice), intent(in) :: rows
       real(dp), intent(in) :: e                      !! [1/s]
@@ -127,7 +128,7 @@ contains
       end if
    end function origin_remainder
 
-   !> The Laplacian in the plane of -erf(x)/x.
+   !> The Laplacian in the plane of -erf(x)/x; with 1/r^3 taken out of README.md (F21).
    pure real(dp) function origin_remainder_laplacian(x) result(value)
       real(dp), intent(in) :: x             !! >= 0
 

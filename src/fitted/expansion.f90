@@ -4,8 +4,9 @@
 !>
 !>     (1 - |w|^2)^power times the sum over i of c_i P_i(w),
 !>
-!> power 1/2 or 3/2, with the disc polynomials P_i orthonormal with this weight, and the disc mapped to the spot or
-!> island. Lengths in s, pressures in pi E* Delta/s, gaps in Delta; places from the centre of the spot or island.
+!> README.md (F23), power 1/2 or 3/2, with the disc polynomials P_i orthonormal with this weight, and the disc mapped to
+!> the spot or island. Lengths in s, pressures in pi E* Delta/s, gaps in Delta; places from the centre of the spot or
+!> island.
 module wavycon_expansion
    use wavycon_disc_polynomials, only: disc_polynomials, start_disc_polynomials
    use wavycon_kinds, only: dp
@@ -54,7 +55,7 @@ contains
       n = min(shape_terms, ubound(self%shape%b, 1))
       copy%shape%b(:n) = self%shape%b(:n)
       copy%shape%clustering = clustering
-      ! On a circle both changes sum to -2 i tau b_0 w sin(fold phi), which is along the edge.
+      ! README.md (F18): on a circle both changes sum to -2 i tau b_0 w sin(fold phi), which is along the edge.
       copy%shape%b(1) = copy%shape%b(1) + (clustering - self%shape%clustering)*copy%shape%b(0)
       copy%approach = self%approach
    end function resized

@@ -1,8 +1,9 @@
 !> Pressure, displacement and gap anywhere on the surface, from an expansion and without a grid.
 !>
 !> Places are from a crest, in s. Inside the spot or island the fields are the expansion and the condition of contact.
-!> Elsewhere they are integrals over the expansion and all its images. For an image that is near, these are taken along
-!> chords through the preimage of the place under the continued map, for all others by one rule over the disc.
+!> Elsewhere they are integrals over the expansion and all its images: README.md (F2) and (F10). For an image that is
+!> near, these are taken along chords through the preimage of the place under the continued map, for all others by one
+!> rule over the disc.
 module wavycon_fitted_fields
    use wavycon_chord_rule, only: chord_rule, start_chord_rule
    use wavycon_constants, only: pi

@@ -39,7 +39,7 @@ contains
       measures(perimeter_measure) = now%shape%perimeter()
    end subroutine measure_expansion
 
-   !> G: 1 - delta of a spot, the mean of an island's gap.
+   !> G: 1 - delta of a spot, README.md (F5), the mean of an island's gap.
    real(dp) function mean_gap(equations, lattice, now)
       type(contact_equations), intent(in) :: equations
       type(wave_lattice), intent(in) :: lattice
@@ -66,8 +66,9 @@ contains
       end if
    end function peak_pressure
 
-   !> Pressure at a crest between islands: that of full contact less 1/(4 pi^2) times the integral of the Laplacian of
-   !> Gp and the gap. The islands of a cell are mirror images about the crest, so that each contributes the same.
+   !> Pressure at a crest between islands, README.md (F45): that of full contact less 1/(4 pi^2) times the integral of
+   !> the Laplacian of Gp and the gap. The islands of a cell are mirror images about the crest, so that each contributes
+   !> the same.
    real(dp) function crest_pressure(lattice, rule, load, now) result(pressure)
       type(wave_lattice), intent(in) :: lattice
       type(disc_rule), intent(in) :: rule       !! with the weight of the expansion
@@ -100,7 +101,7 @@ contains
          - lattice%troughs*total/(2*now%basis%fold)/(4*pi**2)
    end function crest_pressure
 
-   !> Half the integral of p u over a cell [Delta s^2].
+   !> Half the integral of p u over a cell [Delta s^2]: README.md (F46) of a spot, (F47) above merging.
    !>
    !> In contact u = delta - h; above merging p u = p (delta - h + g) everywhere, where p g = 0. The integral of p h
    !> follows from the Fourier coefficients of p at the waves of h, which are |k| times those of u.

@@ -3,7 +3,7 @@ module wavycon_gauss_newton
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use wavycon_contact_equations, only: contact_equations
    use wavycon_expansion, only: expansion
-   use wavycon_fitted_tuning, only: least_centre_jacobian, longest_shape_change, most_newton_steps
+   use wavycon_fitted_tuning, only: longest_shape_change
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgels, dgglse
    use wavycon_wave_lattice, only: wave_lattice
@@ -11,6 +11,14 @@ module wavycon_gauss_newton
    private
 
    public :: gauss_newton_step, solve_equations
+
+   !> Safety limit: most steps at one degree. The loads of scripts/constants take at most half as many. At the limit the
+   !> change of the last step is above the tolerance, and the caller decides whether the solution is of use.
+   integer, parameter :: most_newton_steps = 12
+   !> Guard: Jacobian at the centre over b_0^2 below which a shape is rejected and the iteration fails. An ellipse of
+   !> 100 to 1 has 0.04, longer ones are not solved for. Only spots far past merging, which would fold, come that low
+   !> (a_spot_that_folds_ends_the_search in tests/exact); the quadrature of folding maps grows without end.
+   real(dp), parameter :: least_centre_jacobian = 0.04_dp
 
 contains
 
@@ -36,7 +44,8 @@ contains
       end do
    end subroutine solve_equations
 
-   !> One step: minimises || residual - matrix*step ||_2, for a spot subject to load_row*step = missing load.
+   !> One step, README.md (F40): minimises || residual - matrix*step ||_2, for a spot subject to load_row*step = missing
+   !> load.
    !>
    !> The step is shortened to a change of the shape of `longest_shape_change`.
    subroutine gauss_newton_step(equations, lattice, load, now, change, residual, valid)

@@ -3,7 +3,7 @@
 !> Its mean over all copies of a source under the symmetry, F(z_t, z_s), is symmetric in the target's place as in the
 !> source's. Less the lattice points near by it is smooth, and on the discs |z_t|, |z_s| <= R
 !>
-!>     F(z_t, z_s) = sum over a, b of P_a(z_t/R) B_ab P_b(z_s/R),
+!>     F(z_t, z_s) = sum over a, b of P_a(z_t/R) B_ab P_b(z_s/R),   README.md (F35),
 !>
 !> P the disc polynomials of the weight 1. B is computed once. Then each Newton step of each degree evaluates P at its
 !> targets and sources, and the kernel between pairs of them for the near lattice points only.
@@ -69,8 +69,9 @@ contains
       call find_coefficients(series%basis, rule, nodes, series%coefficient)
    end subroutine start_image_series
 
-   !> Degree for a tolerance. With the source on the edge, at its point nearest to the nearest lattice point of F,
-   !> terms that vary with the angle fall as powers of that point's distance, round ones as in Chebyshev's series.
+   !> Degree for a tolerance, README.md (F36). With the source on the edge, at its point nearest to the nearest lattice
+   !> point of F, terms that vary with the angle fall as powers of that point's distance, round ones as in Chebyshev's
+   !> series.
    pure integer function series_degree(fold, distance, tolerance) result(degree)
       integer, intent(in) :: fold
       real(dp), intent(in) :: distance     !! of the singularity from the target's centre [R]

@@ -1,4 +1,5 @@
-!> What all other spots or islands of the lattice, and the mean, add to the equations of one of them.
+!> What all other spots or islands of the lattice, and the mean, add to the equations of one of them: README.md,
+!> section 7.
 !>
 !> Where it pays and is as accurate this is a series made once for a size of the shape, otherwise a sum with the kernel
 !> itself between all targets and sources. A cell with two islands has them too near to each other for the series.

@@ -15,10 +15,10 @@ contains
 
    !> The integral for one target.
    !>
-   !> It is taken over chords on lines through the target. Along a chord, s from -1 to 1, the integrand has a pole
-   !> beyond the nearer end, as close to it as the target is to the edge. With 1 + s = x^2 and x = root sinh(y), where
-   !> root^2 is the distance of the pole from s = -1, the half -1 <= s <= 0 is smooth in y. The other half is smooth in
-   !> s.
+   !> It is taken over chords on lines through the target: README.md, end of section 6. Along a chord, s from -1 to 1,
+   !> the integrand has a pole beyond the nearer end, as close to it as the target is to the edge. With 1 + s = x^2 and
+   !> x = root sinh(y), where root^2 is the distance of the pole from s = -1, the half -1 <= s <= 0 is smooth in y. The
+   !> other half is smooth in s.
    real(dp) function integral_outside(basis, shape, target, c) result(integral)
       type(disc_polynomials), intent(in) :: basis   !! with the power of f's weight
       type(shape_map), intent(in) :: shape

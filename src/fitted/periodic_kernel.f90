@@ -3,12 +3,12 @@
 !> Two kernels are in use, as their sums over the lattice point n show:
 !>
 !>     Gp(x) = sum over n of 1/|x - n|, less its mean: the displacement by unit loads;
-!>     Laplacian of Gp = sum over n of 1/|x - n|^3, which turns a gap into a pressure.
+!>     Laplacian of Gp = sum over n of 1/|x - n|^3, which turns a gap into a pressure: README.md (F11).
 !>
 !> Either is 1/r^power about the origin plus a smooth part. On the rectangle about the origin that is the cell of the
 !> lattice's rows the smooth part, less 1/r^power of the lattice points near by, is a polynomial in x^2 and y^2 to
-!> rounding. It is fitted once to Ewald's sum. The Laplacian has a fit of its own: differentiating the other one would
-!> amplify the rounding in its highest coefficients.
+!> rounding, README.md (F22). It is fitted once to Ewald's sum (F20). The Laplacian has a fit of its own:
+!> differentiating the other one would amplify the rounding in its highest coefficients.
 module wavycon_periodic_kernel
    use wavycon_even_polynomial, only: even_polynomial, fit_degree, fit_nodes, start_even_polynomial
    use wavycon_ewald_sum, only: ewald_sum

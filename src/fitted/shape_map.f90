@@ -1,6 +1,6 @@
 !> The map of the unit disc to a contact spot or an open island,
 !>
-!>     z(w) = b_0 (w - tau w^(fold+1)) + sum over k = 1..K of b_k conj(w)^(fold k - 1).
+!>     z(w) = b_0 (w - tau w^(fold+1)) + sum over k = 1..K of b_k conj(w)^(fold k - 1),   README.md (F15).
 !>
 !> With tau = 0 and one term the edge is a hypotrochoid, with b_1 = b_0/(fold - 1) one with cusps such as the astroid.
 !> Spots and islands are very nearly such curves up to the load at which they merge, so that a few terms suffice. A
@@ -8,12 +8,16 @@
 !> towards the tips, which become sharp near merging.
 module wavycon_shape_map
    use wavycon_constants, only: pi
-   use wavycon_fitted_tuning, only: least_edge_points, most_edge_points, radius_points
+   use wavycon_fitted_tuning, only: least_edge_points, radius_points
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
 
    public :: shape_map
+
+   !> Safety limit: most points of a half sector for the length of an edge. Only an edge that is within some 7 % of
+   !> cusps needs more; its length is less exact.
+   integer, parameter :: most_edge_points = 512
 
    type :: shape_map
       integer :: fold = 4               !! of the symmetry, >= 2
@@ -35,7 +39,7 @@ module wavycon_shape_map
 
 contains
 
-   !> z(w) [s].
+   !> z(w) [s], README.md (F15).
    elemental complex(dp) function place(self, w) result(z)
       class(shape_map), intent(in) :: self
       complex(dp), intent(in) :: w
@@ -105,7 +109,7 @@ contains
       end do
    end function conjugate_slope
 
-   !> The Jacobian |dz/dw|^2 - |dz/d conj(w)|^2, the area of the image over that of the disc [s^2].
+   !> The Jacobian |dz/dw|^2 - |dz/d conj(w)|^2, README.md (F16): the area of the image over that of the disc [s^2].
    elemental real(dp) function jacobian(self, w)
       class(shape_map), intent(in) :: self
       complex(dp), intent(in) :: w
@@ -160,7 +164,7 @@ contains
       end do
    end function tangent
 
-   !> Area enclosed [s^2].
+   !> Area enclosed [s^2], README.md (F17).
    pure real(dp) function area(self)
       class(shape_map), intent(in) :: self
 
@@ -180,7 +184,7 @@ contains
       radius = maxval(abs(self%place([(exp(cmplx(0.0_dp, pi*i/(self%fold*radius_points), dp)), i=0, radius_points)])))
    end function radius
 
-   !> Length of the edge [s], by the midpoint rule in the angle, which converges exponentially.
+   !> Length of the edge [s], by the midpoint rule in the angle, which converges exponentially: README.md, section 11.
    pure real(dp) function perimeter(self)
       class(shape_map), intent(in) :: self
 

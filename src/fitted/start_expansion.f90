@@ -13,7 +13,7 @@ module wavycon_start_expansion
 
 contains
 
-   !> A Hertzian spot, elliptical where the curvatures of the crest differ; paper, (23).
+   !> A Hertzian spot, elliptical where the curvatures of the crest differ: README.md (F41); paper, (23).
    function hertz_spot(lattice, load) result(spot)
       type(wave_lattice), intent(in) :: lattice
       real(dp), intent(in) :: load   !! P > 0
@@ -42,7 +42,7 @@ contains
    end function hertz_spot
 
    !> The opening of a penny-shaped crack at a trough, elliptical where the curvatures of the full contact's pressure
-   !> differ; paper, (24) and (A4)-(A8).
+   !> differ: README.md (F42); paper, (24) and (A4)-(A8).
    function crack_island(lattice, load) result(island)
       type(wave_lattice), intent(in) :: lattice
       real(dp), intent(in) :: load  !! P < the closing pressure

@@ -72,14 +72,8 @@ module wavycon_fitted_tuning
 
    ! Newton's method at one degree.
 
-   integer, parameter, public :: most_newton_steps = 12
-      !! Steps at one degree. Larger: time lost where it does not converge. Smaller: slow convergence near merging is
-      !! cut off.
    real(dp), parameter, public :: longest_shape_change = 0.3_dp
       !! Largest relative change of the shape in one step. Larger: the map folds. Smaller: more steps.
-   real(dp), parameter, public :: least_centre_jacobian = 0.04_dp
-      !! Jacobian at the centre over b_0^2 below which a shape is rejected. An ellipse of 100 to 1 has 0.04. Smaller:
-      !! folding maps, whose quadrature grows without end. Larger: long spots are lost.
    real(dp), parameter, public :: change_per_root_accuracy = 0.1_dp
       !! Change at which Newton stops, over the root of the accuracy. Larger: the error left by the last step shows in
       !! the result. Smaller: steps that change no digit asked for.
@@ -206,9 +200,6 @@ module wavycon_fitted_tuning
    real(dp), parameter, public :: least_relative_share = 0.02_dp
       !! Least relative error of one measure over the largest of all. Smaller: a mean gap whose differences are small
       !! by chance is taken for the error. Larger: a degree more than needed.
-   real(dp), parameter, public :: error_of_square = 10.0_dp
-      !! Relative error that a last Newton step leaves, over its square. Smaller: estimates leave out unfinished
-      !! iterations. Larger: further steps or degrees.
 
    ! Fields.
 
@@ -248,37 +239,10 @@ module wavycon_fitted_tuning
       !! Larger: more time.
    integer, parameter, public :: least_edge_points = 16
       !! Least points of a half sector for the length of an edge. Smaller: the length's error shows. Larger: more time.
-   integer, parameter, public :: most_edge_points = 512
-      !! Most of them. Smaller: the length of edges with sharp tips is less exact. Larger: more time.
-   integer, parameter, public :: distance_points = 128
-      !! Points of an edge from which the nearest is looked for. Smaller: a wrong one of two tips. Larger: more time.
-   integer, parameter, public :: distance_halvings = 30
-      !! Halvings of their distance. Smaller: the distance is less exact. Larger: more time.
-   real(dp), parameter, public :: least_turning = 0.2_dp
-      !! Least derivative of the edge's polar angle in Newton's method. It is small at tips. Smaller: steps that
-      !! overshoot. Larger: slower convergence.
    real(dp), parameter, public :: farthest_inverse_start = 1.2_dp
       !! Largest |w| at which the inversion of the map starts. Larger: starts beyond where the continued map folds.
       !! Smaller: more steps.
    real(dp), parameter, public :: longest_inverse_step = 0.2_dp
       !! Largest step of it in |w|. Larger: steps across a fold. Smaller: more steps.
-   real(dp), parameter, public :: least_inverse_jacobian = 1e-3_dp
-      !! Jacobian over b_0^2 below which it stops. Smaller: Newton's method steps into a fold. Larger: the rule over
-      !! the disc is used for places near enough for chords.
-   real(dp), parameter, public :: farthest_inverse = 4.0_dp
-      !! |w| beyond which it stops. Smaller: nothing, down to chord_field_radius. Larger: steps for places that chords
-      !! are not used for.
-   integer, parameter, public :: most_inverse_steps = 40
-      !! Steps of either iteration. Smaller: places near tips are lost. Larger: time where it does not converge.
-
-   ! Which regime a load is tried in first.
-
-   real(dp), parameter, public :: rectangular_merging = 0.05_dp
-      !! Full contact's least pressure between troughs at merging, over the closing pressure. A wrong value costs time:
-      !! the other regime is tried next.
-   real(dp), parameter, public :: rhombic_merging = 0.2_dp
-      !! The same of rhombic lattices.
-   real(dp), parameter, public :: hexagonal_merging = 0.05_dp
-      !! The same of the hexagonal lattice.
 
 end module wavycon_fitted_tuning

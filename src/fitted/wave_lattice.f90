@@ -1,14 +1,14 @@
 !> The wavy surfaces of the boundary-fitted solver: their crests are the points of a lattice, one in a primitive cell.
 !>
-!>     h/Delta = 1 - sum over i of a_i cos(2 pi k_i.x),   sum of a_i = 1,
+!>     h/Delta = 1 - sum over i of a_i cos(2 pi k_i.x),   sum of a_i = 1,   README.md (F1),
 !>
 !> so that h = 0 at the crests and Delta is the mean undeformed gap. Lengths are in the distance s of neighbouring
-!> crests of a row, pressures in pi E* Delta/s. In these units u_k = p_k/|k| for each wave vector k in waves per s, and
-!> the unit of pressure is p* for the square lattice. In full contact each wave has the pressure a_i |k_i| cos(2 pi
-!> k_i.x) beside the mean one; contact is lost first where that is lowest, at the troughs.
+!> crests of a row, pressures in pi E* Delta/s. In these units u_k = p_k/|k| for each wave vector k in waves per s (F3),
+!> and the unit of pressure is p* for the square lattice. In full contact each wave has the pressure a_i |k_i| cos(2 pi
+!> k_i.x) beside the mean one (F6); contact is lost first where that is lowest, at the troughs. README.md has a table of
+!> the lattices in section 1.
 module wavycon_wave_lattice
    use wavycon_constants, only: pi
-   use wavycon_fitted_tuning, only: hexagonal_merging, rectangular_merging, rhombic_merging
    use wavycon_kinds, only: dp
    use wavycon_periodic_kernel, only: periodic_kernel, start_periodic_kernels
    use wavycon_row_lattice, only: row_lattice
@@ -17,13 +17,24 @@ module wavycon_wave_lattice
 
    public :: wave_lattice, square_lattice, rectangular_lattice, rhombic_lattice, hexagonal_lattice
 
+   !> Mean pressure over the closing pressure at which spots merge on the square lattice, found by solving on either
+   !> side of it. In full contact it is also the pressure at the midpoints between troughs at this load, over the
+   !> closing pressure. Rectangular and rhombic lattices, which are square at a side ratio of 1, take this pressure as
+   !> well.
+   !>
+   !> It only selects the regime that a load is tried in first. A wrong one costs time: the other regime is tried next.
+   real(dp), parameter :: square_merging = 0.228605_dp
+   !> The mean pressure of the hexagonal lattice. An estimate that is lower by 0.05 makes loads from 0.67 to 0.7 take up
+   !> to 1.5 times as long; for one that is higher by 0.05 loads from 0.73 to 0.76 take up to twice as long.
+   real(dp), parameter :: hexagonal_merging = 0.71191_dp
+
    type :: wave_lattice
       integer :: fold = 4                            !! of the symmetry about a crest
       integer :: trough_fold = 4                     !! of the symmetry about a trough
       integer :: troughs = 1                         !! in a cell: at `trough` and, if there are two, at -`trough`
       logical :: square = .true.                     !! whether it is the square lattice
       real(dp) :: area = 1.0_dp                      !! of a cell [s^2]
-      real(dp) :: closing_pressure = 1.0_dp          !! mean pressure that just closes the troughs, p*
+      real(dp) :: closing_pressure = 1.0_dp          !! mean pressure that just closes the troughs, p* (F7)
       real(dp) :: about_merging = 0.0_dp             !! mean pressure near which spots merge and islands separate
       real(dp), allocatable :: wave(:, :)            !! k_i [1/s], shape (2, n)
       real(dp), allocatable :: amplitude(:)          !! a_i > 0 [Delta], shape (n)
@@ -35,8 +46,8 @@ module wavycon_wave_lattice
       !> the trough [s].
       complex(dp), allocatable :: to_next_crest(:), to_next_trough(:)
       type(row_lattice) :: rows                      !! the crests
-      type(periodic_kernel) :: displacement_kernel   !! Gp: the integral of Gp and p is u less its mean
-      type(periodic_kernel) :: pressure_kernel       !! its Laplacian: -(1/4 pi^2) times the integral with u is p less P
+      type(periodic_kernel) :: displacement_kernel   !! Gp: the integral of Gp and p is u less its mean (F2)
+      type(periodic_kernel) :: pressure_kernel       !! its Laplacian, which turns a gap into a pressure (F10)
    contains
       procedure :: undeformed_gap
       procedure :: undeformed_slope
@@ -50,14 +61,11 @@ contains
    function square_lattice() result(lattice)
       type(wave_lattice) :: lattice
 
-      !> The mean pressure at which spots merge, found by solving on either side of it.
-      real(dp), parameter :: merging_pressure = 0.228605_dp
-
       allocate (lattice%wave(2, 2), lattice%amplitude(2))
       lattice%wave(:, :) = reshape([1.0_dp, 0.0_dp, 0.0_dp, 1.0_dp], [2, 2])
       lattice%amplitude(:) = [0.5_dp, 0.5_dp]
       lattice%to_next_crest = [lattice%saddle]
-      call finish_lattice(lattice, row_lattice(spacing=1.0_dp, shift=0.0_dp), merging_pressure)
+      call finish_lattice(lattice, row_lattice(spacing=1.0_dp, shift=0.0_dp), square_merging)
    end function square_lattice
 
    !> h/Delta = 1 - a_x cos X - a_y cos Y, a_x + a_y = 1.
@@ -77,7 +85,7 @@ contains
       if (amplitude_x >= 0.5_dp) lattice%saddle = cmplx(0.0_dp, 0.5_dp*side_ratio, dp)
       lattice%trough = cmplx(0.5_dp, 0.5_dp*side_ratio, dp)
       lattice%to_next_crest = [cmplx(0.5_dp, 0.0_dp, dp), cmplx(0.0_dp, 0.5_dp*side_ratio, dp)]
-      call finish_lattice(lattice, row_lattice(spacing=side_ratio, shift=0.0_dp), rectangular_merging)
+      call finish_lattice(lattice, row_lattice(spacing=side_ratio, shift=0.0_dp), square_merging)
    end function rectangular_lattice
 
    !> h/Delta = 1 - cos X cos Y, with a second crest in the middle of the rectangle of both wavelengths. At a ratio of
@@ -96,12 +104,13 @@ contains
       lattice%saddle = cmplx(0.25_dp, 0.25_dp*side_ratio, dp)
       lattice%trough = 0.5_dp
       lattice%to_next_crest = [lattice%saddle]
-      call finish_lattice(lattice, row_lattice(spacing=0.5_dp*side_ratio, shift=0.5_dp), rhombic_merging)
+      call finish_lattice(lattice, row_lattice(spacing=0.5_dp*side_ratio, shift=0.5_dp), square_merging)
    end function rhombic_lattice
 
-   !> h/Delta = 1 - (cos k1.x + cos k2.x + cos k3.x)/3: three equal waves at 60 degrees to each other. Each crest has
-   !> six neighbours, two of them along y, so that a trough is on the x axis. The troughs, with three neighbours each,
-   !> are the points of a honeycomb, two in a cell.
+   !> h/Delta = 1 - (cos k1.x + cos k2.x + cos k3.x)/3: three equal waves at 60 degrees to each other; k and -k
+   !> are the same wave, so that k2 and k3, which are 120 degrees apart, are at 60 degrees, too. Each crest has six
+   !> neighbours, two of them along y, so that a trough is on the x axis. The troughs, with three neighbours each, are
+   !> the points of a honeycomb, two in a cell.
    function hexagonal_lattice() result(lattice)
       type(wave_lattice) :: lattice
 
@@ -120,7 +129,9 @@ contains
       lattice%to_next_crest = [lattice%saddle]
       lattice%to_next_trough = [cmplx(0.5_dp/root3, 0.0_dp, dp)]
       lattice%phase = 0.5_dp*[cmplx(-1.0_dp, -root3, dp), cmplx(-1.0_dp, root3, dp), cmplx(-1.0_dp, root3, dp)]
-      call finish_lattice(lattice, row_lattice(spacing=0.5_dp*root3, shift=0.5_dp, along_y=.true.), hexagonal_merging)
+      ! In full contact the pressure at the midpoints between troughs is P - (2/3) closing pressure.
+      call finish_lattice(lattice, row_lattice(spacing=0.5_dp*root3, shift=0.5_dp, along_y=.true.), &
+                          hexagonal_merging - 2.0_dp/3)
    end function hexagonal_lattice
 
    !> Sets what follows from waves, trough and midpoints between crests: the kernels and what islands need. On all
@@ -140,13 +151,13 @@ contains
       if (.not. allocated(lattice%to_next_trough)) lattice%to_next_trough = lattice%to_next_crest
       if (.not. allocated(lattice%phase)) lattice%phase = [(-1.0_dp, 0.0_dp), (-1.0_dp, 0.0_dp)]
       lattice%pressure = lattice%amplitude*hypot(lattice%wave(1, :), lattice%wave(2, :))
-      ! The pressure of full contact at the trough is P less this.
+      ! README.md (F6) and (F7): the pressure of full contact at the trough is P less the closing pressure.
       lattice%closing_pressure = -sum(lattice%pressure*lattice%phase%re)
       allocate (middle, source=lattice%to_next_trough)
       lattice%about_merging = (1.0_dp + at_merging)*lattice%closing_pressure - minval(lattice%pressure_rise(middle))
    end subroutine finish_lattice
 
-   !> h/Delta, without loss of digits near a crest.
+   !> h/Delta, README.md (F1), without loss of digits near a crest.
    elemental real(dp) function undeformed_gap(self, z) result(h)
       class(wave_lattice), intent(in) :: self
       complex(dp), intent(in) :: z  !! x + i y from a crest [s]
@@ -173,8 +184,8 @@ contains
       end do
    end function undeformed_slope
 
-   !> The pressure of full contact less its value at the trough x_t, the sum over i of a_i |k_i| (cos 2 pi k_i.x -
-   !> cos 2 pi k_i.x_t), without loss of digits near the trough.
+   !> R, README.md (F13): the pressure of full contact less its value at the trough x_t, the sum over i of a_i |k_i|
+   !> (cos 2 pi k_i.x - cos 2 pi k_i.x_t), without loss of digits near the trough.
    elemental real(dp) function pressure_rise(self, z) result(p)
       class(wave_lattice), intent(in) :: self
       complex(dp), intent(in) :: z  !! x + i y from the trough [s]
