@@ -192,7 +192,7 @@ contains
       if (available >= 0) then
          has_memory_for = numbers <= available/(storage_size(1.0_dp)/8)
       else
-         ! Where the system gives no figure: an allocation fails where memory is limited, but may succeed where it is short.
+         ! The system gives no figure. An allocation fails where memory is limited, but may succeed where it is short.
          allocate (probe(numbers), stat=status)
          has_memory_for = status == 0
       end if
