@@ -59,6 +59,7 @@ contains
       allocate (alternatives(size(solvers)))
       do i = 1, size(solvers)
          alternatives(i)%name = solvers(i)%solver%name()
+         alternatives(i)%meaning = solvers(i)%solver%meaning()
          alternatives(i)%keys = solvers(i)%solver%keys()
       end do
    end subroutine keys_of_solvers

@@ -1,8 +1,9 @@
 !> The &method group: the solver and its parameters. Its keys are those of the solvers.
 module wavycon_method_group
    use wavycon_group_values, only: group_values
-   use wavycon_key_alternatives, only: alternative_type, is_misplaced, leave_out_other_keys, merged_keys, names_reading
-   use wavycon_key_table, only: choice_key, key_group, key_group_type
+   use wavycon_key_alternatives, only: alternative_type, is_misplaced, leave_out_other_keys, merged_keys, &
+      names_reading, selector_key
+   use wavycon_key_table, only: key_group, key_group_type
    use wavycon_problems, only: problem_list_type
    use wavycon_solver_list, only: default_solver, get_solvers, keys_of_solvers, solver_item, solvers_for
    use wavycon_surface, only: surface_type
@@ -19,21 +20,11 @@ contains
 
       type(solver_item), allocatable :: solvers(:)
       type(alternative_type), allocatable :: alternatives(:)
-      character(:), allocatable :: meanings
-      character(12), allocatable :: names(:)
-      integer :: i
 
       call get_solvers(solvers)
       call keys_of_solvers(solvers, alternatives)
-      meanings = ''
-      allocate (names(size(solvers)))
-      do i = 1, size(solvers)
-         if (i > 1) meanings = meanings//' '
-         names(i) = alternatives(i)%name
-         meanings = meanings//"'"//trim(names(i))//"': "//solvers(i)%solver%meaning()//'.'
-      end do
       table = key_group('method', 'how the contact is computed', &
-                        [choice_key('solver', 'by the surface', meanings, names), merged_keys(alternatives)])
+                        [selector_key('solver', 'by the surface', alternatives), merged_keys(alternatives)])
    end function method_table
 
    !> Sets the defaults that depend on the surface and checks the keys against the solver.

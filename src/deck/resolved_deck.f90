@@ -8,24 +8,9 @@ module wavycon_resolved_deck
    implicit none (type, external)
    private
 
-   public :: write_resolved_deck, resolved_deck_text
+   public :: resolved_deck_text
 
 contains
-
-   !> Writes the resolved deck to a unit.
-   subroutine write_resolved_deck(deck, unit, iostat, iomsg)
-      type(deck_type), intent(in) :: deck  !! as read
-      integer, intent(in) :: unit          !! open for formatted writing
-      integer, intent(out), optional :: iostat          !! 0 if all was written
-      character(*), intent(inout), optional :: iomsg    !! the error message if iostat is not 0; else unchanged
-
-      character(200) :: message
-      integer :: status
-
-      write (unit, '(a)', iostat=status, iomsg=message) resolved_deck_text(deck)
-      if (present(iostat)) iostat = status
-      if (present(iomsg) .and. status /= 0) iomsg = message
-   end subroutine write_resolved_deck
 
    !> The resolved deck: lines, the last without a newline.
    function resolved_deck_text(deck) result(text)

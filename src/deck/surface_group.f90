@@ -3,8 +3,8 @@ module wavycon_surface_group
    use wavycon_error, only: error_type
    use wavycon_group_values, only: group_values
    use wavycon_key_alternatives, only: alternative_type, is_misplaced, leave_out_other_keys, merged_keys, &
-      names_reading, report_missing_keys
-   use wavycon_key_table, only: choice_key, key_group, key_group_type
+      names_reading, report_missing_keys, selector_key
+   use wavycon_key_table, only: key_group, key_group_type
    use wavycon_map_statistics, only: map_statistics
    use wavycon_problems, only: problem_list_type
    use wavycon_surface, only: surface_type
@@ -22,22 +22,12 @@ contains
 
       type(surface_kind_item), allocatable :: kinds(:)
       type(alternative_type), allocatable :: alternatives(:)
-      character(:), allocatable :: meanings
-      character(12), allocatable :: names(:)
-      integer :: i
 
       call get_surface_kinds(kinds)
       call keys_of_kinds(kinds, alternatives)
-      meanings = ''
-      allocate (names(size(kinds)))
-      do i = 1, size(kinds)
-         if (i > 1) meanings = meanings//' '
-         names(i) = alternatives(i)%name
-         meanings = meanings//"'"//trim(names(i))//"': "//kinds(i)%kind%meaning()//'.'
-      end do
       table = key_group('surface', 'which waves the bodies carry', &
-         [choice_key('kind', '', meanings, names, required=.true.), merged_keys(alternatives)], &
-         required=.true.)
+                        [selector_key('kind', '', alternatives, required=.true.), merged_keys(alternatives)], &
+                        required=.true.)
    end function surface_table
 
    !> Checks the keys against the kind and sets the defaults that depend on it.

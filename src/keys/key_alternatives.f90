@@ -4,21 +4,40 @@
 !> alternatives and the keys in the resolved deck follow from these declarations.
 module wavycon_key_alternatives
    use wavycon_group_values, only: group_values
-   use wavycon_key_table, only: in_quotes, key_index, key_type, listed, meaning_length
+   use wavycon_key_table, only: choice_key, in_quotes, key_index, key_type, listed, meaning_length
    use wavycon_problems, only: problem_list_type
    implicit none (type, external)
    private
 
-   public :: alternative_type, merged_keys, names_reading, report_missing_keys, is_misplaced, leave_out_other_keys
+   public :: alternative_type, selector_key, merged_keys, names_reading, report_missing_keys, is_misplaced, leave_out_other_keys
 
    integer, parameter :: name_length = 12
 
    type :: alternative_type
       character(name_length) :: name = ''
+      character(:), allocatable :: meaning     !! one clause
       type(key_type), allocatable :: keys(:)   !! the keys that it reads; a deck must give the `required` ones
    end type alternative_type
 
 contains
+
+   !> The key that selects an alternative by its name; its meaning lists theirs.
+   pure function selector_key(name, default, alternatives, required) result(key)
+      character(*), intent(in) :: name, default               !! as of choice_key
+      type(alternative_type), intent(in) :: alternatives(:)   !! with name and meaning
+      logical, intent(in), optional :: required
+      type(key_type) :: key
+
+      character(:), allocatable :: meanings
+      integer :: i
+
+      meanings = ''
+      do i = 1, size(alternatives)
+         if (i > 1) meanings = meanings//' '
+         meanings = meanings//"'"//trim(alternatives(i)%name)//"': "//alternatives(i)%meaning//'.'
+      end do
+      key = choice_key(name, default, meanings, alternatives%name, required)
+   end function selector_key
 
    !> The keys of all alternatives, each once, in the order of their first alternatives. The meanings begin with the
    !> names of the alternatives, "Of a and b: ...".

@@ -24,7 +24,6 @@ module wavycon_checkpoint
 
    character(*), parameter :: mark = 'wavycon checkpoint 2'//newline
    integer, parameter :: bytes_of_word = 8
-   character(*), parameter :: end_of_text = '(end)'
    !> End of all messages about a checkpoint that cannot be used.
    character(*), parameter :: way_out = '. Without --resume all loads are solved, and the checkpoint is replaced.'
 
@@ -280,47 +279,48 @@ contains
       character(*), intent(in) :: before, now             !! descriptions of the interrupted run and of this one
       type(error_type), allocatable, intent(out) :: error
 
-      character(:), allocatable :: words
-      integer :: i
+      character(:), allocatable :: line_before, line_now, words
+      integer :: i, place_before, place_now
 
-      i = 1
-      do while (line(before, i) == line(now, i))
-         if (line(now, i) == end_of_text) return
+      place_before = 1
+      place_now = 1
+      i = 0
+      do
+         if (place_before > len(before) .and. place_now > len(now)) return
          i = i + 1
+         call next_line(before, place_before, line_before)
+         call next_line(now, place_now, line_now)
+         if (line_before /= line_now) exit
       end do
       select case (i)
       case (1)
-         words = 'is of '//line(before, i)//', this is '//line(now, i)
+         words = 'is of '//line_before//', this is '//line_now
       case (2)
          words = 'is of another surface: the deck or its height map has changed'
       case default
-         words = "is of another deck: '"//excerpt(line(now, i))//"' was '"//excerpt(line(before, i))//"'"
+         words = "is of another deck: '"//excerpt(line_now)//"' was '"//excerpt(line_before)//"'"
       end select
       call fatal_error(error, exit_bad_input, escaped(name)//': the checkpoint '//words//way_out)
    end subroutine compare
 
-   !> A line of a text, without comment and without blanks at both ends; end_of_text after the last line.
-   pure function line(text, number)
+   !> Reads a line of a text, without comment and without blanks at both ends.
+   pure subroutine next_line(text, place, line)
       character(*), intent(in) :: text
-      integer, intent(in) :: number
-      character(:), allocatable :: line
+      integer, intent(inout) :: place                     !! first byte of the line; on return of the next one
+      character(:), allocatable, intent(out) :: line      !! '(end)' after the last line
 
-      integer :: comment, first, i, length
+      integer :: comment, length
 
-      first = 1
-      do i = 1, number
-         if (first > len(text)) then
-            line = end_of_text
-            return
-         end if
-         length = index(text(first:)//newline, newline) - 1
-         line = text(first:first + length - 1)
-         first = first + length + 1
-      end do
+      line = '(end)'
+      if (place > len(text)) return
+      length = index(text(place:), newline) - 1
+      if (length < 0) length = len(text) - place + 1
+      line = text(place:place + length - 1)
+      place = place + length + 1
       comment = index(line, '   ! ')
       if (comment > 0) line = line(:comment - 1)
       line = trim(adjustl(line))
-   end function line
+   end subroutine next_line
 
    !> A text as 8-byte words, padded with blanks.
    pure function words_of(text) result(words)

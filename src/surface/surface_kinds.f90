@@ -57,6 +57,7 @@ contains
       allocate (alternatives(size(kinds)))
       do i = 1, size(kinds)
          alternatives(i)%name = kinds(i)%kind%name()
+         alternatives(i)%meaning = kinds(i)%kind%meaning()
          alternatives(i)%keys = kinds(i)%kind%keys()
       end do
    end subroutine keys_of_kinds
