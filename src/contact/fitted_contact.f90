@@ -142,9 +142,11 @@ contains
       own%residual = answer%residual
       own%status = not_accurate
       if (own%largest_error() <= self%accuracy) own%status = converged
-      own%frame = self%frame
-      own%lattice = self%lattice
-      own%answer = answer
+      if (self%keep_fields) then
+         own%frame = self%frame
+         own%lattice = self%lattice
+         own%answer = answer
+      end if
       call move_alloc(own, solution)
    end subroutine solve_partial_contact
 

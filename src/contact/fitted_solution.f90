@@ -19,7 +19,7 @@ module wavycon_fitted_solution
 
    type, extends(contact_solution) :: fitted_solution
       type(fitted_frame) :: frame
-      type(wave_lattice), allocatable :: lattice
+      type(wave_lattice), allocatable :: lattice   !! not allocated, and the rest unset, if the fields were not kept
       type(fitted_answer) :: answer     !! in the units of src/fitted
    contains
       procedure :: fields
@@ -49,6 +49,7 @@ contains
 
       type(fitted_solution_fields), allocatable :: own
 
+      if (.not. allocated(self%lattice)) return
       allocate (own)
       own%length = surface%length
       own%is_square = self%lattice%square
@@ -133,6 +134,10 @@ contains
       type(fitted_fields) :: fields
       integer :: i, k, turned
 
+      if (.not. allocated(self%lattice)) then
+         allocate (curves(0))
+         return
+      end if
       call start_fitted_fields(fields, self%lattice, self%answer)
       to_surface = self%frame%side/self%frame%turn
       edge = (fields%edge(edge_points) - fields%centre)*to_surface
@@ -173,8 +178,9 @@ contains
       type(fitted_details) :: own
       real(dp) :: energy_unit
 
+      found = allocated(self%lattice)
+      if (.not. found) return
       call find_fitted_details(self%lattice, self%answer, own)
-      found = .true.
       energy_unit = self%frame%pressure_unit/self%lattice%area
       answer = contact_details( &
                trough_gap=own%trough_gap, trough_gap_error=own%trough_gap_error, &
