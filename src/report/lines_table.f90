@@ -16,7 +16,6 @@ module wavycon_lines_table
    use wavycon_penny_crack, only: penny_crack_opening_over_amplitude, penny_crack_pressure_over_pstar, &
                                   penny_crack_radius_over_wavelength
    use wavycon_results, only: results_type
-   use wavycon_surface, only: gap_over_amplitude
    use wavycon_table, only: table_type
    use wavycon_westergaard, only: westergaard_displacement_over_amplitude, westergaard_gap_over_amplitude, &
                                   westergaard_pressure_over_pstar
@@ -98,7 +97,7 @@ contains
       class(contact_fields), intent(inout) :: fields   !! of the load
 
       real(dp), allocatable :: beside(:)
-      real(dp) :: dundurs(series_terms(results)), start(2), way(2), angles(2), phi, theta, p, u, load_p
+      real(dp) :: dundurs(series_terms(results)), start(2), way(2), angles(2), phi, theta, p, u, gap, load_p
       integer :: k, intervals
 
       load_p = results%loads(load)%solution%pbar_over_pstar
@@ -113,7 +112,7 @@ contains
          do k = 0, intervals
             angles = start + k*way
             call surface%paper_angles(angles(1), angles(2), phi, theta)
-            call fields%at(angles(1), angles(2), p, u)
+            call fields%at(angles(1), angles(2), p, u, gap)
             if (.not. results%scene%output%logical('theory')) then
                beside = [real(dp) ::]
             else if (surface%dimension == 1) then
@@ -129,9 +128,7 @@ contains
             call file%add(load_p)
             call file%add(line)
             call file%add([norm2(surface%length*k*way)/(2*pi), surface%length*angles/(2*pi), &
-                           p, u, gap_over_amplitude(surface%undeformed_gap_over_amplitude(angles(1), angles(2)), u, &
-                                                    results%loads(load)%solution%measures%approach_over_amplitude), &
-                           beside])
+                           p, u, gap, beside])
             call file%end_row()
          end do
       end associate
