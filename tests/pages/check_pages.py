@@ -21,9 +21,9 @@ SECTIONS = {"summary": "The summary", "lines": "Lines", "map": "Map", "contour":
 # Decks that together write every table with every column.
 TABLE_DECKS = {
     "line": "&surface kind = 'wave_1d' /\n&load pbar_over_pstar = 0.5 /\n"
-            "&output lines = t, map = t, contours = t, coefficients = t, theory = t, points_per_wavelength = 8 /\n",
+            "&output lines = t, map = t, contours = t, coefficients = t, theory = t, line_points = 8, map_points = 8 /\n",
     "plane": "&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0.5 /\n"
-             "&output lines = t, map = t, contours = t, coefficients = t, theory = t, points_per_wavelength = 8 /\n",
+             "&output lines = t, map = t, contours = t, coefficients = t, theory = t, line_points = 8, map_points = 8 /\n",
     "expansion": "&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0.5 /\n"
                  "&method solver = 'fitted' /\n&output details = t /\n"}
 # Columns of the log that rounding may change.

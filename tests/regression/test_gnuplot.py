@@ -15,7 +15,7 @@ SKIPPED = 77
 DECK = """\
 &surface kind = '{}' /
 &load pbar_over_pstar = 0, 0.2, 0.6, 1 /
-&output lines = t, map = t, contours = t, coefficients = t, theory = t, points_per_wavelength = 8 /
+&output lines = t, map = t, contours = t, coefficients = t, theory = t, line_points = 8, map_points = 8 /
 """
 # gnuplot prints six digits after the point.
 DIGITS = 1e-6
