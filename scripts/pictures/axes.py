@@ -57,11 +57,11 @@ class Scale:
         return ".".join(parts)
 
     def value(self, symbol, number):
-        """A gnuplot expression that says what a quantity is, such as p/p* = 0.2 or p = 3 MPa."""
-        shown = f"{number*self.factor*10.0**self.power:.4g}"
+        """A gnuplot expression that says what a quantity is, such as p/p* = 0.2 or p = 3 MPa; number: on the axis."""
+        shown = f"{number*10.0**self.power:.4g}"
         if "e" in shown:
             mantissa, exponent = shown.split("e")
-            shown = f"{mantissa}·{ten_to(int(exponent))}"
+            shown = ("" if mantissa == "1" else f"{mantissa}·") + ten_to(int(exponent))
         over = ".'/'." + self.over if self.over else ""
         unit = " " + marked_up(self.unit) if self.unit else ""
         return symbol + over + "." + quoted(f" = {shown}{unit}")

@@ -3,6 +3,8 @@
 #    title_words: the name of the case; runs, run_names: number and names of the tables
 
 mean_gap = '{/:Italic ḡ}'
+x_symbol = '{/:Italic x}'
+y_symbol = '{/:Italic y}'
 gap_symbol = '{/:Italic g}'
 area = '{/:Italic A}'
 area_0 = '{/:Italic A}_0'

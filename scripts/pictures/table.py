@@ -124,9 +124,12 @@ class Table:
             block.columns = {name: numbers[i::len(self.names)] for i, name in enumerate(self.names)}
             self.blocks.append(block)
 
-    def take_head(self, other):
-        """Takes what the head of another table of the same run says: a map in numpy's format has none."""
-        self.numbers, self.units, self.surface, self.method = other.numbers, other.units, other.surface, other.method
+    def take_head(self, summary):
+        """Takes what the summary of the same run says: a map in numpy's format has no head."""
+        self.numbers, self.units = summary.numbers, summary.units
+        self.surface, self.method = summary.surface, summary.method
+        for block, pbar_over_pstar in zip(self.blocks, summary.column("pbar_over_pstar")):
+            block.pbar_over_pstar = pbar_over_pstar
 
     def label(self, name):
         """The unit of a number of the head, '' if the deck gives it no label."""
