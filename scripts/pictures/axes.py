@@ -8,8 +8,8 @@ SHOWN = {-9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
 CONVERTED = re.compile(r"([nµumkMG]?)(Pa|m)")
 # Numbers between these need no power of ten beside them.
 SMALL, LARGE = 1e-2, 1e4
-# An axis is logarithmic if its numbers span more than this.
-WIDE = 100
+# An axis is logarithmic if its numbers span more than this and half of them would lie in its first tenth.
+WIDE, CROWDED = 100, 0.1
 
 
 def quoted(text):
@@ -79,9 +79,10 @@ def axis(numbers, may_be_wide=True, up_to=None):
     """
     numbers = [number for number in numbers if math.isfinite(number)] or [0.0, 1.0]
     low, high = min(numbers), max(numbers)
-    positive = [number for number in numbers if number > 0]
-    if may_be_wide and low >= 0 and len(positive) > 1 and high > WIDE*min(positive):
-        low, high = min(positive)/1.6, high*1.6
+    positive = sorted(number for number in numbers if number > 0)
+    if may_be_wide and low >= 0 and positive and high > WIDE*positive[0] and \
+            positive[len(positive)//2] < CROWDED*high:
+        low, high = positive[0]/1.6, high*1.6
         return low, high, 10.0**math.ceil(math.log10(high/low)/5), True
     if low > 0.6*high and low < high:
         margin = 0.1*(high - low)

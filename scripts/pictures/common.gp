@@ -21,6 +21,8 @@ set style line 33 lc rgb green lw 1.3 dt (2.5, 2.5) pt 9 ps 0.8*mark
 set style line 34 lc rgb black lw 1.3 dt (9, 3, 2, 3) pt 11 ps 0.8*mark
 set style line 35 lc rgb violet lw 1.3 dt (5, 5) pt 13 ps 0.8*mark
 set style line 36 lc rgb grey lw 1.6 dt solid pt 6 ps 0.8*mark
+set style line 37 lc rgb '#a67c00' lw 1.3 dt solid pt 4 ps 0.65*mark
+set style line 38 lc rgb '#5ab4e0' lw 1.3 dt (7, 3) pt 8 ps 0.8*mark
 
 # Columns have names, which stand at the head of each block.
 set datafile columnheaders

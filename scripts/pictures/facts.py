@@ -13,7 +13,7 @@ from axes import Scale, axis, chosen, quoted, step_of
 
 REFERENCE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "outputs", "reference", "wave_2d.dat")
 # At most so many loads are shown as panels, or as curves.
-MOST_PANELS, MOST_CURVES = 4, 8
+MOST_PANELS, MOST_CURVES, MOST_EDGES = 4, 8, 20
 # Points of a map along a side that a picture can show.
 MOST_PIXELS = 800
 
@@ -296,5 +296,122 @@ def edge_facts(contour, numbers, cell):
         + array_of("last_copy", [str(k) for k in high])
 
 
+def edges(tables, beside, loads, folder):
+    """Contours: all loads on one cell, coloured by the load; in 1-D the strips of contact, one above the other."""
+    table = tables[0]
+    places = shown(table, loads, MOST_EDGES)
+    load = numbers_in(tables, of_loads, "p*", "p_star")
+    p_star = table.numbers.get("p*", 1.0)
+    on_axis = [load[1][0]*p_star*table.blocks[place].pbar_over_pstar for place in places]
+    length = numbers_in(tables, lambda table: [*cell_in_head(table)], "cell_x", "")
+    cell = [length[1][0]*side for side in cell_in_head(table)]
+    facts = put_scale("load", load, "p_bar", "mean pressure") + array_of("load_of", [repr(number) for number in on_axis])
+    facts += array_of("block_of", [str(place) for place in places]) + [f"loads_shown = {len(places)}"]
+    facts += put_range("load", on_axis, up_to=load[1][0]*p_star)
+    facts += put_scale("length", length, "x_symbol") + [f"y_label = {length[0].label('y_symbol')}"]
+    facts += array_of("cell", [repr(side) for side in cell])
+    facts += [f"length_step = {step_of(max(1.5*min(cell), max(cell)))!r}"]
+    if len(cell) == 1:
+        return "contour_1d", (480, 320), facts + edge_facts(table, [table.blocks[i].load for i in places], [*cell_in_head(table), 1])
+    facts += edge_facts(table, [table.blocks[place].load for place in places], cell_in_head(table))
+    stretch = min(max(math.sqrt(cell[1]/cell[0]), 0.45), 2.2)
+    wide, tall = 300/stretch, 300*stretch
+    return "contour", (wide + 160, tall + 90), facts + [f"panel_wide = {wide!r}", f"panel_tall = {tall!r}"]
+
+
+def cell_in_head(table):
+    return [table.numbers[name] for name in ("cell_x", "cell_y") if name in table.numbers]
+
+
+def series(tables, beside, loads, folder):
+    """Coefficients: their sizes against the harmonic, coloured by the load."""
+    table = tables[0]
+    places = shown(table, loads, MOST_CURVES)
+    sizes = [abs(number) for number in table.column("pressure_over_pstar", places) if number]
+    facts = load_facts(table, places) + array_of("block_of", [str(place) for place in places])
+    facts += [f"dimension = {2 if any(table.column('j')) else 1}"]
+    # Coefficients of exactly zero are no less than the least that is shown.
+    top = max(sizes, default=1.0)
+    low = max(min(sizes, default=top/10), 1e-16*top)
+    return "coefficients", (560, 320), facts + [f"least = {10.0**math.floor(math.log10(low))!r}",
+                                                f"most = {10.0**math.ceil(math.log10(1.001*top))!r}",
+                                                f"highest = {max(map(math.hypot, table.column('i'), table.column('j')))!r}"]
+
+
+# The closed forms of a table of theory, in the order in which they are drawn.
+FORMS = {"kuznetsov_mean_gap_over_amplitude": "Kuznetsov, (20)",
+         "westergaard_contact_area_fraction": "Westergaard, (7)",
+         "westergaard_peak_pressure_over_pstar": "Westergaard, (4)",
+         "hertz_line_contact_area_fraction": "Hertz, light loads, (8)",
+         "line_crack_contact_area_fraction": "crack, heavy loads, (11)",
+         "hertz_contact_area_fraction": "Hertz, light loads, (23)",
+         "crack_contact_area_fraction": "crack, heavy loads, (24)",
+         "light_longer_contact_area_fraction": "light loads, more terms",
+         "closure_longer_contact_area_fraction": "heavy loads, more terms",
+         "light_eq29_mean_gap_over_amplitude": "light loads, (29)",
+         "crack_mean_gap_over_amplitude": "crack, heavy loads, (30)",
+         "light_longer_mean_gap_over_amplitude": "light loads, more terms",
+         "closure_longer_mean_gap_over_amplitude": "heavy loads, more terms",
+         "light_lattice_mean_gap_over_amplitude": "(29), the whole lattice",
+         "hertz_peak_pressure_over_pstar": "Hertz, light loads"}
+IN_THEORY = {"area": "contact_area_fraction", "gap": "mean_gap_over_amplitude", "peak": "peak_pressure_over_pstar"}
+
+
+def theory(tables, beside, loads, folder):
+    """Closed forms against the load, normalised, with the points of the summary."""
+    table = tables[0]
+    facts = put_range("load", table.column("pbar_over_pstar"), up_to=1.0)
+    wide = axis(table.column("pbar_over_pstar"))[-1]
+    columns, names, last = [], [], [0]
+    for panel, ending in IN_THEORY.items():
+        found = [(form, words) for form, words in FORMS.items() if form.endswith(ending) and table.column(form)]
+        last.append(len(columns) + len(found))
+        columns += [quoted(name) for name, _ in found]
+        names += [quoted(words) for _, words in found]
+        # Asymptotes leave the range of the quantity far from where they hold.
+        numbers = [number for name, _ in found for number in table.column(name) if 0 <= number <= (2 if panel == "peak" else 1)]
+        facts += put_range(panel, numbers + [0.0], may_be_wide=wide and panel != "gap", up_to=None if panel == "peak" else 1.0)
+    facts += array_of("form_column", columns) + array_of("form_name", names)
+    facts += array_of("forms_before", [str(number) for number in last])
+    facts += [f"solved = {int('summary' in beside)}", f"many = {int(len(table.column('pbar_over_pstar')) > 30)}"]
+    if "summary" not in beside:
+        os.symlink(os.path.realpath(REFERENCE), os.path.join(folder, "summary"))
+    return "theory", (860, 370), facts
+
+
+# Quantities of details: column, label as gnuplot's expression.
+DETAILS = (("contact_area_fraction", "'contact area '.area.'/'.area_0"),
+           ("mean_gap_over_amplitude", "'mean gap '.mean_gap.'/'.Delta"),
+           ("peak_pressure_over_pstar", "'peak pressure '.p_max.'/'.p_star"),
+           ("trough_gap_over_amplitude", "'gap at trough '.gap_symbol.'/'.Delta"),
+           ("saddle_gap_over_amplitude", "'gap at saddle '.gap_symbol.'/'.Delta"),
+           ("saddle_pressure_over_pstar", "'pressure at saddle '.p.'/'.p_star"),
+           ("elastic_energy_over_pstar_amplitude", "'elastic energy/('.p_star.Delta.')'"),
+           ("perimeter", "perimeter_label"))
+
+
+def details(tables, beside, loads, folder):
+    """Details: a panel for each quantity against the load, and the errors of all."""
+    table = tables[0]
+    wide = axis(table.column("pbar_over_pstar"))[-1]
+    facts = put_range("load", table.column("pbar_over_pstar"), up_to=1.0)
+    perimeter = numbers_in(tables, of_column("perimeter"), "cell_x", "")
+    facts += [f"perimeter_label = {perimeter[0].label(quoted('perimeter'))}"]
+    factors = [perimeter[1][0] if name == "perimeter" else 1.0 for name, _ in DETAILS]
+    facts += array_of("column_of", [quoted(name) for name, _ in DETAILS]) + array_of("label_of", [label for _, label in DETAILS])
+    facts += array_of("factor_of", [repr(factor) for factor in factors])
+    ranges = [axis([factor*number for number in table.column(name)], may_be_wide=wide)
+              for (name, _), factor in zip(DETAILS, factors)]
+    for name, k in (("low", 0), ("high", 1), ("step", 2)):
+        facts += array_of(f"{name}_of", [repr(limits[k]) for limits in ranges])
+    facts += array_of("wide_of", [str(int(limits[3])) for limits in ranges])
+    facts.append(f"many = {int(len(table.column('pbar_over_pstar')) > 30)}")
+    errors = [error for name, _ in DETAILS for error in table.column(name + "_error") if error > 0]
+    facts += [f"error_low = {10.0**math.floor(math.log10(max(min(errors, default=0.1), 1e-18)))!r}",
+              f"error_high = {10.0**math.ceil(math.log10(max(errors, default=0.5)))!r}"]
+    return "details", (760, 680), facts
+
+
 COMPANIONS = {"lines": ("theory_lines",), "map": ("contour",), "theory": ("summary",)}
-FACTS = {"summary": summary, "lines": lines, "map": fields, "theory_lines": lines}
+FACTS = {"summary": summary, "lines": lines, "map": fields, "theory_lines": lines, "contour": edges,
+         "coefficients": series, "theory": theory, "details": details}
