@@ -27,7 +27,7 @@ TO_RESUME = {
              "&method solver = 'grid', accuracy = 1e-2 /\n&output contours = t /\n",
 }
 LEAST_MEGABYTES = 250  # of address space with which the program must run or report
-TABLES = ("summary", "lines", "map", "contour", "theory", "coefficients")
+TABLES = ("summary", "lines", "map", "contour", "theory", "theory_lines", "coefficients")
 
 
 def prepare(folder, text=DECK):
