@@ -11,7 +11,7 @@ program wavycon_main
    use wavycon_run_scene, only: run_scene
    use wavycon_scene, only: scene_type
    use wavycon_system, only: outlive_file_size_limit
-   use wavycon_threads, only: set_threads
+   use wavycon_threads, only: set_threads, use_one_thread_for_matrices
    use wavycon_version, only: revision, version
    implicit none (type, external)
 
@@ -52,6 +52,7 @@ program wavycon_main
       call finish(exit_fine)
    end if
 
+   call use_one_thread_for_matrices()
    call set_threads(command_line%threads)
    worst = exit_fine
    do i = 1, size(scenes)
