@@ -1,5 +1,5 @@
 !> solver = 'auto': the closed form where there is one, otherwise fitted expansions where these exist for the surface,
-!> with grids for loads at which they are not accurate enough, otherwise grids.
+!> with grids for loads at which they are not accurate enough, otherwise grids. The grid alone if its points are given.
 module wavycon_auto_contact
    use wavycon_closed_form_contact, only: closed_form_contact, closed_form_exists
    use wavycon_contact_solution, only: contact_solution
@@ -108,7 +108,7 @@ contains
       by_accuracy = .true.
       if (present(points)) by_accuracy = all(points == 0)
       call find_frame(surface, frame)
-      if (closed_form_exists(surface)) then
+      if (closed_form_exists(surface) .and. by_accuracy) then
          allocate (closed_form)
          call closed_form%start(surface)
          call move_alloc(closed_form, self%first)
