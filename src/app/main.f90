@@ -77,7 +77,7 @@ contains
       allocate (scenes(size(command_line%decks)))
       worst = exit_fine
       do i = 1, size(scenes)
-         call read_deck(command_line%decks(i)%path, deck, error)
+         call read_deck(command_line%decks(i)%path, deck, error, command_line%settings)
          if (.not. allocated(error)) then
             if (allocated(command_line%output)) &
                call deck%output%set('directory', plain_directory(command_line%output))

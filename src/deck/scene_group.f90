@@ -6,9 +6,9 @@ module wavycon_scene_group
    implicit none (type, external)
    private
 
-   public :: scene_table, check_scene_group
+   public :: scene_table, check_scene_group, plain
 
-   integer, parameter :: longest_name = 200
+   integer, parameter, public :: longest_name = 200
    character(*), parameter :: plain = 'abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.'
    character(*), parameter :: plain_in_words = "letters, digits, '_', '-' and '.', the first neither '-' nor '.'"
 
