@@ -10,7 +10,7 @@ module wavycon_settings
    use wavycon_load_group, only: is_another_way
    use wavycon_plain_text, only: excerpt, integer_text, is_printable, lower_case, quoted, unquoted
    use wavycon_problems, only: problem_list_type
-   use wavycon_scene_group, only: longest_name, plain
+   use wavycon_scene_group, only: longest_name, name_letters
    use wavycon_solver_list, only: get_solvers, keys_of_solvers, solver_item
    use wavycon_surface_kinds, only: get_surface_kinds, keys_of_kinds, surface_kind_item
    implicit none (type, external)
@@ -215,7 +215,7 @@ contains
          case default
             value = plain_value(settings(i))
             do k = 1, len(value)
-               if (index(plain, value(k:k)) == 0) value(k:k) = '_'
+               if (index(name_letters, value(k:k)) == 0) value(k:k) = '_'
             end do
             name = name//'-'//settings(i)%key//'-'//value
          end select
