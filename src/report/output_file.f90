@@ -11,12 +11,12 @@ module wavycon_output_file
    implicit none (type, external)
    private
 
-   public :: output_file
+   public :: output_file, number_words
 
    !> A real number: 16 digits and a three-digit exponent.
    character(*), parameter :: real_digits = '.15e3', real_format = '(es24'//real_digits//')'
    !> The narrowest column: such a number with a blank before it.
-   integer, parameter :: narrowest = 25
+   integer, parameter, public :: narrowest = 25
 
    type :: output_file
       private
@@ -125,18 +125,21 @@ contains
    end subroutine put_numbers
 
    !> Sets the columns and writes the header line of their units. `put_names` writes the names.
-   subroutine put_columns(self, names, units)
+   subroutine put_columns(self, names, units, longest)
       class(output_file), intent(inout) :: self
       character(*), intent(in) :: names(:)   !! without blanks
       character(*), intent(in) :: units(:)   !! as many; shown in brackets
+      integer, intent(in), optional :: longest(:)   !! as many: bytes of the longest word of each column
 
-      integer :: i, last
+      integer :: i, last, width
 
       self%names = names
       allocate (self%column_end(size(names)))
       last = 0
       do i = 1, size(names)
-         last = last + max(narrowest, len_trim(names(i)) + 1, len_trim(units(i)) + 3 + merge(1, 0, i == 1))
+         width = max(narrowest, len_trim(names(i)) + 1, len_trim(units(i)) + 3 + merge(1, 0, i == 1))
+         if (present(longest)) width = max(width, longest(i) + 1)
+         last = last + width
          self%column_end(i) = last
       end do
       self%row = repeat(' ', last)
@@ -179,11 +182,16 @@ contains
       class(output_file), intent(inout) :: self
       real(dp), intent(in) :: value
 
-      character(narrowest) :: text
-
-      write (text, real_format) value
-      call self%add(trim(adjustl(text)))
+      call self%add(trim(number_words(value)))
    end subroutine add_real
+
+   !> A number as tables show it.
+   elemental character(narrowest) function number_words(value) result(words)
+      real(dp), intent(in) :: value
+
+      write (words, real_format) value
+      words = adjustl(words)
+   end function number_words
 
    subroutine add_reals(self, values)
       class(output_file), intent(inout) :: self
