@@ -51,7 +51,7 @@ CASES = {
         (CROSSED, '0.01, 0.05, 0.5, 0.9', "solver = 'fitted', accuracy = 1e-6", DETAILS, TIGHT),
         (RHOMBIC, '0.02, 0.15, 0.4, 0.9', "solver = 'fitted', accuracy = 1e-6", DETAILS, TIGHT),
         (WAVE, '0.2', "solver = 'fitted', accuracy = 1e-7",
-         '&output map = .true., points_per_wavelength = 24 /', TIGHT),
+         '&output map = .true., map_points = 24 /', TIGHT),
     ],
     'contact': [
         (WAVE, '0.01, 0.05, 0.2, 0.25, 0.5, 0.9', "solver = 'grid', accuracy = 1e-3", SUMMARY, 'wave_2d'),

@@ -23,7 +23,7 @@ DECK_PAGES = ("README.md", "inputs/README.md", "outputs/README.md")
 SECTIONS = {"summary": "The summary", "lines": "Lines", "theory_lines": "Closed forms along lines", "map": "Map",
             "contour": "Contours", "coefficients": "Coefficients", "theory": "Theory", "details": "Details"}
 # Decks that together write every table, in both dimensions.
-ALL_TABLES = "lines = t, map = t, contours = t, coefficients = t, theory = t, points_per_wavelength = 8"
+ALL_TABLES = "lines = t, map = t, contours = t, coefficients = t, theory = t, line_points = 8, map_points = 8"
 TABLE_DECKS = {
     "line": f"&surface kind = 'wave_1d' /\n&load pbar_over_pstar = 0.5 /\n&output {ALL_TABLES} /\n",
     "plane": f"&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0.5 /\n&output {ALL_TABLES} /\n",

@@ -13,7 +13,7 @@ DIMENSIONLESS = ("pbar_over_pstar", "mean_gap_over_amplitude", "contact_area_fra
 def deck(kind, loads, method="", amplitude="1", wavelength="1", modulus="1"):
     return (f"&surface kind = '{kind}', amplitude = {amplitude}, wavelength = {wavelength} /\n"
             f"&material e_star = {modulus} /\n&load pbar_over_pstar = {', '.join(loads)} /\n&method {method} /\n"
-            f"&output lines = t, points_per_wavelength = 16 /\n")
+            f"&output lines = t, line_points = 16 /\n")
 
 
 def decks(quick):
