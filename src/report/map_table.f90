@@ -13,6 +13,10 @@ module wavycon_map_table
 
    public :: map_table
 
+   character(40), parameter :: columns(*) = [character(40) :: &
+      'load[-]', 'x[length]', 'y[length]', 'pressure[pressure]', 'gap[length]', 'displacement[length]', &
+      'undeformed_gap[length]']
+
    type, extends(table_type) :: map_table
    contains
       procedure, nopass :: key
@@ -50,12 +54,9 @@ contains
       type(output_file) :: file
       integer :: load
 
-      call results%open_table('map', file)
-      call file%put_columns([character(40) :: 'pbar_over_pstar[-]', 'x[length]', 'y[length]', &
-                             'undeformed_gap[Delta]', 'pressure_over_pstar[-]', 'displacement[Delta]', &
-                             'gap[Delta]'])
+      call results%open_table('map', columns, file, in_blocks=.true.)
       do load = 1, size(results%loads)
-         call results%put_load_heading(file, load, first=load == 1)
+         call results%begin_block(file, load)
          call put_map(results, file, load)
       end do
       call file%finish(error)
@@ -82,9 +83,11 @@ contains
          do l = 0, merge(n, 0, surface%dimension == 2)
             if (l > 0) call file%put('')
             do k = 0, n
-               call file%put_values([solution%pbar_over_pstar, surface%length(1)*k/n, &
-                                     surface%length(2)*l/n, 1.0_dp - shape(k, l), p(k, l), u(k, l), &
-                                     gap_over_amplitude(1.0_dp - shape(k, l), u(k, l), approach)])
+               call file%add(load)
+               call file%add([surface%length(1)*k/n, surface%length(2)*l/n, results%scene%p_star*p(k, l), &
+                              surface%amplitude*[gap_over_amplitude(1.0_dp - shape(k, l), u(k, l), approach), &
+                                                 u(k, l), 1.0_dp - shape(k, l)]])
+               call file%end_row()
             end do
          end do
       end associate
