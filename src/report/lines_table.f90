@@ -5,7 +5,6 @@ module wavycon_lines_table
    use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
    use wavycon_results, only: results_type
-   use wavycon_surface, only: gap_over_amplitude
    use wavycon_surface_lines, only: start_surface_line, surface_line
    use wavycon_table, only: table_type
    implicit none (type, external)
@@ -84,9 +83,8 @@ contains
                  p_star => results%scene%p_star)
          do k = 0, ubound(line%distance, 1)
             associate (x => line%angle(1, k), y => line%angle(2, k))
-               call fields%at(x, y, p, u)
+               call fields%at(x, y, p, u, gap)
                undeformed_gap = surface%undeformed_gap_over_amplitude(x, y)
-               gap = gap_over_amplitude(undeformed_gap, u, solution%measures%approach_over_amplitude)
             end associate
             call file%add(load)
             call file%add(number)

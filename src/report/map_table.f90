@@ -6,7 +6,7 @@ module wavycon_map_table
    use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
    use wavycon_results, only: results_type
-   use wavycon_surface, only: gap_over_amplitude
+   use wavycon_series_samples, only: sample_series
    use wavycon_table, only: table_type
    implicit none (type, external)
    private
@@ -62,31 +62,28 @@ contains
       call file%finish(error)
    end subroutine write_map_table
 
-   !> Writes the map of a load. The first and the last point of a row are both written: each side has
-   !> points_per_wavelength intervals.
+   !> Writes the map of a load. The point after the last of a row is the first again and is not written.
    subroutine put_map(results, file, load)
       type(results_type), intent(in) :: results
       type(output_file), intent(inout) :: file
       integer, intent(in) :: load
 
       class(contact_fields), allocatable :: fields
-      real(dp), allocatable :: p(:, :), shape(:, :), u(:, :)
-      real(dp) :: approach
-      integer :: k, l, n
+      real(dp), allocatable :: gap(:, :), p(:, :), shape(:, :), u(:, :)
+      integer :: k, l, points(2)
 
-      n = results%scene%output%integer('points_per_wavelength')
+      points = results%scene%output%integer('points_per_wavelength')
       associate (surface => results%scene%surface, solution => results%loads(load)%solution)
-         approach = solution%measures%approach_over_amplitude
+         if (surface%dimension == 1) points(2) = 1
          call solution%fields(surface, fields)
-         call fields%on_cell(n, surface%dimension, p, u)
-         call surface%shape%evaluate_on_cell(n, shape)
-         do l = 0, merge(n, 0, surface%dimension == 2)
-            if (l > 0) call file%put('')
-            do k = 0, n
+         call fields%on_grid(points, [0.0_dp, 0.0_dp], p, u, gap)
+         call sample_series(surface%shape, points, [0.0_dp, 0.0_dp], shape)
+         do l = 1, points(2)
+            if (l > 1) call file%put('')
+            do k = 1, points(1)
                call file%add(load)
-               call file%add([surface%length(1)*k/n, surface%length(2)*l/n, results%scene%p_star*p(k, l), &
-                              surface%amplitude*[gap_over_amplitude(1.0_dp - shape(k, l), u(k, l), approach), &
-                                                 u(k, l), 1.0_dp - shape(k, l)]])
+               call file%add([surface%length*([k, l] - 1)/points, results%scene%p_star*p(k, l), &
+                              surface%amplitude*[gap(k, l), u(k, l), 1.0_dp - shape(k, l)]])
                call file%end_row()
             end do
          end do
