@@ -14,7 +14,7 @@ module wavycon_c_handles
    implicit none (type, external)
    private
 
-   public :: handle_type, close_call, close_new, handle_at, put_text, text_at
+   public :: handle_type, check_pointers, close_call, close_new, handle_at, put_text, text_at
 
    integer, parameter :: mark = 1935764579
 
@@ -85,6 +85,15 @@ contains
          caller%error%message = ''
       end if
    end function close_call
+
+   !> Errors: exit_bad_input if a pointer is null.
+   subroutine check_pointers(are_there, error)
+      logical, intent(in) :: are_there(:)                     !! for each pointer whether it is not null
+      type(error_type), allocatable, intent(inout) :: error   !! nothing is checked if it is allocated
+
+      if (allocated(error)) return
+      if (.not. all(are_there)) call fatal_error(error, exit_bad_input, 'an argument is NULL')
+   end subroutine check_pointers
 
    !> A text from C. Not allocated if the pointer is null.
    subroutine text_at(pointer, text)

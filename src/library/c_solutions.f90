@@ -1,7 +1,7 @@
 !> The solutions of the C interface. wavycon.h documents each procedure.
 module wavycon_c_solutions
    use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_int, c_ptr, c_size_t
-   use wavycon_c_handles, only: close_call, handle_at, handle_type, put_text
+   use wavycon_c_handles, only: check_pointers, close_call, handle_at, handle_type, put_text
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_kinds, only: dp
    use wavycon_wavy_solution, only: wavy_measures
@@ -226,14 +226,5 @@ contains
       if (edge < 0 .or. edge >= size(contents%edges)) &
          call fatal_error(error, exit_bad_input, 'the solution has no edge of this number')
    end subroutine check_edge
-
-   !> Errors: exit_bad_input if a pointer to an answer is null.
-   subroutine check_pointers(are_there, error)
-      logical, intent(in) :: are_there(:)                     !! for each pointer whether it is not null
-      type(error_type), allocatable, intent(inout) :: error   !! nothing is checked if it is allocated
-
-      if (allocated(error)) return
-      if (.not. all(are_there)) call fatal_error(error, exit_bad_input, 'a pointer to an answer is NULL')
-   end subroutine check_pointers
 
 end module wavycon_c_solutions

@@ -1,7 +1,7 @@
 !> The solvers of the C interface. wavycon.h documents each procedure.
 module wavycon_c_solvers
    use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_int, c_ptr, c_size_t
-   use wavycon_c_handles, only: close_call, close_new, handle_at, handle_type, put_text, text_at
+   use wavycon_c_handles, only: check_pointers, close_call, close_new, handle_at, handle_type, put_text, text_at
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_wavy_solver, only: make_solver, make_solver_of_deck, wavy_scales
    implicit none (type, external)
@@ -62,6 +62,7 @@ contains
       type(handle_type), pointer :: contents
 
       call find_solver(solver, contents, trouble)
+      call check_pointers([c_associated(buffer)], trouble)
       if (.not. allocated(trouble)) call put_text(contents%solver%name()//', '//contents%solver%describe(), &
                                                   buffer, bytes)
       describe_solver = close_call(error, trouble)
@@ -75,8 +76,7 @@ contains
       type(wavy_scales), pointer :: answer
 
       call find_solver(solver, contents, trouble)
-      if (.not. (allocated(trouble) .or. c_associated(scales))) &
-         call fatal_error(trouble, exit_bad_input, 'scales is NULL')
+      call check_pointers([c_associated(scales)], trouble)
       if (.not. allocated(trouble)) then
          call c_f_pointer(scales, answer)
          answer = contents%solver%scales()
@@ -92,8 +92,7 @@ contains
       integer(c_int), pointer :: answer
 
       call find_solver(solver, contents, trouble)
-      if (.not. (allocated(trouble) .or. c_associated(loads))) &
-         call fatal_error(trouble, exit_bad_input, 'loads is NULL')
+      call check_pointers([c_associated(loads)], trouble)
       if (.not. allocated(trouble)) then
          call c_f_pointer(loads, answer)
          answer = int(contents%solver%number_of_loads(), c_int)
@@ -112,8 +111,7 @@ contains
 
       call find_solver(solver, contents, trouble)
       call text_at(quantity, text)
-      if (.not. (allocated(trouble) .or. allocated(text))) &
-         call fatal_error(trouble, exit_bad_input, 'quantity is NULL')
+      call check_pointers([c_associated(quantity)], trouble)
       allocate (made)
       allocate (made%solution)
       if (.not. allocated(trouble)) call contents%solver%solve(text, value, made%solution, trouble)
