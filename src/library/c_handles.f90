@@ -14,7 +14,7 @@ module wavycon_c_handles
    implicit none (type, external)
    private
 
-   public :: handle_type, check_pointers, close_call, close_new, handle_at, put_text, text_at
+   public :: handle_type, begin_call, check_pointers, close_call, close_new, handle_at, put_text, text_at
 
    integer, parameter :: mark = 1935764579
 
@@ -34,6 +34,13 @@ module wavycon_c_handles
          type(c_ptr), value :: text
          integer(c_size_t), value :: most
       end function c_strnlen
+
+      !> Begins a call: waits until no other thread is in one. close_call and close_new end it.
+      subroutine begin_call() bind(c, name='wavycon_lock')
+      end subroutine begin_call
+
+      subroutine end_call() bind(c, name='wavycon_unlock')
+      end subroutine end_call
    end interface
 
    !> Most bytes of a text from C: longer ones are cut.
@@ -76,15 +83,21 @@ contains
       code = exit_fine
       if (allocated(error)) code = int(error%status, c_int)
       caller => handle_at(error_handle)
-      if (.not. associated(caller)) return
-      if (.not. allocated(caller%error)) return
-      caller%error%status = code
-      if (allocated(error)) then
-         call move_alloc(error%message, caller%error%message)
-      else
+      if (is_error(caller)) then
+         caller%error%status = code
          caller%error%message = ''
+         if (allocated(error)) call move_alloc(error%message, caller%error%message)
       end if
+      call end_call()
    end function close_call
+
+   !> Whether a handle's contents are an error object.
+   logical function is_error(contents)
+      type(handle_type), pointer, intent(in) :: contents
+
+      is_error = associated(contents)
+      if (is_error) is_error = allocated(contents%error)
+   end function is_error
 
    !> Errors: exit_bad_input if a pointer is null.
    subroutine check_pointers(are_there, error)
@@ -135,10 +148,12 @@ contains
    type(c_ptr) function new_error() result(handle) bind(c, name='wavycon_new_error')
       type(handle_type), pointer :: contents
 
+      call begin_call()
       allocate (contents)
       allocate (contents%error)
       contents%error%message = ''
       handle = c_loc(contents)
+      call end_call()
    end function new_error
 
    integer(c_int) function check_error(handle) bind(c, name='wavycon_check_error')
@@ -146,10 +161,11 @@ contains
 
       type(handle_type), pointer :: contents
 
+      call begin_call()
       check_error = exit_bad_input
       contents => handle_at(handle)
-      if (.not. associated(contents)) return
-      if (allocated(contents%error)) check_error = int(contents%error%status, c_int)
+      if (is_error(contents)) check_error = int(contents%error%status, c_int)
+      call end_call()
    end function check_error
 
    integer(c_int) function get_error_message(handle, buffer, bytes) bind(c, name='wavycon_get_error_message')
@@ -158,13 +174,16 @@ contains
 
       type(handle_type), pointer :: contents
 
-      get_error_message = exit_bad_input
-      call put_text('this is no error object', buffer, bytes)
+      call begin_call()
       contents => handle_at(handle)
-      if (.not. associated(contents)) return
-      if (.not. allocated(contents%error)) return
-      call put_text(contents%error%message, buffer, bytes)
-      get_error_message = exit_fine
+      if (is_error(contents)) then
+         get_error_message = exit_fine
+         call put_text(contents%error%message, buffer, bytes)
+      else
+         get_error_message = exit_bad_input
+         call put_text('this is no error object', buffer, bytes)
+      end if
+      call end_call()
    end function get_error_message
 
    !> Deletes any handle and sets it to null; a null handle is ignored.
@@ -175,12 +194,15 @@ contains
       type(handle_type), pointer :: contents
 
       if (.not. c_associated(handle)) return
+      call begin_call()
       call c_f_pointer(handle, its_handle)
       contents => handle_at(its_handle)
       its_handle = c_null_ptr
-      if (.not. associated(contents)) return
-      contents%mark = 0
-      deallocate (contents)
+      if (associated(contents)) then
+         contents%mark = 0
+         deallocate (contents)
+      end if
+      call end_call()
    end subroutine delete_handle
 
    integer(c_int) function get_version(buffer, bytes) bind(c, name='wavycon_get_version')
@@ -198,6 +220,7 @@ contains
       integer, parameter :: most_threads = 1024
       type(error_type), allocatable :: trouble
 
+      call begin_call()
       if (number < 1 .or. number > most_threads) then
          call fatal_error(trouble, exit_bad_input, 'the number of threads must be from 1 to 1024')
       else

@@ -1,7 +1,7 @@
 !> The solutions of the C interface. wavycon.h documents each procedure.
 module wavycon_c_solutions
    use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_int, c_ptr, c_size_t
-   use wavycon_c_handles, only: check_pointers, close_call, handle_at, handle_type, put_text
+   use wavycon_c_handles, only: begin_call, check_pointers, close_call, handle_at, handle_type, put_text
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_kinds, only: dp
    use wavycon_wavy_solution, only: wavy_measures
@@ -17,6 +17,7 @@ contains
       type(handle_type), pointer :: contents
       type(wavy_measures), pointer :: answer
 
+      call begin_call()
       call find_solution(solution, contents, trouble)
       call check_pointers([c_associated(measures)], trouble)
       if (.not. allocated(trouble)) then
@@ -33,6 +34,7 @@ contains
       type(error_type), allocatable :: trouble
       type(handle_type), pointer :: contents
 
+      call begin_call()
       call find_solution(solution, contents, trouble)
       call check_pointers([c_associated(buffer)], trouble)
       if (.not. allocated(trouble)) call put_text(contents%solution%status(), buffer, bytes)
@@ -46,6 +48,7 @@ contains
       type(error_type), allocatable :: trouble
       type(handle_type), pointer :: contents
 
+      call begin_call()
       call find_solution(solution, contents, trouble)
       call check_pointers([c_associated(buffer)], trouble)
       if (.not. allocated(trouble)) call put_text(contents%solution%solver(), buffer, bytes)
@@ -62,6 +65,7 @@ contains
       real(c_double), pointer :: to_offset(:)
       real(dp) :: first(2)
 
+      call begin_call()
       call find_solution(solution, contents, trouble)
       call check_pointers([c_associated(points), c_associated(offset)], trouble)
       if (.not. allocated(trouble)) call contents%solution%own_points(own, first, trouble)
@@ -85,6 +89,7 @@ contains
       real(dp), allocatable :: p(:, :), g(:, :), u(:, :)
       real(dp) :: first(2)
 
+      call begin_call()
       call find_solution(solution, contents, trouble)
       if (.not. allocated(trouble)) then
          first = 0.0_dp
@@ -123,6 +128,7 @@ contains
       type(handle_type), pointer :: contents
       real(dp) :: p, g, u
 
+      call begin_call()
       call find_solution(solution, contents, trouble)
       if (.not. allocated(trouble)) call contents%solution%at(x, y, p, g, u, trouble)
       if (.not. allocated(trouble)) then
@@ -140,6 +146,7 @@ contains
       type(handle_type), pointer :: contents
       integer(c_int), pointer :: answer
 
+      call begin_call()
       call find_edges(solution, contents, trouble)
       call check_pointers([c_associated(edges)], trouble)
       if (.not. allocated(trouble)) then
@@ -157,6 +164,7 @@ contains
       type(handle_type), pointer :: contents
       integer(c_int), pointer :: answer
 
+      call begin_call()
       call find_edges(solution, contents, trouble)
       call check_pointers([c_associated(points)], trouble)
       call check_edge(contents, edge, trouble)
@@ -175,6 +183,7 @@ contains
       type(handle_type), pointer :: contents
       real(c_double), pointer :: to_x(:), to_y(:)
 
+      call begin_call()
       call find_edges(solution, contents, trouble)
       call check_pointers([c_associated(x), c_associated(y)], trouble)
       call check_edge(contents, edge, trouble)

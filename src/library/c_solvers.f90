@@ -1,7 +1,8 @@
 !> The solvers of the C interface. wavycon.h documents each procedure.
 module wavycon_c_solvers
    use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_int, c_ptr, c_size_t
-   use wavycon_c_handles, only: check_pointers, close_call, close_new, handle_at, handle_type, put_text, text_at
+   use wavycon_c_handles, only: begin_call, check_pointers, close_call, close_new, handle_at, handle_type, put_text, &
+      text_at
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_wavy_solver, only: make_solver, make_solver_of_deck, wavy_scales
    implicit none (type, external)
@@ -20,6 +21,7 @@ contains
       type(handle_type), pointer :: made
       character(:), allocatable :: text
 
+      call begin_call()
       call text_at(method, text)
       from => handle_at(surface)
       allocate (made)
@@ -43,6 +45,7 @@ contains
       type(handle_type), pointer :: made
       character(:), allocatable :: text
 
+      call begin_call()
       call text_at(path, text)
       allocate (made)
       allocate (made%solver)
@@ -61,6 +64,7 @@ contains
       type(error_type), allocatable :: trouble
       type(handle_type), pointer :: contents
 
+      call begin_call()
       call find_solver(solver, contents, trouble)
       call check_pointers([c_associated(buffer)], trouble)
       if (.not. allocated(trouble)) call put_text(contents%solver%name()//', '//contents%solver%describe(), &
@@ -75,6 +79,7 @@ contains
       type(handle_type), pointer :: contents
       type(wavy_scales), pointer :: answer
 
+      call begin_call()
       call find_solver(solver, contents, trouble)
       call check_pointers([c_associated(scales)], trouble)
       if (.not. allocated(trouble)) then
@@ -91,6 +96,7 @@ contains
       type(handle_type), pointer :: contents
       integer(c_int), pointer :: answer
 
+      call begin_call()
       call find_solver(solver, contents, trouble)
       call check_pointers([c_associated(loads)], trouble)
       if (.not. allocated(trouble)) then
@@ -109,6 +115,7 @@ contains
       type(handle_type), pointer :: made
       character(:), allocatable :: text
 
+      call begin_call()
       call find_solver(solver, contents, trouble)
       call text_at(quantity, text)
       call check_pointers([c_associated(quantity)], trouble)
@@ -126,6 +133,7 @@ contains
       type(handle_type), pointer :: contents
       type(handle_type), pointer :: made
 
+      call begin_call()
       call find_solver(solver, contents, trouble)
       allocate (made)
       allocate (made%solution)

@@ -1,14 +1,14 @@
 !> The surfaces of the C interface. wavycon.h documents each procedure.
 module wavycon_c_surfaces
    use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_int, c_ptr
-   use wavycon_c_handles, only: close_new, handle_type, text_at
+   use wavycon_c_handles, only: begin_call, close_new, handle_type, text_at
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_wavy_surface, only: make_crossed_1d, make_heights, make_hexagonal, make_surface_of_keys, make_wave_1d, &
       make_wave_2d, make_wave_sum
    implicit none (type, external)
    private
 
-   !> Most waves of a sum and points of a side of a height map: far above what is accepted, so that sizes do not overflow.
+   !> Most waves of a sum and points of a side of a height map: above what is accepted, so that sizes do not overflow.
    integer, parameter :: most_waves = 2000, most_points = 30000
 
 contains
@@ -20,6 +20,7 @@ contains
       type(error_type), allocatable :: trouble
       type(handle_type), pointer :: made
 
+      call begin_call()
       allocate (made)
       allocate (made%surface)
       call make_wave_1d(amplitude, wavelength, made%surface, trouble)
@@ -34,6 +35,7 @@ contains
       type(error_type), allocatable :: trouble
       type(handle_type), pointer :: made
 
+      call begin_call()
       allocate (made)
       allocate (made%surface)
       call make_wave_2d(amplitude, wavelength_x, wavelength_y, made%surface, trouble)
@@ -47,6 +49,7 @@ contains
       type(error_type), allocatable :: trouble
       type(handle_type), pointer :: made
 
+      call begin_call()
       allocate (made)
       allocate (made%surface)
       call make_hexagonal(amplitude, wavelength, made%surface, trouble)
@@ -61,6 +64,7 @@ contains
       type(error_type), allocatable :: trouble
       type(handle_type), pointer :: made
 
+      call begin_call()
       allocate (made)
       allocate (made%surface)
       call make_crossed_1d(amplitude1, wavelength1, amplitude2, wavelength2, made%surface, trouble)
@@ -78,6 +82,7 @@ contains
       real(c_double), pointer :: a(:), turn(:)
       integer(c_int), pointer :: m(:), n(:)
 
+      call begin_call()
       allocate (made)
       allocate (made%surface)
       if (waves < 1 .or. waves > most_waves) then
@@ -105,6 +110,7 @@ contains
       type(handle_type), pointer :: made
       real(c_double), pointer :: height(:, :)
 
+      call begin_call()
       allocate (made)
       allocate (made%surface)
       if (min(points_x, points_y) < 1 .or. max(points_x, points_y) > most_points) then
@@ -125,6 +131,7 @@ contains
       type(handle_type), pointer :: made
       character(:), allocatable :: text
 
+      call begin_call()
       allocate (made)
       allocate (made%surface)
       call text_at(keys, text)

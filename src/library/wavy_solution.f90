@@ -22,7 +22,8 @@ module wavycon_wavy_solution
    !> Most points of a map.
    integer(int64), parameter, public :: most_map_points = 8192_int64**2
 
-   !> The numbers of a load, named as the columns of the summary table. Errors are estimates; NaN if the solver has none.
+   !> The numbers of a load, named as the columns of the summary table. Errors are estimates; NaN if the solver has
+   !> none.
    type, bind(c) :: wavy_measures
       real(c_double) :: pbar_over_pstar = 0.0_dp
       real(c_double) :: mean_gap_over_amplitude = 0.0_dp

@@ -167,7 +167,7 @@ contains
    !> exit_bad_input for a quantity that is none or a value that it cannot have.
    subroutine solve(self, quantity, value, solution, error)
       class(wavy_solver), intent(inout) :: self
-      character(*), intent(in) :: quantity   !! a key of &load: pbar_over_pstar, mean_pressure, mean_gap_over_amplitude ..
+      character(*), intent(in) :: quantity   !! a key of &load, such as pbar_over_pstar, mean_pressure, mean_gap
       real(dp), intent(in) :: value          !! in the unit of that key
       type(wavy_solution), intent(out) :: solution
       type(error_type), allocatable, intent(out) :: error

@@ -166,8 +166,8 @@ contains
       surface%kind = 'file'
    end subroutine make_heights
 
-   !> Any surface that a deck can describe. Errors: exit_bad_input, with all problems of the keys; exit_file_trouble for a
-   !> height map that cannot be read.
+   !> Any surface that a deck can describe. Errors: exit_bad_input, with all problems of the keys; exit_file_trouble for
+   !> a height map that cannot be read.
    subroutine make_surface_of_keys(keys, surface, error)
       character(*), intent(in) :: keys    !! of &surface, such as "kind = 'wave_1d', amplitude = 2"
       type(wavy_surface), intent(out) :: surface

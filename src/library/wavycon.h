@@ -4,8 +4,8 @@
    and is deleted by wavycon_delete(&object); they do not need each other afterwards: a surface may be deleted once its
    solver is made, a solver while its solutions are in use.
 
-   All other functions return 0 on success and otherwise the code of the error:
-   1 (WAVYCON_BAD_INPUT) for arguments that are wrong, NULL or not finite, 3 (WAVYCON_FILE_TROUBLE) for files and memory.
+   All other functions return 0 on success and otherwise the code of the error: 1 (WAVYCON_BAD_INPUT) for arguments that
+   are wrong, NULL or not finite, 3 (WAVYCON_FILE_TROUBLE) for files and memory.
    The first argument of most functions is an error object, which then holds code and message of that call. It may be
    NULL: then the return value alone tells. A handle that is NULL or of another kind is an error and no crash; one that
    was deleted through another variable is not found out.
@@ -16,8 +16,8 @@
    fastest: element [j][i] of double a[points_y][points_x] is at x number i, y number j. In numpy they have the shape
    (points_y, points_x). Texts end in a null character; those that do not fit into `buffer` are cut.
 
-   Different objects may be used by different threads at the same time, one object by one thread at a time.
-   wavycon_set_threads is for the whole program: call it before others. */
+   Threads may share the library and its objects: a call waits until that of another thread has ended. To use several
+   processors, see wavycon_set_threads, which is for the whole program, or solve in several processes. */
 #ifndef WAVYCON_H
 #define WAVYCON_H
 

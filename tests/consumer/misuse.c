@@ -1,5 +1,5 @@
-/* Every function of wavycon.h with handles that are NULL or of another kind, with pointers that are NULL, and with numbers
-   that are no numbers or out of range: each call must return an error and a message. */
+/* Every function of wavycon.h with handles that are NULL or of another kind, with pointers that are NULL, and with
+   numbers that are no numbers or out of range: each call must return an error and a message. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -132,6 +132,9 @@ class Consumers(unittest.TestCase):
     def test_misuse(self):
         self.assertEqual("0 failures\n", run(self.folder / "project" / "misuse"))
 
+    def test_threads(self):
+        self.assertEqual("0 failures\n", run(self.folder / "project" / "threads"))
+
     def test_memory(self):
         if self.is_sanitized:
             self.skipTest("valgrind cannot run a program with a sanitizer")
