@@ -1,5 +1,5 @@
 !> solver = 'auto': the closed form where there is one, otherwise fitted expansions where these exist for the surface,
-!> with grids for loads at which they are not accurate enough, otherwise grids.
+!> with grids for loads at which they are not accurate enough, otherwise grids. The grid alone if its points are given.
 module wavycon_auto_contact
    use wavycon_closed_form_contact, only: closed_form_contact, closed_form_exists
    use wavycon_contact_solution, only: contact_solution
@@ -21,6 +21,7 @@ module wavycon_auto_contact
    public :: auto_contact
 
    type, extends(contact_solver) :: auto_contact
+      character(:), allocatable, private :: reason             !! why `first` was selected
       class(contact_solver), allocatable, private :: first     !! solves every load
       type(grid_contact), allocatable, private :: second       !! solves the loads that the first one failed to
    contains
@@ -40,6 +41,8 @@ module wavycon_auto_contact
       procedure :: starts_from_last_load
       procedure :: skip_load
       procedure :: new_kept_solution
+      procedure :: why_chosen
+      procedure :: finest_grid
    end type auto_contact
 
 contains
@@ -108,19 +111,23 @@ contains
       by_accuracy = .true.
       if (present(points)) by_accuracy = all(points == 0)
       call find_frame(surface, frame)
-      if (closed_form_exists(surface)) then
+      if (closed_form_exists(surface) .and. by_accuracy) then
          allocate (closed_form)
          call closed_form%start(surface)
          call move_alloc(closed_form, self%first)
+         self%reason = 'the surface is the 1-D wave, which has a closed form'
       else if (frame%is_found() .and. by_accuracy) then
          allocate (fitted, self%second)
          call fitted%start(surface, accuracy, keep_fields)
          call self%second%start(surface, accuracy, keep_fields)
          call move_alloc(fitted, self%first)
+         self%reason = 'the surface has expansions; grids solve the loads for which these are not accurate enough'
       else
          allocate (grid)
          call grid%start(surface, accuracy, keep_fields, points)
          call move_alloc(grid, self%first)
+         self%reason = 'the surface has neither a closed form nor expansions'
+         if (.not. by_accuracy) self%reason = 'the points of the grid are given'
       end if
    end subroutine start
 
@@ -190,6 +197,26 @@ contains
          call self%first%new_kept_solution(solution)
       end if
    end subroutine new_kept_solution
+
+   function why_chosen(self) result(words)
+      class(auto_contact), intent(in) :: self
+      character(:), allocatable :: words
+
+      words = ''
+      if (allocated(self%reason)) words = self%reason
+   end function why_chosen
+
+   function finest_grid(self) result(points)
+      class(auto_contact), intent(in) :: self
+      integer :: points(2)
+
+      points = 0
+      if (allocated(self%second)) then
+         points = self%second%finest_grid()
+      else if (allocated(self%first)) then
+         points = self%first%finest_grid()
+      end if
+   end function finest_grid
 
    pure function describe(self) result(words)
       class(auto_contact), intent(in) :: self

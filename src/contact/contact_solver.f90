@@ -36,6 +36,8 @@ module wavycon_contact_solver
       procedure(solve_load), deferred :: solve_partial_contact
       procedure :: has_error_estimates
       procedure :: why_no_area
+      procedure :: why_chosen
+      procedure :: finest_grid
       procedure :: has_coefficients
       procedure :: has_details
       procedure :: show_progress
@@ -192,6 +194,25 @@ contains
       associate (unused => self); end associate
       words = ''
    end function why_no_area
+
+   !> Why the solver that solves is the one that it is, as a sentence for --check; empty if the deck names it.
+   function why_chosen(self) result(words)
+      class(contact_solver), intent(in) :: self   !! started
+      character(:), allocatable :: words
+
+      associate (unused => self); end associate
+      words = ''
+   end function why_chosen
+
+   !> Points along x and y of the finest grid that may be solved, of the part of the cell that is solved. Zeros if there
+   !> is no grid.
+   function finest_grid(self) result(points)
+      class(contact_solver), intent(in) :: self   !! started
+      integer :: points(2)
+
+      associate (unused => self); end associate
+      points = 0
+   end function finest_grid
 
    !> Whether every solution has `coefficients`: those of the Fourier series of the pressure that the solver computed.
    pure logical function has_coefficients(self)

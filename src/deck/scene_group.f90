@@ -8,10 +8,10 @@ module wavycon_scene_group
 
    public :: scene_table, check_scene_group
 
-   integer, parameter :: longest_name = 200
+   integer, parameter, public :: longest_name = 200
    !> Bytes of the label of a unit.
    integer, parameter :: longest_unit = 20
-   character(*), parameter :: plain = 'abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.'
+   character(*), parameter, public :: name_letters = 'abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.'
    character(*), parameter :: plain_in_words = "letters, digits, '_', '-' and '.', the first neither '-' nor '.'"
 
 contains
@@ -64,7 +64,7 @@ contains
    pure logical function is_plain_name(name)
       character(*), intent(in) :: name
 
-      is_plain_name = len(name) > 0 .and. len(name) <= longest_name .and. verify(name, plain) == 0
+      is_plain_name = len(name) > 0 .and. len(name) <= longest_name .and. verify(name, name_letters) == 0
       if (is_plain_name) is_plain_name = scan(name(1:1), '-.') == 0
    end function is_plain_name
 

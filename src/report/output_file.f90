@@ -11,12 +11,12 @@ module wavycon_output_file
    implicit none (type, external)
    private
 
-   public :: output_file
+   public :: output_file, number_words
 
    !> A real number: 16 digits and a three-digit exponent.
    character(*), parameter :: real_format = '(es24.15e3)'
    !> The narrowest column: such a number with a blank before it.
-   integer, parameter :: narrowest = 25
+   integer, parameter, public :: narrowest = 25
 
    type :: output_file
       private
@@ -34,6 +34,9 @@ module wavycon_output_file
       procedure :: open => open_file
       procedure :: is_open
       procedure :: put
+      procedure, private :: put_bytes
+      procedure, private :: put_numbers
+      generic :: put_raw => put_bytes, put_numbers
       procedure :: put_columns
       procedure :: put_names
       procedure :: begin_block
@@ -50,21 +53,25 @@ module wavycon_output_file
 contains
 
    !> Opens a file for writing. `finish` reports errors.
-   subroutine open_file(self, directory, name)
+   subroutine open_file(self, directory, name, binary)
       class(output_file), intent(out) :: self
-      character(*), intent(in) :: directory   !! existing
-      character(*), intent(in) :: name        !! of the file in the directory
+      character(*), intent(in) :: directory      !! existing
+      character(*), intent(in) :: name           !! of the file in the directory
+      logical, intent(in), optional :: binary    !! whether it is written by `put_raw` alone; if absent it is a text
 
       character(12) :: process
+      character(:), allocatable :: form
       character(200) :: message
       integer :: status
 
+      form = 'formatted'
+      if (present(binary)) form = trim(merge('unformatted', 'formatted  ', binary))
       write (process, '(i0)') process_id()
       self%name = directory//'/'//name
       self%working_name = directory//'/.'//name//'.'//trim(process)//'.part'
       call remove_when_interrupted(self%working_name)
       ! As a stream, because close_file needs the number of bytes written.
-      open (newunit=self%unit, file=self%working_name, access='stream', form='formatted', status='replace', &
+      open (newunit=self%unit, file=self%working_name, access='stream', form=form, status='replace', &
             action='write', iostat=status, iomsg=message)
       self%opened = status == 0
       if (.not. self%opened) call self%note_trouble(message)
@@ -90,19 +97,48 @@ contains
       if (status /= 0) call self%note_trouble(message)
    end subroutine put
 
+   !> Writes bytes to a binary file.
+   subroutine put_bytes(self, bytes)
+      class(output_file), intent(inout) :: self
+      character(*), intent(in) :: bytes
+
+      character(200) :: message
+      integer :: status
+
+      if (allocated(self%trouble)) return
+      write (self%unit, iostat=status, iomsg=message) bytes
+      if (status /= 0) call self%note_trouble(message)
+   end subroutine put_bytes
+
+   !> Writes numbers to a binary file, in the order of the array.
+   subroutine put_numbers(self, numbers)
+      class(output_file), intent(inout) :: self
+      real(dp), intent(in), contiguous :: numbers(:, :)
+
+      character(200) :: message
+      integer :: status
+
+      if (allocated(self%trouble)) return
+      write (self%unit, iostat=status, iomsg=message) numbers
+      if (status /= 0) call self%note_trouble(message)
+   end subroutine put_numbers
+
    !> Sets the columns and writes the header line of their units. `put_names` writes the names.
-   subroutine put_columns(self, names, units)
+   subroutine put_columns(self, names, units, longest)
       class(output_file), intent(inout) :: self
       character(*), intent(in) :: names(:)   !! without blanks
       character(*), intent(in) :: units(:)   !! as many; shown in brackets
+      integer, intent(in), optional :: longest(:)   !! as many: bytes of the longest word of each column
 
-      integer :: i, last
+      integer :: i, last, width
 
       self%names = names
       allocate (self%column_end(size(names)))
       last = 0
       do i = 1, size(names)
-         last = last + max(narrowest, len_trim(names(i)) + 1, len_trim(units(i)) + 3 + merge(1, 0, i == 1))
+         width = max(narrowest, len_trim(names(i)) + 1, len_trim(units(i)) + 3 + merge(1, 0, i == 1))
+         if (present(longest)) width = max(width, longest(i) + 1)
+         last = last + width
          self%column_end(i) = last
       end do
       self%row = repeat(' ', last)
@@ -145,11 +181,16 @@ contains
       class(output_file), intent(inout) :: self
       real(dp), intent(in) :: value
 
-      character(narrowest) :: text
-
-      write (text, real_format) value
-      call self%add(trim(adjustl(text)))
+      call self%add(trim(number_words(value)))
    end subroutine add_real
+
+   !> A number as tables show it.
+   elemental character(narrowest) function number_words(value) result(words)
+      real(dp), intent(in) :: value
+
+      write (words, real_format) value
+      words = adjustl(words)
+   end function number_words
 
    subroutine add_reals(self, values)
       class(output_file), intent(inout) :: self

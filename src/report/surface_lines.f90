@@ -27,7 +27,7 @@ contains
       real(dp) :: way(2)
       integer :: intervals, k
 
-      intervals = results%scene%output%integer('points_per_wavelength')
+      intervals = results%scene%output%integer('line_points')
       way = 2*pi*[1, merge(1, 0, number == 2)]/intervals
       associate (surface => results%scene%surface)
          if (surface%shape%is_even() .and. all(abs(surface%crest) <= 0.0_dp)) intervals = intervals/2

@@ -312,7 +312,7 @@ contains
       do
          read (unit, '(a)', iostat=failed) line
          if (failed /= 0) exit
-         if (line == '' .or. index(adjustl(line), '#') == 1) cycle
+         if (line == '' .or. line(1:1) == '#' .or. index(line, 'pbar_over_pstar') > 0) cycle
          read (line, *, iostat=failed) load, gap
          if (failed /= 0) call give_up('a line of the reference table cannot be read')
          loads = [loads, load]
