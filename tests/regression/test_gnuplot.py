@@ -10,22 +10,11 @@ import unittest
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from sample_tables import make_tables  # noqa: E402
+from sample_tables import WORDS, blocks_of, make_tables, page_examples, run_page_deck  # noqa: E402
 
 SKIPPED = 77
 # Of sums of some hundred numbers.
 ROUNDING = 1e-13
-WORDS = "solver", "status"
-
-
-def blocks(table):
-    """The records of each block: a table of blocks begins a new one at each load."""
-    if table.blocks <= 1:
-        return [table.records()]
-    found = {}
-    for record in table.records():
-        found.setdefault(record["load"], []).append(record)
-    return list(found.values())
 
 
 class Gnuplot(unittest.TestCase):
@@ -39,9 +28,9 @@ class Gnuplot(unittest.TestCase):
 
     def test_numbers(self):
         for table in self.tables:
-            self.assertEqual(max(table.blocks, 1), len(blocks(table)))
+            self.assertEqual(max(table.blocks, 1), len(blocks_of(table)))
             script, expected = [f"table = '{table.path}'"], []
-            for place, records in enumerate(blocks(table)):
+            for place, records in enumerate(blocks_of(table)):
                 for name in table.columns:
                     values = [] if name in WORDS else [float(record[name]) for record in records]
                     values = [value for value in values if not math.isnan(value)]
@@ -64,6 +53,21 @@ class Gnuplot(unittest.TestCase):
                     found = self.answers([f'stats "{table.path}" using (strcol("{name}") eq "{word}") nooutput',
                                           "print sprintf('%d', STATS_sum)"])
                     self.assertEqual([[str(sum(record[name] == word for record in table.records()))]], found)
+
+    def test_the_examples_of_the_page(self):
+        example, = page_examples("gnuplot")
+        with tempfile.TemporaryDirectory() as folder:
+            run_page_deck(self.program, pathlib.Path(folder))
+            # gnuplot says nothing else about a name that it does not find or about a block without points.
+            result = subprocess.run(["gnuplot"], input="set terminal dumb\nset output 'drawn'\n" + example, cwd=folder,
+                                    capture_output=True, text=True, check=True)
+            self.assertEqual("", result.stderr)
+            self.assertEqual(example.count("\nplot "), (pathlib.Path(folder)/"drawn").read_text().count("\f"))
+            wrong = example.replace('"distance"', '"distanse"')
+            self.assertNotEqual(example, wrong)
+            result = subprocess.run(["gnuplot"], input="set terminal dumb\nset output 'drawn'\n" + wrong, cwd=folder,
+                                    capture_output=True, text=True, check=False)
+            self.assertIn("distanse", result.stderr)
 
     def answers(self, script):
         result = subprocess.run(["gnuplot"], input="set print '-'\n" + "\n".join(script) + "\n", capture_output=True,
