@@ -136,7 +136,7 @@ def summary(tables, beside, loads, folder):
         reference = "table" if "cell_y" in first.numbers else "closed form"
     # gnuplot wants the file even if it plots nothing of it.
     os.symlink(os.path.realpath(REFERENCE), os.path.join(folder, "reference"))
-    return "summary", (760, 280), facts + [f"reference = '{reference}'"]
+    return "summary", (780, 300), facts + [f"reference = '{reference}'"]
 
 
 def matched(tables, loads, most):
@@ -175,7 +175,7 @@ def lines(tables, beside, loads, folder):
     """Lines, and closed forms along lines, alone or with the lines."""
     first, solved = tables[0], tables[0].kind == "lines"
     theory = beside.get("theory_lines") if solved else first
-    dimension = int(max(first.column("line")))
+    dimension = min(int(max(table.column("line"))) for table in tables)
     forms = ALONG_LINES[dimension]
 
     def in_units(column, unit, names):
@@ -212,7 +212,7 @@ def lines(tables, beside, loads, folder):
     if solved and not theory:
         # gnuplot wants the file even if it plots nothing of it.
         os.symlink(os.path.abspath(first.path), os.path.join(folder, "theory_lines"))
-    return "lines", (420 if dimension == 1 else 700, 420), facts
+    return "lines", (430 if dimension == 1 else 710, 430), facts
 
 
 
@@ -237,7 +237,7 @@ def fields(tables, beside, loads, folder):
         columns, rows = write_closed(table, place, os.path.join(folder, f"map{number}"))
     facts += [f"columns = {columns}", f"rows = {rows}"]
     if height == 1:
-        return "map_1d", (420, 420), facts
+        return "map_1d", (430, 430), facts
     facts += edge_facts(beside.get("contour"), [table.blocks[place].load for place in places], cell_of(table))
     if "contour" not in beside:
         # gnuplot wants the file even if it plots nothing of it.
@@ -247,7 +247,7 @@ def fields(tables, beside, loads, folder):
     wide, tall = 150/stretch, 150*stretch
     across = 2 if len(places) == 1 else len(places)
     down = 1 if len(places) == 1 else 2
-    size = (60 + across*(wide + 16) + 75 + (75 if down == 1 else 0), 46 + down*(tall + 16) + 46)
+    size = (70 + across*(wide + 16) + 75 + (75 if down == 1 else 0), 46 + down*(tall + 16) + 60)
     return "map", size, facts + [f"panel_wide = {wide!r}", f"panel_tall = {tall!r}"]
 
 
@@ -316,7 +316,7 @@ def edges(tables, beside, loads, folder):
     facts += edge_facts(table, [table.blocks[place].load for place in places], cell_in_head(table))
     stretch = min(max(math.sqrt(cell[1]/cell[0]), 0.45), 2.2)
     wide, tall = 300/stretch, 300*stretch
-    return "contour", (wide + 160, tall + 90), facts + [f"panel_wide = {wide!r}", f"panel_tall = {tall!r}"]
+    return "contour", (wide + 170, tall + 105), facts + [f"panel_wide = {wide!r}", f"panel_tall = {tall!r}"]
 
 
 def cell_in_head(table):
@@ -333,7 +333,7 @@ def series(tables, beside, loads, folder):
     # Coefficients of exactly zero are no less than the least that is shown.
     top = max(sizes, default=1.0)
     low = max(min(sizes, default=top/10), 1e-16*top)
-    return "coefficients", (560, 320), facts + [f"least = {10.0**math.floor(math.log10(low))!r}",
+    return "coefficients", (560, 340), facts + [f"least = {10.0**math.floor(math.log10(low))!r}",
                                                 f"most = {10.0**math.ceil(math.log10(1.001*top))!r}",
                                                 f"highest = {max(map(math.hypot, table.column('i'), table.column('j')))!r}"]
 
@@ -409,7 +409,7 @@ def details(tables, beside, loads, folder):
     errors = [error for name, _ in DETAILS for error in table.column(name + "_error") if error > 0]
     facts += [f"error_low = {10.0**math.floor(math.log10(max(min(errors, default=0.1), 1e-18)))!r}",
               f"error_high = {10.0**math.ceil(math.log10(max(errors, default=0.5)))!r}"]
-    return "details", (760, 680), facts
+    return "details", (780, 700), facts
 
 
 COMPANIONS = {"lines": ("theory_lines",), "map": ("contour",), "theory": ("summary",)}

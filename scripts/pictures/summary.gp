@@ -33,7 +33,7 @@ set xtics load_step
 if (load_wide) { set mxtics (load_step > 10 ? 1 : 10) }
 set format x (format_of(load_wide))
 unset key
-set multiplot layout 1, 3 margins 0.08, 0.985, 0.2, 0.87 spacing 0.092, 0
+set multiplot layout 1, 3 margins 0.09, 0.985, 0.225, 0.875 spacing 0.095, 0
 set label 1 title_words noenhanced at screen 0.5, 0.95 center font ',15'
 do for [n = 1:3] {
    set ylabel label_of[n]
