@@ -47,7 +47,7 @@ class Scale:
         """A gnuplot expression for the label; symbol: the name of gnuplot's variable that holds it."""
         parts = [quoted(words + " ")] if words else []
         if self.power and not self.unit:
-            parts.append(quoted(f"{ten_to(-self.power)} "))
+            parts.append(quoted(ten_to(-self.power) + " "))
         parts.append(symbol)
         if self.over:
             parts.append("'/'." + self.over)

@@ -5,8 +5,8 @@ set logscale y
 set yrange [least:most]
 set xrange [0:highest + 0.5]
 set format y '10^{%T}'
-set ylabel 'coefficient  |'.(dimension == 1 ? '{/:Italic A_i}' : '{/:Italic A_{ij}}').'|/'.p_star
-set xlabel 'harmonic  '.(dimension == 1 ? '{/:Italic i}' : '({/:Italic i}^2 + {/:Italic j}^2)^{1/2}')
+set ylabel 'coefficient |'.(dimension == 1 ? '{/:Italic A_i}' : '{/:Italic A_{ij}}').'|/'.p_star
+set xlabel 'harmonic '.(dimension == 1 ? '{/:Italic i}' : '({/:Italic i}^2 + {/:Italic j}^2)^{1/2}')
 set lmargin at screen 0.15
 set rmargin at screen 0.72
 set bmargin at screen 0.2

@@ -68,13 +68,19 @@ def scaled(tables, factors, name):
     return [number*factor for table, factor in zip(tables, factors) for number in table.column(name)]
 
 
-def titles(stems):
+def names_of(tables):
     """The names of the cases; with their folders where the names alone are the same."""
-    names = [os.path.basename(stem) for stem in stems]
+    names = [os.path.basename(table.stem) for table in tables]
     if len(set(names)) < len(names):
-        names = [os.path.join(*stem.split(os.sep)[-2:]) for stem in stems]
-    words = names[0] if len(names) == 1 else ""
-    return [f"title_words = {quoted(words)}"] + array_of("run_names", [quoted(name) for name in names])
+        names = [os.path.join(*table.stem.split(os.sep)[-2:]) for table in tables]
+    return names
+
+
+def titles(tables):
+    """The name above the picture, none if runs are compared, and the names of the runs."""
+    names = names_of(tables)
+    return [f"title_words = {quoted(names[0] if len(names) == 1 else '')}"] + \
+        array_of("run_names", [quoted(name) for name in names])
 
 
 def shown(table, loads, most):
@@ -129,14 +135,23 @@ def summary(tables, beside, loads, folder):
     facts += array_of("p_star_of", [repr(table.numbers.get("p*", 0.0)) for table in tables])
     facts += array_of("Delta_of", [repr(table.numbers.get("Delta", 0.0)) for table in tables])
     codes = [code for table in tables for code in table.column("status_code")]
-    facts += [f"inaccurate = {codes.count(10)}", f"unsolved = {sum(code > 10 for code in codes)}"]
     # The paper's series is shown beside converged values: its waves have one shape, whatever their size.
     reference = ""
     if len(tables) == 1 and first.method == "beale":
         reference = "table" if "cell_y" in first.numbers else "closed form"
     # gnuplot wants the file even if it plots nothing of it.
     os.symlink(os.path.realpath(REFERENCE), os.path.join(folder, "reference"))
-    return "summary", (780, 300), facts + [f"reference = '{reference}'"]
+    entries = []
+    if reference:
+        entries += [("lines ls 31", "converged" if reference == "table" else "closed form"),
+                    ("points ls 11", "the paper's series")]
+    if len(tables) > 1:
+        entries += [(f"linespoints ls {30 + r}", name) for r, name in enumerate(names_of(tables), 1)]
+    entries += [("points ls 42", "not accurate")] if 10 in codes else []
+    entries += [("points ls 41", "not solved")] if any(code > 10 for code in codes) else []
+    key = "".join(f", keyentry with {style} title key_title[{k}] noenhanced" for k, (style, _) in enumerate(entries, 1))
+    facts += array_of("key_title", [quoted(words) for _, words in entries] or ["''"])
+    return "summary", (780, 300), facts + [f"reference = '{reference}'", f"key_entries = {quoted(key)}"]
 
 
 def matched(tables, loads, most):
@@ -376,7 +391,7 @@ def theory(tables, beside, loads, folder):
     facts += [f"solved = {int('summary' in beside)}", f"many = {int(len(table.column('pbar_over_pstar')) > 30)}"]
     if "summary" not in beside:
         os.symlink(os.path.realpath(REFERENCE), os.path.join(folder, "summary"))
-    return "theory", (860, 370), facts
+    return "theory", (860, 400), facts
 
 
 # Quantities of details: column, label as gnuplot's expression.

@@ -10,6 +10,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import xml.dom.minidom
 
 sys.dont_write_bytecode = True
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -73,6 +74,7 @@ class Plot(unittest.TestCase):
         if name:
             self.assertEqual(name, picture.name)
         # Texts are broken up where the face changes.
+        xml.dom.minidom.parse(str(picture))   # one document, not several
         shown = re.sub(r"<title>.*?</title>", "", picture.read_text(encoding="utf-8"), flags=re.S)
         return re.sub(r"\s+", " ", re.sub(r"<[^>]*>", "", shown))
 
