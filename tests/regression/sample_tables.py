@@ -9,7 +9,7 @@ PAGE = pathlib.Path(__file__).resolve().parents[2] / "outputs" / "README.md"
 LOADS = "&load pbar_over_pstar = 0, 0.2, 0.6, 1 /\n"
 ALL = "lines = t, map = t, contours = t, line_points = 8, map_points = 8"
 HEIGHTS = "".join(" ".join(str((3*i*i + 5*j + i*j) % 7) for i in range(8)) + "\n" for j in range(8))
-# Both dimensions, every solver, every table, labels of units, loads without numbers, a single load, tables without rows.
+# Both dimensions, every solver and table, labels of units, loads without numbers, a single load, tables without rows.
 DECKS = {
     "line": f"&surface kind = 'wave_1d' /\n{LOADS}&output {ALL}, coefficients = t, theory = t /\n",
     "plane": f"&surface kind = 'wave_2d' /\n{LOADS}&output {ALL}, coefficients = t, theory = t /\n",
@@ -55,8 +55,8 @@ def page_examples(language):
     return re.findall(rf"^```{language}\n(.*?)^```$", PAGE.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
 
 
-def run_page_deck(program, folder):
-    """Runs the deck of these examples in a folder."""
-    deck, = page_examples("fortran")
-    (folder / "demo.nml").write_text(deck)
-    subprocess.run([program, "demo.nml", "--quiet"], cwd=folder, check=True)
+def run_page_decks(program, folder):
+    """Runs the decks of these examples in a folder."""
+    for deck in page_examples("fortran"):
+        (folder / "deck.nml").write_text(deck)
+        subprocess.run([program, "deck.nml", "--quiet"], cwd=folder, check=True)
