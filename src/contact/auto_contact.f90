@@ -151,27 +151,29 @@ contains
       class(auto_contact), intent(inout) :: self
       class(solver_progress), intent(in), pointer :: progress
 
-      call self%first%show_progress(progress)
+      if (allocated(self%first)) call self%first%show_progress(progress)
       if (allocated(self%second)) call self%second%show_progress(progress)
    end subroutine show_progress
 
    integer function coarser_levels(self)
       class(auto_contact), intent(in) :: self
 
-      coarser_levels = self%first%coarser_levels()
+      coarser_levels = 0
+      if (allocated(self%first)) coarser_levels = self%first%coarser_levels()
    end function coarser_levels
 
    subroutine use_level(self, level)
       class(auto_contact), intent(inout) :: self
       integer, intent(in) :: level
 
-      call self%first%use_level(level)
+      if (allocated(self%first)) call self%first%use_level(level)
    end subroutine use_level
 
    pure logical function starts_from_last_load(self)
       class(auto_contact), intent(in) :: self
 
-      starts_from_last_load = self%first%starts_from_last_load()
+      starts_from_last_load = .false.
+      if (allocated(self%first)) starts_from_last_load = self%first%starts_from_last_load()
    end function starts_from_last_load
 
    !> The expansion of the next load starts from the expansion of this one. Only loads solved on grids are in
@@ -191,7 +193,7 @@ contains
 
       if (allocated(self%second)) then
          call self%second%new_kept_solution(solution)
-      else
+      else if (allocated(self%first)) then
          call self%first%new_kept_solution(solution)
       end if
    end subroutine new_kept_solution
@@ -220,7 +222,8 @@ contains
       class(auto_contact), intent(in) :: self
       character(:), allocatable :: words
 
-      words = self%first%describe()
+      words = ''
+      if (allocated(self%first)) words = self%first%describe()
       if (allocated(self%second)) words = words//', grids where these cannot'
    end function describe
 
