@@ -9,6 +9,7 @@ import contextlib
 import io
 import os
 import pathlib
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -17,6 +18,7 @@ sys.dont_write_bytecode = True
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent / "support")]
 from sample_tables import WORDS, blocks_of, make_tables, page_examples, run_page_deck  # noqa: E402
+from tables import Table  # noqa: E402
 from virtual_environment import python_with  # noqa: E402
 
 SKIPPED = 77
@@ -84,6 +86,22 @@ class PythonReaders(unittest.TestCase):
             self.assertNotEqual(value, value)
         elif expected != value:
             self.assertLessEqual(abs(value - expected), ROUNDING*abs(expected))
+
+    def test_maps_in_numpys_format(self):
+        import numpy
+        pathlib.Path("binary.nml").write_text(
+            "&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0.1, 0.5 /\n&method solver = 'auto' /\n"
+            "&output map = t, map_points = 24, 16, map_format = 'npy' /\n")
+        for map_format in "npy", "text":
+            subprocess.run([self.program, "binary.nml", "--quiet", "--output", ".", "--set",
+                            f"output.map_format={map_format}"], check=True)
+        found = numpy.load("binary.map.npy")
+        self.assertEqual((2, 16, 24), found.shape)
+        table = Table("binary.map.dat")
+        self.assertEqual(["load", *found.dtype.names], table.columns)
+        for record, values in zip(table.records(), found.reshape(-1).tolist(), strict=True):
+            for name, value in zip(found.dtype.names, values):
+                self.assert_close(float(record[name]), value)
 
     def test_the_examples_of_the_page(self):
         self.assertEqual(set(EXAMPLES), set(examples()))
