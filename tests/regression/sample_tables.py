@@ -24,9 +24,8 @@ DECKS = {
     "no_edge": "&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0, 1 /\n&output contours = t /\n",
     "flat": f"&surface kind = 'wave_2d', amplitude = 0 /\n&load mean_pressure = 0, 1 /\n&output {ALL} /\n",
 }
-# The table of several decks is made of these.
-COLLECTED = "line.nml", "plane.nml", "closed_form.nml"
-# Columns of text.
+# Decks of these in one table of --table, and columns of text.
+COLLECTED = "plane", "grid", "no_edge"
 WORDS = "solver", "status", "deck", "case", "surface_kind", "method_solver"
 
 
@@ -39,7 +38,8 @@ def make_tables(program, folder):
         result = subprocess.run([program, f"{name}.nml", "--quiet", "--output", "."], cwd=folder, check=False)
         if result.returncode != (2 if name == "fitted" else 0):
             raise RuntimeError(f"{name}.nml: exit status {result.returncode}")
-    subprocess.run([program, *COLLECTED, "--quiet", "--output", ".", "--table", "collected.dat"], cwd=folder, check=True)
+    subprocess.run([program, *(f"{name}.nml" for name in COLLECTED), "--table", "collected.dat", "--quiet",
+                    "--set", "material.e_star=2"], cwd=folder, check=True)
     return [Table(path) for path in sorted(folder.glob("*.dat"))]
 
 
