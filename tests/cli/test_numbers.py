@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Runs that must agree: repeated, resolved, reordered, with threads and with another locale."""
+"""Runs that must agree: repeated, resolved, reordered, with threads, with another locale, in other units."""
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -23,6 +24,21 @@ OTHER_WAY = 1e-10
 # Columns that may depend on the place of the load and on the start of the solver.
 OF_THE_WAY = {"load", "iterations", "residual"}
 WORDS = {"solver", "status"}
+# Numbers end at the 16th digit.
+LAST_DIGIT = 1e-15
+SI_DECK = """\
+&scene case = 'case', pressure_unit = 'Pa', length_unit = 'm' /
+&surface kind = '{}', amplitude = 1.3e-6, wavelength = 0.7e-3 /
+&material e1 = 210e9, nu1 = 0.3 /
+&load pbar_over_pstar = 0, 0.05, 0.5, 1.2 /
+&method solver = 'auto' /
+&output lines = t, map = t, points_per_wavelength = 8 /
+"""
+# Columns in the deck's units; those in normalised units, and the number of the head with which they are multiplied.
+PRESSURES = {"mean_pressure": "pbar_over_pstar", "peak_pressure": "peak_pressure_over_pstar",
+             "pressure": "pressure_over_pstar"}
+LENGTHS = {"mean_gap": "mean_gap_over_amplitude", "approach": "approach_over_amplitude", "gap": "gap_over_amplitude",
+           "displacement": "displacement_over_amplitude"}
 
 
 class Numbers(unittest.TestCase):
@@ -88,6 +104,36 @@ class Numbers(unittest.TestCase):
         deck = self.write_deck(SURFACES[1], LOADS)
         self.assert_same_bytes(self.run_deck(deck, "first", LC_ALL="C"),
                                self.run_deck(deck, "second", LC_ALL=with_comma[0]))
+
+    def test_columns_in_the_units_of_the_deck(self):
+        for kind, dimension in (("wave_1d", 1), ("wave_2d", 2)):
+            (self.folder / "case.nml").write_text(SI_DECK.format(kind))
+            folder = self.run_deck("case.nml", "si")
+            head = dict(re.findall(r"([\w*]+)\[(?:m|Pa)\] = ([^,\s]+)", (folder / "case.summary.dat").read_text()))
+            scales = {**{new: (old, float(head["p*"])) for new, old in PRESSURES.items()},
+                      **{new: (old, float(head["Delta"])) for new, old in LENGTHS.items()},
+                      "contact_area": ("contact_area_fraction", float(head["cell_x"])**dimension)}
+            seen = set()
+            for name in ("summary", "lines"):
+                table = Table(folder / f"case.{name}.dat")
+                seen |= set(table.columns) & set(scales)
+                for new, (old, scale) in scales.items():
+                    if new not in table.columns:
+                        continue
+                    unit = "m^2" if (new, dimension) == ("contact_area", 2) else "m" if new not in PRESSURES else "Pa"
+                    self.assertEqual(unit, table.units[table.columns.index(new)])
+                    self.assertEqual("-", table.units[table.columns.index(old)])
+                    for record in table.records():
+                        expected = scale*float(record[old])
+                        self.assertAlmostEqual(expected, float(record[new]), delta=2*LAST_DIGIT*abs(expected), msg=new)
+            self.assertEqual(set(scales), seen)
+            # The first point of a map is the crest, where the lines start.
+            first = {name: {record["load"]: record for record in Table(folder / f"case.{name}.dat").records()[::-1]}
+                     for name in ("lines", "map")}
+            for load, record in first["map"].items():
+                for name in ("pressure", "displacement", "gap"):
+                    self.assertAlmostEqual(float(record[name]), float(first["lines"][load][name]),
+                                           delta=OTHER_WAY*float(head["p*" if name == "pressure" else "Delta"]))
 
     def rows_by_load(self, folder):
         """{load: {column: word}} of the summary; the rows of a load given twice must agree."""
