@@ -16,6 +16,7 @@ sys.dont_write_bytecode = True
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT/"scripts"/"pictures"))
 import facts  # noqa: E402
+import fields  # noqa: E402
 from axes import Scale, axis, chosen, marked_up  # noqa: E402
 from table import NotATable, Table  # noqa: E402
 
@@ -174,7 +175,8 @@ class Plot(unittest.TestCase):
         self.assertIn("nowhere.dat", complaints)
 
     def test_names_are_not_commands(self):
-        for name in ("a'b; touch CANARY.summary.dat", "$(touch CANARY) `touch CANARY`.lines.dat", "<x {-Bold_^.map.dat"):
+        for name in ("a'b; touch CANARY.summary.dat", "$(touch CANARY) `touch CANARY`.lines.dat",
+                     "<x {-Bold_^.map.dat"):
             shutil.copy(self.folder/("auto." + name.split(".")[-2] + ".dat"), self.folder/name)
             self.assertEqual("", self.plot("--", name)[1])
         self.assertFalse((self.folder/"CANARY").exists())
@@ -223,7 +225,7 @@ class Numbers(unittest.TestCase):
                 path.write_text("# surface: file, Delta[length] = 1, cell_x[length] = 1, cell_y[length] = 2\n"
                                 "load x y pressure gap displacement undeformed_gap\n" + rows)
                 closed = pathlib.Path(folder)/"map1"
-                self.assertEqual((5, 4), facts.write_closed(Table(path), 0, closed))
+                self.assertEqual((5, 4), fields.write_closed(Table(path), 0, closed))
                 numbers = memoryview(closed.read_bytes()).cast("d").tolist()
                 points = [numbers[4*k:4*k + 4] for k in range(20)]
                 self.assertEqual([1 + offset/4, 2*offset/3, 0.0, 0.0], points[4])
