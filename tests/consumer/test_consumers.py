@@ -22,6 +22,8 @@ DECK = f"""&surface kind = 'wave_2d', amplitude = 1e-6, wavelength = 1e-3 /
 &output contours = .true. /
 """
 COLUMNS = ["pbar_over_pstar", "mean_gap", "contact_area_fraction", "peak_pressure", "peak_pressure_over_pstar_error"]
+# Seconds after which a command counts as hanging; the slowest take a few.
+LONGEST = 240
 # Half a unit of the last of the 16 digits that tables have.
 DIGITS = 1e-15
 ENVIRONMENT = dict(os.environ, OPENBLAS_NUM_THREADS="1")
@@ -30,6 +32,7 @@ ENVIRONMENT = dict(os.environ, OPENBLAS_NUM_THREADS="1")
 def run(*command, **options):
     """Runs a command; its output, which a failure shows."""
     done = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                          stdin=subprocess.DEVNULL, timeout=LONGEST,
                           env=dict(ENVIRONMENT, **options.pop("environment", {})), **options)
     if done.returncode != 0:
         raise AssertionError(f"{shlex.join(map(str, command))}: exit status {done.returncode}\n{done.stdout}")
@@ -129,6 +132,22 @@ class Consumers(unittest.TestCase):
         run(self.options.c, *shlex.split(self.options.flags), HERE / "consumer.c", "-o", program, *words)
         self.assertEqual(self.expected, numbers(run(program)))
 
+    def test_programs_of_the_page(self):
+        page = (self.options.sources / "src" / "library" / "README.md").read_text()
+        found = []
+        for language, suffix, compiler, before, after in (
+                ("fortran", ".f90", self.options.fortran, "program page\n", "end program page\n"),
+                ("c", ".c", self.options.c, "#include <stdio.h>\n#include <wavycon.h>\nint main(void)\n{\n", "}\n")):
+            code = page.split(f"```{language}\n")[1].split("```")[0]
+            source = self.folder / ("page" + suffix)
+            source.write_text(before + code + after)
+            run(compiler, *shlex.split(self.options.flags), source, "-o", source.with_suffix(".exe"),
+                *self.pkg_config("--cflags", "--libs"))
+            output = run(source.with_suffix(".exe"), environment={"LD_LIBRARY_PATH": str(self.lib)})
+            found.append([float(word) for word in output.split()[:3]])
+        for one, other in zip(*found):
+            self.assertAlmostEqual(one/other, 1, delta=1e-5)
+
     def test_misuse(self):
         self.assertEqual("0 failures\n", run(self.folder / "project" / "misuse"))
 
@@ -154,7 +173,8 @@ class Consumers(unittest.TestCase):
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    for name in ("build", "cmake", "sources", "generator", "c", "fortran", "flags"):
+    parser.add_argument("--sources", type=pathlib.Path, required=True)
+    for name in ("build", "cmake", "generator", "c", "fortran", "flags"):
         parser.add_argument(f"--{name}", required=True)
     Consumers.options, others = parser.parse_known_args()
     unittest.main(argv=[sys.argv[0], *others], verbosity=2)
