@@ -32,7 +32,7 @@ SI_DECK = """\
 &material e1 = 210e9, nu1 = 0.3 /
 &load pbar_over_pstar = 0, 0.05, 0.5, 1.2 /
 &method solver = 'auto' /
-&output lines = t, map = t, points_per_wavelength = 8 /
+&output lines = t, map = t, line_points = 8, map_points = 8 /
 """
 # Columns in the deck's units; those in normalised units, and the number of the head with which they are multiplied.
 PRESSURES = {"mean_pressure": "pbar_over_pstar", "peak_pressure": "peak_pressure_over_pstar",
