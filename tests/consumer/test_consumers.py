@@ -149,7 +149,7 @@ class Consumers(unittest.TestCase):
             self.assertAlmostEqual(one/other, 1, delta=1e-5)
 
     def test_misuse(self):
-        self.assertEqual("0 failures\n", run(self.folder / "project" / "misuse"))
+        self.assertEqual("0 failures\n", run(self.folder / "project" / "misuse", cwd=self.folder))
 
     def test_threads(self):
         self.assertEqual("0 failures\n", run(self.folder / "project" / "threads"))
@@ -161,7 +161,7 @@ class Consumers(unittest.TestCase):
             self.skipTest("there is no valgrind")
         for program in (self.folder / "project" / "misuse", self.folder / "only_c" / "consumer_c_shared"):
             run("valgrind", "--quiet", "--leak-check=full", "--show-leak-kinds=definite,indirect,possible",
-                "--errors-for-leak-kinds=definite,indirect,possible", "--error-exitcode=1", program)
+                "--errors-for-leak-kinds=definite,indirect,possible", "--error-exitcode=1", program, cwd=self.folder)
 
     def test_subproject(self):
         options = self.options
