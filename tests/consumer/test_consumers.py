@@ -26,16 +26,18 @@ COLUMNS = ["pbar_over_pstar", "mean_gap", "contact_area_fraction", "peak_pressur
 LONGEST = 240
 # Half a unit of the last of the 16 digits that tables have.
 DIGITS = 1e-15
-ENVIRONMENT = dict(os.environ, OPENBLAS_NUM_THREADS="1")
+# Of a Fortran main program the variables live as long as the process, which the address sanitizer takes for leaks.
+ENVIRONMENT = dict(os.environ, OPENBLAS_NUM_THREADS="1", ASAN_OPTIONS="detect_leaks=0")
 
 
 def run(*command, **options):
     """Runs a command; its output, which a failure shows."""
-    done = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+    done = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                           stdin=subprocess.DEVNULL, timeout=LONGEST,
                           env=dict(ENVIRONMENT, **options.pop("environment", {})), **options)
     if done.returncode != 0:
-        raise AssertionError(f"{shlex.join(map(str, command))}: exit status {done.returncode}\n{done.stdout}")
+        raise AssertionError(f"{shlex.join(map(str, command))}: exit status {done.returncode}\n{done.stdout}\n"
+                             f"{done.stderr}")
     return done.stdout
 
 
