@@ -128,6 +128,8 @@ static void solvers(wavycon_surface surface, wavycon_solver solver, wavycon_solu
     REFUSED(wavycon_get_scales(error, NULL, &scales));
     REFUSED(wavycon_get_scales(error, (wavycon_solver)solution, &scales));
     REFUSED(wavycon_get_scales(error, solver, NULL));
+    FINE(wavycon_get_scales(error, solver, &scales));
+    check(scales.e_star == 1 && scales.length_y == 1 && scales.dimension == 2, "the scales", __LINE__);
     REFUSED(wavycon_get_number_of_loads(error, NULL, &loads));
     REFUSED(wavycon_get_number_of_loads(error, solver, NULL));
     FINE(wavycon_get_number_of_loads(error, solver, &loads));
@@ -206,6 +208,9 @@ static void solutions(wavycon_surface surface, wavycon_solution solution, wavyco
         REFUSED(wavycon_get_edge_points(error, bad[i], 0, &points));
         REFUSED(wavycon_get_edge(error, bad[i], 0, 1000, x, y));
     }
+    FINE(wavycon_get_measures(error, solution, &measures));
+    check(measures.pbar_over_pstar == 0.2 && measures.iterations > 0 && measures.status_code == WAVYCON_CONVERGED,
+          "first and last numbers", __LINE__);
     REFUSED(wavycon_get_measures(error, solution, NULL));
     REFUSED(wavycon_get_status(error, solution, NULL, 100));
     REFUSED(wavycon_get_solver_name(error, solution, NULL, 100));

@@ -69,7 +69,8 @@ class Consumers(unittest.TestCase):
         run(options.cmake, "--install", options.build, "--prefix", cls.prefix)
         # The installation must not need the place that it was configured for.
         cls.prefix = cls.prefix.rename(cls.folder / "moved")
-        cls.lib = next(cls.prefix.glob("lib*/**/libwavycon.so")).parent
+        cls.library = next(cls.prefix.glob("lib*/**/libwavycon." + ("dylib" if sys.platform == "darwin" else "so")))
+        cls.lib = cls.library.parent
         for project, name in ((HERE, "project"), (HERE / "only_c", "only_c")):
             run(options.cmake, "-S", project, "-B", cls.folder / name, "-G", options.generator, "-D",
                 f"CMAKE_PREFIX_PATH={cls.prefix}", *cls.compilers())
@@ -90,6 +91,9 @@ class Consumers(unittest.TestCase):
             self.skipTest("there is no pkg-config")
         return shlex.split(run("pkg-config", *arguments, "wavycon",
                                environment={"PKG_CONFIG_PATH": str(self.lib / "pkgconfig")}))
+
+    def path_of_library(self):
+        return {name: str(self.lib) for name in ("LD_LIBRARY_PATH", "DYLD_LIBRARY_PATH")}
 
     def test_digits_of_the_deck(self):
         table = rows_of(self.folder / "deck.summary.dat")
@@ -118,19 +122,19 @@ class Consumers(unittest.TestCase):
     def test_python(self):
         if self.is_sanitized:
             self.skipTest("Python cannot load a library with a sanitizer")
-        self.assertEqual(self.expected, numbers(run(sys.executable, HERE / "consumer.py", self.lib / "libwavycon.so")))
+        self.assertEqual(self.expected, numbers(run(sys.executable, HERE / "consumer.py", self.library)))
 
     def test_pkg_config_with_the_shared_library(self):
         program = self.folder / "by_pkg_config"
         run(self.options.c, *shlex.split(self.options.flags), HERE / "consumer.c", "-o", program,
             *self.pkg_config("--cflags", "--libs"))
-        output = run(program, environment={"LD_LIBRARY_PATH": str(self.lib)})
+        output = run(program, environment=self.path_of_library())
         self.assertEqual(self.expected, numbers(output))
 
     def test_pkg_config_with_the_static_library(self):
         program = self.folder / "static_by_pkg_config"
         words = self.pkg_config("--cflags", "--libs", "--static")
-        words[words.index("-lwavycon")] = "-l:libwavycon.a"
+        words[words.index("-lwavycon")] = self.lib / "libwavycon.a"
         run(self.options.c, *shlex.split(self.options.flags), HERE / "consumer.c", "-o", program, *words)
         self.assertEqual(self.expected, numbers(run(program)))
 
@@ -145,7 +149,7 @@ class Consumers(unittest.TestCase):
             source.write_text(before + code + after)
             run(compiler, *shlex.split(self.options.flags), source, "-o", source.with_suffix(".exe"),
                 *self.pkg_config("--cflags", "--libs"))
-            output = run(source.with_suffix(".exe"), environment={"LD_LIBRARY_PATH": str(self.lib)})
+            output = run(source.with_suffix(".exe"), environment=self.path_of_library())
             found.append([float(word) for word in output.split()[:3]])
         for one, other in zip(*found):
             self.assertAlmostEqual(one/other, 1, delta=1e-5)
