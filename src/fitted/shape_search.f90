@@ -7,7 +7,7 @@ module wavycon_shape_search
    implicit none (type, external)
    private
 
-   public :: find_preimage, distance_from_edge
+   public :: find_preimage, find_edge_in_direction, distance_from_edge
 
    !> Safety limit: most steps of either of Newton's iterations. Places for which the continued map has a preimage take
    !> fewer. At the limit no preimage is found, and the place counts as far or as outside; a polar angle that is not

@@ -232,6 +232,15 @@ module wavycon_fitted_tuning
       !! How much finer the rules are that check a field's quadrature. Smaller than 2 checks nothing. Larger: more
       !! time.
 
+   ! Tables of fields.
+
+   integer, parameter, public :: first_table_size = 8
+      !! Terms of a table that are tried first, either way. Larger: places that low accuracies do not need. Smaller: a
+      !! poor guess of the terms that are needed.
+   integer, parameter, public :: last_table_size = 48
+      !! Most terms either way. Larger: tables near merging that cost more than the map. Smaller: maps near merging
+      !! without a table.
+
    ! Geometry of shapes.
 
    integer, parameter, public :: radius_points = 8
