@@ -35,7 +35,7 @@ module wavycon
    use wavycon_read_deck, only: read_deck
    use wavycon_scene, only: scene_type
    use wavycon_solver_list, only: start_solver
-   use wavycon_surface, only: gap_over_amplitude, surface_of_points, surface_of_series, surface_type
+   use wavycon_surface, only: surface_of_points, surface_of_series, surface_type
    use wavycon_threads, only: set_threads
    use wavycon_version, only: revision, version
    use wavycon_wave_1d, only: wave_1d

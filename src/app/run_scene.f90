@@ -70,8 +70,7 @@ contains
       call all_tables(every)
       allocate (requested(size(every)))
       do i = 1, size(every)
-         requested(i) = every(i)%table%key() == ''
-         if (.not. requested(i)) requested(i) = scene%output%logical(every(i)%table%key())
+         requested(i) = every(i)%table%is_requested(scene%output)
          if (scene%p_star <= 0.0_dp) requested(i) = requested(i) .and. every(i)%table%is_for_flat_surfaces()
       end do
       allocate (tables(count(requested)))

@@ -5,6 +5,7 @@ module wavycon_beale_contact
    use wavycon_complementary_energy, only: energy_problem
    use wavycon_constraint_points, only: choose_points
    use wavycon_contact_measures, only: measure_series, measuring_intervals
+   use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver
    use wavycon_contact_tuning, only: starting_load
@@ -19,7 +20,7 @@ module wavycon_beale_contact
    use wavycon_plain_text, only: integer_text, short_number
    use wavycon_problems, only: problem_list_type
    use wavycon_qp_problem, only: qp_problem, qp_solution, qp_status_name
-   use wavycon_series_solution, only: series_solution
+   use wavycon_series_fields, only: series_fields
    use wavycon_surface, only: surface_type, turned_paper_wave
    use wavycon_surface_kinds, only: is_paper_kind, paper_waves
    use wavycon_turned_series, only: to_sum_angles
@@ -69,11 +70,11 @@ module wavycon_beale_contact
       procedure :: starts_from_last_load
    end type beale_contact
 
-   type, extends(series_solution) :: beale_solution
+   type, extends(contact_solution) :: beale_solution
       real(dp), allocatable :: x(:)                    !! amplitudes of the Fourier terms of (p - pbar)/p*
       type(series_setup) :: setup
    contains
-      procedure :: pressure
+      procedure :: fields
       procedure :: edge_curves
       procedure :: coefficients
    end type beale_solution
@@ -324,13 +325,20 @@ contains
       end associate
    end function displacement_series
 
-   subroutine pressure(self, series)
+   subroutine fields(self, surface, answer)
       class(beale_solution), intent(in) :: self
-      type(fourier_series), intent(out) :: series
+      type(surface_type), intent(in) :: surface
+      class(contact_fields), allocatable, intent(out) :: answer
 
-      series = pressure_series(self)
-      if (self%setup%turned) series = to_sum_angles(series)
-   end subroutine pressure
+      type(series_fields), allocatable :: own
+
+      allocate (own)
+      call self%coefficients(surface, own%pressure)
+      own%displacement = surface%displacement_of(own%pressure)
+      own%shape = surface%shape
+      own%mean_gap = 1.0_dp - self%measures%approach_over_amplitude
+      call move_alloc(own, answer)
+   end subroutine fields
 
    subroutine coefficients(self, surface, series)
       class(beale_solution), intent(in) :: self
@@ -338,7 +346,8 @@ contains
       type(fourier_series), intent(out) :: series
 
       associate (unused => surface); end associate
-      call self%pressure(series)
+      series = pressure_series(self)
+      if (self%setup%turned) series = to_sum_angles(series)
    end subroutine coefficients
 
    !> The isobar p = edge_level p*.

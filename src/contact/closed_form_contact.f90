@@ -1,21 +1,20 @@
-!> solver = 'closed_form': Westergaard's solution of the 1-D wave. Its fields are its Fourier series, truncated.
+!> solver = 'closed_form': Westergaard's solution of the 1-D wave.
 module wavycon_closed_form_contact
    use wavycon_constants, only: pi
+   use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_measures, only: contact_measures
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver
    use wavycon_contact_status, only: closed_form
-   use wavycon_contact_tuning, only: field_terms
-   use wavycon_fourier_series, only: fourier_series
-   use wavycon_dundurs, only: dundurs_coefficients
    use wavycon_edge_curves, only: edge_curve, strip_ends
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: key_type
    use wavycon_kinds, only: dp
    use wavycon_kuznetsov, only: kuznetsov_mean_gap_over_amplitude
-   use wavycon_series_solution, only: series_solution
    use wavycon_surface, only: surface_type
-   use wavycon_westergaard, only: westergaard_contact_area_fraction, westergaard_peak_pressure_over_pstar
+   use wavycon_westergaard, only: westergaard_contact_area_fraction, westergaard_displacement_over_amplitude, &
+                                  westergaard_gap_over_amplitude, westergaard_peak_pressure_over_pstar, &
+                                  westergaard_pressure_over_pstar
    implicit none (type, external)
    private
 
@@ -35,11 +34,18 @@ module wavycon_closed_form_contact
       procedure :: solve_partial_contact
    end type closed_form_contact
 
-   type, extends(series_solution) :: closed_form_solution
+   type, extends(contact_solution) :: closed_form_solution
    contains
-      procedure :: pressure
+      procedure :: fields
       procedure :: edge_curves
    end type closed_form_solution
+
+   type, extends(contact_fields) :: closed_form_fields
+      real(dp) :: pbar_over_pstar = 0.0_dp    !! P
+   contains
+      procedure :: at
+      procedure :: on_grid
+   end type closed_form_fields
 
 contains
 
@@ -113,14 +119,44 @@ contains
       end associate
    end subroutine solve_partial_contact
 
-   subroutine pressure(self, series)
+   subroutine fields(self, surface, answer)
       class(closed_form_solution), intent(in) :: self
-      type(fourier_series), intent(out) :: series
+      type(surface_type), intent(in) :: surface
+      class(contact_fields), allocatable, intent(out) :: answer
 
-      allocate (series%c(0:field_terms, 0:0))
-      series%c(0, 0) = self%pbar_over_pstar
-      series%c(1:, 0) = dundurs_coefficients(self%pbar_over_pstar, field_terms)
-   end subroutine pressure
+      associate (unused => surface); end associate
+      allocate (answer, source=closed_form_fields(self%pbar_over_pstar))
+   end subroutine fields
+
+   !> Eqs. (4) and (5) of the paper. Its psi is half of X.
+   subroutine at(self, x, y, pressure, displacement, gap)
+      class(closed_form_fields), intent(inout) :: self
+      real(dp), intent(in) :: x, y
+      real(dp), intent(out) :: pressure, displacement, gap
+
+      associate (unused => y); end associate
+      pressure = westergaard_pressure_over_pstar(x/2, self%pbar_over_pstar)
+      displacement = westergaard_displacement_over_amplitude(x/2, self%pbar_over_pstar)
+      gap = westergaard_gap_over_amplitude(x/2, self%pbar_over_pstar)
+   end subroutine at
+
+   subroutine on_grid(self, points, offset, pressure, displacement, gap)
+      class(closed_form_fields), intent(inout) :: self
+      integer, intent(in) :: points(2)
+      real(dp), intent(in) :: offset(2)
+      real(dp), allocatable, intent(out) :: pressure(:, :), displacement(:, :), gap(:, :)
+
+      integer :: k
+
+      allocate (pressure(points(1), points(2)), displacement(points(1), points(2)), gap(points(1), points(2)))
+      do k = 1, points(1)
+         call self%at(2*pi*(k - 1 + offset(1))/points(1), 0.0_dp, pressure(k, 1), displacement(k, 1), gap(k, 1))
+      end do
+      ! The fields of a profile do not depend on y.
+      pressure = spread(pressure(:, 1), 2, points(2))
+      displacement = spread(displacement(:, 1), 2, points(2))
+      gap = spread(gap(:, 1), 2, points(2))
+   end subroutine on_grid
 
    subroutine edge_curves(self, surface, curves)
       class(closed_form_solution), intent(in) :: self

@@ -1,65 +1,55 @@
-!> The pressure and the displacement of one solution, at points and on the grid of a cell.
+!> The pressure, the displacement and the gap of one solution, at points and on grids of the cell.
+!>
+!> Positions are the angles X, Y of the surface's cell. Where the gap is open the pressure is exactly 0, and in contact
+!> the gap is, unless an extension says otherwise. Gap, displacement u and undeformed gap h agree everywhere:
+!> gap = h + u - approach.
 module wavycon_contact_fields
-   use wavycon_fourier_series, only: fourier_series
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
 
-   public :: contact_fields, series_fields
+   public :: contact_fields
 
    type, abstract :: contact_fields
    contains
       procedure(fields_at_point), deferred :: at
-      procedure(fields_on_cell), deferred :: on_cell
+      procedure(fields_on_grid), deferred :: on_grid
+      procedure :: own_points
    end type contact_fields
 
    abstract interface
       !> At one point.
-      subroutine fields_at_point(self, x, y, pressure, displacement)
+      subroutine fields_at_point(self, x, y, pressure, displacement, gap)
          import :: contact_fields, dp
          class(contact_fields), intent(inout) :: self
-         real(dp), intent(in) :: x, y                       !! X, Y of the surface's cell [rad]
-         real(dp), intent(out) :: pressure, displacement    !! p/p*, (u - ubar)/Delta
+         real(dp), intent(in) :: x, y             !! X, Y [rad]
+         real(dp), intent(out) :: pressure        !! p/p*
+         real(dp), intent(out) :: displacement    !! (u - ubar)/Delta
+         real(dp), intent(out) :: gap             !! gap/Delta
       end subroutine fields_at_point
 
-      !> At X = 2 pi k/N, Y = 2 pi l/N, k, l = 0..N (l = 0 alone in 1-D).
-      subroutine fields_on_cell(self, intervals, dimension, pressure, displacement)
+      !> At X = 2 pi (k + offset_x)/N_x, k = 0 .. N_x - 1, and the same in Y.
+      subroutine fields_on_grid(self, points, offset, pressure, displacement, gap)
          import :: contact_fields, dp
          class(contact_fields), intent(inout) :: self
-         integer, intent(in) :: intervals, dimension   !! N; 1 or 2
-         !> p/p* and (u - ubar)/Delta, shape (0:N, 0:N) in 2-D, (0:N, 0:0) in 1-D.
-         real(dp), allocatable, intent(out) :: pressure(:, :), displacement(:, :)
-      end subroutine fields_on_cell
+         integer, intent(in) :: points(2)       !! N_x, N_y >= 1; N_y = 1 in 1-D
+         real(dp), intent(in) :: offset(2)      !! of the first point, in steps; 0 along y in 1-D
+         !> p/p*, (u - ubar)/Delta and gap/Delta, shape (N_x, N_y).
+         real(dp), allocatable, intent(out) :: pressure(:, :), displacement(:, :), gap(:, :)
+      end subroutine fields_on_grid
    end interface
-
-   !> Pressure and displacement as Fourier series in X and Y.
-   type, extends(contact_fields) :: series_fields
-      type(fourier_series) :: pressure, displacement
-   contains
-      procedure :: at => series_at
-      procedure :: on_cell => series_on_cell
-   end type series_fields
 
 contains
 
-   subroutine series_at(self, x, y, pressure, displacement)
-      class(series_fields), intent(inout) :: self
-      real(dp), intent(in) :: x, y
-      real(dp), intent(out) :: pressure, displacement
+   !> The grid that the solution was computed on, where its numbers are exact. Zeros here: there is none.
+   pure subroutine own_points(self, points, offset)
+      class(contact_fields), intent(in) :: self
+      integer, intent(out) :: points(2)     !! N_x, N_y as of on_grid
+      real(dp), intent(out) :: offset(2)    !! as of on_grid
 
-      pressure = self%pressure%at(x, y)
-      displacement = self%displacement%at(x, y)
-   end subroutine series_at
-
-   !> The argument `dimension` is not used: the series have one.
-   subroutine series_on_cell(self, intervals, dimension, pressure, displacement)
-      class(series_fields), intent(inout) :: self
-      integer, intent(in) :: intervals, dimension
-      real(dp), allocatable, intent(out) :: pressure(:, :), displacement(:, :)
-
-      associate (unused => dimension); end associate
-      call self%pressure%evaluate_on_cell(intervals, pressure)
-      call self%displacement%evaluate_on_cell(intervals, displacement)
-   end subroutine series_on_cell
+      associate (unused => self); end associate
+      points = 0
+      offset = 0.0_dp
+   end subroutine own_points
 
 end module wavycon_contact_fields

@@ -4,10 +4,11 @@
 !> edges are the angles X, Y of the surface's cell.
 module wavycon_contact_solution
    use wavycon_contact_details, only: contact_details
-   use wavycon_contact_fields, only: contact_fields, series_fields
+   use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_measures, only: contact_measures, unmeasured
    use wavycon_contact_status, only: full_contact, is_good_status
    use wavycon_edge_curves, only: edge_curve
+   use wavycon_edgeless_fields, only: edgeless_fields, start_edgeless_fields
    use wavycon_fourier_series, only: fourier_series
    use wavycon_kinds, only: dp
    use wavycon_surface, only: surface_type
@@ -41,7 +42,7 @@ module wavycon_contact_solution
    end type contact_solution
 
    abstract interface
-      !> Pressure and displacement. Not allocated if the solver was started without keep_fields.
+      !> Pressure, displacement and gap. Not allocated if the solver was started without keep_fields.
       subroutine fields_of_solution(self, surface, answer)
          import :: contact_fields, contact_solution, surface_type
          class(contact_solution), intent(in) :: self
@@ -67,7 +68,7 @@ module wavycon_contact_solution
    !> Full contact, no load, or no solution at all.
    type, extends(contact_solution) :: solution_without_contact_edge
    contains
-      procedure :: fields => uniform_fields
+      procedure :: fields => fields_without_edge
       procedure :: edge_curves => no_curves
       procedure :: coefficients => uniform_coefficients
    end type solution_without_contact_edge
@@ -149,7 +150,7 @@ contains
       self%residual = values(12)
    end subroutine unpack_common
 
-   !> Makes the solution that stands for a failure: no fields, no edge, and the largest possible error estimates.
+   !> Makes the solution that stands for a failure: fields of NaN, no edge, and the largest possible error estimates.
    subroutine no_solution(pbar_over_pstar, surface, solver, status, solution)
       real(dp), intent(in) :: pbar_over_pstar        !! P
       type(surface_type), intent(in) :: surface
@@ -164,20 +165,17 @@ contains
       solution%status = status
    end subroutine no_solution
 
-   !> Fields of full contact, or zero without load and without a solution.
-   subroutine uniform_fields(self, surface, answer)
+   subroutine fields_without_edge(self, surface, answer)
       class(solution_without_contact_edge), intent(in) :: self
       type(surface_type), intent(in) :: surface
       class(contact_fields), allocatable, intent(out) :: answer
 
-      type(series_fields), allocatable :: both
+      type(edgeless_fields), allocatable :: own
 
-      allocate (both)
-      call self%coefficients(surface, both%pressure)
-      both%displacement = both%pressure
-      if (self%status == full_contact) both%displacement = surface%shape
-      call move_alloc(both, answer)
-   end subroutine uniform_fields
+      allocate (own)
+      call start_edgeless_fields(own, surface, self%pbar_over_pstar, self%status)
+      call move_alloc(own, answer)
+   end subroutine fields_without_edge
 
    subroutine uniform_coefficients(self, surface, series)
       class(solution_without_contact_edge), intent(in) :: self

@@ -6,7 +6,7 @@ module wavycon_contact_status
    implicit none (type, external)
    private
 
-   public :: is_good_status
+   public :: is_good_status, status_code
 
    !> Good statuses: the solver converged, to the accuracy requested if it estimates errors; the solution is a closed
    !> form; the contact is full; there is no load.
@@ -30,5 +30,31 @@ contains
       is_good_status = status == converged .or. status == closed_form .or. status == full_contact .or. &
                        status == no_load
    end function is_good_status
+
+   !> The number of a status, for tables: below 10 if the status is good.
+   elemental integer function status_code(status)
+      character(*), intent(in) :: status   !! trailing blanks are ignored
+
+      select case (status)
+      case (converged)
+         status_code = 0
+      case (closed_form)
+         status_code = 1
+      case (full_contact)
+         status_code = 2
+      case (no_load)
+         status_code = 3
+      case (not_accurate)
+         status_code = 10
+      case (not_found)
+         status_code = 11
+      case (no_memory)
+         status_code = 12
+      case (not_finite)
+         status_code = 13
+      case default
+         status_code = 20
+      end select
+   end function status_code
 
 end module wavycon_contact_status

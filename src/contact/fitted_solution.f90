@@ -34,7 +34,7 @@ module wavycon_fitted_solution
       type(fitted_fields), allocatable :: fitted
    contains
       procedure :: at
-      procedure :: on_cell
+      procedure :: on_grid
    end type fitted_solution_fields
 
    !> Points of each edge curve.
@@ -59,40 +59,51 @@ contains
       call move_alloc(own, answer)
    end subroutine fields
 
-   subroutine at(self, x, y, pressure, displacement)
+   subroutine at(self, x, y, pressure, displacement, gap)
       class(fitted_solution_fields), intent(inout) :: self
       real(dp), intent(in) :: x, y
-      real(dp), intent(out) :: pressure, displacement
+      real(dp), intent(out) :: pressure, displacement, gap
 
       complex(dp) :: place
-      real(dp) :: gap
 
       associate (length => self%length)
          place = self%frame%place(length(1)*x/(2*pi), length(2)*y/(2*pi))
       end associate
       call self%fitted%at(place, pressure, displacement, gap)
-      pressure = pressure*self%frame%pressure_unit
+      ! Next to the edge rounding could make them negative.
+      pressure = max(pressure*self%frame%pressure_unit, 0.0_dp)
+      gap = max(gap, 0.0_dp)
    end subroutine at
 
    !> Points that are equivalent by mirror symmetry, by the diagonals of a square cell or by the second crest are
    !> evaluated once.
-   subroutine on_cell(self, intervals, dimension, pressure, displacement)
+   subroutine on_grid(self, points, offset, pressure, displacement, gap)
       class(fitted_solution_fields), intent(inout) :: self
-      integer, intent(in) :: intervals, dimension
-      real(dp), allocatable, intent(out) :: pressure(:, :), displacement(:, :)
+      integer, intent(in) :: points(2)
+      real(dp), intent(in) :: offset(2)
+      real(dp), allocatable, intent(out) :: pressure(:, :), displacement(:, :), gap(:, :)
 
-      integer :: k, l, image(2)
+      real(dp), parameter :: rounding = 1e-12_dp
+      integer :: k, l, first(2), twice_offset(2)
+      logical :: has_mirrors, is_square
 
-      associate (unused => dimension); end associate
-      allocate (pressure(0:intervals, 0:intervals), displacement(0:intervals, 0:intervals))
-      do l = 0, intervals
-         do k = 0, intervals
-            image = first_image(k, l)
-            if (all(image == [k, l])) then
-               call self%at(2*pi*k/intervals, 2*pi*l/intervals, pressure(k, l), displacement(k, l))
+      allocate (pressure(points(1), points(2)), displacement(points(1), points(2)), gap(points(1), points(2)))
+      twice_offset = nint(2*offset)
+      has_mirrors = all(abs(2*offset - twice_offset) <= rounding)
+      is_square = self%is_square .and. points(1) == points(2) .and. twice_offset(1) == twice_offset(2)
+      do l = 0, points(2) - 1
+         do k = 0, points(1) - 1
+            first = [k, l]
+            if (has_mirrors) first = first_image(first)
+            if (all(first == [k, l])) then
+               associate (angles => 2*pi*([k, l] + offset)/points)
+                  call self%at(angles(1), angles(2), pressure(k + 1, l + 1), displacement(k + 1, l + 1), &
+                               gap(k + 1, l + 1))
+               end associate
             else
-               pressure(k, l) = pressure(image(1), image(2))
-               displacement(k, l) = displacement(image(1), image(2))
+               pressure(k + 1, l + 1) = pressure(first(1) + 1, first(2) + 1)
+               displacement(k + 1, l + 1) = displacement(first(1) + 1, first(2) + 1)
+               gap(k + 1, l + 1) = gap(first(1) + 1, first(2) + 1)
             end if
          end do
       end do
@@ -100,29 +111,29 @@ contains
    contains
 
       !> Of all points equivalent to this one, the one that the loop reaches first.
-      pure function first_image(i, j) result(first)
-         integer, intent(in) :: i, j
+      pure function first_image(point) result(first)
+         integer, intent(in) :: point(2)
          integer :: first(2)
 
          integer :: other(2)
 
-         first = ordered([min(i, intervals - i), min(j, intervals - j)])
-         if (self%frame%crests == 2 .and. mod(intervals, 2) == 0) then
-            other = ordered(intervals/2 - first)
+         first = reflected(point)
+         if (self%frame%crests == 2 .and. all(mod(points, 2) == 0)) then
+            other = reflected(point + points/2)
             if (other(2) < first(2) .or. (other(2) == first(2) .and. other(1) < first(1))) first = other
          end if
       end function first_image
 
-      !> The point or, on a square cell, the equivalent one on the other side of the diagonal with k >= l.
-      pure function ordered(point)
+      !> The first of the mirror images of a point and, on a square cell, of those on the other side of its diagonals.
+      pure function reflected(point)
          integer, intent(in) :: point(2)
-         integer :: ordered(2)
+         integer :: reflected(2)
 
-         ordered = point
-         if (self%is_square .and. point(2) > point(1)) ordered = point([2, 1])
-      end function ordered
+         reflected = min(modulo(point, points), modulo(-point - twice_offset, points))
+         if (is_square .and. reflected(2) > reflected(1)) reflected = reflected([2, 1])
+      end function reflected
 
-   end subroutine on_cell
+   end subroutine on_grid
 
    !> A closed curve about each crest or, once the spots have merged, about each trough.
    subroutine edge_curves(self, surface, curves)

@@ -6,26 +6,24 @@
 module wavycon_grid_contact
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_constants, only: pi
+   use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_measures, only: contact_measures
    use wavycon_contact_solution, only: contact_solution, no_solution, pack_common, packed_values, unpack_common
    use wavycon_contact_solver, only: contact_solver
    use wavycon_contact_status, only: converged, no_memory, not_accurate
    use wavycon_contact_tuning, only: least_search_points, worst_search_accuracy
    use wavycon_edge_curves, only: edge_curve, strip_ends, trace_edges, turn_curves, whole_strips
-   use wavycon_fourier_series, only: fourier_series
    use wavycon_grid_cascade, only: cascade_answer, solve_by_cascade
    use wavycon_grid_edge, only: grid_edge, grid_strip_edges, start_grid_edge
-   use wavycon_grid_transform, only: grid_transform
+   use wavycon_grid_fields, only: grid_fields, start_grid_fields
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: key_type
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: integer_text, short_number
    use wavycon_problems, only: problem_list_type
    use wavycon_qp_problem, only: qp_iteration_limit, qp_status_name
-   use wavycon_series_solution, only: series_solution
    use wavycon_solver_keys, only: accuracy_key, check_grid_points, grid_points_key, points_of_grid, set_grid_defaults
    use wavycon_surface, only: surface_type
-   use wavycon_turned_series, only: to_half_angles
    implicit none (type, external)
    private
 
@@ -55,11 +53,11 @@ module wavycon_grid_contact
       procedure :: new_kept_solution
    end type grid_contact
 
-   type, extends(series_solution) :: grid_solution
+   type, extends(contact_solution) :: grid_solution
       type(grid_edge), allocatable :: edge    !! pressure and gap at the grid points; not allocated if not kept
       logical, private :: turned = .false.    !! the grid's cell is the smaller one, turned by 45 degrees
    contains
-      procedure :: pressure
+      procedure :: fields
       procedure :: edge_curves
       procedure :: is_kept
       procedure :: pack_kept
@@ -201,20 +199,18 @@ contains
       call move_alloc(own, solution)
    end subroutine solve_partial_contact
 
-   subroutine pressure(self, series)
+   subroutine fields(self, surface, answer)
       class(grid_solution), intent(in) :: self
-      type(fourier_series), intent(out) :: series
+      type(surface_type), intent(in) :: surface
+      class(contact_fields), allocatable, intent(out) :: answer
 
-      type(grid_transform) :: transform
-      real(dp), allocatable :: p(:, :)
+      type(grid_fields), allocatable :: own
 
       if (.not. allocated(self%edge)) return
-      allocate (p, mold=self%edge%pressure_or_gap)
-      p = max(self%edge%pressure_or_gap, 0.0_dp)
-      call transform%start(shape(p), self%edge%even)
-      call transform%series(p, series)
-      if (self%turned) series = to_half_angles(series)
-   end subroutine pressure
+      allocate (own)
+      call start_grid_fields(own, surface, self%edge, self%measures%mean_gap_over_amplitude, self%turned)
+      call move_alloc(own, answer)
+   end subroutine fields
 
    subroutine edge_curves(self, surface, curves)
       class(grid_solution), intent(in) :: self

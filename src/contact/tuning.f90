@@ -101,10 +101,4 @@ module wavycon_contact_tuning
    !> Largest ratio of the two curvatures of a crest, for the same reason.
    real(dp), parameter, public :: largest_curvature_ratio = 50.0_dp
 
-   ! Closed form.
-
-   !> Terms of the series of the pressure. Its coefficients fall as i^(-3/2): the series is then within 1e-5 p* of the
-   !> pressure except next to the edge.
-   integer, parameter, public :: field_terms = 2000
-
 end module wavycon_contact_tuning

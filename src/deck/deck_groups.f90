@@ -165,6 +165,10 @@ contains
 
       integer :: bracket, i
 
+      if (key == table%former_key) then
+         words = key//' is no longer a key: give '//trim(table%in_its_place)
+         return
+      end if
       bracket = index(key, '(')
       if (bracket > 1) then
          if (key_index(table%keys, key(:bracket - 1)) > 0) then

@@ -34,6 +34,8 @@ contains
       scene%deck_path = deck%path
       scene%title = deck%scene%text('title')
       scene%case = deck%scene%text('case')
+      scene%pressure_unit = deck%scene%text('pressure_unit')
+      scene%length_unit = deck%scene%text('length_unit')
       scene%directory = deck%output%text('directory')
       scene%surface_kind = deck%surface_values%text('kind')
       scene%method = deck%method

@@ -1,8 +1,11 @@
 !> The &output group: which files are written, and where.
 module wavycon_output_group
    use wavycon_group_values, only: group_values
-   use wavycon_key_table, only: integer_key, key_group, key_group_type, key_type, logical_key, text_key
+   use wavycon_key_table, only: choice_key, integer_key, key_group, key_group_type, key_type, logical_key, text_key
+   use wavycon_map_table, only: text_side
+   use wavycon_plain_text, only: integer_text
    use wavycon_problems, only: problem_list_type
+   use wavycon_solver_keys, only: points_of_grid
    use wavycon_solver_list, only: get_solvers, solver_item
    use wavycon_surface, only: surface_type
    use wavycon_tables, only: all_tables, table_item
@@ -10,6 +13,11 @@ module wavycon_output_group
    private
 
    public :: output_table, check_output_group, plain_directory
+
+   !> Points of lines and maps along a side of the cell: as many as a height map may have.
+   integer, parameter :: most_points = 8192
+   !> Points of maps along a side of the cell where the deck, the surface and the method give none.
+   integer, parameter :: usual_points = 128
 
    !> Bytes of a directory's name. The default, 'outputs/' and the name of the case, must fit.
    integer, parameter, public :: longest_directory = 250
@@ -34,15 +42,23 @@ contains
          text_key('directory', "'outputs/<case>'", &
             'Where the results go, relative to where the program is started; made if it is not there.', &
             longest_directory), rows, &
-         integer_key('points_per_wavelength', '128', 'Points of lines and maps along a side of the cell.', &
-                     8, 4096)])
+         integer_key('line_points', '128', &
+            'intervals of the lines along a side of the cell; both ends are points.', 8, most_points), &
+         integer_key('map_points', "128, or the grid's", &
+            'points of the map along x and y; one number for both. The default is that of the grid, if it is given, '// &
+            'or of the file. Where they are those of the grid that was solved the map shows its points, otherwise '// &
+            'what lies between them.', 4, most_points, most_values=2), &
+         choice_key('map_format', "'auto'", &
+            "'text'; 'npy', a file of numpy, short and fast to read; 'auto', text up to "//integer_text(text_side)// &
+            ' x '//integer_text(text_side)//' points, npy beyond.', [character(4) :: 'auto', 'text', 'npy'])], &
+         former_key='points_per_wavelength', in_its_place='line_points for lines and map_points for maps')
    end function output_table
 
-   !> Sets the directory and checks the tables against the solver and the surface.
-   subroutine check_output_group(values, case, solver, surface, problems)
+   !> Sets the directory and the points of maps, and checks the tables against the solver and the surface.
+   subroutine check_output_group(values, case, method, surface, problems)
       type(group_values), intent(inout) :: values
       character(*), intent(in) :: case     !! name of the case; the default directory is outputs/<case>
-      character(*), intent(in) :: solver   !! of &method
+      type(group_values), intent(in) :: method   !! after its check
       type(surface_type), allocatable, intent(in) :: surface   !! not allocated if it has problems
       type(problem_list_type), intent(inout) :: problems
 
@@ -54,10 +70,11 @@ contains
       call values%set_default('directory', 'outputs/'//case)
       call values%set('directory', plain_directory(values%text('directory')))
       if (.not. allocated(surface)) return
+      if (.not. (values%is_bad('map_points') .or. method%is_bad('grid_points'))) call set_map_points(values, method, surface)
       call get_solvers(solvers)
       call all_tables(tables)
       do k = 1, size(solvers)
-         if (solvers(k)%solver%name() /= solver) cycle
+         if (solvers(k)%solver%name() /= method%text('solver')) cycle
          do i = 1, size(tables)
             key = tables(i)%table%key()
             if (key == '') cycle
@@ -67,6 +84,26 @@ contains
          end do
       end do
    end subroutine check_output_group
+
+   !> Sets the points of maps in full: as given or, by default, those of the grid to solve or of the height map.
+   subroutine set_map_points(values, method, surface)
+      type(group_values), intent(inout) :: values
+      type(group_values), intent(in) :: method
+      type(surface_type), intent(in) :: surface
+
+      integer :: points(2)
+
+      associate (given => values%integers('map_points'))
+         if (values%has('map_points')) then
+            points = given([1, size(given)])
+         else
+            points = points_of_grid(method, surface)
+            if (all(points == 0)) points = surface%points
+            if (all(points == 0)) points = usual_points
+         end if
+      end associate
+      call values%set('map_points', points(:surface%dimension))
+   end subroutine set_map_points
 
    !> The path of a directory without superfluous './' and '/', so that equal paths are equal texts.
    pure function plain_directory(name) result(plain)

@@ -72,7 +72,7 @@ contains
       call read_surface(deck, problems, error)
       call check_load_group(deck%load, problems)
       call check_method_group(deck%method, deck%surface_values%text('kind'), deck%surface, problems)
-      call check_output_group(deck%output, deck%scene%text('case'), deck%method%text('solver'), deck%surface, problems)
+      call check_output_group(deck%output, deck%scene%text('case'), deck%method, deck%surface, problems)
       ! Problems of the deck are reported rather than an error of its height map: the path of the map may be one of
       ! them.
       if (problems%number > 0) then

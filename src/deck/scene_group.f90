@@ -1,4 +1,4 @@
-!> The &scene group: the name of the case.
+!> The &scene group: the name of the case and the labels of its units.
 module wavycon_scene_group
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: key_group, key_group_type, text_key
@@ -9,6 +9,8 @@ module wavycon_scene_group
    public :: scene_table, check_scene_group
 
    integer, parameter :: longest_name = 200
+   !> Bytes of the label of a unit.
+   integer, parameter :: longest_unit = 20
    character(*), parameter :: plain = 'abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.'
    character(*), parameter :: plain_in_words = "letters, digits, '_', '-' and '.', the first neither '-' nor '.'"
 
@@ -23,7 +25,10 @@ contains
             may_be_blank=.true.), &
          text_key('case', "the deck's name", &
             'Stem of the names of the result files: '//plain_in_words// &
-            ". The deck's name is that of its file without '.nml'.", longest_name)])
+            ". The deck's name is that of its file without '.nml'.", longest_name), &
+         text_key('pressure_unit', "'pressure'", "Label of the deck's unit of pressures and moduli in the heads of "// &
+            "tables and in pictures, such as 'MPa'. No number is converted.", longest_unit), &
+         text_key('length_unit', "'length'", "Label of the deck's unit of lengths, such as 'mm'.", longest_unit)])
    end function scene_table
 
    !> Checks the name of the case. Its default is the name of the deck's file without '.nml'.
@@ -31,6 +36,8 @@ contains
       type(group_values), intent(inout) :: values
       type(problem_list_type), intent(inout) :: problems
 
+      call check_unit(values, 'pressure_unit', problems)
+      call check_unit(values, 'length_unit', problems)
       if (values%is_bad('case')) return
       if (.not. values%has('case') .and. .not. is_plain_name(stem(values%deck_path))) then
          call problems%add(values%place, "the deck's file name cannot serve as the name of the case ("// &
@@ -41,6 +48,17 @@ contains
       if (.not. is_plain_name(values%text('case'))) call values%complain(problems, 'case', &
          'case must be a plain file name of '//plain_in_words)
    end subroutine check_scene_group
+
+   !> Checks the label of a unit: the units of a table stand in one line, in brackets and separated by blanks.
+   subroutine check_unit(values, key, problems)
+      type(group_values), intent(inout) :: values
+      character(*), intent(in) :: key
+      type(problem_list_type), intent(inout) :: problems
+
+      if (values%is_bad(key)) return
+      if (scan(values%text(key), ' []') > 0) call values%complain(problems, key, &
+         key//" must have no blanks and no brackets, such as 'MPa' or 'N/mm^2'")
+   end subroutine check_unit
 
    !> Whether a text can be the stem of file names: as plain_in_words.
    pure logical function is_plain_name(name)

@@ -17,7 +17,6 @@ module wavycon_fourier_series
       procedure :: is_even
       procedure :: at
       procedure :: evaluate_on_grid
-      procedure :: evaluate_on_cell
    end type fourier_series
 
 contains
@@ -60,44 +59,6 @@ contains
       call add_products(self%c, cosine_table(intervals, ubound(self%c, 1)), &
                         cosine_table(intervals, ubound(self%c, 2)), values)
    end subroutine evaluate_on_grid
-
-   !> Any field on the whole cell, at X = 2 pi k/N, Y = 2 pi l/N, k, l = 0..N (l = 0 only in 1-D).
-   pure subroutine evaluate_on_cell(self, intervals, values)
-      class(fourier_series), intent(in) :: self
-      integer, intent(in) :: intervals                     !! N >= 1
-      real(dp), allocatable, intent(out) :: values(:, :)   !! shape (0:N, 0:N) or (0:N, 0:0)
-
-      real(dp), dimension(0:intervals, 0:ubound(self%c, 1)) :: cos_x, sin_x
-      real(dp), dimension(0:intervals, 0:ubound(self%c, 2)) :: cos_y, sin_y
-
-      allocate (values(0:intervals, 0:merge(intervals, 0, ubound(self%c, 2) > 0)), source=0.0_dp)
-      call tables(cos_x, sin_x)
-      call tables(cos_y, sin_y)
-      call add_products(self%c, cos_x, cos_y, values)
-      if (self%is_even()) return
-      call add_products(self%cs, cos_x, sin_y, values)
-      call add_products(self%sc, sin_x, cos_y, values)
-      call add_products(self%ss, sin_x, sin_y, values)
-
-   contains
-
-      !> cos iX and sin iX, of X = 2 pi k/N: every other angle of the table with 2N intervals on half a turn.
-      pure subroutine tables(cosines, sines)
-         real(dp), intent(out) :: cosines(0:, 0:), sines(0:, 0:)
-
-         real(dp) :: table(0:4*intervals, 0:1)
-         integer :: i, k
-
-         table = cosine_table(4*intervals, 1)
-         do i = 0, ubound(cosines, 2)
-            do k = 0, intervals
-               cosines(k, i) = table(folded(8*modulo(i*k, intervals), 4*intervals), 1)
-               sines(k, i) = table(folded(8*modulo(i*k, intervals) - 2*intervals, 4*intervals), 1)
-            end do
-         end do
-      end subroutine tables
-
-   end subroutine evaluate_on_cell
 
    !> values(k, l) = values(k, l) + sum_ij x(k, i) c(i, j) y(l, j)
    pure subroutine add_products(c, x, y, values)

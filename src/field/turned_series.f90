@@ -8,41 +8,28 @@ module wavycon_turned_series
    implicit none (type, external)
    private
 
-   public :: to_half_angles, to_sum_angles
+   public :: to_sum_angles
 
 contains
 
-   !> From X and Y, the angles of the primitive cell, to phi and theta, those of a cell of twice its area.
-   pure type(fourier_series) function to_half_angles(series) result(turned)
-      type(fourier_series), intent(in) :: series   !! in X and Y, the same with both exchanged
-
-      turned = rearranged(series, 1, sum(ubound(series%c)))
-   end function to_half_angles
-
-   !> From phi and theta to X and Y, of a field that has the period (pi, pi) too.
+   !> From phi and theta to X and Y, of a field that has the period (pi, pi) too: the terms (i, j) become terms
+   !> ((i+j)/2, |i-j|/2) and (|i-j|/2, (i+j)/2), half each.
    pure type(fourier_series) function to_sum_angles(series) result(turned)
       type(fourier_series), intent(in) :: series   !! in phi and theta; terms with odd i + j are zero but for rounding
 
-      turned = rearranged(series, 2, sum(ubound(series%c))/2)
-   end function to_sum_angles
+      integer :: i, j, low, high, last
 
-   !> The terms (i, j) as terms ((i+j)/d, |i-j|/d) and (|i-j|/d, (i+j)/d), half each.
-   pure type(fourier_series) function rearranged(series, divisor, last) result(turned)
-      type(fourier_series), intent(in) :: series
-      integer, intent(in) :: divisor, last   !! d; the highest harmonic of the result
-
-      integer :: i, j, low, high
-
+      last = sum(ubound(series%c))/2
       allocate (turned%c(0:last, 0:last), source=0.0_dp)
       do j = 0, ubound(series%c, 2)
          do i = 0, ubound(series%c, 1)
-            if (mod(i + j, divisor) /= 0) cycle
-            high = (i + j)/divisor
-            low = abs(i - j)/divisor
+            if (mod(i + j, 2) /= 0) cycle
+            high = (i + j)/2
+            low = abs(i - j)/2
             turned%c(high, low) = turned%c(high, low) + 0.5_dp*series%c(i, j)
             turned%c(low, high) = turned%c(low, high) + 0.5_dp*series%c(i, j)
          end do
       end do
-   end function rearranged
+   end function to_sum_angles
 
 end module wavycon_turned_series

@@ -43,15 +43,18 @@ module wavycon_key_table
       character(80) :: meaning = ''
       logical :: required = .false.
       type(key_type), allocatable :: keys(:)
+      character(name_length) :: former_key = ''    !! a key of earlier versions; empty: none
+      character(80) :: in_its_place = ''           !! what to give instead
    end type key_group_type
 
 contains
 
    !> A group with its keys.
-   pure function key_group(name, meaning, keys, required) result(group)
+   pure function key_group(name, meaning, keys, required, former_key, in_its_place) result(group)
       character(*), intent(in) :: name, meaning
       type(key_type), intent(in) :: keys(:)
       logical, intent(in), optional :: required
+      character(*), intent(in), optional :: former_key, in_its_place   !! both or neither
       type(key_group_type) :: group
 
       group%name = name
@@ -59,6 +62,8 @@ contains
       allocate (group%keys(size(keys)))
       group%keys(:) = keys
       if (present(required)) group%required = required
+      if (present(former_key)) group%former_key = former_key
+      if (present(in_its_place)) group%in_its_place = in_its_place
    end function key_group
 
    !> A key whose value is a number or, with most_values, a list of numbers.

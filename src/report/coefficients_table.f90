@@ -15,6 +15,9 @@ module wavycon_coefficients_table
 
    public :: coefficients_table
 
+   !> In 1-D j = 0.
+   character(40), parameter :: columns(*) = [character(40) :: 'load[-]', 'i[-]', 'j[-]', 'pressure_over_pstar[-]']
+
    type, extends(table_type) :: coefficients_table
    contains
       procedure, nopass :: key
@@ -58,21 +61,17 @@ contains
       type(fourier_series) :: pressure
       integer :: load, i, j
 
-      call results%open_table('coefficients', file)
-      if (results%scene%surface%dimension == 1) then
-         call file%put_columns([character(8) :: 'i[-]', 'A_i[-]'])
-      else
-         call file%put_columns([character(8) :: 'i[-]', 'j[-]', 'A_ij[-]'])
-      end if
+      call results%open_table('coefficients', columns, file, in_blocks=.true.)
       do load = 1, size(results%loads)
-         call results%put_load_heading(file, load, first=load == 1)
+         call results%begin_block(file, load)
          call results%loads(load)%solution%coefficients(results%scene%surface, pressure)
          if (.not. allocated(pressure%c)) cycle
          do i = 0, ubound(pressure%c, 1)
             do j = 0, ubound(pressure%c, 2)
                if (i + j == 0) cycle
+               call file%add(load)
                call file%add(i)
-               if (results%scene%surface%dimension == 2) call file%add(j)
+               call file%add(j)
                call file%add(pressure%c(i, j))
                call file%end_row()
             end do

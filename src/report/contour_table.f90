@@ -7,7 +7,6 @@ module wavycon_contour_table
    use wavycon_constants, only: pi
    use wavycon_edge_curves, only: edge_curve
    use wavycon_error, only: error_type
-   use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
    use wavycon_results, only: results_type
    use wavycon_table, only: table_type
@@ -15,6 +14,8 @@ module wavycon_contour_table
    private
 
    public :: contour_table
+
+   character(40), parameter :: columns(*) = [character(40) :: 'load[-]', 'curve[-]', 'x[length]', 'y[length]']
 
    type, extends(table_type) :: contour_table
    contains
@@ -52,35 +53,38 @@ contains
 
       type(output_file) :: file
       type(edge_curve), allocatable :: curves(:)
-      integer :: load, i, blocks
+      integer :: load, i
+      logical :: any_curve
 
-      call results%open_table('contour', file)
-      call file%put_columns([character(40) :: 'pbar_over_pstar[-]', 'x[length]', 'y[length]'])
-      blocks = 0
+      call results%open_table('contour', columns, file, in_blocks=.true.)
+      any_curve = .false.
       do load = 1, size(results%loads)
          call results%loads(load)%solution%edge_curves(results%scene%surface, curves)
          if (size(curves) == 0) cycle
-         blocks = blocks + 1
-         call results%put_load_heading(file, load, first=blocks == 1)
+         any_curve = .true.
+         call results%begin_block(file, load)
          do i = 1, size(curves)
             if (i > 1) call file%put('')
-            call put_curve(results, file, load, curves(i))
+            call put_curve(results, file, load, i, curves(i))
          end do
       end do
+      if (.not. any_curve) call file%put_names()
       call file%finish(error)
    end subroutine write_contour_table
 
-   subroutine put_curve(results, file, load, curve)
+   subroutine put_curve(results, file, load, number, curve)
       type(results_type), intent(in) :: results
       type(output_file), intent(inout) :: file
-      integer, intent(in) :: load
+      integer, intent(in) :: load, number     !! of the load in the deck, of the curve in the load
       type(edge_curve), intent(in) :: curve   !! in X and Y
 
       integer :: i
 
       do i = 1, size(curve%phi)
-         call file%put_values([results%loads(load)%solution%pbar_over_pstar, &
-                               results%scene%surface%length*[curve%phi(i), curve%theta(i)]/(2*pi)])
+         call file%add(load)
+         call file%add(number)
+         call file%add(results%scene%surface%length*[curve%phi(i), curve%theta(i)]/(2*pi))
+         call file%end_row()
       end do
    end subroutine put_curve
 

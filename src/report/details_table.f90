@@ -1,14 +1,15 @@
 !> <case>.details.dat: numbers that the summary does not have, with error estimates, from solvers that compute them.
 !>
-!> The table has a line for each load; for a load without details (no load, full contact, no solution) that line is a
-!> comment with the status.
+!> The table has a row for each load. What a load without details (no load, full contact, no solution) does not have is NaN,
+!> its degree 0.
 module wavycon_details_table
    use wavycon_contact_details, only: contact_details
    use wavycon_contact_solver, only: contact_solver
+   use wavycon_contact_status, only: status_code
    use wavycon_error, only: error_type
+   use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
-   use wavycon_plain_text, only: exact_number
-   use wavycon_results, only: results_type
+   use wavycon_results, only: not_a_number, results_type
    use wavycon_surface, only: surface_type
    use wavycon_solver_list, only: solvers_with_details
    use wavycon_table, only: table_type
@@ -19,12 +20,17 @@ module wavycon_details_table
 
    !> The energy is per nominal area. The perimeter is that of one contact spot or, above merging, of one open island;
    !> the paper's cell has two of each.
-   character(40), parameter :: columns(*) = [character(40) :: &
-      'pbar_over_pstar[-]', 'mean_gap[Delta]', 'mean_gap_error[Delta]', 'contact_area_fraction[-]', &
-      'contact_area_error[-]', 'peak_pressure[p*]', 'peak_pressure_error[p*]', 'trough_gap[Delta]', &
-      'trough_gap_error[Delta]', 'saddle_gap[Delta]', 'saddle_gap_error[Delta]', 'saddle_pressure[p*]', &
-      'saddle_pressure_error[p*]', 'elastic_energy[p*Delta]', 'elastic_energy_error[p*Delta]', &
-      'perimeter[length]', 'perimeter_error[length]', 'degree[-]', 'status[-]']
+   character(45), parameter :: columns(*) = [character(45) :: &
+      'load[-]', 'pbar_over_pstar[-]', 'mean_gap_over_amplitude[-]', 'mean_gap_over_amplitude_error[-]', &
+      'contact_area_fraction[-]', 'contact_area_fraction_error[-]', 'peak_pressure_over_pstar[-]', &
+      'peak_pressure_over_pstar_error[-]', 'trough_gap_over_amplitude[-]', 'trough_gap_over_amplitude_error[-]', &
+      'saddle_gap_over_amplitude[-]', 'saddle_gap_over_amplitude_error[-]', 'saddle_pressure_over_pstar[-]', &
+      'saddle_pressure_over_pstar_error[-]', 'elastic_energy_over_pstar_amplitude[-]', &
+      'elastic_energy_over_pstar_amplitude_error[-]', 'perimeter[length]', 'perimeter_error[length]', 'degree[-]', &
+      'status_code[-]', 'status[-]']
+
+   !> Columns from trough gap to perimeter_error, which only some solutions have.
+   integer, parameter :: numbers_of_details = 10
 
    type, extends(table_type) :: details_table
    contains
@@ -76,30 +82,27 @@ contains
 
       type(output_file) :: file
       type(contact_details) :: details
+      real(dp) :: numbers(numbers_of_details)
       integer :: load
       logical :: found
 
-      call results%open_table('details', file)
-      call file%put_columns(columns)
+      call results%open_table('details', columns, file, in_blocks=.false.)
       do load = 1, size(results%loads)
          associate (solution => results%loads(load)%solution)
             call solution%details(details, found)
-            if (.not. found) then
-               call file%put('# no details at pbar/p* = '//exact_number(solution%pbar_over_pstar)//': '// &
-                             trim(solution%status))
-               cycle
-            end if
+            numbers = not_a_number()
+            if (found) numbers = [details%trough_gap, details%trough_gap_error, &
+                                  details%saddle_gap, details%saddle_gap_error, &
+                                  details%saddle_pressure, details%saddle_pressure_error, &
+                                  details%energy, details%energy_error, details%perimeter, details%perimeter_error]
+            call file%add(load)
             associate (measures => solution%measures)
-               call file%add([solution%pbar_over_pstar, &
-                              measures%mean_gap_over_amplitude, measures%mean_gap_error, &
+               call file%add([solution%pbar_over_pstar, measures%mean_gap_over_amplitude, measures%mean_gap_error, &
                               measures%contact_area_fraction, measures%contact_area_error, &
-                              measures%peak_pressure_over_pstar, measures%peak_pressure_error, &
-                              details%trough_gap, details%trough_gap_error, &
-                              details%saddle_gap, details%saddle_gap_error, &
-                              details%saddle_pressure, details%saddle_pressure_error, &
-                              details%energy, details%energy_error, details%perimeter, details%perimeter_error])
+                              measures%peak_pressure_over_pstar, measures%peak_pressure_error, numbers])
             end associate
             call file%add(details%degree)
+            call file%add(status_code(solution%status))
             call file%add(trim(solution%status))
             call file%end_row()
          end associate

@@ -1,17 +1,31 @@
 !> <case>.map.dat: the fields over one cell, a block for each load with a blank line between rows (gnuplot's grid
-!> format).
+!> format). Or <case>.map.npy: the same as an array of records for numpy.
 module wavycon_map_table
+   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_fields, only: contact_fields
    use wavycon_error, only: error_type
    use wavycon_kinds, only: dp
+   use wavycon_npy_header, only: npy_header
    use wavycon_output_file, only: output_file
+   use wavycon_plain_text, only: integer_text
    use wavycon_results, only: results_type
-   use wavycon_surface, only: gap_over_amplitude
+   use wavycon_series_samples, only: sample_series
+   use wavycon_system, only: has_memory_for
    use wavycon_table, only: table_type
    implicit none (type, external)
    private
 
    public :: map_table
+
+   !> A map of more points than the square of this is written in numpy's format, unless the deck says otherwise.
+   integer, parameter, public :: text_side = 257
+
+   !> Numbers for each point of a map: three fields and the surface, the spectrum of one, and those of the solution.
+   integer(int64), parameter :: numbers_a_point = 7
+
+   character(40), parameter :: columns(*) = [character(40) :: &
+      'load[-]', 'x[length]', 'y[length]', 'pressure[pressure]', 'gap[length]', 'displacement[length]', &
+      'undeformed_gap[length]']
 
    type, extends(table_type) :: map_table
    contains
@@ -48,44 +62,109 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(output_file) :: file
-      integer :: load
+      logical :: as_text
+      integer :: load, points(2)
+      real(dp) :: offset(2)
 
-      call results%open_table('map', file)
-      call file%put_columns([character(40) :: 'pbar_over_pstar[-]', 'x[length]', 'y[length]', &
-                             'undeformed_gap[Delta]', 'pressure_over_pstar[-]', 'displacement[Delta]', &
-                             'gap[Delta]'])
+      points = map_points(results)
+      as_text = is_text(results%scene%output%text('map_format'), points)
+      if (as_text) then
+         call results%open_table('map', columns, file, in_blocks=.true.)
+      else
+         call file%open(results%scene%directory, results%scene%case//'.map.npy', binary=.true.)
+         call file%put_raw(npy_header(record_names(), [size(results%loads), points(2), points(1)]))
+      end if
+      if (.not. has_memory_for(numbers_a_point*product(int(points, int64)))) call file%note_trouble( &
+         'there is not enough memory for '//integer_text(points(1))//' x '//integer_text(points(2))//' points')
+      if (file%is_open()) offset = map_offset(results, points)
       do load = 1, size(results%loads)
-         call results%put_load_heading(file, load, first=load == 1)
-         call put_map(results, file, load)
+         if (.not. file%is_open()) exit
+         if (as_text) call results%begin_block(file, load)
+         call put_map(results, load, points, offset, as_text, file)
       end do
       call file%finish(error)
    end subroutine write_map_table
 
-   !> Writes the map of a load. The first and the last point of a row are both written: each side has
-   !> points_per_wavelength intervals.
-   subroutine put_map(results, file, load)
+   !> The points of the map along x and y.
+   function map_points(results) result(points)
       type(results_type), intent(in) :: results
-      type(output_file), intent(inout) :: file
-      integer, intent(in) :: load
+      integer :: points(2)
+
+      points = 1
+      associate (given => results%scene%output%integers('map_points'))
+         points(:size(given)) = given
+      end associate
+   end function map_points
+
+   !> Whether a map is written as a text.
+   pure logical function is_text(map_format, points)
+      character(*), intent(in) :: map_format   !! the key
+      integer, intent(in) :: points(2)
+
+      is_text = map_format == 'text' .or. (map_format == 'auto' .and. product(int(points, int64)) <= text_side**2)
+   end function is_text
+
+   !> The place of the first point, in steps, the same for all loads: that of a grid that was solved with as many points.
+   function map_offset(results, points) result(offset)
+      type(results_type), intent(in) :: results
+      integer, intent(in) :: points(2)
+      real(dp) :: offset(2)
 
       class(contact_fields), allocatable :: fields
-      real(dp), allocatable :: p(:, :), shape(:, :), u(:, :)
-      real(dp) :: approach
-      integer :: k, l, n
+      integer :: load, own(2)
 
-      n = results%scene%output%integer('points_per_wavelength')
-      associate (surface => results%scene%surface, solution => results%loads(load)%solution)
-         approach = solution%measures%approach_over_amplitude
-         call solution%fields(surface, fields)
-         call fields%on_cell(n, surface%dimension, p, u)
-         call surface%shape%evaluate_on_cell(n, shape)
-         do l = 0, merge(n, 0, surface%dimension == 2)
-            if (l > 0) call file%put('')
-            do k = 0, n
-               call file%put_values([solution%pbar_over_pstar, surface%length(1)*k/n, &
-                                     surface%length(2)*l/n, 1.0_dp - shape(k, l), p(k, l), u(k, l), &
-                                     gap_over_amplitude(1.0_dp - shape(k, l), u(k, l), approach)])
+      do load = 1, size(results%loads)
+         call results%loads(load)%solution%fields(results%scene%surface, fields)
+         call fields%own_points(own, offset)
+         if (all(own == points)) return
+      end do
+      offset = 0.0_dp
+   end function map_offset
+
+   !> The names of the columns in a file of numpy, whose first index is the load.
+   pure function record_names() result(names)
+      character(len(columns)) :: names(size(columns) - 1)
+
+      integer :: i
+
+      do i = 1, size(names)
+         names(i) = columns(i + 1)(:index(columns(i + 1), '[') - 1)
+      end do
+   end function record_names
+
+   !> Writes the map of a load. The point after the last of a row is the first again and is not written.
+   subroutine put_map(results, load, points, offset, as_text, file)
+      type(results_type), intent(in) :: results
+      integer, intent(in) :: load
+      integer, intent(in) :: points(2)
+      real(dp), intent(in) :: offset(2)       !! of the first point, in steps
+      logical, intent(in) :: as_text
+      type(output_file), intent(inout) :: file
+
+      class(contact_fields), allocatable :: fields
+      real(dp), allocatable :: gap(:, :), p(:, :), rows(:, :), shape(:, :), u(:, :)
+      integer :: k, l
+
+      allocate (rows(size(columns) - 1, points(1)))
+      associate (surface => results%scene%surface, p_star => results%scene%p_star)
+         call results%loads(load)%solution%fields(surface, fields)
+         call fields%on_grid(points, offset, p, u, gap)
+         call sample_series(surface%shape, points, offset, shape)
+         do l = 1, points(2)
+            do k = 1, points(1)
+               rows(:, k) = [surface%length*([k, l] - 1 + offset)/points, p_star*p(k, l), &
+                             surface%amplitude*[gap(k, l), u(k, l), 1.0_dp - shape(k, l)]]
             end do
+            if (as_text) then
+               if (l > 1) call file%put('')
+               do k = 1, points(1)
+                  call file%add(load)
+                  call file%add(rows(:, k))
+                  call file%end_row()
+               end do
+            else
+               call file%put_raw(rows)
+            end if
          end do
       end associate
    end subroutine put_map

@@ -1,6 +1,7 @@
 !> Result files. A file is written under a temporary name and renamed when it is complete.
 !>
-!> Tables are in gnuplot's format: header lines start with '#', and the last of them has the columns as name[unit].
+!> A table has header lines that start with '#', the last of them with the units of the columns, then one line with their
+!> names, then rows. gnuplot, numpy and pandas find columns by these names.
 module wavycon_output_file
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_error, only: error_type, exit_file_trouble, fatal_error
@@ -24,6 +25,8 @@ module wavycon_output_file
       character(:), allocatable :: name           !! final name
       character(:), allocatable :: working_name   !! temporary name
       character(:), allocatable :: trouble        !! first error; not allocated if there was none
+      character(:), allocatable :: names(:)       !! of the columns
+      integer :: blocks = 0                       !! data sets begun by begin_block
       integer, allocatable :: column_end(:)       !! position in a row at which each column ends
       character(:), allocatable :: row            !! the row being filled
       integer :: columns_filled = 0               !! of that row
@@ -31,14 +34,18 @@ module wavycon_output_file
       procedure :: open => open_file
       procedure :: is_open
       procedure :: put
+      procedure, private :: put_bytes
+      procedure, private :: put_numbers
+      generic :: put_raw => put_bytes, put_numbers
       procedure :: put_columns
+      procedure :: put_names
+      procedure :: begin_block
       procedure :: add_real
       procedure :: add_reals
       procedure :: add_integer
       procedure :: add_word
       generic :: add => add_real, add_reals, add_integer, add_word
       procedure :: end_row
-      procedure :: put_values
       procedure :: note_trouble
       procedure :: finish
    end type output_file
@@ -46,21 +53,25 @@ module wavycon_output_file
 contains
 
    !> Opens a file for writing. `finish` reports errors.
-   subroutine open_file(self, directory, name)
+   subroutine open_file(self, directory, name, binary)
       class(output_file), intent(out) :: self
-      character(*), intent(in) :: directory   !! existing
-      character(*), intent(in) :: name        !! of the file in the directory
+      character(*), intent(in) :: directory      !! existing
+      character(*), intent(in) :: name           !! of the file in the directory
+      logical, intent(in), optional :: binary    !! whether it is written by `put_raw` alone; if absent it is a text
 
       character(12) :: process
+      character(:), allocatable :: form
       character(200) :: message
       integer :: status
 
+      form = 'formatted'
+      if (present(binary)) form = trim(merge('unformatted', 'formatted  ', binary))
       write (process, '(i0)') process_id()
       self%name = directory//'/'//name
       self%working_name = directory//'/.'//name//'.'//trim(process)//'.part'
       call remove_when_interrupted(self%working_name)
       ! As a stream, because close_file needs the number of bytes written.
-      open (newunit=self%unit, file=self%working_name, access='stream', form='formatted', status='replace', &
+      open (newunit=self%unit, file=self%working_name, access='stream', form=form, status='replace', &
             action='write', iostat=status, iomsg=message)
       self%opened = status == 0
       if (.not. self%opened) call self%note_trouble(message)
@@ -86,26 +97,81 @@ contains
       if (status /= 0) call self%note_trouble(message)
    end subroutine put
 
-   !> Writes the header line with the names of the columns and sets the width of the columns to theirs.
-   subroutine put_columns(self, names)
+   !> Writes bytes to a binary file.
+   subroutine put_bytes(self, bytes)
       class(output_file), intent(inout) :: self
-      character(*), intent(in) :: names(:)   !! name[unit]
+      character(*), intent(in) :: bytes
+
+      character(200) :: message
+      integer :: status
+
+      if (allocated(self%trouble)) return
+      write (self%unit, iostat=status, iomsg=message) bytes
+      if (status /= 0) call self%note_trouble(message)
+   end subroutine put_bytes
+
+   !> Writes numbers to a binary file, in the order of the array.
+   subroutine put_numbers(self, numbers)
+      class(output_file), intent(inout) :: self
+      real(dp), intent(in), contiguous :: numbers(:, :)
+
+      character(200) :: message
+      integer :: status
+
+      if (allocated(self%trouble)) return
+      write (self%unit, iostat=status, iomsg=message) numbers
+      if (status /= 0) call self%note_trouble(message)
+   end subroutine put_numbers
+
+   !> Sets the columns and writes the header line of their units. `put_names` writes the names.
+   subroutine put_columns(self, names, units)
+      class(output_file), intent(inout) :: self
+      character(*), intent(in) :: names(:)   !! without blanks
+      character(*), intent(in) :: units(:)   !! as many; shown in brackets
 
       integer :: i, last
 
+      self%names = names
       allocate (self%column_end(size(names)))
       last = 0
       do i = 1, size(names)
-         last = last + max(narrowest, len_trim(names(i)) + merge(2, 1, i == 1))
+         last = last + max(narrowest, len_trim(names(i)) + 1, len_trim(units(i)) + 3 + merge(1, 0, i == 1))
          self%column_end(i) = last
       end do
       self%row = repeat(' ', last)
-      do i = 1, size(names)
-         call self%add(trim(names(i)))
+      do i = 1, size(units)
+         call self%add('['//trim(units(i))//']')
       end do
       self%row(1:1) = '#'
       call self%end_row()
    end subroutine put_columns
+
+   !> Writes the line with the names of the columns.
+   subroutine put_names(self)
+      class(output_file), intent(inout) :: self
+
+      integer :: i
+
+      do i = 1, size(self%names)
+         call self%add(trim(self%names(i)))
+      end do
+      call self%end_row()
+   end subroutine put_names
+
+   !> Begins a data set of gnuplot's `index`: two blank lines, unless it is the first, a comment, and the names of the
+   !> columns, which gnuplot looks for at the head of each data set.
+   subroutine begin_block(self, comment)
+      class(output_file), intent(inout) :: self
+      character(*), intent(in) :: comment
+
+      if (self%blocks > 0) then
+         call self%put('')
+         call self%put('')
+      end if
+      self%blocks = self%blocks + 1
+      call self%put('# '//comment)
+      call self%put_names()
+   end subroutine begin_block
 
    !> Fills the next column of a row with a number.
    subroutine add_real(self, value)
@@ -158,15 +224,6 @@ contains
       self%row(:) = ' '
       self%columns_filled = 0
    end subroutine end_row
-
-   !> Writes a row of numbers.
-   subroutine put_values(self, values)
-      class(output_file), intent(inout) :: self
-      real(dp), intent(in) :: values(:)   !! as many as there are columns
-
-      call self%add(values)
-      call self%end_row()
-   end subroutine put_values
 
    !> Records an error: `finish` will report it and remove the file.
    subroutine note_trouble(self, message)

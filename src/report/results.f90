@@ -1,5 +1,6 @@
 !> The data that the tables of one scene are written from, and the header lines that all tables have.
 module wavycon_results
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use wavycon_contact_solution, only: contact_solution_item
    use wavycon_contact_solver, only: contact_solver
    use wavycon_kinds, only: dp
@@ -10,7 +11,10 @@ module wavycon_results
    implicit none (type, external)
    private
 
-   public :: results_type
+   public :: results_type, not_a_number
+
+   !> Bytes of a unit's label, with '^2' after it.
+   integer, parameter :: longest_unit = 24
 
    type :: results_type
       type(scene_type), allocatable :: scene
@@ -18,59 +22,89 @@ module wavycon_results
       type(contact_solution_item), allocatable :: loads(:)   !! in the deck's order
    contains
       procedure :: open_table
-      procedure :: put_load_heading
+      procedure :: begin_block
+      procedure :: unit_in_words
       procedure :: mean_pressure
    end type results_type
 
 contains
 
-   !> Opens a table <case>.<kind>.dat and writes the header lines that all tables have. Errors show in file%finish.
-   subroutine open_table(self, kind, file)
+   !> Opens a table <case>.<kind>.dat, writes the header lines that all tables have and sets the columns. A table without
+   !> blocks has the names of its columns here, any other at the head of each block. Errors show in file%finish.
+   subroutine open_table(self, kind, columns, file, in_blocks)
       class(results_type), intent(in) :: self
       character(*), intent(in) :: kind         !! name of the table, such as 'summary'
+      character(*), intent(in) :: columns(:)   !! name[unit]; the units of `unit_in_words` are replaced
       type(output_file), intent(out) :: file
+      logical, intent(in) :: in_blocks         !! whether the rows come in blocks, each begun by `begin_block`
+
+      character(len(columns)) :: names(size(columns))
+      character(longest_unit) :: units(size(columns))
+      integer :: bracket, i
 
       call file%open(self%scene%directory, self%scene%case//'.'//kind//'.dat')
       call file%put('# wavycon '//version//' ('//revision//')')
       call file%put('# deck: '//escaped(self%scene%deck_path))
       if (self%scene%title /= '') call file%put('# title: '//escaped(self%scene%title))
-      associate (surface => self%scene%surface)
+      associate (surface => self%scene%surface, length => self%scene%length_unit, pressure => self%scene%pressure_unit)
          call file%put('# surface: '//self%scene%surface_kind// &
-                       ', Delta[length] = '//exact_number(surface%amplitude)//cell_sides())
-         call file%put('# material: e_star[pressure] = '//exact_number(self%scene%e_star)// &
-                       ', p*[pressure] = '//exact_number(self%scene%p_star))
+                       ', Delta['//length//'] = '//exact_number(surface%amplitude)//cell_sides())
+         call file%put('# material: e_star['//pressure//'] = '//exact_number(self%scene%e_star)// &
+                       ', p*['//pressure//'] = '//exact_number(self%scene%p_star))
          call file%put('# method: '//self%solver%name()//', '//self%solver%describe())
       end associate
+      do i = 1, size(columns)
+         bracket = index(columns(i), '[')
+         names(i) = columns(i)(:bracket - 1)
+         units(i) = self%unit_in_words(columns(i)(bracket + 1:index(columns(i), ']') - 1))
+      end do
+      call file%put_columns(names, units)
+      if (.not. in_blocks) call file%put_names()
 
    contains
 
       function cell_sides() result(words)
          character(:), allocatable :: words
 
-         words = ', cell_x[length] = '//exact_number(self%scene%surface%length(1))
-         if (self%scene%surface%dimension == 2) &
-            words = words//', cell_y[length] = '//exact_number(self%scene%surface%length(2))
+         words = ', cell_x['//self%scene%length_unit//'] = '//exact_number(self%scene%surface%length(1))
+         if (self%scene%surface%dimension == 2) words = words//', cell_y['//self%scene%length_unit//'] = '// &
+            exact_number(self%scene%surface%length(2))
       end function cell_sides
 
    end subroutine open_table
 
-   !> Begins the block of a load: two blank lines, which separate the data sets of gnuplot's `index`, and a comment with
-   !> the load.
-   subroutine put_load_heading(self, file, load, first)
+   !> The label of a unit: 'length', 'pressure' and 'area', which in 1-D is a length, as the deck names them; others as
+   !> they are.
+   pure function unit_in_words(self, unit) result(words)
+      class(results_type), intent(in) :: self
+      character(*), intent(in) :: unit
+      character(longest_unit) :: words
+
+      associate (length => self%scene%length_unit)
+         select case (unit)
+         case ('length')
+            words = length
+         case ('area')
+            words = length//merge('^2', '  ', self%scene%surface%dimension == 2)
+         case ('pressure')
+            words = self%scene%pressure_unit
+         case default
+            words = unit
+         end select
+      end associate
+   end function unit_in_words
+
+   !> Begins the block of a load with a comment and the names of the columns.
+   subroutine begin_block(self, file, load)
       class(results_type), intent(in) :: self
       type(output_file), intent(inout) :: file
       integer, intent(in) :: load    !! number in the deck's order
-      logical, intent(in) :: first   !! whether it is the first block of the file: no blank lines
 
-      if (.not. first) then
-         call file%put('')
-         call file%put('')
-      end if
       associate (solution => self%loads(load)%solution)
-         call file%put('# load '//integer_text(load)//': pbar/p* = '//exact_number(solution%pbar_over_pstar)//', '// &
-                       trim(solution%status))
+         call file%begin_block('load '//integer_text(load)//': pbar/p* = '//exact_number(solution%pbar_over_pstar)// &
+                               ', '//trim(solution%status))
       end associate
-   end subroutine put_load_heading
+   end subroutine begin_block
 
    !> The mean pressure of a load [pressure]. If the deck gives it, exactly that number.
    pure real(dp) function mean_pressure(self, load)
@@ -83,5 +117,10 @@ contains
          mean_pressure = self%scene%p_star*self%loads(load)%solution%pbar_over_pstar
       end if
    end function mean_pressure
+
+   !> The entry of a table for a number that does not exist.
+   pure real(dp) function not_a_number()
+      not_a_number = ieee_value(1.0_dp, ieee_quiet_nan)
+   end function not_a_number
 
 end module wavycon_results

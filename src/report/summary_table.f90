@@ -1,21 +1,24 @@
 !> <case>.summary.dat: mean gap, contact area, pressures, iterations, residual and status, a line for each load.
 module wavycon_summary_table
+   use wavycon_contact_status, only: status_code
    use wavycon_error, only: error_type
+   use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
-   use wavycon_results, only: results_type
+   use wavycon_results, only: not_a_number, results_type
    use wavycon_table, only: table_type
    implicit none (type, external)
    private
 
    public :: summary_table
 
-   character(40), parameter :: columns(*) = [character(40) :: &
-      'pbar_over_pstar[-]', 'mean_pressure[pressure]', 'mean_gap_over_amplitude[-]', 'approach_over_amplitude[-]', &
+   !> The errors are estimates; NaN if the solver has none.
+   character(45), parameter :: columns(*) = [character(45) :: &
+      'load[-]', 'pbar_over_pstar[-]', 'mean_gap_over_amplitude[-]', 'approach_over_amplitude[-]', &
       'contact_area_fraction[-]', 'peak_pressure_over_pstar[-]', 'min_pressure_over_pstar[-]', &
-      'active_constraints[-]', 'iterations[-]', 'residual[-]']
-   !> Error estimates and the solver of each load. Written only if the solver estimates errors, which 'beale' does not.
-   character(40), parameter :: error_columns(*) = [character(40) :: &
-      'mean_gap_error[-]', 'contact_area_error[-]', 'peak_pressure_error[-]', 'solver[-]']
+      'mean_gap_over_amplitude_error[-]', 'contact_area_fraction_error[-]', 'peak_pressure_over_pstar_error[-]', &
+      'mean_pressure[pressure]', 'mean_gap[length]', 'approach[length]', 'contact_area[area]', &
+      'peak_pressure[pressure]', 'active_constraints[-]', 'iterations[-]', 'residual[-]', 'solver[-]', &
+      'status_code[-]', 'status[-]']
 
    type, extends(table_type) :: summary_table
    contains
@@ -52,31 +55,47 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(output_file) :: file
-      logical :: with_errors
+      real(dp) :: errors(3)
       integer :: i
 
-      call results%open_table('summary', file)
-      with_errors = results%solver%has_error_estimates()
-      call file%put_columns([character(40) :: columns, error_columns(:merge(size(error_columns), 0, with_errors)), &
-                             'status[-]'])
+      call results%open_table('summary', columns, file, in_blocks=.false.)
       do i = 1, size(results%loads)
-         associate (solution => results%loads(i)%solution, measures => results%loads(i)%solution%measures)
-            call file%add([solution%pbar_over_pstar, results%mean_pressure(i), &
+         associate (scene => results%scene, solution => results%loads(i)%solution, &
+                    measures => results%loads(i)%solution%measures)
+            errors = not_a_number()
+            if (results%solver%has_error_estimates()) &
+               errors = [measures%mean_gap_error, measures%contact_area_error, measures%peak_pressure_error]
+            call file%add(i)
+            call file%add([solution%pbar_over_pstar, &
                            measures%mean_gap_over_amplitude, measures%approach_over_amplitude, &
                            measures%contact_area_fraction, measures%peak_pressure_over_pstar, &
-                           measures%min_pressure_over_pstar])
+                           measures%min_pressure_over_pstar, errors, results%mean_pressure(i), &
+                           scene%surface%amplitude*measures%mean_gap_over_amplitude, &
+                           scene%surface%amplitude*measures%approach_over_amplitude, &
+                           product(scene%surface%length(:scene%surface%dimension))*measures%contact_area_fraction, &
+                           peak_pressure(results, i)])
             call file%add(solution%active_constraints)
             call file%add(solution%iterations)
             call file%add(solution%residual)
-            if (with_errors) then
-               call file%add([measures%mean_gap_error, measures%contact_area_error, measures%peak_pressure_error])
-               call file%add(trim(solution%solver))
-            end if
+            call file%add(trim(solution%solver))
+            call file%add(status_code(solution%status))
             call file%add(trim(solution%status))
             call file%end_row()
          end associate
       end do
       call file%finish(error)
    end subroutine write_summary_table
+
+   !> The peak pressure of a load [pressure]. On a flat surface, whose p* is zero, it is the mean pressure.
+   pure real(dp) function peak_pressure(results, load)
+      type(results_type), intent(in) :: results
+      integer, intent(in) :: load
+
+      if (results%scene%p_star > 0.0_dp) then
+         peak_pressure = results%scene%p_star*results%loads(load)%solution%measures%peak_pressure_over_pstar
+      else
+         peak_pressure = results%mean_pressure(load)
+      end if
+   end function peak_pressure
 
 end module wavycon_summary_table

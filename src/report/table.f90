@@ -2,6 +2,7 @@
 module wavycon_table
    use wavycon_contact_solver, only: contact_solver
    use wavycon_error, only: error_type
+   use wavycon_group_values, only: group_values
    use wavycon_results, only: results_type
    use wavycon_surface, only: surface_type
    implicit none (type, external)
@@ -14,6 +15,7 @@ module wavycon_table
    contains
       procedure(words_of_table), deferred, nopass :: key
       procedure(words_of_table), deferred, nopass :: meaning
+      procedure :: is_requested
       procedure :: refusal
       procedure :: needs_fields
       procedure :: is_for_flat_surfaces
@@ -21,7 +23,7 @@ module wavycon_table
    end type table_type
 
    abstract interface
-      !> `key`: the logical key of &output that requests the table; empty for the one that is always written.
+      !> `key`: the logical key of &output that requests the table; empty if it has none.
       !> `meaning`: one sentence for the key reference.
       pure function words_of_table() result(words)
          character(:), allocatable :: words
@@ -36,6 +38,15 @@ module wavycon_table
    end interface
 
 contains
+
+   !> Whether the table is written. Here it is if its key is .true. and, without a key, always.
+   logical function is_requested(self, output)
+      class(table_type), intent(in) :: self
+      type(group_values), intent(in) :: output   !! of &output
+
+      is_requested = self%key() == ''
+      if (.not. is_requested) is_requested = output%logical(self%key())
+   end function is_requested
 
    !> `refusal`: why the table cannot be written for a solver and a surface, as a sentence for a message; empty if it
    !> can. Here it is empty.

@@ -7,6 +7,7 @@ module wavycon_tables
    use wavycon_map_table, only: map_table
    use wavycon_summary_table, only: summary_table
    use wavycon_table, only: table_type
+   use wavycon_theory_lines_table, only: theory_lines_table
    use wavycon_theory_table, only: theory_table
    implicit none (type, external)
    private
@@ -30,6 +31,7 @@ contains
       call add(tables, contour_table())
       call add(tables, coefficients_table())
       call add(tables, theory_table())
+      call add(tables, theory_lines_table())
       call add(tables, details_table())
    end subroutine all_tables
 

@@ -18,7 +18,7 @@ module wavycon_theory_table
    use wavycon_output_file, only: output_file
    use wavycon_penny_crack, only: penny_crack_contact_area_fraction, penny_crack_mean_gap_over_amplitude, &
                                   penny_crack_radius_over_wavelength
-   use wavycon_results, only: results_type
+   use wavycon_results, only: not_a_number, results_type
    use wavycon_surface, only: surface_type
    use wavycon_surface_kinds, only: paper_waves
    use wavycon_table, only: table_type
@@ -28,13 +28,18 @@ module wavycon_theory_table
 
    public :: theory_table
 
-   character(40), parameter :: columns_1d(*) = [character(40) :: &
-      'pbar_over_pstar[-]', 'kuznetsov_mean_gap[Delta]', 'westergaard_area[-]', 'westergaard_peak[p*]', &
-      'hertz_line_area[-]', 'line_crack_area[-]']
-   character(40), parameter :: columns_2d(*) = [character(40) :: &
-      'pbar_over_pstar[-]', 'hertz_area[-]', 'crack_area[-]', 'light_gap_eq29[Delta]', 'light_gap_lattice[Delta]', &
-      'crack_gap_eq30[Delta]', 'light_area_longer[-]', 'light_gap_longer[Delta]', 'closure_area_longer[-]', &
-      'closure_gap_longer[Delta]', 'hertz_peak[p*]', 'hertz_radius[length]', 'crack_radius[length]']
+   character(45), parameter :: columns(*) = [character(45) :: &
+      'load[-]', 'pbar_over_pstar[-]', &
+      'kuznetsov_mean_gap_over_amplitude[-]', 'westergaard_contact_area_fraction[-]', &
+      'westergaard_peak_pressure_over_pstar[-]', 'hertz_line_contact_area_fraction[-]', &
+      'line_crack_contact_area_fraction[-]', &
+      'hertz_contact_area_fraction[-]', 'crack_contact_area_fraction[-]', 'light_eq29_mean_gap_over_amplitude[-]', &
+      'light_lattice_mean_gap_over_amplitude[-]', 'crack_mean_gap_over_amplitude[-]', &
+      'light_longer_contact_area_fraction[-]', 'light_longer_mean_gap_over_amplitude[-]', &
+      'closure_longer_contact_area_fraction[-]', 'closure_longer_mean_gap_over_amplitude[-]', &
+      'hertz_peak_pressure_over_pstar[-]', 'hertz_radius[length]', 'crack_radius[length]']
+   !> Columns for the wave in one dimension and for that in two, after the first two columns. Those of the other are NaN.
+   integer, parameter :: closed_forms(2) = [5, 12]
 
    type, extends(table_type) :: theory_table
    contains
@@ -75,33 +80,30 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(output_file) :: file
-      integer :: load
+      integer :: i, load
 
-      call results%open_table('theory', file)
-      if (results%scene%surface%dimension == 1) then
-         call file%put_columns(columns_1d)
-      else
-         call file%put_columns(columns_2d)
-      end if
+      call results%open_table('theory', columns, file, in_blocks=.false.)
       do load = 1, size(results%loads)
          associate (p => results%loads(load)%solution%pbar_over_pstar, &
                     wavelength => results%scene%surface%paper_wavelength())
+            call file%add(load)
+            call file%add(p)
             if (results%scene%surface%dimension == 1) then
-               call file%put_values([p, kuznetsov_mean_gap_over_amplitude(p), &
-                                     westergaard_contact_area_fraction(p), &
-                                     westergaard_peak_pressure_over_pstar(p), hertz_line_contact_area_fraction(p), &
-                                     line_crack_contact_area_fraction(p)])
+               call file%add([kuznetsov_mean_gap_over_amplitude(p), westergaard_contact_area_fraction(p), &
+                              westergaard_peak_pressure_over_pstar(p), hertz_line_contact_area_fraction(p), &
+                              line_crack_contact_area_fraction(p), (not_a_number(), i=1, closed_forms(2))])
             else
-               call file%put_values([p, hertz_point_contact_area_fraction(p), &
-                                     penny_crack_contact_area_fraction(p), &
-                                     light_load_mean_gap_one_square(p), light_load_mean_gap_lattice(p), &
-                                     penny_crack_mean_gap_over_amplitude(p), light_load_contact_area_longer(p), &
-                                     light_load_mean_gap_longer(p), near_closure_contact_area_fraction(p), &
-                                     near_closure_mean_gap_over_amplitude(p), &
-                                     hertz_point_peak_pressure_over_pstar(p), &
-                                     wavelength*hertz_point_radius_over_wavelength(p), &
-                                     wavelength*penny_crack_radius_over_wavelength(p)])
+               call file%add([(not_a_number(), i=1, closed_forms(1)), hertz_point_contact_area_fraction(p), &
+                              penny_crack_contact_area_fraction(p), &
+                              light_load_mean_gap_one_square(p), light_load_mean_gap_lattice(p), &
+                              penny_crack_mean_gap_over_amplitude(p), light_load_contact_area_longer(p), &
+                              light_load_mean_gap_longer(p), near_closure_contact_area_fraction(p), &
+                              near_closure_mean_gap_over_amplitude(p), &
+                              hertz_point_peak_pressure_over_pstar(p), &
+                              wavelength*hertz_point_radius_over_wavelength(p), &
+                              wavelength*penny_crack_radius_over_wavelength(p)])
             end if
+            call file%end_row()
          end associate
       end do
       call file%finish(error)

@@ -22,6 +22,8 @@ module wavycon_scene
       character(:), allocatable :: surface_kind     !! the key `kind` of &surface
       type(surface_type), allocatable :: surface
       type(map_statistics), allocatable :: map      !! allocated for a height map
+      character(:), allocatable :: pressure_unit    !! label of the deck's unit of pressures, such as 'MPa'
+      character(:), allocatable :: length_unit      !! likewise of lengths
       real(dp) :: e_star = 1.0_dp                   !! plane-strain modulus [pressure]
       real(dp) :: p_star = 0.0_dp                   !! p*, mean pressure that just closes the gap [pressure]
       integer :: loads_by = by_pressure             !! by_pressure, by_mean_gap or by_contact_area

@@ -9,7 +9,7 @@ module wavycon_surface
    implicit none (type, external)
    private
 
-   public :: surface_type, surface_of_series, surface_of_points, gap_over_amplitude
+   public :: surface_type, surface_of_series, surface_of_points
 
    !> Whether the surface is a wave of Johnson, Greenwood & Higginson (1985), and in which angles. Straight: eq. (3) or
    !> (21) with phi = X, theta = Y. Turned: eq. (21) with phi = (X + Y)/2, theta = (X - Y)/2.
@@ -120,15 +120,6 @@ contains
 
       gap = 1.0_dp - self%shape%at(x, y)
    end function undeformed_gap_over_amplitude
-
-   !> The gap over Delta: h + (u - ubar) - approach, zero in contact.
-   elemental real(dp) function gap_over_amplitude(undeformed_gap, displacement, approach) result(gap)
-      real(dp), intent(in) :: undeformed_gap   !! h/Delta
-      real(dp), intent(in) :: displacement     !! (u - ubar)/Delta
-      real(dp), intent(in) :: approach         !! of the mean planes, over Delta
-
-      gap = undeformed_gap + displacement - approach
-   end function gap_over_amplitude
 
    !> One over the wavelength of a harmonic [1/length].
    elemental real(dp) function frequency(self, m, n)

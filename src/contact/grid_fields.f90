@@ -1,0 +1,249 @@
+!> The fields of a solution on a grid: at the points of the grid those of the solution, between them interpolated by
+!> (C19) of README.md so that contact and gap exclude each other.
+!>
+!> One function has the signs and the places of both: p^2 in contact and -(a gap)^(2/3) elsewhere fall in proportion to
+!> the distance from the edge on either side of it, and the factor a makes the two slopes the same on the average.
+module wavycon_grid_fields
+   use wavycon_constants, only: pi
+   use wavycon_contact_fields, only: contact_fields
+   use wavycon_fourier_series, only: fourier_series
+   use wavycon_grid_edge, only: grid_edge
+   use wavycon_kinds, only: dp
+   use wavycon_series_samples, only: sample_series
+   use wavycon_surface, only: surface_type
+   implicit none (type, external)
+   private
+
+   public :: grid_fields, start_grid_fields
+
+   type, extends(contact_fields) :: grid_fields
+      private
+      type(grid_edge) :: edge                !! pressure or -gap at the points
+      type(fourier_series) :: shape          !! of the surface: 1 - h/Delta
+      real(dp) :: mean_gap = 1.0_dp          !! G
+      logical :: turned = .false.            !! whether the angles of the grid are X + Y and X - Y
+      real(dp) :: scale = 1.0_dp             !! of the gaps in psi: a^(2/3)
+      !> psi at the points of the grid and at two more beyond each side, shape (-1:M+2, -1:N+2); not allocated before
+      !> it is needed.
+      real(dp), allocatable :: psi(:, :)
+   contains
+      procedure :: at
+      procedure :: on_grid
+      procedure :: own_points
+   end type grid_fields
+
+   !> Points that are nearer than this to a point of the grid, in steps, are that point: positions are rounded.
+   real(dp), parameter :: rounding = 1e-9_dp
+
+contains
+
+   subroutine start_grid_fields(fields, surface, edge, mean_gap, turned)
+      type(grid_fields), intent(out) :: fields
+      type(surface_type), intent(in) :: surface
+      type(grid_edge), intent(in) :: edge       !! pressure [p*] and gap [Delta] at the points
+      real(dp), intent(in) :: mean_gap          !! G
+      logical, intent(in) :: turned             !! whether the angles of the grid are X + Y and X - Y
+
+      fields%shape = surface%shape
+      fields%edge = edge
+      fields%mean_gap = mean_gap
+      fields%turned = turned
+   end subroutine start_grid_fields
+
+   !> None of a turned grid, whose points are only every other one of any grid of the cell.
+   pure subroutine own_points(self, points, offset)
+      class(grid_fields), intent(in) :: self
+      integer, intent(out) :: points(2)
+      real(dp), intent(out) :: offset(2)
+
+      points = 0
+      offset = 0.0_dp
+      if (self%turned) return
+      associate (numbers => shape(self%edge%pressure_or_gap))
+         points = numbers
+         if (.not. self%edge%even) return
+         points = merge(2*numbers, 1, numbers > 1)
+         offset = merge(0.5_dp, 0.0_dp, numbers > 1)
+      end associate
+   end subroutine own_points
+
+   subroutine at(self, x, y, pressure, displacement, gap)
+      class(grid_fields), intent(inout) :: self
+      real(dp), intent(in) :: x, y
+      real(dp), intent(out) :: pressure, displacement, gap
+
+      if (.not. allocated(self%psi)) call find_psi(self)
+      call interpolate(self, x/(2*pi), y/(2*pi), pressure, gap)
+      displacement = gap - self%mean_gap + self%shape%at(x, y)
+   end subroutine at
+
+   subroutine on_grid(self, points, offset, pressure, displacement, gap)
+      class(grid_fields), intent(inout) :: self
+      integer, intent(in) :: points(2)
+      real(dp), intent(in) :: offset(2)
+      real(dp), allocatable, intent(out) :: pressure(:, :), displacement(:, :), gap(:, :)
+
+      integer :: k, l, own(2)
+      real(dp) :: own_offset(2), value
+      logical :: at_own
+
+      allocate (pressure(points(1), points(2)), gap(points(1), points(2)))
+      call self%own_points(own, own_offset)
+      at_own = all(points == own) .and. all(abs(offset - own_offset) <= rounding)
+      if (.not. at_own .and. .not. allocated(self%psi)) call find_psi(self)
+      do l = 1, points(2)
+         do k = 1, points(1)
+            if (at_own) then
+               value = self%edge%pressure_or_gap(self%edge%place(k, 1), self%edge%place(l, 2))
+               pressure(k, l) = max(value, 0.0_dp)
+               gap(k, l) = max(-value, 0.0_dp)
+            else
+               call interpolate(self, (k - 1 + offset(1))/points(1), (l - 1 + offset(2))/points(2), &
+                                pressure(k, l), gap(k, l))
+            end if
+         end do
+      end do
+      call sample_series(self%shape, points, offset, displacement)
+      displacement = gap - self%mean_gap + displacement
+   end subroutine on_grid
+
+   !> Finds psi at the points, and its scale of gaps.
+   subroutine find_psi(fields)
+      type(grid_fields), intent(inout) :: fields
+
+      real(dp), allocatable :: own(:, :)
+      real(dp) :: inside, outside
+      integer :: k, l, m, n
+
+      associate (edge => fields%edge, field => fields%edge%pressure_or_gap)
+         m = size(field, 1)
+         n = size(field, 2)
+         allocate (own(m, n), fields%psi(-1:m + 2, -1:n + 2))
+         where (field > 0.0_dp)
+            own = field**2
+         elsewhere
+            own = -abs(field)**(2.0_dp/3)
+         end where
+         do l = -1, n + 2
+            do k = -1, m + 2
+               fields%psi(k, l) = own(edge%place(k, 1), edge%place(l, 2))
+            end do
+         end do
+      end associate
+      inside = 0.0_dp
+      outside = 0.0_dp
+      associate (psi => fields%psi)
+         do l = 1, n
+            do k = 1, m
+               call add_pair(psi(k, l), psi(k + 1, l))
+               call add_pair(psi(k, l), psi(k, l + 1))
+            end do
+         end do
+         if (outside > 0.0_dp .and. inside > 0.0_dp) fields%scale = inside/outside
+         where (psi < 0.0_dp) psi = fields%scale*psi
+      end associate
+
+   contains
+
+      !> Adds to the sums those of two neighbours with the edge between them.
+      subroutine add_pair(a, b)
+         real(dp), intent(in) :: a, b
+
+         if ((a > 0.0_dp) .eqv. (b > 0.0_dp)) return
+         inside = inside + max(a, b)
+         outside = outside - min(a, b)
+      end subroutine add_pair
+
+   end subroutine find_psi
+
+   !> Pressure and gap at a point.
+   pure subroutine interpolate(fields, x, y, pressure, gap)
+      type(grid_fields), intent(in) :: fields
+      real(dp), intent(in) :: x, y                !! in sides of the surface's cell
+      real(dp), intent(out) :: pressure, gap
+
+      real(dp) :: psi, s(2), t(2)
+      integer :: node(2)
+
+      s = [x, y]
+      if (fields%turned) s = [x + y, x - y]
+      call locate(s(1), size(fields%edge%pressure_or_gap, 1), fields%edge%even, node(1), t(1))
+      call locate(s(2), size(fields%edge%pressure_or_gap, 2), fields%edge%even, node(2), t(2))
+      psi = cubic(fields%psi(node(1) - 1:node(1) + 2, node(2) - 1:node(2) + 2), t(1), t(2))
+      pressure = 0.0_dp
+      gap = 0.0_dp
+      if (psi > 0.0_dp) then
+         pressure = sqrt(psi)
+      else
+         gap = sqrt(-psi/fields%scale)**3
+      end if
+   end subroutine interpolate
+
+   !> The point of the grid before a place, and the rest of the way in steps.
+   pure subroutine locate(place, points, even, node, rest)
+      real(dp), intent(in) :: place      !! in sides of the cell
+      integer, intent(in) :: points      !! M or N
+      logical, intent(in) :: even        !! whether they are those of half the side
+      integer, intent(out) :: node       !! 0 .. M
+      real(dp), intent(out) :: rest      !! 0 .. 1
+
+      real(dp) :: steps
+
+      node = 1
+      rest = 0.0_dp
+      if (points == 1) return
+      if (even) then
+         steps = modulo(2*points*place, 2.0_dp*points)
+         steps = min(steps, 2*points - steps) + 0.5_dp
+      else
+         steps = modulo(points*place + rounding, real(points, dp)) + 1.0_dp - rounding
+      end if
+      node = floor(steps + rounding)
+      rest = steps - node
+      if (rest <= rounding) rest = 0.0_dp
+   end subroutine locate
+
+   !> The cubic (C19) through the values and slopes of four points, from those of the points about them.
+   pure real(dp) function cubic(psi, s, t)
+      real(dp), intent(in) :: psi(-1:, -1:)      !! shape (-1:2, -1:2)
+      real(dp), intent(in) :: s, t               !! from point (0, 0) to the next, 0 .. 1
+
+      real(dp) :: linear, value_s(0:1), value_t(0:1), slope_s(0:1), slope_t(0:1)
+      integer :: i, j
+
+      value_s = [(1.0_dp - s)**2*(1.0_dp + 2*s), s**2*(3.0_dp - 2*s)]
+      value_t = [(1.0_dp - t)**2*(1.0_dp + 2*t), t**2*(3.0_dp - 2*t)]
+      slope_s = [s*(1.0_dp - s)**2, -s**2*(1.0_dp - s)]
+      slope_t = [t*(1.0_dp - t)**2, -t**2*(1.0_dp - t)]
+      cubic = 0.0_dp
+      do j = 0, 1
+         do i = 0, 1
+            cubic = cubic + value_s(i)*value_t(j)*psi(i, j) &
+               + slope_s(i)*value_t(j)*slope(psi(i - 1:i + 1, j)) + value_s(i)*slope_t(j)*slope(psi(i, j - 1:j + 1))
+         end do
+      end do
+      ! Between four points in contact there is no gap, and no contact between four others.
+      linear = (1.0_dp - t)*((1.0_dp - s)*psi(0, 0) + s*psi(1, 0)) + t*((1.0_dp - s)*psi(0, 1) + s*psi(1, 1))
+      if (all(psi(0:1, 0:1) > 0.0_dp)) then
+         cubic = max(cubic, 0.5_dp*linear)
+      else if (all(psi(0:1, 0:1) <= 0.0_dp)) then
+         cubic = min(cubic, 0.5_dp*linear)
+      end if
+   end function cubic
+
+   !> The slope of psi at a point, a step being 1: the mean of the differences to those neighbours that are on the same
+   !> side of the edge.
+   pure real(dp) function slope(psi)
+      real(dp), intent(in) :: psi(-1:)   !! shape (-1:1)
+
+      logical :: left, right   ! whether the neighbour is on the same side
+
+      left = (psi(-1) > 0.0_dp) .eqv. (psi(0) > 0.0_dp)
+      right = (psi(1) > 0.0_dp) .eqv. (psi(0) > 0.0_dp)
+      slope = 0.0_dp
+      if (left) slope = psi(0) - psi(-1)
+      if (right) slope = slope + psi(1) - psi(0)
+      if (left .and. right) slope = 0.5_dp*slope
+   end function slope
+
+end module wavycon_grid_fields

@@ -1,0 +1,43 @@
+!> The lines along which the tables of lines show the fields.
+!>
+!> Line 1 runs from a crest along x; in 2-D line 2 runs from the same crest along the diagonal of the cell. Lines end after
+!> half a cell if the surface has a mirror line there, otherwise after a whole cell.
+module wavycon_surface_lines
+   use wavycon_constants, only: pi
+   use wavycon_kinds, only: dp
+   use wavycon_results, only: results_type
+   implicit none (type, external)
+   private
+
+   public :: surface_line, start_surface_line
+
+   type :: surface_line
+      real(dp), allocatable :: angle(:, :)    !! X, Y of each point, shape (2, n) [rad]
+      real(dp), allocatable :: place(:, :)    !! x, y of each point, shape (2, n) [length]
+      real(dp), allocatable :: distance(:)    !! from the first point, shape (n) [length]
+   end type surface_line
+
+contains
+
+   subroutine start_surface_line(line, results, number)
+      type(surface_line), intent(out) :: line
+      type(results_type), intent(in) :: results
+      integer, intent(in) :: number             !! of the line: 1, or 2 in 2-D
+
+      real(dp) :: way(2)
+      integer :: intervals, k
+
+      intervals = results%scene%output%integer('line_points')
+      way = 2*pi*[1, merge(1, 0, number == 2)]/intervals
+      associate (surface => results%scene%surface)
+         if (surface%shape%is_even() .and. all(abs(surface%crest) <= 0.0_dp)) intervals = intervals/2
+         allocate (line%angle(2, 0:intervals), line%place(2, 0:intervals), line%distance(0:intervals))
+         do k = 0, intervals
+            line%angle(:, k) = surface%crest + k*way
+            line%place(:, k) = surface%length*line%angle(:, k)/(2*pi)
+            line%distance(k) = norm2(surface%length*k*way)/(2*pi)
+         end do
+      end associate
+   end subroutine start_surface_line
+
+end module wavycon_surface_lines

@@ -1,0 +1,163 @@
+!> <case>.theory_lines.dat: closed forms along the lines of <case>.lines.dat.
+!>
+!> In 1-D Westergaard's solution and the Dundurs-Tsai-Keer series with as many terms as the solver's; in 2-D the Hertz
+!> pressure about the nearest crest (light load), and the pressure and the opening of the penny-shaped crack about the
+!> nearest trough (heavy load).
+module wavycon_theory_lines_table
+   use wavycon_constants, only: pi
+   use wavycon_dundurs, only: dundurs_coefficients, dundurs_pressure_over_pstar
+   use wavycon_error, only: error_type
+   use wavycon_group_values, only: group_values
+   use wavycon_hertz_point, only: hertz_point_pressure_over_pstar
+   use wavycon_kinds, only: dp
+   use wavycon_output_file, only: output_file
+   use wavycon_penny_crack, only: penny_crack_opening_over_amplitude, penny_crack_pressure_over_pstar, &
+                                  penny_crack_radius_over_wavelength
+   use wavycon_results, only: not_a_number, results_type
+   use wavycon_surface_lines, only: start_surface_line, surface_line
+   use wavycon_table, only: table_type
+   use wavycon_westergaard, only: westergaard_displacement_over_amplitude, westergaard_gap_over_amplitude, &
+                                  westergaard_pressure_over_pstar
+   implicit none (type, external)
+   private
+
+   public :: theory_lines_table
+
+   character(45), parameter :: columns(*) = [character(45) :: &
+      'load[-]', 'line[-]', 'distance[length]', 'x[length]', 'y[length]', 'pbar_over_pstar[-]', &
+      'westergaard_pressure_over_pstar[-]', 'westergaard_displacement_over_amplitude[-]', &
+      'westergaard_gap_over_amplitude[-]', 'dundurs_pressure_over_pstar[-]', 'hertz_pressure_over_pstar[-]', &
+      'crack_pressure_over_pstar[-]', 'crack_gap_over_amplitude[-]']
+   !> The closed forms of the wave in one dimension, and of that in two. Those of the other are NaN.
+   integer, parameter :: closed_forms(2) = [4, 3]
+
+   type, extends(table_type) :: theory_lines_table
+   contains
+      procedure, nopass :: key
+      procedure, nopass :: meaning
+      procedure :: is_requested
+      procedure, nopass :: write => write_theory_lines_table
+   end type theory_lines_table
+
+contains
+
+   !> The table has no key of its own.
+   pure function key() result(words)
+      character(:), allocatable :: words
+
+      words = ''
+   end function key
+
+   pure function meaning() result(words)
+      character(:), allocatable :: words
+
+      words = 'Closed forms along lines.'
+   end function meaning
+
+   logical function is_requested(self, output)
+      class(theory_lines_table), intent(in) :: self
+      type(group_values), intent(in) :: output
+
+      associate (unused => self); end associate
+      is_requested = output%logical('lines') .and. output%logical('theory')
+   end function is_requested
+
+   !> Errors: exit_file_trouble.
+   subroutine write_theory_lines_table(results, error)
+      type(results_type), intent(in) :: results
+      type(error_type), allocatable, intent(out) :: error
+
+      type(output_file) :: file
+      integer :: load, line
+
+      call results%open_table('theory_lines', columns, file, in_blocks=.true.)
+      do load = 1, size(results%loads)
+         call results%begin_block(file, load)
+         do line = 1, results%scene%surface%dimension
+            if (line > 1) call file%put('')
+            call put_line(results, file, load, line)
+         end do
+      end do
+      call file%finish(error)
+   end subroutine write_theory_lines_table
+
+   !> Writes one line of one load.
+   subroutine put_line(results, file, load, number)
+      type(results_type), intent(in) :: results
+      type(output_file), intent(inout) :: file
+      integer, intent(in) :: load, number
+
+      type(surface_line) :: line
+      real(dp) :: dundurs(series_terms(results)), phi, theta, values(sum(closed_forms)), load_p
+      integer :: k
+
+      load_p = results%loads(load)%solution%pbar_over_pstar
+      call start_surface_line(line, results, number)
+      if (results%scene%surface%dimension == 1) dundurs = dundurs_coefficients(load_p, size(dundurs))
+      values = not_a_number()
+      do k = 0, ubound(line%distance, 1)
+         call results%scene%surface%paper_angles(line%angle(1, k), line%angle(2, k), phi, theta)
+         if (results%scene%surface%dimension == 1) then
+            values(:closed_forms(1)) = [westergaard_pressure_over_pstar(phi/2, load_p), &
+                                        westergaard_displacement_over_amplitude(phi/2, load_p), &
+                                        westergaard_gap_over_amplitude(phi/2, load_p), &
+                                        dundurs_pressure_over_pstar(phi, load_p, dundurs)]
+         else
+            values(closed_forms(1) + 1:) = [hertz_point_pressure_over_pstar(nearest_crest(phi, theta), load_p), &
+                                            crack_pressure(nearest_crest(phi - pi, theta), load_p), &
+                                            crack_opening(nearest_crest(phi - pi, theta), load_p)]
+         end if
+         call file%add(load)
+         call file%add(number)
+         call file%add([line%distance(k), line%place(:, k), load_p, values])
+         call file%end_row()
+      end do
+   end subroutine put_line
+
+   !> Number of terms of the Dundurs-Tsai-Keer series: as many as the solver's series has, otherwise as in the paper.
+   pure integer function series_terms(results)
+      type(results_type), intent(in) :: results
+
+      integer, parameter :: terms_of_the_paper = 10
+
+      series_terms = terms_of_the_paper
+      if (results%scene%method%in_effect('harmonics')) series_terms = results%scene%method%integer('harmonics')
+   end function series_terms
+
+   !> Distance of a point from the nearest crest of the wave (21), over its wavelength. With phi - pi for phi, from the
+   !> nearest trough.
+   pure real(dp) function nearest_crest(phi, theta)
+      real(dp), intent(in) :: phi, theta
+
+      nearest_crest = min(hypot(reduced(phi), reduced(theta)), hypot(reduced(phi - pi), reduced(theta - pi)))/(2*pi)
+   end function nearest_crest
+
+   !> An angle between -pi and pi.
+   elemental real(dp) function reduced(angle)
+      real(dp), intent(in) :: angle
+
+      reduced = angle - 2*pi*nint(angle/(2*pi))
+   end function reduced
+
+   !> Pressure in the penny-shaped crack over p*, (A4); zero outside the crack.
+   pure real(dp) function crack_pressure(r_over_wavelength, pbar_over_pstar) result(pressure)
+      real(dp), intent(in) :: r_over_wavelength, pbar_over_pstar
+
+      pressure = 0.0_dp
+      if (r_over_wavelength < penny_crack_radius_over_wavelength(pbar_over_pstar)) &
+         pressure = penny_crack_pressure_over_pstar(r_over_wavelength, pbar_over_pstar)
+   end function crack_pressure
+
+   !> Opening of the penny-shaped crack over Delta, (A6); zero outside the crack and if there is none.
+   pure real(dp) function crack_opening(r_over_wavelength, pbar_over_pstar) result(opening)
+      real(dp), intent(in) :: r_over_wavelength, pbar_over_pstar
+
+      real(dp) :: b
+
+      b = penny_crack_radius_over_wavelength(pbar_over_pstar)
+      opening = 0.0_dp
+      if (r_over_wavelength < b) &
+         opening = penny_crack_opening_over_amplitude(r_over_wavelength/b, b, pbar_over_pstar)
+   end function crack_opening
+
+end module wavycon_theory_lines_table
