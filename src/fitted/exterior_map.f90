@@ -71,11 +71,12 @@ contains
       real(dp), parameter :: small_step = 1e-9_dp
       !> Longest step over |v|.
       real(dp), parameter :: longest_step = 0.3_dp
-      !> Least |v| and Jacobian over b_0^2 on the way: nearer to the centre the map folds.
-      real(dp), parameter :: least_radius = 0.5_dp, least_jacobian = 1e-6_dp
+      !> Least Jacobian over b_0^2 on the way: at a tip the map folds next to the edge.
+      real(dp), parameter :: least_jacobian = 1e-6_dp
+      integer, parameter :: most_cuts = 5
       complex(dp) :: at_v, conjugate_slope, edge, left, slope, step
       real(dp) :: jacobian
-      integer :: i
+      integer :: cuts, i
 
       if (present(near)) then
          v = near
@@ -84,19 +85,23 @@ contains
          v = v*max(abs(z)/abs(edge), 1.0_dp)
       end if
       found = .false.
+      cuts = 0
       do i = 1, most_steps
          call linearise_exterior(shape, v, at_v, slope, conjugate_slope)
          left = z - at_v
          jacobian = slope%re**2 + slope%im**2 - (conjugate_slope%re**2 + conjugate_slope%im**2)
-         if (.not. jacobian > least_jacobian*shape%b(0)**2) return
+         if (.not. jacobian > least_jacobian*shape%b(0)**2) exit
          step = (conjg(slope)*left - conjugate_slope*conjg(left))/jacobian
          v = v + step*min(1.0_dp, longest_step*abs(v)/max(abs(step), tiny(1.0_dp)))
-         if (.not. abs(v) > least_radius) return
-         if (abs(step) <= small_step*abs(v)) then
-            found = abs(v) >= 1.0_dp
-            return
-         end if
+         found = abs(v) >= 1.0_dp
+         if (abs(step) <= small_step*abs(v)) return
+         if (found) cycle
+         ! Steps from the edge inwards are cut there. To go that way again and again is the sign of a place inside.
+         cuts = cuts + 1
+         if (cuts > most_cuts) return
+         v = v/abs(v)
       end do
+      found = .false.
    end subroutine find_exterior
 
 end module wavycon_exterior_map

@@ -11,8 +11,9 @@ module wavycon_outside_table
    use wavycon_cell_sector, only: cell_sector
    use wavycon_constants, only: pi
    use wavycon_exterior_map, only: exterior_place, find_exterior, linearise_exterior
-   use wavycon_fitted_fields, only: fitted_fields
-   use wavycon_fitted_tuning, only: first_table_size, last_table_size
+   use wavycon_fitted_fields, only: fitted_fields, start_fitted_fields
+   use wavycon_fitted_tuning, only: bend => table_bend, coarsest_rules, first_table_size, largest_enlargement, &
+      last_table_size, last_terms, rules_share, rules_step
    use wavycon_kinds, only: dp
    use wavycon_shape_map, only: shape_map
    implicit none (type, external)
@@ -20,11 +21,19 @@ module wavycon_outside_table
 
    public :: outside_table, start_outside_table
 
+   !> Places of a part at which tables and rules are compared: three on each of three rays.
+   integer, parameter :: checks_of_part = 9
+   !> The first as a part of the way to the border.
+   real(dp), parameter :: near_edge = 0.02_dp
+
    !> The table between two directions.
    type :: table_part
+      complex(dp) :: from = 0.0_dp, to = 0.0_dp     !! ends of the border's line
       real(dp) :: first = 0.0_dp, last = 0.0_dp     !! angles of the exterior map
       real(dp), allocatable :: border(:)            !! |v| on the border as a series in T_k(t), shape (0:n_t-1)
       real(dp), allocatable :: c(:, :)              !! shape (0:n_t-1, 0:n_s-1)
+   contains
+      procedure, private :: direction
    end type table_part
 
    type :: outside_table
@@ -41,60 +50,142 @@ contains
       type(outside_table), intent(out) :: table
       type(fitted_fields), intent(inout) :: fields   !! that the table is made from
       type(cell_sector), intent(in) :: sector        !! of the same solution
-      real(dp), intent(in) :: tolerance              !! of the table [Delta], of an island's [pi E* Delta/s]
-      integer, intent(in) :: most_places             !! limit of the evaluations of fields
+      real(dp), intent(in) :: tolerance              !! > 0, of the integral in its unit
+      integer, intent(in) :: most_places             !! at which the integral may be evaluated
       logical, intent(out) :: found                  !! whether the table is within the tolerance
 
-      complex(dp) :: v
-      integer :: i, lines
+      type(fitted_fields) :: rules
+      complex(dp) :: v(checks_of_part, size(sector%corner) - 1)
+      real(dp), dimension(checks_of_part, size(sector%corner) - 1) :: exact, values
+      real(dp) :: limit, refinement
+      integer :: i, j
 
-      lines = size(sector%corner) - 1
-      allocate (table%part(lines))
-      associate (solution => fields%answer%solution)
-         table%part(lines)%last = pi/solution%shape%fold
-         do i = 1, lines - 1
-            call find_exterior(solution%shape, sector%corner(i + 1), v, found)
-            if (.not. found) return
-            table%part(i)%last = atan2(v%im, v%re)
-            table%part(i + 1)%first = table%part(i)%last
-         end do
-      end associate
-      do i = 1, lines
-         call fit_part(table%part(i), fields, sector%corner(i), sector%corner(i + 1), sector%centre, &
-                       tolerance, most_places, table%places, found)
-         if (.not. found) return
+      call place_parts(table, fields, sector, v, found)
+      if (.not. found) return
+      call evaluate(fields, sector%centre, v, exact)
+      refinement = coarsest_rules
+      limit = last_terms*tolerance
+      do
+         call start_fitted_fields(rules, fields%lattice, fields%answer, refinement)
+         call evaluate(rules, sector%centre, v, values)
+         found = all(abs(values - exact) <= rules_share*tolerance) .or. refinement >= 1.0_dp
+         if (found) then
+            do i = 1, size(table%part)
+               call fit_part(table%part(i), rules, sector%centre, limit, most_places, table%places, found)
+               if (.not. found) exit
+            end do
+            if (found) found = all([((abs(table%at(v(i, j)) - exact(i, j)), i=1, size(v, 1)), j=1, size(v, 2))] <= tolerance)
+            if (found .or. table%places > most_places) return
+            limit = 0.25_dp*limit
+         end if
+         if (refinement >= 1.0_dp) return
+         refinement = min(refinement*rules_step, 1.0_dp)
       end do
    end subroutine start_outside_table
 
-   !> Fits one part, with more terms until those left out are below the tolerance at some places that are no nodes.
-   subroutine fit_part(part, fields, from, to, centre, tolerance, most_places, places, found)
-      type(table_part), intent(inout) :: part        !! with its angles
-      type(fitted_fields), intent(inout) :: fields
-      complex(dp), intent(in) :: from, to            !! ends of the border
-      complex(dp), intent(in) :: centre
-      real(dp), intent(in) :: tolerance
-      integer, intent(in) :: most_places
-      integer, intent(inout) :: places
+   !> Sets angles and borders of the parts and the places where tables are compared with the integrals: next to the edge,
+   !> where the rule over the disc begins to take the place of chords, and on the border.
+   subroutine place_parts(table, fields, sector, v, found)
+      type(outside_table), intent(inout) :: table
+      type(fitted_fields), intent(in) :: fields
+      type(cell_sector), intent(in) :: sector
+      complex(dp), intent(out) :: v(:, :)            !! of the places, shape (checks_of_part, parts)
       logical, intent(out) :: found
 
-      real(dp) :: largest, last_angular, last_radial
-      integer :: angles, radii
+      complex(dp) :: corner, direction
+      real(dp) :: border
+      integer :: i, j
 
-      radii = first_table_size
-      angles = first_table_size
+      allocate (table%part(size(sector%corner) - 1))
+      associate (part => table%part, shape => fields%answer%solution%shape, parts => size(table%part))
+         part%from = sector%corner(:parts)
+         part%to = sector%corner(2:)
+         part(parts)%last = pi/shape%fold
+         do i = 1, parts - 1
+            call find_exterior(shape, part(i)%to, corner, found)
+            if (.not. found) return
+            part(i)%last = atan2(corner%im, corner%re)
+            part(i + 1)%first = part(i)%last
+         end do
+         do i = 1, parts
+            do j = 1, size(v, 1), 3
+               direction = part(i)%direction(-1.0_dp + 2*(j - 1.0_dp)/(size(v, 1) - 3))
+               call find_border(part(i), shape, direction, border, found)
+               if (.not. found) return
+               v(j:j + 2, i) = [1.0_dp + near_edge*(border - 1.0_dp), end_of_chords(fields, direction, border), &
+                                border]*direction
+            end do
+         end do
+      end associate
+   end subroutine place_parts
+
+   !> |v| on a ray where the rule over the disc takes the place of chords, by bisection; or on the border.
+   pure real(dp) function end_of_chords(fields, direction, border) result(radius)
+      type(fitted_fields), intent(in) :: fields
+      complex(dp), intent(in) :: direction
+      real(dp), intent(in) :: border
+
+      !> They find it to a thousandth of the way.
+      integer, parameter :: halvings = 10
+      real(dp) :: lower, upper
+      integer :: i
+
+      lower = 1.0_dp
+      upper = border
+      do i = 1, halvings
+         radius = 0.5_dp*(lower + upper)
+         if (fields%has_chords(exterior_place(fields%answer%solution%shape, radius*direction))) then
+            lower = radius
+         else
+            upper = radius
+         end if
+      end do
+      radius = upper
+   end function end_of_chords
+
+   !> The integral at some places of the sector.
+   subroutine evaluate(fields, centre, v, values)
+      type(fitted_fields), intent(inout) :: fields
+      complex(dp), intent(in) :: centre, v(:, :)
+      real(dp), intent(out) :: values(:, :)
+
+      integer :: i, j
+
+      do j = 1, size(v, 2)
+         do i = 1, size(v, 1)
+            values(i, j) = fields%outside_integral(centre + exterior_place(fields%answer%solution%shape, v(i, j)))
+         end do
+      end do
+   end subroutine evaluate
+
+   !> Fits one part, with more terms until the last ones are below the tolerance.
+   subroutine fit_part(part, fields, centre, limit, most_places, places, found)
+      type(table_part), intent(inout) :: part        !! with its angles and border
+      type(fitted_fields), intent(inout) :: fields
+      complex(dp), intent(in) :: centre
+      real(dp), intent(in) :: limit                  !! of the sums of the last terms
+      integer, intent(in) :: most_places
+      integer, intent(inout) :: places
+      logical, intent(out) :: found                  !! false if the last terms do not fall, or too many are needed
+
+      real(dp) :: largest, last(2), last_before(2)
+      integer :: terms(2)
+
+      terms = first_table_size
+      last_before = huge(last)
       do
-         found = places + radii*angles <= most_places .and. max(radii, angles) <= last_table_size
+         places = places + product(terms)
+         found = places <= most_places .and. maxval(terms) <= last_table_size
          if (.not. found) return
-         places = places + radii*angles
-         call fit_terms(part, fields, from, to, centre, radii, angles, found)
+         call fit_terms(part, fields, centre, terms, found)
          if (.not. found) return
-         ! The sums of the last two terms either way bound what the table misses about as well as a comparison.
-         largest = maxval(sum(abs(part%c), 1))
-         last_radial = maxval(sum(abs(part%c(:, radii - 2:)), 1))
-         last_angular = maxval(sum(abs(part%c(angles - 2:, :)), 2))
-         if (max(last_radial, last_angular) <= tolerance) return
-         radii = enlarged(radii, last_radial)
-         angles = enlarged(angles, last_angular)
+         largest = maxval(abs(part%c))
+         last = [sum(abs(part%c(terms(1) - 1:, :))), sum(abs(part%c(:, terms(2) - 1:)))]
+         if (all(last <= limit)) return
+         found = all(last <= limit .or. last < 0.5_dp*last_before)
+         if (.not. found) return
+         last_before = last
+         terms = [enlarged(terms(1), last(1)), enlarged(terms(2), last(2))]
       end do
 
    contains
@@ -107,51 +198,55 @@ contains
          real(dp) :: factor
 
          enlarged = terms
-         if (last <= tolerance) return
-         factor = log(tolerance/largest)/min(log(last/largest), -0.1_dp)
-         enlarged = max(terms + 2, ceiling(terms*min(factor, 1.8_dp)))
+         if (last <= limit) return
+         factor = log(limit/largest)/min(log(last/largest), -0.1_dp)
+         enlarged = max(terms + 2, ceiling(terms*min(factor, largest_enlargement)))
       end function enlarged
 
    end subroutine fit_part
 
    !> Fits a number of terms to as many values.
-   subroutine fit_terms(part, fields, from, to, centre, radii, angles, found)
+   subroutine fit_terms(part, fields, centre, terms, found)
       type(table_part), intent(inout) :: part
       type(fitted_fields), intent(inout) :: fields
-      complex(dp), intent(in) :: from, to, centre
-      integer, intent(in) :: radii, angles
+      complex(dp), intent(in) :: centre
+      integer, intent(in) :: terms(2)        !! n_t, n_s
       logical, intent(out) :: found
 
-      real(dp) :: border(angles), of_angle(0:angles - 1, angles), of_radius(0:radii - 1, radii), values(angles, radii)
-      real(dp) :: displacement, gap, pressure
-      complex(dp) :: direction, z
+      real(dp) :: border(terms(1)), of_angle(0:terms(1) - 1, terms(1)), of_radius(0:terms(2) - 1, terms(2))
+      real(dp) :: values(terms(1), terms(2))
+      complex(dp) :: v(terms(1), terms(2))
       integer :: i, j
 
-      of_radius = chebyshev_coefficients(radii)
-      of_angle = chebyshev_coefficients(angles)
-      do i = 1, angles
-         associate (t => chebyshev_node(i, angles))
-            direction = exp(cmplx(0.0_dp, 0.5_dp*(part%first + part%last + (part%last - part%first)*t), dp))
+      of_angle = chebyshev_coefficients(terms(1))
+      of_radius = chebyshev_coefficients(terms(2))
+      do i = 1, terms(1)
+         associate (direction => part%direction(chebyshev_node(i, terms(1))))
+            call find_border(part, fields%answer%solution%shape, direction, border(i), found)
+            if (.not. found) return
+            do j = 1, terms(2)
+               v(i, j) = radius_at((0.5_dp*(1.0_dp + chebyshev_node(j, terms(2))))**2, border(i))*direction
+            end do
          end associate
-         call find_border(fields%answer%solution%shape, direction, from, to, border(i), found)
-         if (.not. found) return
-         do j = 1, radii
-            associate (s => (0.5_dp*(1.0_dp + chebyshev_node(j, radii)))**2)
-               z = exterior_place(fields%answer%solution%shape, radius_at(s, border(i))*direction)
-            end associate
-            call fields%at(centre + z, pressure, displacement, gap)
-            values(i, j) = merge(pressure, gap, fields%answer%island)
-         end do
       end do
+      call evaluate(fields, centre, v, values)
       part%border = matmul(of_angle, border)
       part%c = matmul(of_angle, matmul(values, transpose(of_radius)))
    end subroutine fit_terms
 
+   !> e^(i angle) at t between -1 and 1.
+   pure complex(dp) function direction(self, t)
+      class(table_part), intent(in) :: self
+      real(dp), intent(in) :: t
+
+      direction = exp(cmplx(0.0_dp, 0.5_dp*(self%first + self%last + (self%last - self%first)*t), dp))
+   end function direction
+
    !> |v| at which a ray of the exterior map meets the border's line, by Newton's method.
-   pure subroutine find_border(shape, direction, from, to, radius, found)
+   pure subroutine find_border(part, shape, direction, radius, found)
+      type(table_part), intent(in) :: part         !! with its border
       type(shape_map), intent(in) :: shape
       complex(dp), intent(in) :: direction         !! of modulus 1
-      complex(dp), intent(in) :: from, to          !! ends of the line
       real(dp), intent(out) :: radius
       logical, intent(out) :: found                !! false if there is none, or it is on the edge
 
@@ -163,13 +258,13 @@ contains
       real(dp) :: step
       integer :: i
 
-      normal = (0.0_dp, -1.0_dp)*(to - from)/abs(to - from)
-      radius = 2*max(abs(from), abs(to))/shape%b(0)
+      normal = (0.0_dp, -1.0_dp)*(part%to - part%from)/abs(part%to - part%from)
+      radius = 2*max(abs(part%from), abs(part%to))/shape%b(0)
       found = .false.
       do i = 1, most_steps
          call linearise_exterior(shape, radius*direction, z, slope, conjugate_slope)
          slope = slope*direction + conjugate_slope*conjg(direction)
-         z = from - z
+         z = part%from - z
          step = (z%re*normal%re + z%im*normal%im)/(slope%re*normal%re + slope%im*normal%im)
          radius = max(radius + step, 1.0_dp)
          found = abs(step) <= rounding*radius
@@ -183,19 +278,15 @@ contains
    pure real(dp) function s_at(radius, border) result(s)
       real(dp), intent(in) :: radius, border
 
-      associate (c => sqrt(2*border))
-         s = (radius - 1.0_dp)*(border + c)/((radius + c)*(border - 1.0_dp))
-      end associate
+      s = (radius - 1.0_dp)*(1.0_dp + bend)*border/((radius + bend*border)*(border - 1.0_dp))
    end function s_at
 
    !> Its inverse.
    pure real(dp) function radius_at(s, border) result(radius)
       real(dp), intent(in) :: s, border
 
-      associate (c => sqrt(2*border))
-         associate (ratio => s*(border - 1.0_dp)/(border + c))
-            radius = (1.0_dp + c*ratio)/(1.0_dp - ratio)
-         end associate
+      associate (ratio => s*(border - 1.0_dp)/((1.0_dp + bend)*border))
+         radius = (1.0_dp + bend*border*ratio)/(1.0_dp - ratio)
       end associate
    end function radius_at
 
