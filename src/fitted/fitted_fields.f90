@@ -8,6 +8,7 @@ module wavycon_fitted_fields
    use wavycon_chord_rule, only: chord_rule, start_chord_rule
    use wavycon_constants, only: pi
    use wavycon_disc_rule, only: disc_rule, start_disc_rule
+   use wavycon_exterior_map, only: find_exterior
    use wavycon_fitted_answer, only: fitted_answer
    use wavycon_fitted_tuning, only: chord_field_radius, field_angles, field_chord_points, field_chords, field_radii, &
       field_radius_margin, outside_chords, outside_half_points, sharp_field_ratio, sharp_field_refinement
@@ -260,8 +261,14 @@ contains
       complex(dp), intent(out) :: w
       logical, intent(out) :: by_chords
 
+      complex(dp) :: v
+
       call find_preimage(fields%answer%solution%shape, z, w, by_chords)
-      by_chords = by_chords .and. abs(w) < chord_field_radius
+      if (.not. by_chords .or. abs(w) < chord_field_radius) return
+      ! The rule over the disc converges as the powers of |v| of the exterior map, which on the flat side of a long shape
+      ! is much less than |w|.
+      call find_exterior(fields%answer%solution%shape, z, v, by_chords)
+      by_chords = by_chords .and. abs(v) < chord_field_radius
    end subroutine find_chords
 
    !> Whether the integral over the spot or island at the centre is taken along chords for a place, or by the rule over

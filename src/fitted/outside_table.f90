@@ -21,6 +21,8 @@ module wavycon_outside_table
 
    public :: outside_table, start_outside_table
 
+   !> Tables that are made at most; often it is the first one, with a sharp edge the second.
+   integer, parameter :: most_attempts = 4
    !> Places of a part at which tables and rules are compared: three on each of three rays.
    integer, parameter :: checks_of_part = 9
    !> The first as a part of the way to the border.
@@ -51,35 +53,42 @@ contains
       type(fitted_fields), intent(inout) :: fields   !! that the table is made from
       type(cell_sector), intent(in) :: sector        !! of the same solution
       real(dp), intent(in) :: tolerance              !! > 0, of the integral in its unit
-      integer, intent(in) :: most_places             !! at which the integral may be evaluated
+      integer, intent(in) :: most_places             !! of one table
       logical, intent(out) :: found                  !! whether the table is within the tolerance
 
       type(fitted_fields) :: rules
       complex(dp) :: v(checks_of_part, size(sector%corner) - 1)
       real(dp), dimension(checks_of_part, size(sector%corner) - 1) :: exact, values
       real(dp) :: limit, refinement
-      integer :: i, j
+      integer :: attempts, i, j, places
 
       call place_parts(table, fields, sector, v, found)
       if (.not. found) return
       call evaluate(fields, sector%centre, v, exact)
       refinement = coarsest_rules
       limit = last_terms*tolerance
-      do
+      attempts = 0
+      do while (attempts < most_attempts)
          call start_fitted_fields(rules, fields%lattice, fields%answer, refinement)
          call evaluate(rules, sector%centre, v, values)
          found = all(abs(values - exact) <= rules_share*tolerance) .or. refinement >= 1.0_dp
          if (found) then
+            attempts = attempts + 1
+            places = 0
             do i = 1, size(table%part)
-               call fit_part(table%part(i), rules, sector%centre, limit, most_places, table%places, found)
+               call fit_part(table%part(i), rules, sector%centre, limit, most_places, places, found)
                if (.not. found) exit
             end do
-            if (found) found = all([((abs(table%at(v(i, j)) - exact(i, j)), i=1, size(v, 1)), j=1, size(v, 2))] <= tolerance)
-            if (found .or. table%places > most_places) return
-            limit = 0.25_dp*limit
+            table%places = table%places + places
+            if (places > most_places) return
          end if
-         if (refinement >= 1.0_dp) return
-         refinement = min(refinement*rules_step, 1.0_dp)
+         if (found) then
+            found = all([((abs(table%at(v(i, j)) - exact(i, j)), i=1, size(v, 1)), j=1, size(v, 2))] <= tolerance)
+            if (found) return
+            limit = 0.25_dp*limit
+         else
+            refinement = min(refinement*rules_step, 1.0_dp)
+         end if
       end do
    end subroutine start_outside_table
 
@@ -172,6 +181,7 @@ contains
       integer :: terms(2)
 
       terms = first_table_size
+      if (allocated(part%c)) terms = shape(part%c) + 2
       last_before = huge(last)
       do
          places = places + product(terms)
