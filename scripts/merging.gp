@@ -19,6 +19,8 @@ set print '-'
 
 # Unit of s and d, so that the coefficients are of order one.
 unit = heaviest - merging
+load = "column('pbar_over_pstar')"
+max(a, b) = a > b ? a : b
 pick(side, p) = side eq 'below' ? p > lightest && p < merging : p > merging && p < heaviest
 small(side, gap, pressure) = (side eq 'below' ? gap : pressure**2)/unit
 by_saddle(s) = v_m + s*unit*(c_1 + c_2*log(s) + c_3*log(s)**2)
@@ -27,19 +29,20 @@ by_load(d) = v_m + d*(c_1 + c_2*log(d) + c_3*d)
 # Fits a column without and with c_3, which sets v_m and its error. Rows at small distances have larger weights.
 fit_both(formula, chosen, column, distance) = sprintf( \
    'do for [free in "c_1,c_2 c_1,c_2,c_3"] { rough = v_m; c_1 = -1.0; c_2 = 0.1; c_3 = free eq "c_1,c_2" ? 0.0 : 0.01; v_m = 0.5;' \
-   .' eval "fit %s details using (%s ? %s : NaN):%d:(%s) yerrors via v_m,".free }; error = abs(v_m - rough)', \
+   .' eval "fit %s details using (%s ? %s : NaN):''%s'':(%s) yerrors via v_m,".free }; error = abs(v_m - rough)', \
    formula, chosen, distance, column, distance)
 
 v_m = 0.0
 do for [side in 'below above'] {
-   chosen = "pick('".side."', $1)"
-   eval fit_both('by_saddle(x)', chosen, 1, "small('".side."', $10, $12)")
-   line = sprintf('%-11s %-7s %16.9f %12.1e', surface, side, v_m, error)
+   chosen = "pick('".side."', ".load.")"
+   eval fit_both('by_saddle(x)', chosen, 'pbar_over_pstar', \
+                 "small('".side."', column('saddle_gap_over_amplitude'), column('saddle_pressure_over_pstar'))")
+   line = sprintf('%10s %7s %16.9f %21.1e', surface, side, v_m, error)
    if (side eq 'below') { merging_load = v_m; load_error = error }
-   do for [column in '2 4 6'] {
-      eval fit_both('by_load(x)', chosen, int(column), '(abs($1 - merging_load)/unit)')
+   do for [name in 'mean_gap_over_amplitude contact_area_fraction peak_pressure_over_pstar'] {
+      eval fit_both('by_load(x)', chosen, name, '(abs('.load.' - merging_load)/unit)')
       error = error + load_error/unit*abs(c_1 + c_2*log(load_error/unit))
-      line = line.sprintf(' %16.9f %12.1e', v_m, error)
+      line = line.sprintf(' %'.max(23, strlen(name)).'.9f %'.(strlen(name) + 6).'.1e', v_m, error)
    }
    print line
 }

@@ -5,6 +5,7 @@ module wavycon_command_line
    use wavycon_nearest_name, only: nearest_name
    use wavycon_output_group, only: longest_directory
    use wavycon_plain_text, only: escaped, integer_text, is_printable
+   use wavycon_settings, only: read_setting, setting_type
    implicit none (type, external)
    private
 
@@ -17,19 +18,24 @@ module wavycon_command_line
 
    type :: command_line_type
       type(path_type), allocatable :: decks(:)
+      type(setting_type), allocatable :: settings(:)   !! keys in place of those of the decks
       character(:), allocatable :: output   !! directory in place of that of the decks; not allocated if not given
+      character(:), allocatable :: table    !! file for one table of all decks; not allocated if not given
       integer :: threads = 1                !! >= 1
       logical :: check = .false.
+      logical :: keep_going = .false.
       logical :: quiet = .false.
       logical :: resume = .false.
       logical :: version = .false.
       logical :: help = .false.
    end type command_line_type
 
-   character(*), parameter :: options(*) = [character(9) :: '--check', '--output', '--resume', '--threads', &
-      '--quiet', '--version', '--help']
+   character(*), parameter :: options(*) = [character(12) :: '--check', '--set', '--output', '--table', &
+      '--keep-going', '--resume', '--threads', '--quiet', '--version', '--help']
+   character(*), parameter :: options_with_values(*) = [character(9) :: '--set', '--output', '--table', '--threads']
    character(*), parameter :: usage = &
-      'usage: wavycon DECK... [--check] [--output DIR] [--resume] [--threads N] [--quiet] [--version] [--help]'
+      'usage: wavycon DECK... [--check] [--set GROUP.KEY=VALUE]... [--output DIR] [--table FILE]'//new_line('a')// &
+      '               [--keep-going] [--resume] [--threads N] [--quiet] [--version] [--help]'
 
 contains
 
@@ -38,11 +44,12 @@ contains
       type(command_line_type), intent(out) :: command_line
       type(error_type), allocatable, intent(out) :: error
 
-      character(:), allocatable :: given, value, word
+      character(:), allocatable :: given, trouble, value, word
+      type(setting_type) :: setting
       integer :: equals, i, near
       logical :: options_over
 
-      allocate (command_line%decks(0))
+      allocate (command_line%decks(0), command_line%settings(0))
       options_over = .false.
       i = 0
       do while (i < command_argument_count())
@@ -57,7 +64,7 @@ contains
          end if
          equals = index(word, '=')
          if (equals > 0) then
-            if (any(word(:equals - 1) == [character(9) :: '--output', '--threads'])) then
+            if (any(word(:equals - 1) == options_with_values)) then
                given = word(equals + 1:)
                word = word(:equals - 1)
             end if
@@ -67,6 +74,8 @@ contains
             options_over = .true.
          case ('--check')
             command_line%check = .true.
+         case ('--keep-going')
+            command_line%keep_going = .true.
          case ('--quiet')
             command_line%quiet = .true.
          case ('--resume')
@@ -75,14 +84,25 @@ contains
             command_line%version = .true.
          case ('--help', '-h')
             command_line%help = .true.
-         case ('--output', '--threads')
+         case ('--set')
             call take_value(value)
-            if (word == '--output') then
-               command_line%output = value
-               call check_output(command_line%output, error)
-            else
-               call read_threads(value, command_line%threads, error)
-            end if
+            call read_setting(value, setting, trouble)
+            if (allocated(trouble)) call fatal_error(error, exit_bad_input, trouble//new_line('a')//usage)
+            if (allocated(error)) return
+            call add_setting(command_line%settings, setting)
+         case ('--output')
+            call take_value(value)
+            command_line%output = value
+            call check_path(word, 'a directory', value, error)
+            if (allocated(error)) return
+         case ('--table')
+            call take_value(value)
+            command_line%table = value
+            call check_path(word, 'a file', value, error)
+            if (allocated(error)) return
+         case ('--threads')
+            call take_value(value)
+            call read_threads(value, command_line%threads, error)
             if (allocated(error)) return
          case default
             near = nearest_name(word, options)
@@ -151,21 +171,38 @@ contains
       call move_alloc(longer, decks)
    end subroutine add_deck
 
-   !> Checks the value of --output as the key `directory` of a deck is checked. Errors: exit_bad_input.
-   subroutine check_output(directory, error)
-      character(*), intent(in) :: directory
+   !> Adds a setting. N.B. As in add_deck, settings = [settings, setting] would leak memory.
+   pure subroutine add_setting(settings, setting)
+      type(setting_type), allocatable, intent(inout) :: settings(:)
+      type(setting_type), intent(in) :: setting
+
+      type(setting_type), allocatable :: longer(:)
+      integer :: i
+
+      allocate (longer(size(settings) + 1))
+      do i = 1, size(settings)
+         longer(i) = settings(i)
+      end do
+      longer(size(longer)) = setting
+      call move_alloc(longer, settings)
+   end subroutine add_setting
+
+   !> Checks a path given to an option as the key `directory` of a deck is checked. Errors: exit_bad_input.
+   subroutine check_path(option, what, path, error)
+      character(*), intent(in) :: option, what   !! such as '--output', 'a directory'
+      character(*), intent(in) :: path
       type(error_type), allocatable, intent(out) :: error
 
-      if (directory == '' .or. index(directory, '--') == 1) then
-         call fatal_error(error, exit_bad_input, '--output needs the name of a directory'//new_line('a')//usage)
-      else if (len(directory) > longest_directory) then
-         call fatal_error(error, exit_bad_input, '--output: the name of a directory must be at most '// &
-                          integer_text(longest_directory)//' bytes long, got '//integer_text(len(directory)))
-      else if (.not. is_printable(directory)) then
-         call fatal_error(error, exit_bad_input, "--output: the name '"//escaped(directory)// &
+      if (path == '' .or. index(path, '--') == 1) then
+         call fatal_error(error, exit_bad_input, option//' needs the name of '//what//new_line('a')//usage)
+      else if (len(path) > longest_directory) then
+         call fatal_error(error, exit_bad_input, option//': the name of '//what//' must be at most '// &
+                          integer_text(longest_directory)//' bytes long, got '//integer_text(len(path)))
+      else if (.not. is_printable(path)) then
+         call fatal_error(error, exit_bad_input, option//": the name '"//escaped(path)// &
                           "' must be ASCII or UTF-8 text without control characters")
       end if
-   end subroutine check_output
+   end subroutine check_path
 
    !> The text of --help: the options, then the reference of all keys.
    function help_text() result(text)
@@ -177,8 +214,17 @@ contains
              newline// &
              usage//newline// &
              newline// &
-             '   --check        validate the decks and stop'//newline// &
+             '   --check        validate the decks, say what a run would do, and stop'//newline// &
+             '   --set GROUP.KEY=VALUE'//newline// &
+             '                  set a key in place of those of the decks, such as surface.amplitude=2e-6'//newline// &
+             '                  or load.pbar_over_pstar=0.1,0.2; may be repeated. Keys of the deck that'//newline// &
+             '                  contradict it are left out: other ways to give the loads or the stiffness,'//newline// &
+             '                  accuracy or grid_points, keys of another kind of surface or solver. The'//newline// &
+             '                  name of the case gets key and value, unless scene.case is set too'//newline// &
              '   --output DIR   write the results to DIR, not to the directory of &output'//newline// &
+             '   --table FILE   write one table of all decks: a row for each deck and load, with the'//newline// &
+             '                  values of the keys that are set or differ, and the columns of the summary'//newline// &
+             '   --keep-going   a bad deck does not keep the others from being run'//newline// &
              '   --resume       continue an interrupted run, to the same tables. Loads that were solved'//newline// &
              '                  on grids are read from <case>.checkpoint; loads of the other solvers are'//newline// &
              '                  fast and are solved again'//newline// &
@@ -187,7 +233,8 @@ contains
              '   --version      show the version and stop'//newline// &
              '   --help, -h     show this and stop'//newline// &
              newline// &
-             'Exit status: 0 fine, 1 bad input, 2 a load did not converge, 3 file trouble.'//newline// &
+             'Exit status: 0 fine, 1 bad input, 2 a load did not converge, 3 file trouble; of several'//newline// &
+             'decks the worst.'//newline// &
              newline// &
              key_reference()
    end function help_text

@@ -16,29 +16,27 @@ module wavycon_run_scene
    implicit none (type, external)
    private
 
-   public :: run_scene
+   public :: run_scene, start_results, need_fields
 
 contains
 
    !> Runs a scene. Errors: exit_bad_input for a checkpoint that is damaged or of another deck; exit_file_trouble for
    !> a file that cannot be read or written.
-   subroutine run_scene(scene, quiet, resume, status, error)
+   subroutine run_scene(scene, quiet, resume, results, status, error)
       type(scene_type), allocatable, intent(inout) :: scene   !! not allocated afterwards: the results own it
       logical, intent(in) :: quiet     !! whether to write no log
       logical, intent(in) :: resume    !! whether to continue from the checkpoint of an interrupted run
+      type(results_type), intent(out) :: results   !! complete if there is no error
       integer, intent(out) :: status   !! exit_fine or exit_not_converged
       type(error_type), allocatable, intent(out) :: error
 
-      type(results_type) :: results
       type(run_log), target :: log
       type(checkpoint_file) :: checkpoint
       type(table_item), allocatable :: tables(:)
 
       status = exit_fine
       call log%start(quiet)
-      call move_alloc(scene, results%scene)
-      call requested_tables(results%scene, tables)
-      call start_solver(results%scene%surface, results%scene%method, need_fields(tables), results%solver)
+      call start_results(scene, results, tables)
       call log%show_scene(results)
       allocate (results%loads(size(results%scene%target)))
       if (resume) call take_checkpoint(results, log, error)
@@ -57,6 +55,17 @@ contains
       call log%say_timed('tables written')
       call sum_up(results, log, status)
    end subroutine run_scene
+
+   !> Starts the solver of a scene and finds its tables.
+   subroutine start_results(scene, results, tables)
+      type(scene_type), allocatable, intent(inout) :: scene       !! not allocated afterwards: the results own it
+      type(results_type), intent(out) :: results                  !! without loads
+      type(table_item), allocatable, intent(out) :: tables(:)     !! that are to be written
+
+      call move_alloc(scene, results%scene)
+      call requested_tables(results%scene, tables)
+      call start_solver(results%scene%surface, results%scene%method, need_fields(tables), results%solver)
+   end subroutine start_results
 
    !> The tables that a deck requests; for a flat surface, whose p* and Delta are zero, only those that allow it.
    subroutine requested_tables(scene, tables)

@@ -2,14 +2,12 @@
 module wavycon_solve_loads
    use, intrinsic :: iso_c_binding, only: c_size_t
    use wavycon_checkpoint, only: checkpoint_file
-   use wavycon_contact_solution, only: contact_solution
-   use wavycon_contact_solver, only: contact_solver
-   use wavycon_find_load, only: solve_for_contact_area, solve_for_mean_gap
    use wavycon_gsl, only: gsl_sort_index
    use wavycon_kinds, only: dp
    use wavycon_results, only: results_type
    use wavycon_run_log, only: log_progress, run_log
-   use wavycon_scene, only: by_contact_area, by_mean_gap, by_pressure
+   use wavycon_scene, only: by_mean_gap, by_pressure
+   use wavycon_solve_target, only: solve_target
    use wavycon_solver_progress, only: solver_progress
    implicit none (type, external)
    private
@@ -45,7 +43,7 @@ contains
             if (known) then
                call solver%skip_load(target(load))
             else
-               call solve_one(solver, loads_by, target(load), results%loads(load)%solution)
+               call solve_target(solver, loads_by, target(load), results%loads(load)%solution)
                call checkpoint%add(load, results%loads(load)%solution)
             end if
             call log%show_progress(i, size(order))
@@ -53,23 +51,6 @@ contains
          call solver%show_progress(nobody)
       end associate
    end subroutine solve_loads
-
-   !> Solves one load, or finds the load of a given mean gap or area.
-   subroutine solve_one(solver, loads_by, target, solution)
-      class(contact_solver), intent(inout) :: solver
-      integer, intent(in) :: loads_by     !! a name of wavycon_scene
-      real(dp), intent(in) :: target      !! P, G or the contact area fraction
-      class(contact_solution), allocatable, intent(inout) :: solution
-
-      select case (loads_by)
-      case (by_mean_gap)
-         call solve_for_mean_gap(solver, target, solution)
-      case (by_contact_area)
-         call solve_for_contact_area(solver, target, solution)
-      case default
-         call solver%solve(target, solution)
-      end select
-   end subroutine solve_one
 
    !> The indices of an array from its largest to its smallest value.
    function descending(values) result(order)

@@ -1,6 +1,8 @@
 /* Calls to the operating system for which Fortran has no statement. */
 #define _XOPEN_SOURCE 700
+#include <dlfcn.h>
 #include <errno.h>
+#include <limits.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -124,19 +126,81 @@ void wavycon_full_path(const char *path, char *full, size_t length)
     free(found);
 }
 
-/* A number of bytes from /proc/meminfo, which gives kB after a name such as "MemAvailable:"; -1 if it is not there. */
-static long long memory_info(const char *name)
+/* The number behind a name such as "MemAvailable:" at the start of a line of a file; with an empty name the number at
+   its start. -1 if it is not there. */
+static long long number_in_file(const char *path, const char *name)
 {
     char line[256];
-    long long kilobytes, bytes = -1;
-    FILE *file = fopen("/proc/meminfo", "r");
+    long long number = -1;
+    FILE *file = fopen(path, "r");
     if (file == NULL)
         return -1;
-    while (bytes < 0 && fgets(line, sizeof line, file) != NULL)
-        if (strncmp(line, name, strlen(name)) == 0 && sscanf(line + strlen(name), "%lld", &kilobytes) == 1)
-            bytes = 1024*kilobytes;
+    while (number < 0 && fgets(line, sizeof line, file) != NULL)
+        if (strncmp(line, name, strlen(name)) == 0 && sscanf(line + strlen(name), "%lld", &number) != 1)
+            number = -1;
     fclose(file);
-    return bytes;
+    return number;
+}
+
+/* Bytes of memory that a control group of Linux, given by its directory, leaves to its processes: limit less use, where
+   files that can be dropped from memory count as free. -1 if it has no limit. */
+long long wavycon_memory_of_group(const char *directory)
+{
+    /* Version 2, then version 1. */
+    static const char *const names[2][3] = {
+        {"memory.max", "memory.current", "inactive_file "},
+        {"memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file "}};
+    char path[PATH_MAX];
+    for (int version = 0; version < 2; version++) {
+        snprintf(path, sizeof path, "%s/%s", directory, names[version][0]);
+        long long limit = number_in_file(path, "");
+        snprintf(path, sizeof path, "%s/%s", directory, names[version][1]);
+        long long used = number_in_file(path, "");
+        if (limit < 0 || used < 0)
+            continue;
+        snprintf(path, sizeof path, "%s/memory.stat", directory);
+        long long files = number_in_file(path, names[version][2]);
+        if (files > 0)
+            used -= files;
+        return limit > used ? limit - used : 0;
+    }
+    return -1;
+}
+
+/* The least that the control groups of this process leave to it: its own group and all above. -1 if none has a limit. */
+static long long memory_of_groups(void)
+{
+    static const char top[] = "/sys/fs/cgroup", top_of_version_1[] = "/sys/fs/cgroup/memory";
+    char line[PATH_MAX], directory[2*PATH_MAX];
+    long long least = wavycon_memory_of_group(top_of_version_1);
+    FILE *file = fopen("/proc/self/cgroup", "r");
+    if (file == NULL)
+        return least;
+    while (fgets(line, sizeof line, file) != NULL) {
+        /* number:controllers:path; of version 2 the controllers are empty. In a container the path may be one of the
+           host that is not there, but the top is that of the container. */
+        char *controllers = strchr(line, ':');
+        char *path = controllers == NULL ? NULL : strchr(controllers + 1, ':');
+        if (path == NULL)
+            continue;
+        *path++ = '\0';
+        path[strcspn(path, "\n")] = '\0';
+        int is_version_2 = controllers[1] == '\0';
+        if (!is_version_2 && strstr(controllers + 1, "memory") == NULL)
+            continue;
+        for (;;) {
+            snprintf(directory, sizeof directory, "%s%s", is_version_2 ? top : top_of_version_1, path);
+            long long left = wavycon_memory_of_group(directory);
+            if (left >= 0 && (least < 0 || left < least))
+                least = left;
+            char *slash = strrchr(path, '/');
+            if (slash == NULL)
+                break;
+            *slash = '\0';
+        }
+    }
+    fclose(file);
+    return least;
 }
 
 /* Bytes of this process's address space; -1 where the system does not say. */
@@ -153,15 +217,20 @@ static long long address_space_in_use(void)
 }
 
 /* Bytes that the process may still allocate and use without swapping: what is free of the machine's memory or can be
-   freed, and at most what the limit on the address space (ulimit -v) leaves. -1 where the system does not say. */
+   freed, and at most what limits leave: those of a container or a batch job (control groups) and that on the address
+   space (ulimit -v). -1 where the system does not say. */
 long long wavycon_available_memory(void)
 {
     struct rlimit limit;
-    long long available = memory_info("MemAvailable:");
+    long long kilobytes = number_in_file("/proc/meminfo", "MemAvailable:");
+    long long available = kilobytes < 0 ? -1 : 1024*kilobytes;
 #ifdef _SC_AVPHYS_PAGES
     if (available < 0 && sysconf(_SC_AVPHYS_PAGES) > 0)
         available = (long long)sysconf(_SC_AVPHYS_PAGES)*sysconf(_SC_PAGESIZE);
 #endif
+    long long group = memory_of_groups();
+    if (group >= 0 && group < available)
+        available = group;
     if (available < 0 || getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
         return available;
     long long used = address_space_in_use();
@@ -179,4 +248,28 @@ size_t wavycon_parse_number(const char *text, double *value)
     char *end;
     *value = strtod(text, &end);
     return (size_t)(end - text);
+}
+
+/* Makes BLAS and LAPACK use one thread, if they are OpenBLAS or MKL; others are not changed. The functions are looked
+   up when the program runs, because another BLAS than that of the build may be linked then. */
+void wavycon_use_one_thread_for_matrices(void)
+{
+    static const char *const setters[] = {"openblas_set_num_threads", "MKL_Set_Num_Threads"};
+    void (*set_number)(int);
+    int (*end_threads)(void);
+    void *program = dlopen(NULL, RTLD_LAZY);
+    if (program == NULL)
+        return;
+    /* POSIX allows these conversions to pointers to functions, for which ISO C has no notation. */
+    for (size_t i = 0; i < sizeof setters/sizeof setters[0]; i++) {
+        *(void **)&set_number = dlsym(program, setters[i]);
+        if (set_number != NULL)
+            set_number(1);
+    }
+    /* OpenBLAS starts its threads when it is loaded. Without work they try to get some for a tenth of a second, each
+       on its processor; this ends them. */
+    *(void **)&end_threads = dlsym(program, "blas_thread_shutdown_");
+    if (end_threads != NULL)
+        end_threads();
+    dlclose(program);
 }

@@ -6,7 +6,7 @@ module wavycon_system
    implicit none (type, external)
    private
 
-   public :: available_memory, has_memory_for
+   public :: available_memory, has_memory_for, memory_of_group
    public :: file_size, full_path, path_kind, make_directories, rename_file, remove_file, remove_when_interrupted
    public :: outlive_file_size_limit, parse_number, process_id, stdout_is_terminal
 
@@ -59,6 +59,11 @@ module wavycon_system
       integer(c_long_long) function c_available_memory() bind(c, name='wavycon_available_memory')
          import :: c_long_long
       end function c_available_memory
+
+      integer(c_long_long) function c_memory_of_group(directory) bind(c, name='wavycon_memory_of_group')
+         import :: c_char, c_long_long
+         character(kind=c_char), intent(in) :: directory(*)
+      end function c_memory_of_group
 
       !> Reads the number at the start of a text. Returns its length in bytes, 0 if there is none.
       !> N.B. A number that is too large gives an infinity and signals overflow.
@@ -173,12 +178,19 @@ contains
    end subroutine outlive_file_size_limit
 
    !> Memory that this process may still allocate and use without swapping [byte]: what is free of the machine's, or can
-   !> be freed, and at most what the limit on the address space (ulimit -v) leaves. -1 if the system does not say.
-   !>
-   !> N.B. A container's own limit is not included.
+   !> be freed, and at most what limits leave: those of a container or a batch job (control groups of Linux) and that on
+   !> the address space (ulimit -v). -1 if the system does not say.
    integer(int64) function available_memory()
       available_memory = int(c_available_memory(), int64)
    end function available_memory
+
+   !> Memory that a control group of Linux leaves to its processes [byte]: limit less use, where files that can be dropped
+   !> from memory count as free. -1 if it has no limit.
+   integer(int64) function memory_of_group(directory)
+      character(*), intent(in) :: directory   !! of the group, such as /sys/fs/cgroup
+
+      memory_of_group = int(c_memory_of_group(directory//c_null_char), int64)
+   end function memory_of_group
 
    !> Whether there is memory for so many numbers of double precision.
    logical function has_memory_for(numbers)

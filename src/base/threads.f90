@@ -1,17 +1,26 @@
-!> The number of threads for large grids.
+!> The number of threads: of large grids, and of BLAS and LAPACK.
 module wavycon_threads
    use, intrinsic :: iso_c_binding, only: c_int
    use wavycon_fftw, only: fftw_init_threads, fftw_plan_with_nthreads
    implicit none (type, external)
    private
 
-   public :: set_threads, threads_for, use_threads_for_transforms
+   public :: set_threads, threads_for, use_one_thread_for_matrices, use_threads_for_transforms
 
    !> Grids with fewer points are solved by one thread: starting more costs more time than they save.
    integer, parameter :: least_points = 65536
 
    integer :: threads = 1
    logical :: transforms_ready = .false.
+
+   interface
+      !> Makes BLAS and LAPACK use one thread, if they are OpenBLAS or MKL. By default these take all processors, also
+      !> for the small matrices here, which other threads do not make faster.
+      !>
+      !> N.B. It acts on the whole process: for programs, not for procedures of a library.
+      subroutine use_one_thread_for_matrices() bind(c, name='wavycon_use_one_thread_for_matrices')
+      end subroutine use_one_thread_for_matrices
+   end interface
 
 contains
 

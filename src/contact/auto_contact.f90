@@ -1,5 +1,5 @@
 !> solver = 'auto': the closed form where there is one, otherwise fitted expansions where these exist for the surface,
-!> with grids for loads at which they are not accurate enough, otherwise grids.
+!> with grids for loads at which they are not accurate enough, otherwise grids. The grid alone if its points are given.
 module wavycon_auto_contact
    use wavycon_closed_form_contact, only: closed_form_contact, closed_form_exists
    use wavycon_contact_solution, only: contact_solution
@@ -21,6 +21,7 @@ module wavycon_auto_contact
    public :: auto_contact
 
    type, extends(contact_solver) :: auto_contact
+      character(:), allocatable, private :: reason             !! why `first` was selected
       class(contact_solver), allocatable, private :: first     !! solves every load
       type(grid_contact), allocatable, private :: second       !! solves the loads that the first one failed to
    contains
@@ -40,6 +41,8 @@ module wavycon_auto_contact
       procedure :: starts_from_last_load
       procedure :: skip_load
       procedure :: new_kept_solution
+      procedure :: why_chosen
+      procedure :: finest_grid
    end type auto_contact
 
 contains
@@ -108,19 +111,23 @@ contains
       by_accuracy = .true.
       if (present(points)) by_accuracy = all(points == 0)
       call find_frame(surface, frame)
-      if (closed_form_exists(surface)) then
+      if (closed_form_exists(surface) .and. by_accuracy) then
          allocate (closed_form)
          call closed_form%start(surface)
          call move_alloc(closed_form, self%first)
+         self%reason = 'the surface is the 1-D wave, which has a closed form'
       else if (frame%is_found() .and. by_accuracy) then
          allocate (fitted, self%second)
          call fitted%start(surface, accuracy, keep_fields)
          call self%second%start(surface, accuracy, keep_fields)
          call move_alloc(fitted, self%first)
+         self%reason = 'the surface has expansions; grids solve the loads for which these are not accurate enough'
       else
          allocate (grid)
          call grid%start(surface, accuracy, keep_fields, points)
          call move_alloc(grid, self%first)
+         self%reason = 'the surface has neither a closed form nor expansions'
+         if (.not. by_accuracy) self%reason = 'the points of the grid are given'
       end if
    end subroutine start
 
@@ -144,27 +151,29 @@ contains
       class(auto_contact), intent(inout) :: self
       class(solver_progress), intent(in), pointer :: progress
 
-      call self%first%show_progress(progress)
+      if (allocated(self%first)) call self%first%show_progress(progress)
       if (allocated(self%second)) call self%second%show_progress(progress)
    end subroutine show_progress
 
    integer function coarser_levels(self)
       class(auto_contact), intent(in) :: self
 
-      coarser_levels = self%first%coarser_levels()
+      coarser_levels = 0
+      if (allocated(self%first)) coarser_levels = self%first%coarser_levels()
    end function coarser_levels
 
    subroutine use_level(self, level)
       class(auto_contact), intent(inout) :: self
       integer, intent(in) :: level
 
-      call self%first%use_level(level)
+      if (allocated(self%first)) call self%first%use_level(level)
    end subroutine use_level
 
    pure logical function starts_from_last_load(self)
       class(auto_contact), intent(in) :: self
 
-      starts_from_last_load = self%first%starts_from_last_load()
+      starts_from_last_load = .false.
+      if (allocated(self%first)) starts_from_last_load = self%first%starts_from_last_load()
    end function starts_from_last_load
 
    !> The expansion of the next load starts from the expansion of this one. Only loads solved on grids are in
@@ -184,16 +193,37 @@ contains
 
       if (allocated(self%second)) then
          call self%second%new_kept_solution(solution)
-      else
+      else if (allocated(self%first)) then
          call self%first%new_kept_solution(solution)
       end if
    end subroutine new_kept_solution
+
+   function why_chosen(self) result(words)
+      class(auto_contact), intent(in) :: self
+      character(:), allocatable :: words
+
+      words = ''
+      if (allocated(self%reason)) words = self%reason
+   end function why_chosen
+
+   function finest_grid(self) result(points)
+      class(auto_contact), intent(in) :: self
+      integer :: points(2)
+
+      points = 0
+      if (allocated(self%second)) then
+         points = self%second%finest_grid()
+      else if (allocated(self%first)) then
+         points = self%first%finest_grid()
+      end if
+   end function finest_grid
 
    pure function describe(self) result(words)
       class(auto_contact), intent(in) :: self
       character(:), allocatable :: words
 
-      words = self%first%describe()
+      words = ''
+      if (allocated(self%first)) words = self%first%describe()
       if (allocated(self%second)) words = words//', grids where these cannot'
    end function describe
 

@@ -39,7 +39,7 @@ module wavycon_beale_contact
    end type series_setup
 
    !> The paper's numbers, for 1-D and 2-D waves.
-   integer, parameter :: default_harmonics(2) = [10, 9], default_constraint_points(2) = [26, 27]
+   integer, parameter :: default_harmonics(2) = [10, 9]
    !> Largest values accepted from a deck, for 1-D and 2-D waves, so that a mistyped number does not run for hours.
    integer, parameter :: most_harmonics = 60, most_constraint_points(2) = [6001, 601]
    !> Most elements of the constraints' matrix. A few copies of it exist at a time, each of 160 MB.
@@ -99,9 +99,10 @@ contains
       rows = [ &
          integer_key('harmonics', '9 (2-D), 10 (1-D)', 'highest harmonic of the pressure, in each direction.', &
             1, most_harmonics), &
-         integer_key('constraint_points', '27 (2-D), 26 (1-D)', &
+         integer_key('constraint_points', 'in proportion to harmonics', &
             'equally spaced points on half a wavelength, ends included, in each direction, at which the pressure '// &
-            'is constrained to be >= 0. More than harmonics; at most 601 in 2-D.', 2, &
+            'is constrained to be >= 0. More than harmonics; at most 601 in 2-D. The default is 3 harmonics in 2-D '// &
+            "and 2.5 harmonics + 1 in 1-D: the paper's 27 for 9 and 26 for 10.", 2, &
             maxval(most_constraint_points)), &
          choice_key('symmetry', "'full'", &
             "in 2-D, symmetry of the pressure. 'full': alike in x and y and at both crests (29 unknowns, 196 "// &
@@ -134,9 +135,20 @@ contains
       type(surface_type), intent(in) :: surface
 
       call values%set_default('harmonics', default_harmonics(surface%dimension))
-      call values%set_default('constraint_points', default_constraint_points(surface%dimension))
+      call values%set_default('constraint_points', default_constraint_points(surface%dimension, &
+                                                                             values%integer('harmonics')))
       if (surface%dimension == 1) call values%leave_out('symmetry')
    end subroutine set_defaults
+
+   !> As many points to a harmonic as the paper has: 27 for 9 harmonics of the 2-D wave, 26 (25 intervals) for 10 of the
+   !> 1-D wave. Always more than harmonics.
+   pure integer function default_constraint_points(dimension, harmonics) result(points)
+      integer, intent(in) :: dimension   !! 1 or 2
+      integer, intent(in) :: harmonics   !! >= 1
+
+      points = 3*harmonics
+      if (dimension == 1) points = (5*harmonics + 1)/2 + 1
+   end function default_constraint_points
 
    subroutine check(values, surface, problems)
       type(group_values), intent(in) :: values
@@ -158,8 +170,8 @@ contains
             '-D, got '//integer_text(points))
       else if (points <= harmonics) then
          call problems%add(max(values%place_of('harmonics'), values%place_of('constraint_points')), &
-            'constraint_points must be more than harmonics, got '//integer_text(points)// &
-            by_default('constraint_points')//' and '//integer_text(harmonics)//by_default('harmonics'))
+            'constraint_points must be more than harmonics, got '//integer_text(points)//' and '// &
+            integer_text(harmonics)//trim(merge('              ', ' (the default)', values%has('harmonics'))))
       else if (.not. values%is_bad('symmetry')) then
          terms = choose_terms(surface%dimension, harmonics, symmetry_of(values))
          call choose_points(surface%dimension, points, symmetry_of(values), k, l)
@@ -169,17 +181,6 @@ contains
                ' unknowns and '//integer_text(size(k))//' constraints: too many for the memory. Give fewer '// &
                'constraint_points (harmonics + 1 serve well), or a symmetry')
       end if
-
-   contains
-
-      function by_default(key) result(words)
-         character(*), intent(in) :: key
-         character(:), allocatable :: words
-
-         words = ''
-         if (.not. values%has(key)) words = ' (the default)'
-      end function by_default
-
    end subroutine check
 
    function advice(key) result(words)

@@ -3,8 +3,8 @@
 module wavycon_contact_solver
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_contact_measures, only: full_contact_measures
-   use wavycon_contact_solution, only: contact_solution, solution_without_contact_edge
-   use wavycon_contact_status, only: full_contact, no_load, not_finite
+   use wavycon_contact_solution, only: contact_solution, no_solution, solution_without_contact_edge
+   use wavycon_contact_status, only: full_contact, no_load, not_finite, not_found
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: key_type
    use wavycon_kinds, only: dp
@@ -36,6 +36,8 @@ module wavycon_contact_solver
       procedure(solve_load), deferred :: solve_partial_contact
       procedure :: has_error_estimates
       procedure :: why_no_area
+      procedure :: why_chosen
+      procedure :: finest_grid
       procedure :: has_coefficients
       procedure :: has_details
       procedure :: show_progress
@@ -134,9 +136,10 @@ contains
       words = key(:0)
    end function no_advice
 
-   !> Solves one load and measures the solution. No load and full contact need no solver.
+   !> Solves one load and measures the solution. No load and full contact need no solver. The status is not_found if the
+   !> solver was not started or was started on a surface that it refuses.
    subroutine solve(self, pbar_over_pstar, solution)
-      class(contact_solver), intent(inout) :: self   !! started
+      class(contact_solver), intent(inout) :: self
       real(dp), intent(in) :: pbar_over_pstar        !! P; the status of the solution is not_finite if it is no number
       class(contact_solution), allocatable, intent(out) :: solution   !! always allocated, with a status
 
@@ -144,6 +147,10 @@ contains
 
       ! Comparisons with a NaN raise an exception, which Debug builds trap.
       is_number = .not. ieee_is_nan(pbar_over_pstar)
+      if (.not. has_surface(self)) then
+         call no_solution(pbar_over_pstar, self%surface, self%name(), not_found, solution)
+         return
+      end if
       if (is_number) then
          if (pbar_over_pstar > 0.0_dp .and. pbar_over_pstar < 1.0_dp) then
             call self%solve_partial_contact(pbar_over_pstar, solution)
@@ -162,6 +169,14 @@ contains
       end if
    end subroutine solve
 
+   !> Whether the solver was started on a surface that it can solve.
+   logical function has_surface(solver)
+      class(contact_solver), intent(in) :: solver
+
+      has_surface = allocated(solver%surface%shape%c)
+      if (has_surface) has_surface = solver%refusal(solver%surface) == ''
+   end function has_surface
+
    !> Whether the measures of its solutions have error estimates.
    pure logical function has_error_estimates(self)
       class(contact_solver), intent(in) :: self
@@ -179,6 +194,25 @@ contains
       associate (unused => self); end associate
       words = ''
    end function why_no_area
+
+   !> Why the solver that solves is the one that it is, as a sentence for --check; empty if the deck names it.
+   function why_chosen(self) result(words)
+      class(contact_solver), intent(in) :: self   !! started
+      character(:), allocatable :: words
+
+      associate (unused => self); end associate
+      words = ''
+   end function why_chosen
+
+   !> Points along x and y of the finest grid that may be solved, of the part of the cell that is solved. Zeros if there
+   !> is no grid.
+   function finest_grid(self) result(points)
+      class(contact_solver), intent(in) :: self   !! started
+      integer :: points(2)
+
+      associate (unused => self); end associate
+      points = 0
+   end function finest_grid
 
    !> Whether every solution has `coefficients`: those of the Fourier series of the pressure that the solver computed.
    pure logical function has_coefficients(self)

@@ -16,6 +16,7 @@ module wavycon_grid_contact
    use wavycon_grid_cascade, only: cascade_answer, solve_by_cascade
    use wavycon_grid_edge, only: grid_edge, grid_strip_edges, start_grid_edge
    use wavycon_grid_fields, only: grid_fields, start_grid_fields
+   use wavycon_grid_plan, only: grid_plan, plan_grids
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: key_type
    use wavycon_kinds, only: dp
@@ -51,6 +52,7 @@ module wavycon_grid_contact
       procedure :: coarser_levels
       procedure :: use_level
       procedure :: new_kept_solution
+      procedure :: finest_grid
    end type grid_contact
 
    type, extends(contact_solution) :: grid_solution
@@ -295,6 +297,16 @@ contains
       allocate (self%edge)
       call start_grid_edge(self%edge, field, -field, values(first) > 0.0_dp)
    end subroutine unpack_kept
+
+   function finest_grid(self) result(points)
+      class(grid_contact), intent(in) :: self
+      integer :: points(2)
+
+      type(grid_plan) :: plan
+
+      plan = plan_grids(self%solved, self%points)
+      points = plan%last
+   end function finest_grid
 
    !> Transforms curves from the smaller cell to the surface's cell, which has twice its area, and adds the curves of
    !> the other half: the same, translated by half a cell in both directions.

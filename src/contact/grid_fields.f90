@@ -2,7 +2,7 @@
 !> (C19) of README.md so that contact and gap exclude each other.
 !>
 !> One function has the signs and the places of both: p^2 in contact and -(a gap)^(2/3) elsewhere fall in proportion to
-!> the distance from the edge on either side of it, and the factor a makes the two slopes the same on the average.
+!> the distance from the edge on either side of it, and the factor a makes the slopes the same on the average.
 module wavycon_grid_fields
    use wavycon_constants, only: pi
    use wavycon_contact_fields, only: contact_fields
@@ -132,27 +132,33 @@ contains
       end associate
       inside = 0.0_dp
       outside = 0.0_dp
-      associate (psi => fields%psi)
-         do l = 1, n
-            do k = 1, m
-               call add_pair(psi(k, l), psi(k + 1, l))
-               call add_pair(psi(k, l), psi(k, l + 1))
-            end do
+      do l = 1, n
+         do k = 1, m
+            call add_slopes(fields%psi(k - 1:k + 2, l))
+            call add_slopes(fields%psi(k, l - 1:l + 2))
          end do
-         if (outside > 0.0_dp .and. inside > 0.0_dp) fields%scale = inside/outside
-         where (psi < 0.0_dp) psi = fields%scale*psi
-      end associate
+      end do
+      if (inside > 0.0_dp .and. outside > 0.0_dp) fields%scale = inside/outside
+      where (fields%psi < 0.0_dp) fields%psi = fields%scale*fields%psi
 
    contains
 
-      !> Adds to the sums those of two neighbours with the edge between them.
-      subroutine add_pair(a, b)
-         real(dp), intent(in) :: a, b
+      !> If the edge lies in the middle of four points in a row, adds the slopes on either side of it to the sums.
+      subroutine add_slopes(psi)
+         real(dp), intent(in) :: psi(:)   !! shape (4)
 
-         if ((a > 0.0_dp) .eqv. (b > 0.0_dp)) return
-         inside = inside + max(a, b)
-         outside = outside - min(a, b)
-      end subroutine add_pair
+         logical :: contact(4)
+
+         contact = psi > 0.0_dp
+         if ((contact(1) .neqv. contact(2)) .or. (contact(3) .neqv. contact(4)) .or. (contact(2) .eqv. contact(3))) return
+         if (contact(2)) then
+            inside = inside + (psi(1) - psi(2))
+            outside = outside + (psi(3) - psi(4))
+         else
+            inside = inside + (psi(4) - psi(3))
+            outside = outside + (psi(2) - psi(1))
+         end if
+      end subroutine add_slopes
 
    end subroutine find_psi
 

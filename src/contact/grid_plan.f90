@@ -12,7 +12,11 @@ module wavycon_grid_plan
    implicit none (type, external)
    private
 
-   public :: fast_size, finer_grid, fits_memory, grid_plan, plan_grids
+   public :: bytes_of_grid, fast_size, finer_grid, fits_memory, grid_plan, plan_grids
+
+   !> Real numbers for each point: pressure, gap, undeformed gap, four fields of the iteration, spectrum, the start
+   !> interpolated from the coarser grid, the edge.
+   integer, parameter :: numbers_of_point = 10
 
    type :: grid_plan
       integer :: first(2) = 1     !! the coarsest grid
@@ -121,11 +125,14 @@ contains
    logical function fits_memory(grid)
       integer, intent(in) :: grid(2)   !! points of the part of the cell that is solved
 
-      !> Real numbers for each point: pressure, gap, undeformed gap, four fields of the iteration, spectrum, the start
-      !> interpolated from the coarser grid, the edge.
-      integer, parameter :: numbers = 10
-
-      fits_memory = has_memory_for(numbers*product(int(grid, int64)))
+      fits_memory = has_memory_for(numbers_of_point*product(int(grid, int64)))
    end function fits_memory
+
+   !> The memory that it takes to solve on a grid [byte].
+   pure integer(int64) function bytes_of_grid(grid)
+      integer, intent(in) :: grid(2)   !! points of the part of the cell that is solved
+
+      bytes_of_grid = storage_size(1.0_dp)/8*numbers_of_point*product(int(grid, int64))
+   end function bytes_of_grid
 
 end module wavycon_grid_plan

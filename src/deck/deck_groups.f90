@@ -13,7 +13,7 @@ module wavycon_deck_groups
    implicit none (type, external)
    private
 
-   public :: take_groups
+   public :: group_name, take_groups, word_of
 
 contains
 
@@ -56,23 +56,23 @@ contains
       table_of = 0
       first_of_table = 0
       do g = 1, size(scan%groups)
-         name = word_of(text, scan, scan%groups(g))
-         i = findloc(tables%name == name(2:), .true., dim=1)
+         name = group_name(text, scan, g)
+         i = findloc(tables%name == name, .true., dim=1)
          if (i == 0) cycle
          if (first_of_table(i) == 0) then
             first_of_table(i) = g
             table_of(g) = i
          else
-            call problems%add(place(g), name//' is given twice, first in line '// &
+            call problems%add(place(g), '&'//name//' is given twice, first in line '// &
                integer_text(text%line_of(place(first_of_table(i)))))
          end if
       end do
 
       do g = 1, size(scan%groups)
-         name = word_of(text, scan, scan%groups(g))
-         if (any(tables%name == name(2:))) cycle
+         name = group_name(text, scan, g)
+         if (any(tables%name == name)) cycle
          call problems%add(place(g), unknown_group(name, tables))
-         i = nearest_name(name(2:), group_names(tables))
+         i = nearest_name(name, group_names(tables))
          if (i == 0) cycle
          if (first_of_table(i) > 0) cycle
          ! A misspelt group: its keys are checked too, and the group is not reported as missing.
@@ -92,16 +92,16 @@ contains
 
    !> The message for an unknown group.
    pure function unknown_group(name, tables) result(words)
-      character(*), intent(in) :: name  !! with its '&'
+      character(*), intent(in) :: name  !! without '&'
       type(key_group_type), intent(in) :: tables(:)
       character(:), allocatable :: words
 
-      if (name == '&') then
+      if (name == '') then
          words = "expected the name of a group right behind the '&'"
       else
-         words = "there is no group '"//excerpt(name)//"'"// &
-            did_you_mean(name(2:), group_names(tables), "'&", "'")
-         if (nearest_name(name(2:), group_names(tables)) == 0) &
+         words = "there is no group '"//excerpt('&'//name)//"'"// &
+            did_you_mean(name, group_names(tables), "'&", "'")
+         if (nearest_name(name, group_names(tables)) == 0) &
             words = words//'; the groups are '//listed(group_names(tables))
       end if
    end function unknown_group
@@ -124,8 +124,7 @@ contains
          k = key_index(values%table%keys, key)
          if (k == 0) cycle
          if (values%has(key)) then
-            call problems%add(place(e), key//' is given twice, first in line '// &
-               integer_text(text%line_of(values%place_of(key))))
+            call problems%add(place(e), key//' is given twice, first '//where_is(text, values%place_of(key)))
             call values%note_bad(key)
          else
             call values%note_key(key, place(e))
@@ -156,6 +155,16 @@ contains
       end function place
 
    end subroutine take_keys
+
+   !> "in line N", or "by" an option.
+   pure function where_is(text, place) result(words)
+      type(deck_text_type), intent(in) :: text
+      integer, intent(in) :: place
+      character(:), allocatable :: words
+
+      words = 'in line '//integer_text(text%line_of(place))
+      if (text%is_in_option(place)) words = 'by '//excerpt(text%option_at(place))
+   end function where_is
 
    !> The message for a key that the group does not have.
    pure function unknown_key(key, table, tables) result(words)
@@ -277,6 +286,17 @@ contains
       words = 'one value'
       if (number > 1) words = 'at most '//integer_text(number)//' values'
    end function at_most
+
+   !> The name of a group in lower case, without the '&' that it has in a deck.
+   pure function group_name(text, scan, g) result(name)
+      type(deck_text_type), intent(in) :: text
+      type(scan_type), intent(in) :: scan
+      integer, intent(in) :: g
+      character(:), allocatable :: name
+
+      name = word_of(text, scan, scan%groups(g))
+      if (index(name, '&') == 1) name = name(2:)
+   end function group_name
 
    !> The text of a token in lower case.
    pure function word_of(text, scan, t) result(word)

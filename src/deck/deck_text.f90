@@ -1,4 +1,5 @@
-!> The text of a deck file, and the line of each of its bytes.
+!> The text of a deck file, and the line of each of its bytes. Options of the command line that set keys of the deck stand
+!> behind it, each as a line, so that problems with them have a place too.
 module wavycon_deck_text
    use wavycon_error, only: error_type
    use wavycon_file_bytes, only: byte_order_mark, read_file
@@ -12,7 +13,11 @@ module wavycon_deck_text
       character(:), allocatable :: path        !! as the user named the file
       character(:), allocatable :: content
       integer, allocatable :: line_start(:)    !! place of the first byte of each line
+      integer, private :: options = 0          !! number of the last lines that are options
    contains
+      procedure :: add_option
+      procedure :: is_in_option
+      procedure :: option_at
       procedure :: line_of
       procedure :: line_bounds
    end type deck_text_type
@@ -61,6 +66,36 @@ contains
       ends_line = .true.
       if (place < len(content)) ends_line = content(place + 1:place + 1) /= line_feed
    end function ends_line
+
+   !> Adds an option of the command line behind the text.
+   pure subroutine add_option(self, words)
+      class(deck_text_type), intent(inout) :: self
+      character(*), intent(in) :: words   !! one line
+
+      self%content = self%content//line_feed//words
+      self%line_start = [self%line_start, len(self%content) - len(words) + 1]
+      self%options = self%options + 1
+   end subroutine add_option
+
+   !> Whether a place is in an option.
+   pure logical function is_in_option(self, place)
+      class(deck_text_type), intent(in) :: self
+      integer, intent(in) :: place   !! >= 1
+
+      is_in_option = self%line_of(place) > size(self%line_start) - self%options
+   end function is_in_option
+
+   !> The option that a place is in.
+   pure function option_at(self, place) result(words)
+      class(deck_text_type), intent(in) :: self
+      integer, intent(in) :: place   !! >= 1
+      character(:), allocatable :: words
+
+      integer :: first, last
+
+      call self%line_bounds(self%line_of(place), first, last)
+      words = self%content(first:last)
+   end function option_at
 
    !> The number of the line that a place is in.
    pure integer function line_of(self, place)

@@ -8,7 +8,7 @@ module wavycon_load_group
    implicit none (type, external)
    private
 
-   public :: load_table, check_load_group, given_loads
+   public :: load_table, check_load_group, given_loads, is_another_way
 
    !> Largest load accepted. Contact is full from 1 on: a load far above it is most likely a mistake of units.
    real(dp), parameter, public :: largest_pbar_over_pstar = 1.0e6_dp
@@ -76,6 +76,17 @@ contains
          call values%complain(problems, 'sweep_steps', &
             'sweep_steps = 1 leaves out sweep_to: the ends count as loads; give at least 2')
    end subroutine check_load_group
+
+   !> Whether two keys of &load give the loads in different ways: two lists, or a list and a sweep.
+   pure logical function is_another_way(key, other)
+      character(*), intent(in) :: key, other
+
+      if (any(lists == key)) then
+         is_another_way = key /= other
+      else
+         is_another_way = any(sweep_keys == key) .and. any(lists == other)
+      end if
+   end function is_another_way
 
    !> The loads in the deck's order; a sweep is a list of pbar_over_pstar.
    pure subroutine given_loads(values, key, loads_by, loads)

@@ -3,6 +3,7 @@ module wavycon_make_scene
    use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_value
    use wavycon_deck, only: deck_type
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
+   use wavycon_group_values, only: group_values
    use wavycon_kinds, only: dp
    use wavycon_load_group, only: given_loads, largest_pbar_over_pstar
    use wavycon_material_group, only: plane_strain_modulus
@@ -12,7 +13,7 @@ module wavycon_make_scene
    implicit none (type, external)
    private
 
-   public :: make_scene
+   public :: make_scene, take_loads
 
 contains
 
@@ -29,7 +30,8 @@ contains
       call move_alloc(deck%map, scene%map)
       scene%e_star = plane_strain_modulus(deck%material)
       scene%p_star = scene%surface%full_contact_pressure(scene%e_star)
-      call take_loads(deck, scene, error)
+      call take_loads(deck%load, deck%path, scene%surface%amplitude, scene%p_star, scene%loads_by, scene%target, &
+                      scene%mean_pressure, error)
       if (allocated(error)) return
       scene%deck_path = deck%path
       scene%title = deck%scene%text('title')
@@ -50,49 +52,53 @@ contains
       scene%resolved_deck = resolved_deck_text(essence)
    end subroutine make_scene
 
-   !> Sets the loads of the scene. Errors: exit_bad_input, as of make_scene.
-   subroutine take_loads(deck, scene, error)
-      type(deck_type), intent(in) :: deck
-      type(scene_type), intent(inout) :: scene
+   !> Converts loads to the program's normalisation. Errors: exit_bad_input, as of make_scene.
+   subroutine take_loads(values, path, amplitude, p_star, loads_by, target, mean_pressure, error)
+      type(group_values), intent(in) :: values                   !! of a &load group without problems
+      character(*), intent(in) :: path                           !! of the deck, for messages
+      real(dp), intent(in) :: amplitude                          !! Delta [length]
+      real(dp), intent(in) :: p_star                             !! p* [pressure]; 0: the surface is flat
+      integer, intent(out) :: loads_by                           !! by_pressure, by_mean_gap or by_contact_area
+      real(dp), allocatable, intent(out) :: target(:)            !! P, G or the contact area fraction
+      real(dp), allocatable, intent(out) :: mean_pressure(:)     !! [pressure]; allocated for by_pressure
       type(error_type), allocatable, intent(out) :: error
 
       character(:), allocatable :: key
       real(dp), allocatable :: loads(:)
       real(dp) :: worst
 
-      call given_loads(deck%load, key, scene%loads_by, loads)
-      if (scene%loads_by /= by_pressure .and. scene%p_star <= 0.0_dp) then
-         call fatal_error(error, exit_bad_input, escaped(deck%path)// &
+      call given_loads(values, key, loads_by, loads)
+      if (loads_by /= by_pressure .and. p_star <= 0.0_dp) then
+         call fatal_error(error, exit_bad_input, escaped(path)// &
                           ': the surface is flat: give its loads by pressure, not by gap or area')
          return
       end if
       worst = maxval(loads)
       select case (key)
       case ('pbar_over_pstar')
-         scene%mean_pressure = scene%p_star*loads
-         if (scene%p_star <= 0.0_dp) loads = in_p_star(scene%mean_pressure, scene%p_star)
+         mean_pressure = p_star*loads
+         if (p_star <= 0.0_dp) loads = in_p_star(mean_pressure, p_star)
       case ('mean_pressure')
          ! Checked before the division by p*, which may overflow.
-         if (scene%p_star > 0.0_dp .and. worst > largest_pbar_over_pstar*scene%p_star) then
-            call fatal_error(error, exit_bad_input, escaped(deck%path)//': mean_pressure = '// &
-                             short_number(worst)// &
+         if (p_star > 0.0_dp .and. worst > largest_pbar_over_pstar*p_star) then
+            call fatal_error(error, exit_bad_input, escaped(path)//': mean_pressure = '//short_number(worst)// &
                              ' is more than '//short_number(largest_pbar_over_pstar)//' times p* = '// &
-                             short_number(scene%p_star)// &
+                             short_number(p_star)// &
                              '. Do its unit and that of e_star agree, and those of the lengths?')
             return
          end if
-         scene%mean_pressure = loads
-         loads = in_p_star(loads, scene%p_star)
+         mean_pressure = loads
+         loads = in_p_star(loads, p_star)
       case ('mean_gap')
-         if (worst > scene%surface%amplitude) then
-            call fatal_error(error, exit_bad_input, escaped(deck%path)//': mean_gap = '//short_number(worst)// &
-                             ' is more than the mean gap before load, '//short_number(scene%surface%amplitude)// &
+         if (worst > amplitude) then
+            call fatal_error(error, exit_bad_input, escaped(path)//': mean_gap = '//short_number(worst)// &
+                             ' is more than the mean gap before load, '//short_number(amplitude)// &
                              '. Do the units of the lengths agree?')
             return
          end if
-         loads = loads/scene%surface%amplitude
+         loads = loads/amplitude
       end select
-      call move_alloc(loads, scene%target)
+      call move_alloc(loads, target)
    end subroutine take_loads
 
    !> A mean pressure over p*. On a flat surface p* = 0 and contact is full at every load: the result is 1 without

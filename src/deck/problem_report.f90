@@ -31,7 +31,8 @@ contains
             report = report//escaped(text%path)//':'
             if (problem%place > 0) report = report//position(text, problem%place)
             report = report//' error '//integer_text(i)//' of '//total//': '//problem%words
-            if (problem%place > 0) report = report//newline//line_and_caret(text, problem%place)
+            if (problem%place == 0) cycle
+            if (.not. text%is_in_option(problem%place)) report = report//newline//line_and_caret(text, problem%place)
          end associate
       end do
       left = problems%number - most_printed
@@ -65,7 +66,7 @@ contains
       end do
    end function in_order
 
-   !> "line:column:", the column counted in characters.
+   !> "line:column:", the column counted in characters; of an option " option:".
    pure function position(text, place) result(words)
       type(deck_text_type), intent(in) :: text
       integer, intent(in) :: place
@@ -73,6 +74,10 @@ contains
 
       integer :: line
 
+      if (text%is_in_option(place)) then
+         words = ' '//escaped(text%option_at(place))//':'
+         return
+      end if
       line = text%line_of(place)
       words = integer_text(line)//':'// &
          integer_text(character_count(text%content(text%line_start(line):place - 1)) + 1)//':'

@@ -19,6 +19,7 @@ module wavycon_read_deck
    use wavycon_problem_report, only: problem_report
    use wavycon_problems, only: problem_list_type
    use wavycon_scene_group, only: check_scene_group
+   use wavycon_settings, only: add_settings, name_case, setting_type
    use wavycon_surface_group, only: check_surface_group, make_surface
    implicit none (type, external)
    private
@@ -31,33 +32,38 @@ contains
    !>
    !> Errors: exit_file_trouble if the deck or its height map cannot be read; exit_bad_input, with a report of all
    !> problems, for a bad deck; exit_bad_input for a bad height map.
-   subroutine read_deck(path, deck, error)
+   subroutine read_deck(path, deck, error, settings)
       character(*), intent(in) :: path
       type(deck_type), intent(out) :: deck  !! to be used only if there is no error
       type(error_type), allocatable, intent(out) :: error
+      type(setting_type), intent(in), optional :: settings(:)   !! keys set in place of those of the deck
 
       type(deck_text_type) :: text
 
       call read_deck_text(path, text, error)
       if (allocated(error)) return
-      call parse_deck(text, deck, error)
+      call parse_deck(text, deck, error, settings)
    end subroutine read_deck
 
    !> Reads a deck from its text. Errors: as of `read_deck`.
-   subroutine parse_deck(text, deck, error)
-      type(deck_text_type), intent(in) :: text
+   subroutine parse_deck(deck_text, deck, error, settings)
+      type(deck_text_type), intent(in) :: deck_text
       type(deck_type), intent(out) :: deck  !! to be used only if there is no error
       type(error_type), allocatable, intent(out) :: error
+      type(setting_type), intent(in), optional :: settings(:)   !! keys set in place of those of the deck
 
       type(group_values) :: groups(number_of_groups)
       type(problem_list_type) :: problems
       type(scan_type) :: scan
+      type(deck_text_type) :: text
 
+      text = deck_text
       call scan_deck(text, scan, problems)
       if (size(scan%tokens) == 0) then
          call fatal_error(error, exit_bad_input, escaped(text%path)//': the deck is empty')
          return
       end if
+      if (present(settings)) call add_settings(settings, deck_tables(), text, scan, problems)
       call take_groups(text, scan, deck_tables(), groups, problems)
       deck%path = text%path
       deck%scene = groups(scene_number)
@@ -68,6 +74,7 @@ contains
       deck%output = groups(output_number)
 
       call check_scene_group(deck%scene, problems)
+      if (present(settings)) call name_case(deck%scene, settings, problems)
       call check_material_group(deck%material, problems)
       call read_surface(deck, problems, error)
       call check_load_group(deck%load, problems)

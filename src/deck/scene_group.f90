@@ -8,10 +8,10 @@ module wavycon_scene_group
 
    public :: scene_table, check_scene_group
 
-   integer, parameter :: longest_name = 200
+   integer, parameter, public :: longest_name = 200
    !> Bytes of the label of a unit.
    integer, parameter :: longest_unit = 20
-   character(*), parameter :: plain = 'abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.'
+   character(*), parameter, public :: name_letters = 'abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.'
    character(*), parameter :: plain_in_words = "letters, digits, '_', '-' and '.', the first neither '-' nor '.'"
 
 contains
@@ -31,13 +31,13 @@ contains
          text_key('length_unit', "'length'", "Label of the deck's unit of lengths, such as 'mm'.", longest_unit)])
    end function scene_table
 
-   !> Checks the name of the case. Its default is the name of the deck's file without '.nml'.
+   !> Checks the labels of units and the name of the case, whose default is the name of the deck's file without '.nml'.
    subroutine check_scene_group(values, problems)
       type(group_values), intent(inout) :: values
       type(problem_list_type), intent(inout) :: problems
 
-      call check_unit(values, 'pressure_unit', problems)
-      call check_unit(values, 'length_unit', problems)
+      call check_unit(values, 'pressure_unit', "'MPa' or 'N/mm^2'", problems)
+      call check_unit(values, 'length_unit', "'mm'", problems)
       if (values%is_bad('case')) return
       if (.not. values%has('case') .and. .not. is_plain_name(stem(values%deck_path))) then
          call problems%add(values%place, "the deck's file name cannot serve as the name of the case ("// &
@@ -50,21 +50,21 @@ contains
    end subroutine check_scene_group
 
    !> Checks the label of a unit: the units of a table stand in one line, in brackets and separated by blanks.
-   subroutine check_unit(values, key, problems)
+   subroutine check_unit(values, key, examples, problems)
       type(group_values), intent(inout) :: values
-      character(*), intent(in) :: key
+      character(*), intent(in) :: key, examples
       type(problem_list_type), intent(inout) :: problems
 
       if (values%is_bad(key)) return
       if (scan(values%text(key), ' []') > 0) call values%complain(problems, key, &
-         key//" must have no blanks and no brackets, such as 'MPa' or 'N/mm^2'")
+         key//' must have no blanks and no brackets, such as '//examples)
    end subroutine check_unit
 
    !> Whether a text can be the stem of file names: as plain_in_words.
    pure logical function is_plain_name(name)
       character(*), intent(in) :: name
 
-      is_plain_name = len(name) > 0 .and. len(name) <= longest_name .and. verify(name, plain) == 0
+      is_plain_name = len(name) > 0 .and. len(name) <= longest_name .and. verify(name, name_letters) == 0
       if (is_plain_name) is_plain_name = scan(name(1:1), '-.') == 0
    end function is_plain_name
 

@@ -157,11 +157,7 @@ contains
             end do
             if (as_text) then
                if (l > 1) call file%put('')
-               do k = 1, points(1)
-                  call file%add(load)
-                  call file%add(rows(:, k))
-                  call file%end_row()
-               end do
+               call file%put_rows(load, rows)
             else
                call file%put_raw(rows)
             end if

@@ -3,16 +3,17 @@ module wavycon_summary_table
    use wavycon_contact_status, only: status_code
    use wavycon_error, only: error_type
    use wavycon_kinds, only: dp
-   use wavycon_output_file, only: output_file
+   use wavycon_output_file, only: narrowest, number_words, output_file
+   use wavycon_plain_text, only: integer_text
    use wavycon_results, only: not_a_number, results_type
    use wavycon_table, only: table_type
    implicit none (type, external)
    private
 
-   public :: summary_table
+   public :: summary_table, summary_row
 
    !> The errors are estimates; NaN if the solver has none.
-   character(45), parameter :: columns(*) = [character(45) :: &
+   character(45), parameter, public :: summary_columns(*) = [character(45) :: &
       'load[-]', 'pbar_over_pstar[-]', 'mean_gap_over_amplitude[-]', 'approach_over_amplitude[-]', &
       'contact_area_fraction[-]', 'peak_pressure_over_pstar[-]', 'min_pressure_over_pstar[-]', &
       'mean_gap_over_amplitude_error[-]', 'contact_area_fraction_error[-]', 'peak_pressure_over_pstar_error[-]', &
@@ -55,36 +56,49 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(output_file) :: file
-      real(dp) :: errors(3)
-      integer :: i
+      character(narrowest) :: words(size(summary_columns))
+      integer :: i, k
 
-      call results%open_table('summary', columns, file, in_blocks=.false.)
+      call results%open_table('summary', summary_columns, file, in_blocks=.false.)
       do i = 1, size(results%loads)
-         associate (scene => results%scene, solution => results%loads(i)%solution, &
-                    measures => results%loads(i)%solution%measures)
-            errors = not_a_number()
-            if (results%solver%has_error_estimates()) &
-               errors = [measures%mean_gap_error, measures%contact_area_error, measures%peak_pressure_error]
-            call file%add(i)
-            call file%add([solution%pbar_over_pstar, &
-                           measures%mean_gap_over_amplitude, measures%approach_over_amplitude, &
-                           measures%contact_area_fraction, measures%peak_pressure_over_pstar, &
-                           measures%min_pressure_over_pstar, errors, results%mean_pressure(i), &
-                           scene%surface%amplitude*measures%mean_gap_over_amplitude, &
-                           scene%surface%amplitude*measures%approach_over_amplitude, &
-                           product(scene%surface%length(:scene%surface%dimension))*measures%contact_area_fraction, &
-                           peak_pressure(results, i)])
-            call file%add(solution%active_constraints)
-            call file%add(solution%iterations)
-            call file%add(solution%residual)
-            call file%add(trim(solution%solver))
-            call file%add(status_code(solution%status))
-            call file%add(trim(solution%status))
-            call file%end_row()
-         end associate
+         words = summary_row(results, i)
+         do k = 1, size(words)
+            call file%add(trim(words(k)))
+         end do
+         call file%end_row()
       end do
       call file%finish(error)
    end subroutine write_summary_table
+
+   !> The row of a load.
+   function summary_row(results, load) result(words)
+      type(results_type), intent(in) :: results
+      integer, intent(in) :: load
+      character(narrowest) :: words(size(summary_columns))
+
+      real(dp) :: errors(3)
+
+      associate (scene => results%scene, solution => results%loads(load)%solution, &
+                 measures => results%loads(load)%solution%measures)
+         errors = not_a_number()
+         if (results%solver%has_error_estimates()) &
+            errors = [measures%mean_gap_error, measures%contact_area_error, measures%peak_pressure_error]
+         words = [character(narrowest) :: &
+                  integer_text(load), &
+                  number_words([solution%pbar_over_pstar, &
+                                measures%mean_gap_over_amplitude, measures%approach_over_amplitude, &
+                                measures%contact_area_fraction, measures%peak_pressure_over_pstar, &
+                                measures%min_pressure_over_pstar, errors, results%mean_pressure(load), &
+                                scene%surface%amplitude*measures%mean_gap_over_amplitude, &
+                                scene%surface%amplitude*measures%approach_over_amplitude, &
+                                product(scene%surface%length(:scene%surface%dimension))* &
+                                measures%contact_area_fraction, &
+                                peak_pressure(results, load)]), &
+                  integer_text(solution%active_constraints), integer_text(solution%iterations), &
+                  number_words(solution%residual), solution%solver, &
+                  integer_text(status_code(solution%status)), solution%status]
+      end associate
+   end function summary_row
 
    !> The peak pressure of a load [pressure]. On a flat surface, whose p* is zero, it is the mean pressure.
    pure real(dp) function peak_pressure(results, load)

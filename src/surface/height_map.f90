@@ -1,5 +1,6 @@
 !> A height map from a file.
 module wavycon_height_map
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_group_values, only: group_values
    use wavycon_height_map_file, only: height_map_type, read_height_map
@@ -14,7 +15,7 @@ module wavycon_height_map
    implicit none (type, external)
    private
 
-   public :: height_map_kind
+   public :: height_map_kind, surface_of_heights
 
    type, extends(surface_kind) :: height_map_kind
    contains
@@ -86,24 +87,47 @@ contains
       associate (height => heights%height, step => heights%step)
          if (all(step > 0.0_dp)) length = step*shape(height)
          if (step(1) > 0.0_dp .and. size(height, 2) == 1) length = step(1)*size(height, 1)
+      end associate
+      call surface_of_heights(path, length, values%real('height_scale'), heights%height, surface, error)
+      if (allocated(error)) then
+         error%message = error%message//map_of
+         return
+      end if
+      map = statistics_of(heights%height, heights%format, full_path(path))
+   end subroutine make
+
+   !> Makes the surface of heights in memory. Errors: exit_bad_input for heights that are not finite or out of range.
+   subroutine surface_of_heights(source, length, scale, height, surface, error)
+      character(*), intent(in) :: source                    !! of the heights, for messages
+      real(dp), intent(in) :: length(2)                     !! L_x, L_y [length], > 0
+      real(dp), intent(in) :: scale                         !! length of one unit of the heights, > 0
+      !> Upwards to the other body, shape (M, N), N = 1 for a profile; becomes the heights over their mean [length].
+      real(dp), intent(inout), contiguous :: height(:, :)
+      type(surface_type), intent(inout) :: surface
+      type(error_type), allocatable, intent(out) :: error
+
+      if (.not. all(ieee_is_finite(height))) then
+         call fatal_error(error, exit_bad_input, escaped(source)//': not all heights are finite numbers')
+         return
+      end if
+      if (maxval(abs(height)) <= largest_number) then
          if (maxval(height) <= minval(height)) then
             ! Equal heights less their rounded mean would not be zero.
             height = 0.0_dp
          else
-            height = values%real('height_scale')*(height - sum(height)/size(height))
+            height = scale*(height - sum(height)/size(height))
          end if
-         associate (largest => maxval(abs(height)))
-            if (largest > largest_number .or. (largest < smallest_number .and. largest > 0.0_dp)) then
-               call fatal_error(error, exit_bad_input, escaped(path)//': the heights over their mean, times '// &
-                                'height_scale, are up to '//short_number(largest)//' [length]: lengths may be '// &
-                                'from '//short_number(smallest_number)//' to '//short_number(largest_number)//map_of)
-               return
-            end if
-         end associate
+      end if
+      associate (largest => maxval(abs(height)))
+         if (largest > largest_number .or. (largest < smallest_number .and. largest > 0.0_dp)) then
+            call fatal_error(error, exit_bad_input, escaped(source)//': the heights over their mean, times '// &
+                             'height_scale, are up to '//short_number(largest)//' [length]: lengths may be '// &
+                             'from '//short_number(smallest_number)//' to '//short_number(largest_number))
+            return
+         end if
       end associate
-      surface = surface_of_points(length, heights%height)
-      map = statistics_of(heights%height, heights%format, full_path(path))
-   end subroutine make
+      surface = surface_of_points(length, height)
+   end subroutine surface_of_heights
 
    !> The path of the map: in the directory of the deck or, if it is not there, in the one the program was started in.
    function place_of_map(deck_path, file) result(path)

@@ -10,7 +10,7 @@ module wavycon_height_map_file
    implicit none (type, external)
    private
 
-   public :: height_map_type, read_height_map
+   public :: height_map_type, read_height_map, check_map_size, check_room
 
    !> Heights of a periodic cell: the last row and column are not copies of the first.
    type :: height_map_type
@@ -48,27 +48,29 @@ contains
          if (table%length(1) == 3 .and. table%rows() > 3 .and. size(table%values) == 3*table%rows()) &
             map%format = 'xyz'
       end if
-      if (.not. there_is_room(size(table%values)/merge(3, 1, map%format == 'xyz'))) then
-         call fatal_error(error, exit_file_trouble, escaped(path)// &
-                          ': there is not the memory for a map of this size')
-      else if (map%format == 'xyz') then
+      call check_room(path, size(table%values)/merge(3, 1, map%format == 'xyz'), error)
+      if (allocated(error)) return
+      if (map%format == 'xyz') then
          call take_points(table, map, error)
       else
          call take_matrix(table, map, error)
       end if
-      if (.not. allocated(error)) call check_size(path, map, error)
+      if (.not. allocated(error)) call check_map_size(path, shape(map%height), error)
    end subroutine read_height_map
 
-   !> Whether there is memory for a map and its surface besides the numbers read. It is checked here because later
-   !> allocations have no error handling.
-   logical function there_is_room(heights)
-      integer, intent(in) :: heights   !! of the map
+   !> Checks that there is memory for a map and its surface besides the numbers read, because later allocations have no
+   !> error handling. Errors: exit_file_trouble.
+   subroutine check_room(source, heights, error)
+      character(*), intent(in) :: source   !! of the map, for the message
+      integer, intent(in) :: heights       !! of the map
+      type(error_type), allocatable, intent(out) :: error
 
       !> Real numbers for each height: the map, the Fourier coefficients and their copies, work space of the transforms.
       integer(int64), parameter :: copies = 5
 
-      there_is_room = has_memory_for(copies*heights)
-   end function there_is_room
+      if (.not. has_memory_for(copies*heights)) &
+         call fatal_error(error, exit_file_trouble, escaped(source)//': there is not the memory for a map of this size')
+   end subroutine check_room
 
    !> Makes a map from lines with a row of heights each. Errors: exit_bad_input for rows of unequal length.
    subroutine take_matrix(table, map, error)
@@ -180,18 +182,18 @@ contains
       step = (coordinate(number) - coordinate(1))/(number - 1)
    end subroutine take_steps
 
-   !> Errors: exit_bad_input for a map that is too small or too large.
-   subroutine check_size(path, map, error)
-      character(*), intent(in) :: path
-      type(height_map_type), intent(in) :: map
+   !> Checks the number of points. Errors: exit_bad_input for a map that is too small or too large.
+   subroutine check_map_size(source, points, error)
+      character(*), intent(in) :: source   !! of the map, for the message
+      integer, intent(in) :: points(2)     !! along x and y; the second is 1 for a profile
       type(error_type), allocatable, intent(out) :: error
 
-      associate (m => size(map%height, 1), n => size(map%height, 2))
-         if (m < least_points .or. (n < least_points .and. n > 1) .or. max(m, n) > most_points) &
-            call fatal_error(error, exit_bad_input, escaped(path)//': a map of '//integer_text(m)//' x '// &
+      associate (m => points(1), n => points(2))
+         if (m < least_points .or. (n < least_points .and. n /= 1) .or. max(m, n) > most_points) &
+            call fatal_error(error, exit_bad_input, escaped(source)//': a map of '//integer_text(m)//' x '// &
                              integer_text(n)//' points: there must be '//integer_text(least_points)//' to '// &
                              integer_text(most_points)//' along each side, or one row for a profile')
       end associate
-   end subroutine check_size
+   end subroutine check_map_size
 
 end module wavycon_height_map_file

@@ -131,7 +131,7 @@ contains
       do
          read (unit, '(a)', iostat=status) line
          if (status /= 0) exit
-         if (line(1:1) == '#' .or. line == '') cycle
+         if (line == '' .or. line(1:1) == '#' .or. index(line, 'pbar_over_pstar') > 0) cycle
          read (line, *) row
          loads = [loads, row(1)]
          values = reshape([values, row(2:)], [3, size(loads)])

@@ -8,8 +8,13 @@
 program bench_paper_method
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use samples, only: clock_ms, sample_set
-   use wavycon, only: beale_solver, beale_solution, fourier_series, dp, beale_contact, qp_problem, &
-                      qp_solution, qp_status_name, symmetry_diagonal, symmetry_full, wave_2d
+   use wavycon_beale, only: beale_solver
+   use wavycon_beale_contact, only: beale_contact, beale_solution
+   use wavycon_fourier_series, only: fourier_series
+   use wavycon_fourier_terms, only: symmetry_diagonal, symmetry_full
+   use wavycon_kinds, only: dp
+   use wavycon_qp_problem, only: qp_problem, qp_solution, qp_status_name
+   use wavycon_wave_2d, only: wave_2d
    implicit none (type, external)
 
    !> A method to solve for one load, its times at that load and its last solution.
@@ -307,7 +312,7 @@ contains
       do
          read (unit, '(a)', iostat=failed) line
          if (failed /= 0) exit
-         if (line == '' .or. index(adjustl(line), '#') == 1) cycle
+         if (line == '' .or. line(1:1) == '#' .or. index(line, 'pbar_over_pstar') > 0) cycle
          read (line, *, iostat=failed) load, gap
          if (failed /= 0) call give_up('a line of the reference table cannot be read')
          loads = [loads, load]

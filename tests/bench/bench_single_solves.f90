@@ -9,7 +9,10 @@
 program bench_single_solves
    use, intrinsic :: iso_fortran_env, only: error_unit, input_unit, output_unit
    use samples, only: clock_ms
-   use wavycon, only: beale_solution, dp, beale_contact, symmetry_full, wave_2d
+   use wavycon_beale_contact, only: beale_contact, beale_solution
+   use wavycon_fourier_terms, only: symmetry_full
+   use wavycon_kinds, only: dp
+   use wavycon_wave_2d, only: wave_2d
    implicit none (type, external)
 
    character(*), parameter :: numbers = '(*(es26.17e3))'

@@ -17,6 +17,10 @@ import subprocess
 import sys
 import tempfile
 
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent/'regression'))
+from tables import Table  # noqa: E402
+
 ROOMS = 'fitted', 'contact'
 ROUNDING = 1e-13
 TIMEOUT = 60  # for a deck; the unchanged program takes less than a second [s]
@@ -47,7 +51,7 @@ CASES = {
         (CROSSED, '0.01, 0.05, 0.5, 0.9', "solver = 'fitted', accuracy = 1e-6", DETAILS, TIGHT),
         (RHOMBIC, '0.02, 0.15, 0.4, 0.9', "solver = 'fitted', accuracy = 1e-6", DETAILS, TIGHT),
         (WAVE, '0.2', "solver = 'fitted', accuracy = 1e-7",
-         '&output map = .true., points_per_wavelength = 24 /', TIGHT),
+         '&output map = .true., map_points = 24 /', TIGHT),
     ],
     'contact': [
         (WAVE, '0.01, 0.05, 0.2, 0.25, 0.5, 0.9', "solver = 'grid', accuracy = 1e-3", SUMMARY, 'wave_2d'),
@@ -59,11 +63,8 @@ CASES = {
         (WAVE, '0.05, 0.5', "solver = 'grid', grid_points = 128", SUMMARY, 'wave_2d'),
     ],
 }
-# Values and their errors in a summary.
-IN_SUMMARY = (('mean_gap_over_amplitude', 'mean_gap_error'), ('contact_area_fraction', 'contact_area_error'),
-              ('peak_pressure_over_pstar', 'peak_pressure_error'))
-IN_REFERENCE = {'mean_gap_over_amplitude': 'mean_gap', 'contact_area_fraction': 'contact_area',
-                'peak_pressure_over_pstar': 'peak_pressure'}
+# Columns of a map that are solved for.
+MAP_FIELDS = 'pressure', 'gap', 'displacement'
 
 
 def constants(text):
@@ -148,30 +149,13 @@ class Tree:
         return shutil.copy(self.build/'wavycon', self.directory/name)
 
 
-def table(path):
-    """Rows of a table of the program, by the names of its columns without units."""
-    names, rows = [], []
-    for line in path.read_text(encoding='utf-8').splitlines():
-        if line.startswith('#'):
-            # Remarks on single loads may follow the names.
-            if 'pbar_over_pstar[' in line:
-                names = [word.split('[')[0] for word in line[1:].split()]
-        elif line.strip():
-            rows.append(dict(zip(names, line.split())))
-    return names, rows
-
-
-def reference_table(path):
-    """By load the values and their errors, each by name."""
-    found = {}
-    for line in path.read_text(encoding='utf-8').splitlines():
-        words = line.lstrip('#').split()
-        if line.startswith('#'):
-            names = [word.split('[')[0] for word in words]
-        else:
-            numbers = [float(word) for word in words]
-            found[numbers[0]] = {names[i]: (numbers[i], numbers[i + 1]) for i in range(1, len(names), 2)}
-    return found
+def values_with_errors(path):
+    """By load the values of a table that have errors, with these, each by name."""
+    table = Table(path)
+    names = [name for name in table.columns if f'{name}_error' in table.columns]
+    return {float(record['pbar_over_pstar']):
+            {name: (float(record[name]), float(record[f'{name}_error'])) for name in names}
+            for record in table.records()}
 
 
 class Deck:
@@ -191,10 +175,8 @@ class Deck:
     def find_references(self, program, root):
         """The reference values and their errors: by load, then by name."""
         if self.reference in ('wave_2d', 'hexagonal'):
-            known = reference_table(root/'outputs'/'reference'/f'{self.reference}.dat')
+            known = values_with_errors(root/'outputs'/'reference'/f'{self.reference}.dat')
             self.truth = {load: known[load] for load in map(float, self.loads.split(','))}
-            for values in self.truth.values():
-                values.update({long: values[short] for long, short in IN_REFERENCE.items()})
             return
         path = self._write(f'{self.name}_tight', self.reference)
         _, results = self.run(program, path)
@@ -216,37 +198,24 @@ class Deck:
         summary = out/f'{path.stem}.summary.dat'
         if not summary.exists():
             return math.nan, None
-        names, rows = table(summary)
-        # A load without a solution has no row in the details.
-        solved = {float(row['pbar_over_pstar']): row['status'] == 'converged' for row in rows}
-        results = {'solved': solved,
-                   'rows': {float(row['pbar_over_pstar']): {value: (float(row[value]), float(row[error]))
-                                                            for value, error in IN_SUMMARY} for row in rows}}
+        results = {'solved': {float(record['pbar_over_pstar']): record['status'] == 'converged'
+                              for record in Table(summary).records()},
+                   'rows': values_with_errors(summary)}
         details = out/f'{path.stem}.details.dat'
         if details.exists():
-            names, rows = table(details)
-            pairs = [name for name in names if f'{name}_error' in names]
-            results['rows'] = {float(row['pbar_over_pstar']):
-                               {self._short(name): (float(row[name]), float(row[f'{name}_error'])) for name in pairs}
-                               for row in rows}
+            results['rows'] = values_with_errors(details)
         for path_of_map in sorted(out.glob('*.map.dat')):
             self._add_map(results, path_of_map)
         results['text'] = repr(results)
         return time, results
 
     @staticmethod
-    def _short(name):
-        return {'contact_area_fraction': 'contact_area', 'elastic_energy': 'energy'}.get(name, name)
-
-    @staticmethod
     def _add_map(results, path):
         """The largest pressure and gap errors of a map have no estimates: each number is a value of the first load."""
         first = next(iter(results['rows'].values()), {})
-        numbers = [line.split() for line in path.read_text(encoding='utf-8').splitlines()
-                   if line.strip() and not line.startswith('#')]
-        for i, words in enumerate(numbers):
-            for j in range(2, len(words)):
-                first[f'map {i} {j}'] = float(words[j]), math.inf
+        for i, record in enumerate(Table(path).records()):
+            for name in MAP_FIELDS:
+                first[f'map {i} {name}'] = float(record[name]), math.inf
 
     def compare(self, results, base):
         """Logarithms of the errors over the base's, the largest error over its estimate, and the loads lost."""

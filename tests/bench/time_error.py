@@ -16,11 +16,16 @@ finer one.
 import itertools
 import math
 import os
+import pathlib
 import subprocess
 import sys
 import tempfile
 
 from time_error_install import PEERS, python_with
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / 'regression'))
+from tables import Table  # noqa: E402
 
 LOADS = '0.05', '0.2', '0.5', '0.9'
 QUANTITIES = 'gap', 'area', 'peak'
@@ -35,13 +40,8 @@ HANG = 5  # a solver is ended after so many times its time
 def references(path):
     """Values, and half a unit of their last digits, both of all three quantities, by load."""
     found = {}
-    with open(path, encoding='utf-8') as lines:
-        for line in lines:
-            words = line.split()
-            if words and not words[0].startswith('#'):
-                values = [float(word) for word in words[1:]]
-                halves = [0.5*10.0**-len(word.split('.')[1]) for word in words[1:]]
-                found[float(words[0])] = values, halves
+    for load, *words in Table(path).rows():
+        found[float(load)] = [float(word) for word in words], [0.5*10.0**-len(word.split('.')[1]) for word in words]
     return found
 
 

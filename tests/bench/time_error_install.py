@@ -1,7 +1,11 @@
 """Installs the other programs from the Python package index, each into a virtual environment of its own."""
 import os
-import subprocess
+import pathlib
 import sys
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / 'support'))
+import virtual_environment  # noqa: E402
 
 # The versions measured, and the Pythons tried: slippy 0.5 runs on 3.7 to 3.10 only.
 PEERS = {
@@ -10,17 +14,7 @@ PEERS = {
     'slippy': ('slippy==0.5.0', ['python3', 'python3.10', 'python3.9', 'python3.8']),
 }
 IMPORTS = {'tamaas': 'tamaas', 'contactmechanics': 'ContactMechanics', 'slippy': 'slippy.core'}
-PIP = ['-m', 'pip', 'install', '--disable-pip-version-check', '--no-input', '--timeout', '10',
-       '--retries', '1', '--only-binary', 'numpy,scipy,numba,llvmlite,matplotlib,h5py,muGrid,tamaas']
-PATIENCE = 600  # [s] for one installation
-
-
-def succeeds(command, log):
-    try:
-        return subprocess.run(command, stdin=subprocess.DEVNULL, stdout=log, stderr=log,
-                              timeout=PATIENCE, check=False).returncode == 0
-    except (OSError, subprocess.TimeoutExpired):
-        return False
+BINARIES = ['--only-binary', 'numpy,scipy,numba,llvmlite,matplotlib,h5py,muGrid,tamaas']
 
 
 def python_with(peer, directory):
@@ -29,16 +23,6 @@ def python_with(peer, directory):
     WAVYCON_PEER_PYTHON may name one more Python to try.
     """
     requirement, interpreters = PEERS[peer]
-    home = os.path.join(directory, peer)
-    python = os.path.join(home, 'bin', 'python')
-    os.makedirs(directory, exist_ok=True)
-    with open(home + '.log', 'a', encoding='utf-8') as log:
-        probe = [python, '-c', 'import ' + IMPORTS[peer]]
-        if succeeds(probe, log):
-            return python
-        print(f'bench: installing {requirement} into {home} (log beside it)', file=sys.stderr)
-        for interpreter in interpreters + [os.environ.get('WAVYCON_PEER_PYTHON', '')]:
-            if (interpreter and succeeds([interpreter, '-m', 'venv', '--clear', home], log)
-                    and succeeds([python, *PIP, requirement], log) and succeeds(probe, log)):
-                return python
-    return None
+    more = [os.environ['WAVYCON_PEER_PYTHON']] if os.environ.get('WAVYCON_PEER_PYTHON') else []
+    return virtual_environment.python_with(os.path.join(directory, peer), [requirement], [IMPORTS[peer]],
+                                           interpreters + more, BINARIES)

@@ -8,9 +8,11 @@
 program time_error_rough
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use samples, only: clock_ms, sample_set
-   use wavycon, only: dp, error_type, surface_of_points, surface_type
+   use wavycon_error, only: error_type
    use wavycon_grid_cascade, only: cascade_answer, solve_by_cascade
    use wavycon_height_map_file, only: height_map_type, read_height_map
+   use wavycon_kinds, only: dp
+   use wavycon_surface, only: surface_of_points, surface_type
    implicit none (type, external)
 
    integer, parameter :: repeats = 3

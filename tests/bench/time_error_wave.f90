@@ -11,9 +11,14 @@
 program time_error_wave
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use samples, only: clock_ms, sample_set
-   use wavycon, only: beale_contact, contact_solution, dp, surface_type, symmetry_full, wave_2d
+   use wavycon_beale_contact, only: beale_contact
+   use wavycon_contact_solution, only: contact_solution
    use wavycon_fitted_solver, only: fitted_answer, solve_fitted, square_lattice, wave_lattice
+   use wavycon_fourier_terms, only: symmetry_full
    use wavycon_grid_cascade, only: cascade_answer, solve_by_cascade
+   use wavycon_kinds, only: dp
+   use wavycon_surface, only: surface_type
+   use wavycon_wave_2d, only: wave_2d
    implicit none (type, external)
 
    !> The first accuracy of the grids; each is half of the last one.

@@ -18,7 +18,8 @@ Each case runs in a new empty folder. Lines of three blanks belong to the keywor
    case: WORDS         starts a case
    file NAME:          a file to be there before the run, as it stands below
    bytes NAME:         the same, with Python's escapes (\\t, \\r, \\xff) and nothing added behind the last character
-   run:                what the user types: lines for sh, in which `wavycon` is the program
+   run:                what the user types: lines for sh, in which `wavycon` is the program and `columns TABLE NAME...`
+                       prints columns of a table
    status: N           the exit status of the last line of `run`; 0 if not given
    stdout:, stderr:    lines that must be there, one right after the other in this order; a line '...' stands for any
                        number of lines. All lines must be given.
@@ -42,6 +43,7 @@ import tempfile
 
 SKIPPED = 77
 NOBODY = 65534
+TOOLS = pathlib.Path(__file__).resolve().parent/"tools"
 SECONDS = 60  # time limit: no case takes more than a few, unless the program hangs
 
 
@@ -166,7 +168,7 @@ def run_case(case, program, folder):
         if step_down:
             os.chown(path, NOBODY, NOBODY)
     before = files_below(folder)
-    environment = dict(os.environ, PATH=f"{program.parent}{os.pathsep}{os.environ['PATH']}")
+    environment = dict(os.environ, PATH=os.pathsep.join([str(program.parent), str(TOOLS), os.environ["PATH"]]))
     result = subprocess.run(["sh", "-c", case.run], cwd=folder, env=environment, stdin=subprocess.DEVNULL,
                             capture_output=True, timeout=SECONDS, check=False,
                             preexec_fn=become_nobody if step_down else None)

@@ -12,18 +12,21 @@ import sys
 import tempfile
 import unittest
 
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]/"regression"))
+from tables import Table  # noqa: E402
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 MOST_LINES = 110  # of README.md
 DECK_PAGES = ("README.md", "inputs/README.md", "outputs/README.md")
 # Headings of outputs/README.md, each with the table that it explains.
-SECTIONS = {"summary": "The summary", "lines": "Lines", "map": "Map", "contour": "Contours",
-            "coefficients": "Coefficients", "theory": "Theory", "details": "Details"}
-# Decks that together write every table with every column.
+SECTIONS = {"summary": "The summary", "lines": "Lines", "theory_lines": "Closed forms along lines", "map": "Map",
+            "contour": "Contours", "coefficients": "Coefficients", "theory": "Theory", "details": "Details"}
+# Decks that together write every table, in both dimensions.
+ALL_TABLES = "lines = t, map = t, contours = t, coefficients = t, theory = t, line_points = 8, map_points = 8"
 TABLE_DECKS = {
-    "line": "&surface kind = 'wave_1d' /\n&load pbar_over_pstar = 0.5 /\n"
-            "&output lines = t, map = t, contours = t, coefficients = t, theory = t, points_per_wavelength = 8 /\n",
-    "plane": "&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0.5 /\n"
-             "&output lines = t, map = t, contours = t, coefficients = t, theory = t, points_per_wavelength = 8 /\n",
+    "line": f"&surface kind = 'wave_1d' /\n&load pbar_over_pstar = 0.5 /\n&output {ALL_TABLES} /\n",
+    "plane": f"&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0.5 /\n&output {ALL_TABLES} /\n",
     "expansion": "&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0.5 /\n"
                  "&method solver = 'fitted' /\n&output details = t /\n"}
 # Columns of the log that rounding may change.
@@ -73,9 +76,10 @@ def section(text, heading):
 
 
 def explained_columns(text):
-    """Names with units in the first cells of a section's tables."""
-    return {name for cell in re.findall(r"^\| (`[^|]*?) \|", text, re.MULTILINE)
-            for name in re.findall(r"`(\w+\[[^\]`]*\])`", cell)}
+    """{name: units} of the columns in a section's tables: names in the first cell, units in the second."""
+    return {name: set(re.findall(r"`([^`]*)`", units)) or {units.strip()}
+            for names, units in re.findall(r"^\| (`[^|]*?) \|([^|]*)\|", text, re.MULTILINE)
+            for name in re.findall(r"`(\w+)`", names)}
 
 
 def named_keys(text):
@@ -137,8 +141,8 @@ class Pages(unittest.TestCase):
                 self.assertIn(f"`{path.name}`", listed)
 
     def columns(self):
-        """The columns of each kind of table."""
-        found = {kind: set() for kind in SECTIONS}
+        """{name: units} of the columns of each kind of table."""
+        found = {kind: {} for kind in SECTIONS}
         with tempfile.TemporaryDirectory() as scratch:
             folder = pathlib.Path(scratch)
             for name, text in TABLE_DECKS.items():
@@ -146,9 +150,9 @@ class Pages(unittest.TestCase):
                 result = self.run_program(f"{name}.nml", "--quiet", "--output", ".", folder=folder)
                 self.assertEqual(0, result.returncode, result.stderr)
             for path in folder.glob("*.dat"):
-                head = [line for line in path.read_text().splitlines() if line.startswith("#  ")]
-                self.assertEqual(1, len(head), path.name)
-                found[path.name.split(".")[1]].update(head[0][1:].split())
+                table = Table(path)
+                for name, unit in zip(table.columns, table.units):
+                    found[path.name.split(".")[1]].setdefault(name, set()).add(unit)
         return found
 
     def test_columns(self):
@@ -158,8 +162,10 @@ class Pages(unittest.TestCase):
             self.assertEqual(columns, explained_columns(section(page, SECTIONS[kind])), kind)
 
     def test_missing_columns_are_found(self):
-        text = "## Map\n| Column | Meaning |\n|---|---|\n| `x[length]`, `y[length]` | Like `z[-]` |\n## Lines\n| `p[-]` | |\n"
-        self.assertEqual({"x[length]", "y[length]"}, explained_columns(section(text, "Map")))
+        text = ("## Map\n| Column | Unit | Meaning |\n|---|---|---|\n| `x`, `y` | `length` | Like `z` |\n"
+                "| `load` | - | |\n| `area` | `a^2`, in 1-D `a` | |\n## Lines\n| `p` | - | |\n")
+        self.assertEqual({"x": {"length"}, "y": {"length"}, "load": {"-"}, "area": {"a^2", "a"}},
+                         explained_columns(section(text, "Map")))
 
     def test_keys(self):
         keys = keys_of_help(self.run_program("--help").stdout)

@@ -31,46 +31,52 @@ COUNTED = (0.0, 0.0)
 
 TOLERANCES = {
     "summary": {
-        "pbar_over_pstar": ARITHMETIC,
-        "mean_pressure": ARITHMETIC,
         "mean_gap_over_amplitude": SOLVED,
         "approach_over_amplitude": SOLVED,
         "contact_area_fraction": EDGE,
         "peak_pressure_over_pstar": SOLVED,
         "min_pressure_over_pstar": SOLVED,
+        "mean_gap_over_amplitude_error": SOLVED,  # estimates are differences of the numbers above, on two grids
+        "contact_area_fraction_error": SOLVED,
+        "peak_pressure_over_pstar_error": SOLVED,
+        "mean_pressure": ARITHMETIC,
+        "mean_gap": SOLVED,
+        "approach": SOLVED,
+        "contact_area": EDGE,
+        "peak_pressure": SOLVED,
         "active_constraints": COUNTED,
         "iterations": None,  # depends on which of two nearly equal candidates a rounding error puts first
-        "mean_gap_error": SOLVED,  # estimates are differences of the numbers above, on two grids
-        "contact_area_error": SOLVED,
-        "peak_pressure_error": SOLVED,
         "residual": None,  # is a rounding error; `status` says that it is small enough
     },
-    "coefficients": {"i": COUNTED, "j": COUNTED, "A_i": SOLVED, "A_ij": SOLVED},
-    "lines": {"line": COUNTED, "pbar_over_pstar": ARITHMETIC, "distance": ARITHMETIC, "x": ARITHMETIC, "y": ARITHMETIC,
-              "pressure_over_pstar": SOLVED, "displacement_over_amplitude": SOLVED, "gap_over_amplitude": SOLVED},
-    "map": {"pbar_over_pstar": ARITHMETIC, "x": ARITHMETIC, "y": ARITHMETIC, "undeformed_gap": CLOSED_FORM,
-            "pressure_over_pstar": SOLVED, "displacement": SOLVED, "gap": SOLVED},
-    "contour": {"pbar_over_pstar": ARITHMETIC, "x_min": EDGE, "x_max": EDGE, "y_min": EDGE, "y_max": EDGE},
+    "coefficients": {"i": COUNTED, "j": COUNTED, "pressure_over_pstar": SOLVED},
+    "lines": {"line": COUNTED, "distance": ARITHMETIC, "x": ARITHMETIC, "y": ARITHMETIC,
+              "pressure_over_pstar": SOLVED, "displacement_over_amplitude": SOLVED, "gap_over_amplitude": SOLVED,
+              "pressure": SOLVED, "displacement": SOLVED, "gap": SOLVED},
+    "theory_lines": {"line": COUNTED, "distance": ARITHMETIC, "x": ARITHMETIC, "y": ARITHMETIC},
+    "map": {"x": ARITHMETIC, "y": ARITHMETIC, "pressure": SOLVED, "gap": SOLVED, "displacement": SOLVED},
+    "contour": {"x_min": EDGE, "x_max": EDGE, "y_min": EDGE, "y_max": EDGE},
     "theory": {},
 }
-# Any other column of numbers, such as those of the closed forms beside the lines.
+# Of the columns that all tables have.
+COMMON = {"load": COUNTED, "pbar_over_pstar": ARITHMETIC, "status_code": COUNTED}
+# Any other column of numbers, such as closed forms.
 OTHERWISE = CLOSED_FORM
 
 
 class Excerpt:
-    """What is compared of a table: remarks and column names, which must be equal, and rows, nearly."""
+    """What is compared of a table: remarks, units and column names, which must be equal, and rows, nearly."""
 
     def __init__(self, kind, head, columns, rows):
         self.kind, self.head, self.columns, self.rows = kind, head, columns, rows
 
     def text(self):
-        lines = [f"# {line}" for line in self.head] + ["# " + " ".join(self.columns)]
-        return "\n".join(lines + [" ".join(row) for row in self.rows]) + "\n"
+        lines = [f"# {line}" for line in self.head] + [" ".join(row) for row in [self.columns] + self.rows]
+        return "\n".join(lines) + "\n"
 
 
 def tolerance_of(kind, column):
-    """The tolerance of a column name[unit]; None if it is not compared."""
-    return TOLERANCES.get(kind, {}).get(column.split("[")[0], OTHERWISE)
+    """The tolerance of a column; None if it is not compared."""
+    return TOLERANCES.get(kind, {}).get(column, COMMON.get(column, OTHERWISE))
 
 
 def shortened(word):
@@ -85,8 +91,8 @@ def excerpt_of(path):
     """The excerpt of a table: all of a short one, a sample of the rows of lines and maps, the extents of contours."""
     kind = path.name.split(".")[-2]
     table = Table(path)
-    head, columns = [], table.columns
-    if kind in ("lines", "map"):
+    head, columns, units = [], table.columns, table.units
+    if kind in ("lines", "theory_lines", "map"):
         # An odd step, which is no multiple of the rows of a map.
         step = (len(table.lines) // SAMPLE) | 1
         head = [f"{len(table.lines)} rows in {table.blocks} blocks, 1 of {step} is here"]
@@ -94,15 +100,16 @@ def excerpt_of(path):
     elif kind == "contour":
         # The number of points of a curve may depend on the last digit, where the curve meets a node of the grid.
         head = ["the least and the largest coordinates of each load"]
-        columns = table.columns[:1] + [f"{axis}_{end}[length]" for axis in "xy" for end in ("min", "max")]
+        columns = ["load"] + [f"{axis}_{end}" for axis in "xy" for end in ("min", "max")]
+        units = [table.units[table.columns.index(name.split("_")[0])] for name in columns]
         points = {}
-        for load, *point in table.rows():
-            points.setdefault(load, []).append([float(word) for word in point])
+        for row in table.records():
+            points.setdefault(row["load"], []).append([float(row[axis]) for axis in "xy"])
         rows = [[load] + [repr(end(axis)) for axis in zip(*points[load]) for end in (min, max)] for load in points]
     else:
         rows = table.rows()
     kept = [tolerance_of(kind, column) is not None for column in columns]
-    return Excerpt(kind, head, columns,
+    return Excerpt(kind, head + [" ".join(f"[{unit}]" for unit in units)], columns,
                    [[shortened(word) if keep else "-" for word, keep in zip(row, kept)] for row in rows])
 
 
@@ -110,8 +117,8 @@ def read_reference(path):
     """An excerpt as `Excerpt.text` wrote it."""
     lines = path.read_text().splitlines()
     head = [line[2:] for line in lines if line.startswith("# ")]
-    rows = [line.split() for line in lines if not line.startswith("#")]
-    return Excerpt(path.name.split(".")[-2], head[:-1], head[-1].split(), rows)
+    columns, *rows = [line.split() for line in lines if not line.startswith("#")]
+    return Excerpt(path.name.split(".")[-2], head, columns, rows)
 
 
 def agrees(word, reference, allowed):

@@ -3,26 +3,34 @@ import pathlib
 
 
 class Table:
-    """Column names as name[unit], and lines of words; `blocks` counts what gnuplot's `index` counts."""
+    """Names and units of the columns, and lines of words; `blocks` counts what gnuplot's `index` counts.
+
+    The last line of '#' above the first row of names holds the units. In a table of blocks the row of names is repeated
+    at the head of each block.
+    """
 
     def __init__(self, path):
         self.path = pathlib.Path(path)
-        self.columns, self.lines, self.blocks = [], [], 0
+        self.columns, self.units, self.lines, self.blocks = [], [], [], 0
         blanks = 2
-        for line in self.path.read_text().splitlines():
-            if not line.strip():
+        for line in self.path.read_text(encoding="utf-8").splitlines():
+            words = line.split()
+            if not words:
                 blanks += 1
             elif line.startswith("#"):
-                # The names of the columns are above the first row; what names a load comes later.
-                names = line[1:].split()
-                if not self.lines and names and all(name.endswith("]") for name in names):
-                    self.columns = names
+                if not self.columns and words[1:] and all(word[0] + word[-1] == "[]" for word in words[1:]):
+                    self.units = [word[1:-1] for word in words[1:]]
             else:
-                self.blocks += blanks >= 2
+                self.columns = self.columns or words
+                if (blanks >= 2) != (words == self.columns):
+                    raise ValueError(f"{self.path}: names of columns must stand above each block, and there alone")
+                if blanks >= 2:
+                    self.blocks += 1
+                else:
+                    self.lines.append(line)
                 blanks = 0
-                self.lines.append(line)
-        if not self.columns:
-            raise ValueError(f"{path}: no line names the columns")
+        if not self.columns or len(self.columns) != len(self.units) or len(set(self.columns)) != len(self.columns):
+            raise ValueError(f"{self.path}: each column must have a name and a unit")
 
     def rows(self, step=1):
         """The words of each line, or of one line in so many."""
@@ -31,3 +39,7 @@ class Table:
             if len(row) != len(self.columns):
                 raise ValueError(f"{self.path}: a row of {len(row)} words below {len(self.columns)} column names")
         return rows
+
+    def records(self):
+        """The words of each line, by the names of the columns."""
+        return [dict(zip(self.columns, row)) for row in self.rows()]

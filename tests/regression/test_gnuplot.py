@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""gnuplot reads all rows, blocks and numbers of the tables."""
+"""gnuplot finds every column of every table by its name, in each block."""
+import math
 import pathlib
 import shutil
 import subprocess
@@ -9,46 +10,69 @@ import unittest
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from tables import Table  # noqa: E402
+from sample_tables import WORDS, blocks_of, make_tables, page_examples, run_page_deck  # noqa: E402
 
 SKIPPED = 77
-DECK = """\
-&surface kind = '{}' /
-&load pbar_over_pstar = 0, 0.2, 0.6, 1 /
-&output lines = t, map = t, contours = t, coefficients = t, theory = t, points_per_wavelength = 8 /
-"""
-# gnuplot prints six digits after the point.
-DIGITS = 1e-6
+# Of sums of some hundred numbers.
+ROUNDING = 1e-13
 
 
 class Gnuplot(unittest.TestCase):
     program = ""
 
-    def test_all_tables(self):
-        for kind in ("wave_1d", "wave_2d"):
-            with tempfile.TemporaryDirectory() as scratch:
-                folder = pathlib.Path(scratch)
-                (folder / "case.nml").write_text(DECK.format(kind))
-                subprocess.run([self.program, folder / "case.nml", "--quiet", "--output", folder], check=True)
-                paths = sorted(folder.glob("*.dat"))
-                self.assertEqual(6, len(paths))
-                for path in paths:
-                    with self.subTest(kind=kind, table=path.name):
-                        self.check(Table(path))
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.tables = make_tables(cls.program, pathlib.Path(folder.name))
 
-    def check(self, table):
-        last = [place for place, name in enumerate(table.columns, 1) if not name.startswith("status")][-1]
-        words = self.statistics(f"stats '{table.path}' using 1:{last} nooutput\n"
-                                "print STATS_records, STATS_invalid, STATS_blocks, STATS_sum_x, STATS_sum_y\n")
-        rows = table.rows()
-        self.assertEqual([len(rows), 0, table.blocks], [int(float(word)) for word in words[:3]])
-        for word, column in zip(words[3:], (1, last)):
-            expected = sum(float(row[column - 1]) for row in rows)
-            self.assertLessEqual(abs(float(word) - expected), DIGITS*max(1.0, abs(expected)))
+    def test_numbers(self):
+        for table in self.tables:
+            self.assertEqual(max(table.blocks, 1), len(blocks_of(table)))
+            script, expected = [f"table = '{table.path}'"], []
+            for place, records in enumerate(blocks_of(table)):
+                for name in table.columns:
+                    values = [] if name in WORDS else [float(record[name]) for record in records]
+                    values = [value for value in values if not math.isnan(value)]
+                    if values:
+                        script += [f'stats table index {place} using "{name}" nooutput',
+                                   "print sprintf('%d %.16e', STATS_records, STATS_sum)"]
+                        expected.append((place, name, values))
+            answers = self.answers(script)
+            self.assertEqual(len(expected), len(answers), table.path)
+            for (place, name, values), (count, total) in zip(expected, answers):
+                with self.subTest(table=table.path.name, index=place, column=name):
+                    self.assertEqual(len(values), int(count))
+                    self.assertTrue(math.isclose(float(total), math.fsum(values), rel_tol=0.0,
+                                                 abs_tol=ROUNDING*math.fsum(map(abs, values))), total)
 
-    def statistics(self, script):
-        result = subprocess.run(["gnuplot"], input=script, capture_output=True, text=True, check=True)
-        return result.stderr.split()
+    def test_words(self):
+        for table in self.tables:
+            for name in set(WORDS) & set(table.columns):
+                for word in {record[name] for record in table.records()}:
+                    found = self.answers([f'stats "{table.path}" using (strcol("{name}") eq "{word}") nooutput',
+                                          "print sprintf('%d', STATS_sum)"])
+                    self.assertEqual([[str(sum(record[name] == word for record in table.records()))]], found)
+
+    def test_the_examples_of_the_page(self):
+        example, = page_examples("gnuplot")
+        with tempfile.TemporaryDirectory() as folder:
+            run_page_deck(self.program, pathlib.Path(folder))
+            # gnuplot says nothing else about a name that it does not find or about a block without points.
+            result = subprocess.run(["gnuplot"], input="set terminal dumb\nset output 'drawn'\n" + example, cwd=folder,
+                                    capture_output=True, text=True, check=True)
+            self.assertEqual("", result.stderr)
+            self.assertEqual(example.count("\nplot "), (pathlib.Path(folder)/"drawn").read_text().count("\f"))
+            wrong = example.replace('"distance"', '"distanse"')
+            self.assertNotEqual(example, wrong)
+            result = subprocess.run(["gnuplot"], input="set terminal dumb\nset output 'drawn'\n" + wrong, cwd=folder,
+                                    capture_output=True, text=True, check=False)
+            self.assertIn("distanse", result.stderr)
+
+    def answers(self, script):
+        result = subprocess.run(["gnuplot"], input="set print '-'\n" + "\n".join(script) + "\n", capture_output=True,
+                                text=True, check=True)
+        return [line.split() for line in result.stdout.splitlines()]
 
 
 if __name__ == "__main__":

@@ -20,18 +20,28 @@ DECK = """\
 &method solver = '{}', accuracy = {} /
 {}
 """
-# The order of the published values; after each follows its error.
-VALUES = ("mean_gap", "contact_area", "peak_pressure", "trough_gap", "saddle_gap", "saddle_pressure",
-          "energy", "perimeter")
+# The published values. Those of the first three are also at merging, in the summary and in OTHER_METHODS.
+VALUES = ("mean_gap_over_amplitude", "contact_area_fraction", "peak_pressure_over_pstar", "trough_gap_over_amplitude",
+          "saddle_gap_over_amplitude", "saddle_pressure_over_pstar", "elastic_energy_over_pstar_amplitude", "perimeter")
+IN_SUMMARY = VALUES[:3]
+
+
+def pair(record, name):
+    """A value and its error."""
+    return float(record[name]), float(record[f"{name}_error"])
 
 
 def published(surface):
-    """{P: [(value, error) of each of VALUES]}."""
-    rows = {}
-    for row in Table(REFERENCE / f"{surface}.dat").rows():
-        numbers = [float(word) for word in row]
-        rows[numbers[0]] = list(zip(numbers[1::2], numbers[2::2]))
-    return rows
+    """{P: {name: (value, error)} of VALUES}."""
+    return {float(record["pbar_over_pstar"]): {name: pair(record, name) for name in VALUES}
+            for record in Table(REFERENCE / f"{surface}.dat").records()}
+
+
+def merging_of(surface):
+    """From below and from above merging: {name: (value, error)} of the load and of IN_SUMMARY."""
+    return [{name: pair(record, name) for name in ("pbar_over_pstar", *IN_SUMMARY)}
+            for side in ("below", "above") for record in Table(REFERENCE / "merging.dat").records()
+            if (record["surface"], record["side"]) == (surface, side)]
 
 
 class ReferenceTable:
@@ -47,11 +57,11 @@ class ReferenceTable:
     @classmethod
     def setUpClass(cls):
         cls.table = published(cls.surface)
-        cls.merging = [[float(word) for word in row[2:]] for row in Table(REFERENCE / "merging.dat").rows()
-                       if row[0] == cls.surface]
+        cls.merging = merging_of(cls.surface)
+        cls.merging_load = cls.merging[0]["pbar_over_pstar"][0]
 
     def solve(self, loads, solver, accuracy, output, kind):
-        """{column: words} of a table of the program, loads in the order given."""
+        """The records of a table of the program, loads in the order given."""
         with tempfile.TemporaryDirectory() as scratch:
             deck = pathlib.Path(scratch) / "case.nml"
             deck.write_text(DECK.format(self.surface, ", ".join(map(repr, loads)), solver, accuracy, output))
@@ -59,22 +69,21 @@ class ReferenceTable:
             command = [self.program, deck, "--quiet", "--output", scratch]
             status = subprocess.run(command, check=False).returncode
             self.assertIn(status, (0, 2))
-            table = Table(pathlib.Path(scratch) / f"case.{kind}.dat")
-        rows = table.rows()
-        self.assertEqual(len(loads), len(rows))
-        return {name.split("[")[0]: [row[place] for row in rows] for place, name in enumerate(table.columns)}
+            records = Table(pathlib.Path(scratch) / f"case.{kind}.dat").records()
+        self.assertEqual(len(loads), len(records))
+        return records
 
     def check(self, load, name, value, error):
-        expected, bound = self.table[load][VALUES.index(name)]
+        expected, bound = self.table[load][name]
         self.assertLessEqual(abs(value - expected), error + bound,
                              f"{name} at {load}: {value}, published {expected}")
 
     def test_loads_and_bounds(self):
         self.assertGreaterEqual(set(self.table), self.loads)
         for load, row in self.table.items():
-            self.assertEqual(len(VALUES), len(row))
-            for name, (value, error) in zip(VALUES, row):
-                exactly_zero = name == ("saddle_gap" if load > self.merging[0][0] else "saddle_pressure")
+            for name, (value, error) in row.items():
+                exactly_zero = name == ("saddle_gap_over_amplitude" if load > self.merging_load
+                                        else "saddle_pressure_over_pstar")
                 with self.subTest(load=load, name=name):
                     if exactly_zero:
                         self.assertEqual((0.0, 0.0), (value, error))
@@ -87,45 +96,42 @@ class ReferenceTable:
     def test_both_sides_of_merging(self):
         below, above = self.merging
         apart, digits_below, digits_above = self.merging_loads
-        for value, error, other, other_error in zip(below[::2], below[1::2], above[::2], above[1::2]):
+        for name, (value, error) in below.items():
+            other, other_error = above[name]
             self.assertLess(abs(value - other), error + other_error)
             self.assertLess(error, digits_below*value)
             self.assertLess(other_error, digits_above*value)
         # The loads next to merging lie between those of the last spots and the first island, and so do their values.
-        for place, (value, error) in enumerate(zip(below[2::2], below[3::2])):
-            last = max(load for load in self.table if load < below[0])
-            first = min(load for load in self.table if load > below[0])
-            self.assertLess(first - last, apart)
-            sides = sorted((self.table[last][place][0], self.table[first][place][0]))
+        last = max(load for load in self.table if load < self.merging_load)
+        first = min(load for load in self.table if load > self.merging_load)
+        self.assertLess(first - last, apart)
+        for name in IN_SUMMARY:
+            value, error = below[name]
+            sides = sorted((self.table[last][name][0], self.table[first][name][0]))
             self.assertLess(sides[0] - error, value)
             self.assertLess(value, sides[1] + error)
 
     def test_recomputed(self):
-        loads = self.to_recompute
-        new = self.solve(loads, "fitted", 1e-7, "&output details = t /", "details")
-        names = list(new)[1:17]
-        for place, load in enumerate(loads):
-            for name, value, error in zip(VALUES, names[::2], names[1::2]):
-                self.check(load, name, float(new[value][place]), float(new[error][place]))
+        for load, record in zip(self.to_recompute, self.solve(self.to_recompute, "fitted", 1e-7,
+                                                              "&output details = t /", "details")):
+            for name in VALUES:
+                self.check(load, name, *pair(record, name))
 
     def test_grids(self):
         for accuracy, loads in self.by_grids:
-            new = self.solve(loads, "grid", accuracy, "", "summary")
-            self.assertEqual({"grid"}, set(new["solver"]))
-            self.assertEqual({"converged"}, set(new["status"]))
-            for place, load in enumerate(loads):
-                for name, value, error in (("mean_gap", "mean_gap_over_amplitude", "mean_gap_error"),
-                                           ("contact_area", "contact_area_fraction", "contact_area_error"),
-                                           ("peak_pressure", "peak_pressure_over_pstar", "peak_pressure_error")):
-                    self.check(load, name, float(new[value][place]), float(new[error][place]))
+            for load, record in zip(loads, self.solve(loads, "grid", accuracy, "", "summary")):
+                self.assertEqual(("grid", "converged"), (record["solver"], record["status"]))
+                for name in IN_SUMMARY:
+                    self.check(load, name, *pair(record, name))
 
     def test_work_of_the_load_is_the_energy(self):
         # The work of the load is the strain energy, dE = -P dG: E + P G grows by the integral of G over P.
         step = 0.01
         for first, last in self.smooth:
             rows = [self.table[i/100] for i in range(first, last + 1)]
-            gaps = [row[0][0] for row in rows]
-            gained = [row[6][0] + load*step*row[0][0] for load, row in ((first, rows[0]), (last, rows[-1]))]
+            gaps = [row["mean_gap_over_amplitude"][0] for row in rows]
+            gained = [row["elastic_energy_over_pstar_amplitude"][0] + load*step*row["mean_gap_over_amplitude"][0]
+                      for load, row in ((first, rows[0]), (last, rows[-1]))]
             work = simpson(gaps, step)
             # The error of Simpson's rule at twice the step is some 16 times as large; 4 is cautious.
             allowed = abs(work - simpson(gaps[::2], 2*step))/4
@@ -142,10 +148,11 @@ class Wave2d(ReferenceTable, unittest.TestCase):
     merging_loads = 1e-4, 1.5e-6, 1e-5
 
     def test_other_methods(self):
-        for load, *words in Table(OTHER_METHODS).rows():
-            for name, word in zip(VALUES, words):
+        for record in Table(OTHER_METHODS).records():
+            for name in IN_SUMMARY:
+                word = record[name]
                 # Half a unit of the last digit for rounding, and one as the error of the grids of the shorter values.
-                self.check(float(load), name, float(word), 1.5*10.0**-len(word.partition(".")[2]))
+                self.check(float(record["pbar_over_pstar"]), name, float(word), 1.5*10.0**-len(word.partition(".")[2]))
 
 
 class Hexagonal(ReferenceTable, unittest.TestCase):

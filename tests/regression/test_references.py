@@ -11,22 +11,26 @@ import references  # noqa: E402
 
 SUMMARY = """\
 # wavycon
-#  pbar_over_pstar[-]  mean_gap_over_amplitude[-]  active_constraints[-]  iterations[-]  residual[-]  status[-]
-   1.0E-001            4.063305171914782E-001      27                     121        5.1E-016         converged
-   5.0E-001            4.936147336729224E-002      13                     44         3.8E-016         converged
+#  [-]  [-]              [-]                      [-]                 [-]         [-]              [-]
+   load pbar_over_pstar  mean_gap_over_amplitude  active_constraints  iterations  residual         status
+   1    1.0E-001         4.063305171914782E-001   27                  121         5.1E-016         converged
+   2    5.0E-001         4.936147336729224E-002   13                   44         3.8E-016         converged
 """
-MAP = "# wavycon\n# pbar_over_pstar[-] x[length] gap[Delta]\n# load 1: pbar/p* = 0.5, converged\n" + "".join(
-    f"0.5 {i} {i*1e-3}\n" for i in range(1000))
+MAP = "# wavycon\n# [-] [length] [length]\n# load 1: pbar/p* = 0.5, converged\nload x gap\n" + "".join(
+    f"1 {i} {i*1e-3}\n" for i in range(1000))
 CONTOUR = """\
-# pbar_over_pstar[-] x[length] y[length]
+# wavycon
+# [-]  [-]  [length] [length]
 # load 1: pbar/p* = 0.5, converged
-0.5  1.0  0.0
-0.5  0.0  1.0
-0.5 -1.0  0.0
+load  curve  x  y
+1  1  1.0  0.0
+1  1  0.0  1.0
+1  1 -1.0  0.0
 
 
 # load 2: pbar/p* = 0.6, converged
-0.6  2.0  0.0
+load  curve  x  y
+2  1  2.0  0.0
 """
 
 
@@ -60,12 +64,12 @@ class References(unittest.TestCase):
                 self.assertGreater(len(new.rows), 0)
 
     def test_what_differs_is_seen(self):
-        for change, words in ((("4.06330517", "4.06330527"), "mean_gap_over_amplitude[-] differs in 1 of 2 rows"),
-                              ((" 27 ", " 28 "), "active_constraints[-] differs"),
-                              (("converged", "inaccurate"), "status[-] differs"),
-                              (("4.063305171914782E-001", "NaN"), "mean_gap_over_amplitude[-] differs"),
-                              (("1.0E-001", "1.00000000001E-001"), "pbar_over_pstar[-] differs"),
-                              (("iterations[-]", "iterations[1]"), "its columns are"),
+        for change, words in ((("4.06330517", "4.06330527"), "mean_gap_over_amplitude differs in 1 of 2 rows"),
+                              ((" 27 ", " 28 "), "active_constraints differs"),
+                              (("converged", "inaccurate"), "status differs"),
+                              (("4.063305171914782E-001", "NaN"), "mean_gap_over_amplitude differs"),
+                              (("1.0E-001", "1.00000000001E-001"), "pbar_over_pstar differs"),
+                              (("[-]              [-] ", "[p*]             [-] "), "it begins with"),
                               (("mean_gap_over", "mean_gap_under"), "its columns are")):
             with self.subTest(change):
                 found = self.summary(change)
@@ -83,19 +87,22 @@ class References(unittest.TestCase):
         self.assertLess(len(new.rows), 2*references.SAMPLE)
         self.assertIn("1000 rows in 1 blocks", new.head[0])
         self.assertEqual([], self.words("a.map.dat", MAP))
-        self.assertIn("gap[Delta] differs", self.words("a.map.dat", MAP, ("0.5 0 0.0\n", "0.5 0 1e-6\n"))[0])
-        self.assertIn("it begins with", self.words("a.map.dat", MAP, ("0.5 1 0.001\n", ""))[0])
+        self.assertIn("gap differs", self.words("a.map.dat", MAP, ("1 0 0.0\n", "1 0 1e-6\n"))[0])
+        self.assertIn("it begins with", self.words("a.map.dat", MAP, ("1 1 0.001\n", ""))[0])
 
     def test_of_contours_the_extents_count(self):
-        self.assertEqual([["0.5", "-1", "1", "0", "1"], ["0.6", "2", "2", "0", "0"]],
+        self.assertEqual([["1", "-1", "1", "0", "1"], ["2", "2", "2", "0", "0"]],
                          self.excerpt("a.contour.dat", CONTOUR).rows)
-        self.assertEqual([], self.words("a.contour.dat", CONTOUR, ("0.5  0.0  1.0\n", "0.5 0.0 1.0\n0.5 0.0 1.0\n")))
-        self.assertIn("y_max", self.words("a.contour.dat", CONTOUR, ("0.5  0.0  1.0\n", "0.5 0.0 1.1\n"))[0])
+        self.assertEqual([], self.words("a.contour.dat", CONTOUR, ("1  1  0.0  1.0\n", "1 1 0.0 1.0\n1 1 0.0 1.0\n")))
+        self.assertIn("y_max", self.words("a.contour.dat", CONTOUR, ("1  1  0.0  1.0\n", "1 1 0.0 1.1\n"))[0])
 
     def test_a_table_must_name_its_columns(self):
-        for text in ("1 2 3\n", SUMMARY.replace("status[-]", ""), SUMMARY.replace("status[-]", "status")):
+        for name, text in (("a.summary.dat", "1 2 3\n"), ("a.summary.dat", SUMMARY.replace(" status\n", "\n")),
+                           ("a.summary.dat", SUMMARY.replace("[-]", "", 1)),
+                           ("a.summary.dat", SUMMARY.replace("residual", "load")),
+                           ("a.contour.dat", CONTOUR.replace("converged\nload  curve  x  y\n2", "converged\n2"))):
             with self.subTest(text), self.assertRaises(ValueError):
-                self.excerpt("a.summary.dat", text)
+                self.excerpt(name, text)
 
 
 if __name__ == "__main__":

@@ -7,7 +7,7 @@ import subprocess
 
 import fuzz_decks
 import fuzz_maps
-from common import Part, complaints_about, files_below, run
+from common import Part, Table, complaints_about, files_below, run
 
 SECONDS = 120.0  # time limit of a deck; without optimisation none takes as long
 SANITIZERS = "-fsanitize=address,undefined -fno-omit-frame-pointer"
@@ -19,11 +19,11 @@ DECKS = {
     "wave_1d": ("series", "&surface kind = 'wave_1d' /\n&load sweep_from = 0.05, sweep_to = 0.95, sweep_steps = 19 /\n"
                 "&output lines = t, coefficients = t, theory = t /\n"),
     "wave_2d": ("series", "&surface kind = 'wave_2d' /\n&load sweep_from = 0.05, sweep_to = 0.95, sweep_steps = 10 /\n"
-                "&output lines = t, map = t, coefficients = t, theory = t, points_per_wavelength = 32 /\n"),
+                "&output lines = t, map = t, coefficients = t, theory = t, line_points = 32, map_points = 32 /\n"),
     "closed_form": ("series", "&surface kind = 'wave_1d' /\n&load pbar_over_pstar = 1e-9, 0.3, 0.999 /\n"
                     "&method solver = 'auto' /\n&output lines = t, theory = t /\n"),
     "grid": ("grid", "&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0.05, 0.5, 0.9 /\n"
-             "&method solver = 'grid', accuracy = 1e-2 /\n&output lines = t, points_per_wavelength = 32 /\n"),
+             "&method solver = 'grid', accuracy = 1e-2 /\n&output lines = t, line_points = 32 /\n"),
 }
 
 
@@ -40,31 +40,23 @@ def build(source, folder, build_type, flags, c_flags=""):
     return folder/"wavycon", ""
 
 
-def numbers(path):
-    """The rows of a table, as words."""
-    return [line.split() for line in path.read_text().splitlines() if line.strip() and not line.startswith("#")]
-
-
 def compare(one, other):
     """The largest difference of two tables over the largest number of its column; infinity if words or shapes differ.
 
     The residual, a rounding error, and the iterations are left out: they are no results."""
-    header = [line for line in one.read_text().splitlines() if line.startswith("#")][-1].lstrip("#").split()
-    rows, others = numbers(one), numbers(other)
-    if len(rows) != len(others) or [len(row) for row in rows] != [len(row) for row in others]:
+    one, other = Table(one), Table(other)
+    if one.columns != other.columns or len(one.lines) != len(other.lines):
         return float("inf")
     worst = 0.0
-    for column in range(max(len(row) for row in rows)):
-        if column < len(header) and header[column].split("[")[0] in ("iterations", "residual"):
-            continue
-        pairs = [(row[column], another[column]) for row, another in zip(rows, others) if column < len(row)]
+    for column in set(one.columns) - {"iterations", "residual"}:
+        pairs = [(row[column], another[column]) for row, another in zip(one.records(), other.records())]
         try:
-            values = [(float(a), float(b)) for a, b in pairs]
+            values = [(float(a), float(b)) for a, b in pairs if not a == b == "NaN"]
         except ValueError:
             if any(a != b for a, b in pairs):
                 return float("inf")
             continue
-        size = max(max(abs(a), abs(b)) for a, b in values)
+        size = max((max(abs(a), abs(b)) for a, b in values), default=0.0)
         if size > 0.0:
             worst = max([worst] + [abs(a - b)/size for a, b in values])
     return worst

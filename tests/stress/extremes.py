@@ -1,7 +1,7 @@
 """Decks with the smallest and largest allowed numbers: loads, lengths, moduli, harmonics."""
 import itertools
 
-from common import Part, complaints_about, files_below, result_complaints, run, save
+from common import Part, Table, complaints_about, files_below, result_complaints, run, save
 
 LOADS = ("1e-90", "1e-12", "1e-9", "1e-6", "1e-3", "0.5", "0.999", "0.999999999", "0.999999999999", "1",
          "1.0000000000000002", "1.5", "1e6", "0")
@@ -13,14 +13,7 @@ DIMENSIONLESS = ("pbar_over_pstar", "mean_gap_over_amplitude", "contact_area_fra
 def deck(kind, loads, method="", amplitude="1", wavelength="1", modulus="1"):
     return (f"&surface kind = '{kind}', amplitude = {amplitude}, wavelength = {wavelength} /\n"
             f"&material e_star = {modulus} /\n&load pbar_over_pstar = {', '.join(loads)} /\n&method {method} /\n"
-            f"&output lines = t, points_per_wavelength = 16 /\n")
-
-
-def table(path):
-    """Rows of a summary as dictionaries of words."""
-    lines = path.read_text().splitlines()
-    names = [line for line in lines if line.startswith("#")][-1].lstrip("#").split()
-    return [dict(zip((name.split("[")[0] for name in names), line.split())) for line in lines if not line.startswith("#")]
+            f"&output lines = t, line_points = 16 /\n")
 
 
 def decks(quick):
@@ -74,13 +67,10 @@ def campaign(program, quick, work, failures):
         unsolved += outcome.status == 2
         complaints += result_complaints(folder, files_below(folder))
         if outcome.status in (0, 2):
-            rows = table(folder/"results"/"deck.summary.dat")
+            rows = Table(folder/"results"/"deck.summary.dat").records()
             kept[name] = rows
             for row, other in zip(rows, kept.get(alike, [])):
                 for column in DIMENSIONLESS:
-                    if column not in row:
-                        complaints.append(f"there is no column {column}")
-                        continue
                     difference = abs(float(row[column]) - float(other[column]))
                     worst = max(worst, difference)
                     if difference > TOLERANCE:

@@ -14,13 +14,13 @@ SMALL = [
     "&surface kind = 'wave_2d', amplitude = 1e-6, wavelength = 1e-3 /\n&load pbar_over_pstar = 0.05, 2*0.2, 0.9 /\n"
     "&method solver = 'beale', harmonics = 4, constraint_points = 9, symmetry = 'diagonal', edge_level = 0.05 /\n"
     "&output directory = 'results', lines = t, map = .true., contours = T, coefficients = .t., theory = true,\n"
-    "   points_per_wavelength = 8 /\n",
+    "   line_points = 8, map_points = 8, 10, map_format = 'npy' /\n",
     "&surface kind = 'wave_1d' / ! remark\n&load\n   sweep_from = 1.0 ! down\n   sweep_to = 1e-3\n   sweep_steps = 5\n/\n"
-    "&method\n   solver = 'auto'\n/\n&output lines = .true., points_per_wavelength = 16 /\n",
+    "&method\n   solver = 'auto'\n/\n&output lines = .true., line_points = 16 /\n",
     "&surface kind = 'crossed_1d', amplitude1 = 1, wavelength1 = 2.0d0, amplitude2 = 1, wavelength2 = 2 /\n"
     "&load mean_pressure = 0, 0.5, 3 /\n&material e_star = 2.64 /\n&method solver = 'beale' /\n",
     "&SURFACE KIND = \"wave_2d\" /\n&LOAD PBAR_OVER_PSTAR = 1.0 1.5 0 /\n&Output Contours = F, Theory = .TRUE. /\n",
-    "&surface kind = 'wave_1d', amplitude = 0 /\n&load pbar_over_pstar = 3*0.5 /\n&output map = .true. /\n",
+    "&surface kind = 'wave_1d', amplitude = 0 /\n&load pbar_over_pstar = 3*0.5 /\n&output map = .true., map_points = 8 /\n",
 ]
 # Also the other surfaces and kinds of load. The cases of --check start from these.
 LARGE = SMALL + [
@@ -46,7 +46,7 @@ TEXTS = ["''", '""', "'", '"', "' '", "'wave_2d'", '"wave_1d"', "'it''s'", '"a""
          "wave_2d", "'Grid'", "'auto '", "' auto'", "'auto'", "'none'", "'heights.dat'", "'.'", "'..'", "'/dev/full'", "'/dev/null'"]
 LOGICALS = [".true.", ".false.", "t", "f", ".T.", "true", "1", "yes", ".true", ".tru e.", "'t'"]
 # What a mutated deck that is run must not change: the work would have no bound.
-COSTLY = re.compile(r"harmonics|constraint_points|accuracy|sweep_steps|points_per_wavelength|grid_points|solver"
+COSTLY = re.compile(r"harmonics|constraint_points|accuracy|sweep_steps|line_points|map_points|grid_points|solver"
                     r"|\d{3,}\s*\*|symmetry", re.IGNORECASE)
 
 

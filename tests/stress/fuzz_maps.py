@@ -190,7 +190,7 @@ def deck(stream, name="heights.dat"):
     scale = stream.choice(("", "", ", height_scale = 1e-9", ", height_scale = 1e85", ", height_scale = 1e-85"))
     form = stream.choice(("", "", ", file_format = 'matrix'", ", file_format = 'xyz'"))
     return (f"&surface kind = 'file', file = '{name}'{form}{scale}, length_x = 2 /\n"
-            f"&load pbar_over_pstar = 0.05, 0.7, 1.2 /\n&output lines = t, points_per_wavelength = 8 /\n")
+            f"&load pbar_over_pstar = 0.05, 0.7, 1.2 /\n&output lines = t, line_points = 8 /\n")
 
 
 def second_reading(content, form):
@@ -413,7 +413,7 @@ def odd_files(program, work, failures):
         folder = work/name
         folder.mkdir()
         text = (f"&surface kind = 'file', file = '{map_name.replace(chr(39), chr(39)*2)}' /\n"
-                f"&load pbar_over_pstar = 0.1, 0.6 /\n&output map = t, points_per_wavelength = 8 /\n")
+                f"&load pbar_over_pstar = 0.1, 0.6 /\n&output map = t, map_points = 8 /\n")
         (folder/"deck.nml").write_text(text)
         if make:
             make(folder/map_name)

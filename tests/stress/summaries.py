@@ -1,12 +1,11 @@
 """Running a scene and reading its summary."""
 import shutil
 
-from common import complaints_about, files_below, result_complaints, run, save
-from extremes import table
+from common import Table, complaints_about, files_below, result_complaints, run, save
 
 PATIENCE = 300.0  # time limit of a deck [s]: the finer solutions take long
 VALUES = ("mean_gap_over_amplitude", "contact_area_fraction", "peak_pressure_over_pstar")
-ERRORS = ("mean_gap_error", "contact_area_error", "peak_pressure_error")
+ERRORS = tuple(f"{name}_error" for name in VALUES)
 ROUNDING = 4e-15  # of values of order one: least error estimate, as closed forms give zero
 
 
@@ -48,7 +47,7 @@ def solve(program, files, folder, *words):
     complaints += result_complaints(folder, files_below(folder))
     if outcome.status not in (0, 2):
         return [], complaints + [outcome.stderr.decode(errors="replace").strip()]
-    return [Row(words) for words in table(folder/"results"/"deck.summary.dat")], complaints
+    return [Row(words) for words in Table(folder/"results"/"deck.summary.dat").records()], complaints
 
 
 def keep(failures, name, files):

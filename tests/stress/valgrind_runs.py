@@ -16,7 +16,7 @@ COMMAND = ["valgrind", "--quiet", "--leak-check=full", "--show-leak-kinds=defini
 LEFT_OUT = ("unit.fitted_details", "unit.fitted_fields", "exact.fitted", "exact.fitted_contact", "exact.beale_plane",
             "exact.grid", "exact.surfaces")
 LOADS = "&load pbar_over_pstar = 0.05, 0.3, 0.7, 1 /\n"
-TABLES = "&output lines = t, map = t, contours = t, points_per_wavelength = 8 /\n"
+TABLES = "&output lines = t, map = t, contours = t, line_points = 8, map_points = 8 /\n"
 OF_THE_PAPER = TABLES.replace("map", "coefficients = t, theory = t, map")
 COARSE = "&method solver = 'grid', accuracy = 1e-2 /\n"
 # Name, deck, exit status.
@@ -27,7 +27,7 @@ DECKS = (
     ("closed form", "&surface kind = 'wave_1d' /\n" + LOADS + TABLES.replace("map", "theory = t, map")
      + "&method solver = 'auto' /\n", 0),
     ("fitted", "&surface kind = 'wave_2d' /\n" + LOADS + "&method solver = 'fitted', accuracy = 1e-2 /\n"
-     "&output lines = t, details = t, points_per_wavelength = 8 /\n", 0),
+     "&output lines = t, details = t, line_points = 8 /\n", 0),
     ("auto, hexagonal", "&surface kind = 'hexagonal' /\n&load pbar_over_pstar = 0.02, 0.5 /\n"
      "&method solver = 'auto', accuracy = 3e-2 /\n", 0),
     ("grid, gap asked for", "&surface kind = 'wave_2d' /\n&load mean_gap_over_amplitude = 0.4 /\n" + COARSE

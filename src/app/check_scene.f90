@@ -1,0 +1,99 @@
+!> What --check says of a deck without running it.
+module wavycon_check_scene
+   use, intrinsic :: iso_fortran_env, only: int64
+   use wavycon_grid_plan, only: bytes_of_grid
+   use wavycon_kinds, only: dp
+   use wavycon_plain_text, only: escaped, integer_text, short_number
+   use wavycon_results, only: results_type
+   use wavycon_run_log, only: run_log
+   use wavycon_run_scene, only: need_fields, start_results
+   use wavycon_scene, only: scene_type
+   use wavycon_system, only: available_memory
+   use wavycon_tables, only: table_item
+   implicit none (type, external)
+   private
+
+   public :: check_scene
+
+contains
+
+   !> Says what a run would do: the scene as at the start of a run, why its solver is taken, memory, tables.
+   subroutine check_scene(scene, quiet)
+      type(scene_type), allocatable, intent(inout) :: scene   !! not allocated afterwards
+      logical, intent(in) :: quiet                            !! whether to say nothing
+
+      type(results_type) :: results
+      type(run_log) :: log
+      type(table_item), allocatable :: tables(:)
+
+      call log%start(quiet)
+      call start_results(scene, results, tables)
+      call log%show_scene(results)
+      if (reason(results) /= '') call log%say('because   '//reason(results))
+      if (all(results%solver%finest_grid() > 0)) call log%say('memory    '//memory(results, need_fields(tables)))
+      call log%say('tables    '//names_of(tables)//' in '//escaped(results%scene%directory))
+      call log%say(escaped(results%scene%deck_path)//': the deck is fine')
+   end subroutine check_scene
+
+   !> Why the solver is taken; empty if the deck names it.
+   function reason(results) result(words)
+      type(results_type), intent(in) :: results
+      character(:), allocatable :: words
+
+      words = results%solver%why_chosen()
+      if (results%scene%method%has('solver')) return
+      if (words /= '') words = '; '//words
+      words = "'"//results%solver%name()//"' is the default for this surface"//words
+   end function reason
+
+   !> The memory that the finest grid takes, and what is available.
+   function memory(results, with_fields) result(words)
+      type(results_type), intent(in) :: results
+      logical, intent(in) :: with_fields   !! whether the solutions keep pressures and gaps
+      character(:), allocatable :: words
+
+      integer, parameter :: fields = 2
+      integer(int64) :: available, bytes
+      integer :: points(2)
+
+      points = results%solver%finest_grid()
+      bytes = bytes_of_grid(points)
+      if (with_fields) bytes = bytes + fields*storage_size(1.0_dp)/8*product(int(points, int64))*size(results%scene%target)
+      words = 'at most '//megabytes(bytes)//' for grids of up to '//integer_text(points(1))
+      if (results%scene%surface%dimension == 2) words = words//' x '//integer_text(points(2))
+      words = words//' points in the part of the cell that is solved'
+      available = available_memory()
+      if (available >= 0) words = words//'; '//megabytes(available)//' available'
+   end function memory
+
+   !> Bytes as a number of MB.
+   function megabytes(bytes) result(words)
+      integer(int64), intent(in) :: bytes
+      character(:), allocatable :: words
+
+      real(dp), parameter :: million = 1.0e6_dp
+      real(dp) :: number
+
+      number = bytes/million
+      if (number >= 10) then
+         number = anint(number)
+      else
+         number = anint(100*number)/100
+      end if
+      words = short_number(number)//' MB'
+   end function megabytes
+
+   !> The tables by their keys, such as "summary, lines, map".
+   function names_of(tables) result(words)
+      type(table_item), intent(in) :: tables(:)
+      character(:), allocatable :: words
+
+      integer :: i
+
+      words = 'summary'
+      do i = 1, size(tables)
+         if (tables(i)%table%key() /= '') words = words//', '//tables(i)%table%key()
+      end do
+   end function names_of
+
+end module wavycon_check_scene

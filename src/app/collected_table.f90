@@ -1,0 +1,281 @@
+!> The table of --table: a row for each load of each deck, with the columns of the summary.
+module wavycon_collected_table
+   use wavycon_deck_keys, only: deck_key, longest_key_name
+   use wavycon_error, only: error_type, exit_file_trouble, fatal_error
+   use wavycon_output_file, only: narrowest, output_file
+   use wavycon_plain_text, only: escaped
+   use wavycon_results, only: results_type
+   use wavycon_settings, only: setting_type
+   use wavycon_summary_table, only: summary_columns, summary_row
+   use wavycon_system, only: make_directories, path_directory, path_kind
+   use wavycon_version, only: revision, version
+   implicit none (type, external)
+   private
+
+   public :: collected_table
+
+   integer, parameter :: longest_name = 49, longest_unit = 24
+
+   !> The rows of one deck.
+   type :: deck_rows
+      character(:), allocatable :: deck, case
+      type(deck_key), allocatable :: keys(:)
+      character(longest_unit) :: units(size(summary_columns)) = ''
+      character(narrowest), allocatable :: words(:, :)   !! column, load
+   end type deck_rows
+
+   type :: collected_table
+      private
+      type(deck_rows), allocatable :: decks(:)
+      integer :: number = 0                    !! of decks that have been added
+      character(:), allocatable :: failed      !! lines of the head, for the decks that were not run
+   contains
+      procedure :: start
+      procedure :: add
+      procedure :: note_failure
+      procedure :: write => write_table
+   end type collected_table
+
+   !> A column of a key.
+   type :: key_column
+      character(longest_key_name) :: name = ''
+      logical :: is_number = .true.
+   end type key_column
+
+contains
+
+   !> Starts an empty table. Its directory is made, so that a bad name is reported before decks are run. Errors:
+   !> exit_file_trouble.
+   subroutine start(self, path, most_decks, error)
+      class(collected_table), intent(out) :: self
+      character(*), intent(in) :: path         !! of the file
+      integer, intent(in) :: most_decks
+      type(error_type), allocatable, intent(out) :: error
+
+      character(:), allocatable :: failure
+
+      allocate (self%decks(most_decks))
+      self%failed = ''
+      call make_directories(directory_of(path), failure)
+      if (allocated(failure)) then
+         call fatal_error(error, exit_file_trouble, escaped(path)//': its directory cannot be made: '//escaped(failure))
+      else if (path_kind(path) == path_directory .or. index(path, '/', back=.true.) == len(path)) then
+         call fatal_error(error, exit_file_trouble, escaped(path)//': the table cannot be written: this is a directory')
+      end if
+   end subroutine start
+
+   !> Adds the loads of a deck.
+   subroutine add(self, results, keys)
+      class(collected_table), intent(inout) :: self
+      type(results_type), intent(in) :: results   !! with a solution for each load
+      type(deck_key), intent(in) :: keys(:)       !! of the deck
+
+      integer :: i
+
+      self%number = self%number + 1
+      associate (rows => self%decks(self%number))
+         rows%deck = without_blanks(results%scene%deck_path)
+         rows%case = results%scene%case
+         rows%keys = keys
+         do i = 1, size(summary_columns)
+            rows%units(i) = results%unit_in_words(unit_of(summary_columns(i)))
+         end do
+         allocate (rows%words(size(summary_columns), size(results%loads)))
+         do i = 1, size(results%loads)
+            rows%words(:, i) = summary_row(results, i)
+         end do
+      end associate
+   end subroutine add
+
+   !> Notes a deck that was not run to its end, for the head of the table.
+   pure subroutine note_failure(self, deck)
+      class(collected_table), intent(inout) :: self
+      character(*), intent(in) :: deck   !! its path
+
+      self%failed = self%failed//new_line('a')//'# failed: '//escaped(deck)
+   end subroutine note_failure
+
+   !> Writes the table. Columns of keys are those that are set on the command line, and those that a deck gives and that
+   !> differ between decks. A deck without such a key has NaN there, or '-' in place of a word. Errors: exit_file_trouble.
+   subroutine write_table(self, path, settings, error)
+      class(collected_table), intent(in) :: self
+      character(*), intent(in) :: path
+      type(setting_type), intent(in) :: settings(:)   !! of the command line
+      type(error_type), allocatable, intent(out) :: error
+
+      type(key_column), allocatable :: columns(:)
+      type(output_file) :: file
+      integer :: d, i, k
+
+      call choose_columns(self, settings, columns)
+      call file%open(directory_of(path), path(index(path, '/', back=.true.) + 1:))
+      call file%put('# wavycon '//version//' ('//revision//')'//self%failed)
+      call put_columns(self, columns, file)
+      call file%put_names()
+      do d = 1, self%number
+         associate (rows => self%decks(d))
+            do i = 1, size(rows%words, 2)
+               call file%add(rows%deck)
+               call file%add(rows%case)
+               do k = 1, size(columns)
+                  call file%add(word_in(rows, columns(k)))
+               end do
+               do k = 1, size(rows%words, 1)
+                  call file%add(trim(rows%words(k, i)))
+               end do
+               call file%end_row()
+            end do
+         end associate
+      end do
+      call file%finish(error)
+   end subroutine write_table
+
+   !> Sets the names, units and widths of all columns.
+   subroutine put_columns(table, columns, file)
+      type(collected_table), intent(in) :: table
+      type(key_column), intent(in) :: columns(:)   !! of the keys
+      type(output_file), intent(inout) :: file
+
+      integer, parameter :: before = 2   !! columns before those of the keys
+      character(longest_name) :: names(before + size(columns) + size(summary_columns))
+      character(longest_unit) :: units(size(names))
+      integer :: d, k, longest(size(names))
+
+      names(:before) = [character(4) :: 'deck', 'case']
+      units = '-'
+      longest = 0
+      do k = 1, size(columns)
+         names(before + k) = columns(k)%name
+      end do
+      do k = 1, size(summary_columns)
+         names(before + size(columns) + k) = name_of(summary_columns(k))
+         units(before + size(columns) + k) = common_unit(table, k)
+      end do
+      do d = 1, table%number
+         longest(1) = max(longest(1), len(table%decks(d)%deck))
+         longest(2) = max(longest(2), len(table%decks(d)%case))
+         do k = 1, size(columns)
+            longest(before + k) = max(longest(before + k), len(word_in(table%decks(d), columns(k))))
+         end do
+      end do
+      call file%put_columns(names, units, longest)
+   end subroutine put_columns
+
+   !> The columns of keys, in the order of the first deck that has them.
+   subroutine choose_columns(table, settings, columns)
+      type(collected_table), intent(in) :: table
+      type(setting_type), intent(in) :: settings(:)
+      type(key_column), allocatable, intent(out) :: columns(:)
+
+      integer :: d, k
+
+      allocate (columns(0))
+      do d = 1, table%number
+         do k = 1, size(table%decks(d)%keys)
+            associate (key => table%decks(d)%keys(k))
+               if (any(columns%name == key%name)) cycle
+               if (is_set(key%name, settings) .or. (key%given .and. differs(table, key))) &
+                  columns = [columns, key_column(key%name, key%is_number)]
+            end associate
+         end do
+      end do
+   end subroutine choose_columns
+
+   !> Whether the command line sets a key.
+   pure logical function is_set(name, settings)
+      character(*), intent(in) :: name
+      type(setting_type), intent(in) :: settings(:)
+
+      integer :: i
+
+      is_set = .false.
+      do i = 1, size(settings)
+         is_set = is_set .or. settings(i)%group//'_'//settings(i)%key == name
+      end do
+   end function is_set
+
+   !> Whether any deck has another value of a key, or none.
+   logical function differs(table, key)
+      type(collected_table), intent(in) :: table
+      type(deck_key), intent(in) :: key
+
+      integer :: d
+
+      differs = .false.
+      do d = 1, table%number
+         differs = differs .or. word_in(table%decks(d), key_column(key%name, key%is_number)) /= key%word
+      end do
+   end function differs
+
+   !> The value of a deck's key; 'NaN' or '-' if it has none.
+   pure function word_in(rows, column) result(word)
+      type(deck_rows), intent(in) :: rows
+      type(key_column), intent(in) :: column
+      character(:), allocatable :: word
+
+      integer :: k
+
+      word = '-'
+      if (column%is_number) word = 'NaN'
+      do k = 1, size(rows%keys)
+         if (rows%keys(k)%name == column%name) word = rows%keys(k)%word
+      end do
+   end function word_in
+
+   !> The unit of a column: as the decks name it if they agree, otherwise 'length' or the like.
+   pure function common_unit(table, column) result(unit)
+      type(collected_table), intent(in) :: table
+      integer, intent(in) :: column
+      character(longest_unit) :: unit
+
+      unit = unit_of(summary_columns(column))
+      if (table%number == 0) return
+      if (all(table%decks(:table%number)%units(column) == table%decks(1)%units(column))) &
+         unit = table%decks(1)%units(column)
+   end function common_unit
+
+   !> The name in 'name[unit]'.
+   pure function name_of(column) result(name)
+      character(*), intent(in) :: column
+      character(:), allocatable :: name
+
+      name = column(:index(column, '[') - 1)
+   end function name_of
+
+   !> The unit in 'name[unit]'.
+   pure function unit_of(column) result(unit)
+      character(*), intent(in) :: column
+      character(:), allocatable :: unit
+
+      unit = column(index(column, '[') + 1:index(column, ']') - 1)
+   end function unit_of
+
+   !> A text as one word of a table.
+   pure function without_blanks(text) result(word)
+      character(*), intent(in) :: text
+      character(:), allocatable :: word
+
+      integer :: i
+
+      word = escaped(text)
+      do i = 1, len(word)
+         if (word(i:i) == ' ') word(i:i) = '_'
+      end do
+   end function without_blanks
+
+   !> The directory of a path; '.' if it has none.
+   pure function directory_of(path) result(directory)
+      character(*), intent(in) :: path
+      character(:), allocatable :: directory
+
+      integer :: slash
+
+      slash = index(path, '/', back=.true.)
+      if (slash == 0) then
+         directory = '.'
+      else
+         directory = path(:max(slash - 1, 1))
+      end if
+   end function directory_of
+
+end module wavycon_collected_table

@@ -1,0 +1,107 @@
+!> The keys of a deck and their values as words, for tables that compare decks.
+module wavycon_deck_keys
+   use wavycon_deck, only: deck_type
+   use wavycon_group_values, only: group_values
+   use wavycon_key_table, only: choice_value, integer_value, key_type, logical_value, real_value, text_value
+   use wavycon_plain_text, only: exact_number, integer_text
+   implicit none (type, external)
+   private
+
+   public :: deck_key, list_keys
+
+   !> Bytes of a name.
+   integer, parameter, public :: longest_key_name = 49
+
+   type :: deck_key
+      character(longest_key_name) :: name = ''   !! 'group_key'
+      character(:), allocatable :: word   !! the value in effect, without blanks; '-' for an empty text
+      logical :: is_number = .false.      !! whether the key has numbers for values
+      logical :: given = .false.          !! whether the deck or the command line gives it
+   end type deck_key
+
+contains
+
+   !> Lists the keys of &material, &surface, &load and &method that have an effect. Left out are lists of loads: a table
+   !> has a row for each.
+   subroutine list_keys(deck, keys)
+      type(deck_type), intent(in) :: deck   !! without problems
+      type(deck_key), allocatable, intent(out) :: keys(:)
+
+      type(deck_key), allocatable :: room(:)
+      integer :: i, number
+
+      allocate (room(size(deck%material%table%keys) + size(deck%surface_values%table%keys) + &
+                     size(deck%load%table%keys) + size(deck%method%table%keys)))
+      number = 0
+      call add_group(deck%material)
+      call add_group(deck%surface_values)
+      call add_group(deck%load)
+      call add_group(deck%method)
+      allocate (keys(number))
+      do i = 1, number
+         keys(i) = room(i)
+      end do
+
+   contains
+
+      subroutine add_group(values)
+         type(group_values), intent(in) :: values
+
+         character(:), allocatable :: name
+         integer :: k
+
+         do k = 1, size(values%table%keys)
+            associate (key => values%table%keys(k))
+               name = trim(key%name)
+               if (.not. values%in_effect(name)) cycle
+               if (values%table%name == 'load' .and. key%most_values > 1) cycle
+               number = number + 1
+               room(number)%name = trim(values%table%name)//'_'//name
+               room(number)%word = word_of(values, key)
+               room(number)%is_number = any(key%kind == [real_value, integer_value])
+               room(number)%given = values%has(name)
+            end associate
+         end do
+      end subroutine add_group
+
+   end subroutine list_keys
+
+   !> The value of a key: the numbers of a list with commas between them, one number if they are equal.
+   pure function word_of(values, key) result(word)
+      type(group_values), intent(in) :: values
+      type(key_type), intent(in) :: key
+      character(:), allocatable :: word
+
+      integer :: i
+      logical :: are_equal
+
+      word = ''
+      select case (key%kind)
+      case (real_value)
+         associate (numbers => values%reals(trim(key%name)))
+            are_equal = .not. maxval(numbers) > minval(numbers)
+            do i = 1, merge(1, size(numbers), are_equal)
+               word = word//','//exact_number(numbers(i))
+            end do
+         end associate
+         word = word(2:)
+      case (integer_value)
+         associate (numbers => values%integers(trim(key%name)))
+            are_equal = .not. maxval(numbers) > minval(numbers)
+            do i = 1, merge(1, size(numbers), are_equal)
+               word = word//','//integer_text(numbers(i))
+            end do
+         end associate
+         word = word(2:)
+      case (logical_value)
+         word = trim(merge('.true. ', '.false.', values%logical(trim(key%name))))
+      case (choice_value, text_value)
+         word = values%text(trim(key%name))
+         do i = 1, len(word)
+            if (word(i:i) == ' ') word(i:i) = '_'
+         end do
+         if (word == '') word = '-'
+      end select
+   end function word_of
+
+end module wavycon_deck_keys

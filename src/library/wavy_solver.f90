@@ -1,0 +1,252 @@
+!> Solvers of the public interface: a surface, a modulus and a method, or all of a deck.
+module wavycon_wavy_solver
+   use, intrinsic :: iso_c_binding, only: c_double, c_int
+   use wavycon_contact_solution, only: contact_solution
+   use wavycon_contact_solver, only: contact_solver
+   use wavycon_deck, only: deck_type
+   use wavycon_deck_text, only: deck_text_type
+   use wavycon_error, only: error_type, exit_bad_input, fatal_error
+   use wavycon_group_text, only: read_group_text
+   use wavycon_group_values, only: group_values
+   use wavycon_kinds, only: dp
+   use wavycon_load_group, only: check_load_group, load_table
+   use wavycon_make_scene, only: make_scene, take_loads
+   use wavycon_material_group, only: material_table
+   use wavycon_method_group, only: check_method_group, method_table
+   use wavycon_plain_text, only: integer_text
+   use wavycon_problem_report, only: problem_report
+   use wavycon_problems, only: problem_list_type
+   use wavycon_read_deck, only: read_deck
+   use wavycon_scene, only: by_pressure, scene_type
+   use wavycon_solve_target, only: solve_target
+   use wavycon_solver_list, only: start_solver
+   use wavycon_surface, only: surface_type
+   use wavycon_wavy_solution, only: start_solution, wavy_solution
+   use wavycon_wavy_surface, only: copy_surface, number_words, wavy_surface
+   implicit none (type, external)
+   private
+
+   public :: wavy_solver, wavy_scales, make_solver, make_solver_of_deck
+
+   !> What the normalised numbers refer to.
+   type, bind(c) :: wavy_scales
+      real(c_double) :: e_star = 0.0_dp        !! plane-strain modulus [pressure]
+      real(c_double) :: p_star = 0.0_dp        !! p*, mean pressure that just closes the gap [pressure]; 0 if flat
+      real(c_double) :: amplitude = 0.0_dp     !! Delta, mean gap before load [length]
+      real(c_double) :: length_x = 0.0_dp      !! sides of the periodic cell [length]
+      real(c_double) :: length_y = 0.0_dp
+      integer(c_int) :: dimension = 0          !! 1 for a profile, otherwise 2
+   end type wavy_scales
+
+   !> A solver of one surface. It may start a load from the one solved before, which is fastest from high to low loads.
+   type :: wavy_solver
+      private
+      class(contact_solver), allocatable :: solver
+      real(dp) :: e_star = 1.0_dp                     !! [pressure]
+      real(dp) :: p_star = 0.0_dp                     !! [pressure]
+      logical :: keep_fields = .true.
+      integer :: loads_by = by_pressure               !! of the deck's loads
+      real(dp), allocatable :: target(:)              !! of the deck's loads, as of scene_type
+      real(dp), allocatable :: mean_pressure(:)
+   contains
+      procedure :: is_made
+      procedure :: name => get_name
+      procedure :: describe
+      procedure :: scales
+      procedure :: number_of_loads
+      procedure :: solve
+      procedure :: solve_load
+      procedure, private :: solve_one
+   end type wavy_solver
+
+contains
+
+   !> Makes a solver from arguments. Errors: exit_bad_input, with all problems of `method`.
+   subroutine make_solver(surface, e_star, method, keep_fields, solver, error)
+      type(wavy_surface), intent(in) :: surface
+      real(dp), intent(in) :: e_star        !! plane-strain modulus, > 0 [pressure]; 1/e_star = (1 - nu1^2)/e1 + ...
+      character(*), intent(in) :: method    !! keys of &method, such as "solver = 'auto', accuracy = 1e-4"; may be empty
+      logical, intent(in) :: keep_fields    !! whether maps, fields, edges or details of solutions will be needed
+      type(wavy_solver), intent(out) :: solver
+      type(error_type), allocatable, intent(out) :: error
+
+      character(:), allocatable :: kind
+      type(deck_text_type) :: text
+      type(group_values) :: values
+      type(problem_list_type) :: problems
+      type(surface_type), allocatable :: inner
+
+      call copy_surface(surface, inner, kind)
+      if (.not. allocated(inner)) then
+         call fatal_error(error, exit_bad_input, 'the surface has not been made')
+         return
+      end if
+      call read_group_text(material_table(), 'e_star = '//number_words(e_star), values, text, problems)
+      if (problems%number == 0) then
+         solver%e_star = values%real('e_star')
+         call read_group_text(method_table(), method, values, text, problems)
+         call check_method_group(values, kind, inner, problems)
+      end if
+      if (problems%number > 0) then
+         call fatal_error(error, exit_bad_input, problem_report(problems, text))
+         return
+      end if
+      solver%p_star = inner%full_contact_pressure(solver%e_star)
+      solver%keep_fields = keep_fields
+      call start_solver(inner, values, keep_fields, solver%solver)
+   end subroutine make_solver
+
+   !> Makes the solver that a deck describes, with its loads, see number_of_loads and solve_load; &output has no effect.
+   !> Errors: those of the program for a bad deck or height map.
+   subroutine make_solver_of_deck(path, keep_fields, solver, error)
+      character(*), intent(in) :: path
+      logical, intent(in) :: keep_fields    !! as of make_solver
+      type(wavy_solver), intent(out) :: solver
+      type(error_type), allocatable, intent(out) :: error
+
+      type(deck_type) :: deck
+      type(scene_type) :: scene
+
+      call read_deck(path, deck, error)
+      if (.not. allocated(error)) call make_scene(deck, scene, error)
+      if (allocated(error)) return
+      solver%e_star = scene%e_star
+      solver%p_star = scene%p_star
+      solver%keep_fields = keep_fields
+      solver%loads_by = scene%loads_by
+      call move_alloc(scene%target, solver%target)
+      if (allocated(scene%mean_pressure)) call move_alloc(scene%mean_pressure, solver%mean_pressure)
+      call start_solver(scene%surface, scene%method, keep_fields, solver%solver)
+   end subroutine make_solver_of_deck
+
+   !> Whether the solver has been made.
+   pure logical function is_made(self)
+      class(wavy_solver), intent(in) :: self
+
+      is_made = allocated(self%solver)
+   end function is_made
+
+   !> The name of the solver, as the key `solver` has it; empty before it is made.
+   function get_name(self) result(name)
+      class(wavy_solver), intent(in) :: self
+      character(:), allocatable :: name
+
+      name = ''
+      if (self%is_made()) name = self%solver%name()
+   end function get_name
+
+   !> The discretisation in words.
+   function describe(self) result(words)
+      class(wavy_solver), intent(in) :: self
+      character(:), allocatable :: words
+
+      words = ''
+      if (self%is_made()) words = self%solver%describe()
+   end function describe
+
+   !> Modulus, p*, Delta and the cell. Zeros before the solver is made.
+   pure type(wavy_scales) function scales(self)
+      class(wavy_solver), intent(in) :: self
+
+      if (.not. self%is_made()) return
+      associate (surface => self%solver%surface)
+         scales = wavy_scales(self%e_star, self%p_star, surface%amplitude, surface%length(1), surface%length(2), &
+                              int(surface%dimension, c_int))
+      end associate
+   end function scales
+
+   !> The number of loads that the deck gives; 0 without a deck.
+   pure integer function number_of_loads(self)
+      class(wavy_solver), intent(in) :: self
+
+      number_of_loads = 0
+      if (allocated(self%target)) number_of_loads = size(self%target)
+   end function number_of_loads
+
+   !> Solves one load. A load that cannot be solved as requested is no error, but the status of the solution. Errors:
+   !> exit_bad_input for a quantity that is none or a value that it cannot have.
+   subroutine solve(self, quantity, value, solution, error)
+      class(wavy_solver), intent(inout) :: self
+      character(*), intent(in) :: quantity   !! a key of &load, such as pbar_over_pstar, mean_pressure, mean_gap
+      real(dp), intent(in) :: value          !! in the unit of that key
+      type(wavy_solution), intent(out) :: solution
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: loads_by
+      real(dp), allocatable :: mean_pressure(:), target(:)
+      type(deck_text_type) :: text
+      type(group_values) :: values
+      type(problem_list_type) :: problems
+
+      call check_made(self, error)
+      if (allocated(error)) return
+      call read_group_text(load_table(), quantity//' = '//number_words(value), values, text, problems)
+      call check_load_group(values, problems)
+      if (problems%number > 0) then
+         call fatal_error(error, exit_bad_input, problem_report(problems, text))
+         return
+      end if
+      call take_loads(values, text%path, self%solver%surface%amplitude, self%p_star, loads_by, target, mean_pressure, &
+                      error)
+      if (allocated(error)) return
+      if (size(target) /= 1) then
+         call fatal_error(error, exit_bad_input, text%path//': this is not one load but '//integer_text(size(target)))
+         return
+      end if
+      if (loads_by == by_pressure) then
+         call self%solve_one(loads_by, target(1), mean_pressure(1), solution, error)
+      else
+         call self%solve_one(loads_by, target(1), solution=solution, error=error)
+      end if
+   end subroutine solve
+
+   !> Solves a load of the deck. Errors: exit_bad_input for a load that the deck does not have.
+   subroutine solve_load(self, load, solution, error)
+      class(wavy_solver), intent(inout) :: self
+      integer, intent(in) :: load            !! 1 .. number_of_loads()
+      type(wavy_solution), intent(out) :: solution
+      type(error_type), allocatable, intent(out) :: error
+
+      call check_made(self, error)
+      if (allocated(error)) return
+      if (load < 1 .or. load > self%number_of_loads()) then
+         call fatal_error(error, exit_bad_input, 'there is no load '//integer_text(load)//': the deck gives '// &
+                          integer_text(self%number_of_loads()))
+      else if (allocated(self%mean_pressure)) then
+         call self%solve_one(self%loads_by, self%target(load), self%mean_pressure(load), solution, error)
+      else
+         call self%solve_one(self%loads_by, self%target(load), solution=solution, error=error)
+      end if
+   end subroutine solve_load
+
+   !> Errors: as of start_solution.
+   subroutine solve_one(self, loads_by, target, mean_pressure, solution, error)
+      class(wavy_solver), intent(inout) :: self
+      integer, intent(in) :: loads_by                     !! a name of wavycon_scene
+      real(dp), intent(in) :: target                      !! P, G or the contact area fraction
+      real(dp), intent(in), optional :: mean_pressure     !! [pressure], if it is given
+      type(wavy_solution), intent(out) :: solution
+      type(error_type), allocatable, intent(out) :: error
+
+      class(contact_solution), allocatable :: found
+      real(dp) :: pressure
+
+      call solve_target(self%solver, loads_by, target, found)
+      if (present(mean_pressure)) then
+         pressure = mean_pressure
+      else
+         pressure = self%p_star*found%pbar_over_pstar
+      end if
+      call start_solution(found, self%solver%surface, self%p_star, pressure, self%keep_fields, &
+                          self%solver%has_error_estimates(), solution, error)
+   end subroutine solve_one
+
+   !> Errors: exit_bad_input if the solver has not been made.
+   subroutine check_made(self, error)
+      class(wavy_solver), intent(in) :: self
+      type(error_type), allocatable, intent(out) :: error
+
+      if (.not. self%is_made()) call fatal_error(error, exit_bad_input, 'the solver has not been made')
+   end subroutine check_made
+
+end module wavycon_wavy_solver

@@ -1,0 +1,32 @@
+!> Solves the load of a given mean pressure, mean gap or contact area.
+module wavycon_solve_target
+   use wavycon_contact_solution, only: contact_solution
+   use wavycon_contact_solver, only: contact_solver
+   use wavycon_find_load, only: solve_for_contact_area, solve_for_mean_gap
+   use wavycon_kinds, only: dp
+   use wavycon_scene, only: by_contact_area, by_mean_gap
+   implicit none (type, external)
+   private
+
+   public :: solve_target
+
+contains
+
+   !> Solves one load, or finds the load of a given mean gap or area.
+   subroutine solve_target(solver, loads_by, target, solution)
+      class(contact_solver), intent(inout) :: solver
+      integer, intent(in) :: loads_by     !! a name of wavycon_scene
+      real(dp), intent(in) :: target      !! P, G or the contact area fraction
+      class(contact_solution), allocatable, intent(inout) :: solution
+
+      select case (loads_by)
+      case (by_mean_gap)
+         call solve_for_mean_gap(solver, target, solution)
+      case (by_contact_area)
+         call solve_for_contact_area(solver, target, solution)
+      case default
+         call solver%solve(target, solution)
+      end select
+   end subroutine solve_target
+
+end module wavycon_solve_target

@@ -1,0 +1,70 @@
+"""A steel surface with waves 1 mm long and 1 um in amplitude against a rigid flat: lengths in m, pressures in Pa.
+
+usage: consumer.py LIBRARY, such as PREFIX/lib/libwavycon.so. Arrays are numpy's if numpy is there, otherwise ctypes'.
+"""
+import ctypes
+import sys
+from ctypes import byref, c_char_p, c_double, c_int, c_void_p
+
+try:
+    import numpy
+except ImportError:
+    numpy = None
+
+DOUBLES = ("pbar_over_pstar mean_gap_over_amplitude approach_over_amplitude contact_area_fraction "
+           "peak_pressure_over_pstar min_pressure_over_pstar mean_gap_over_amplitude_error contact_area_fraction_error "
+           "peak_pressure_over_pstar_error mean_pressure mean_gap approach contact_area peak_pressure residual").split()
+
+
+class Measures(ctypes.Structure):
+    _fields_ = ([(name, c_double) for name in DOUBLES]
+                + [(name, c_int) for name in ("active_constraints", "iterations", "status_code")])
+
+
+lib = ctypes.CDLL(sys.argv[1])
+for name, arguments in {
+        "new_error": [], "new_wave_2d": [c_void_p, c_double, c_double, c_double],
+        "new_solver": [c_void_p, c_void_p, c_double, c_char_p, c_int],
+        "solve": [c_void_p, c_void_p, c_char_p, c_double]}.items():
+    getattr(lib, "wavycon_" + name).restype = c_void_p
+    getattr(lib, "wavycon_" + name).argtypes = arguments
+
+
+def check():
+    """Raises the error of the last call, if there is one."""
+    if lib.wavycon_check_error(error) != 0:
+        text = ctypes.create_string_buffer(1000)
+        lib.wavycon_get_error_message(error, text, ctypes.c_size_t(len(text)))
+        raise ValueError(text.value.decode())
+
+
+def field(rows, columns):
+    """A field of doubles and the pointer to it."""
+    if numpy:
+        array = numpy.empty((rows, columns))
+        return array, array.ctypes.data_as(c_void_p)
+    array = (c_double*columns*rows)()
+    return array, byref(array)
+
+
+error = c_void_p(lib.wavycon_new_error())
+surface = c_void_p(lib.wavycon_new_wave_2d(error, 1e-6, 1e-3, 1e-3))
+solver = c_void_p(lib.wavycon_new_solver(error, surface, 210e9/(1 - 0.3**2), b"solver = 'auto', accuracy = 1e-4", 1))
+check()
+for load in (0.9, 0.5, 0.2):
+    solution = c_void_p(lib.wavycon_solve(error, solver, b"pbar_over_pstar", load))
+    check()
+    m, status, edges = Measures(), ctypes.create_string_buffer(40), c_int()
+    lib.wavycon_get_measures(error, solution, byref(m))
+    lib.wavycon_get_status(error, solution, status, ctypes.c_size_t(len(status)))
+    print(*(f"{number:24.16e}" for number in (m.pbar_over_pstar, m.mean_gap, m.contact_area_fraction, m.peak_pressure,
+                                              m.peak_pressure_over_pstar_error)), status.value.decode())
+    if load > 0.2:
+        lib.wavycon_delete(byref(solution))
+(pressure, to_pressure), (gap, to_gap) = field(32, 48), field(32, 48)
+lib.wavycon_get_map(error, solution, 48, 32, None, to_pressure, to_gap, None)
+check()
+lib.wavycon_get_number_of_edges(error, solution, byref(edges))
+print(*(f"{number:24.16e}" for number in (max(max(row) for row in pressure), pressure[2][1], gap[2][23])), edges.value)
+for handle in (solution, solver, surface, error):
+    lib.wavycon_delete(byref(handle))

@@ -1,0 +1,160 @@
+#!/usr/bin/env python3
+"""The library as others use it: installed, found by CMake and pkg-config, linked by Fortran, C and Python programs.
+
+usage: test_consumers.py --build BUILD --cmake CMAKE --sources SOURCES --generator GENERATOR --c CC --fortran FC
+                         --flags FLAGS
+"""
+import argparse
+import os
+import pathlib
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+HERE = pathlib.Path(__file__).resolve().parent
+DECK = f"""&surface kind = 'wave_2d', amplitude = 1e-6, wavelength = 1e-3 /
+&material e_star = {210e9/(1 - 0.3**2)!r} /
+&load pbar_over_pstar = 0.9, 0.5, 0.2 /
+&method solver = 'auto', accuracy = 1e-4 /
+&output contours = .true. /
+"""
+COLUMNS = ["pbar_over_pstar", "mean_gap", "contact_area_fraction", "peak_pressure", "peak_pressure_over_pstar_error"]
+# Half a unit of the last of the 16 digits that tables have.
+DIGITS = 1e-15
+ENVIRONMENT = dict(os.environ, OPENBLAS_NUM_THREADS="1")
+
+
+def run(*command, **options):
+    """Runs a command; its output, which a failure shows."""
+    done = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                          env=dict(ENVIRONMENT, **options.pop("environment", {})), **options)
+    if done.returncode != 0:
+        raise AssertionError(f"{shlex.join(map(str, command))}: exit status {done.returncode}\n{done.stdout}")
+    return done.stdout
+
+
+def numbers(output):
+    """The words of a consumer's lines, the numbers among them read."""
+    rows = [line.split() for line in output.splitlines()]
+    if [len(row) for row in rows] != [6, 6, 6, 4]:
+        raise AssertionError(f"this is not what a consumer prints:\n{output}")
+    return [[*map(float, row[:-1]), row[-1]] for row in rows]
+
+
+def rows_of(path):
+    """The rows of a table as dictionaries."""
+    lines = [line.split() for line in path.read_text().splitlines() if line.strip() and not line.startswith("#")]
+    return [dict(zip(lines[0], row)) for row in lines[1:]]
+
+
+class Consumers(unittest.TestCase):
+    options = None
+
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory(prefix="a folder with blanks ")
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = pathlib.Path(folder.name)
+        cls.prefix = cls.folder / "prefix"
+        options = cls.options
+        cls.is_sanitized = "-fsanitize" in options.flags
+        run(options.cmake, "--install", options.build, "--prefix", cls.prefix)
+        # The installation must not need the place that it was configured for.
+        cls.prefix = cls.prefix.rename(cls.folder / "moved")
+        cls.lib = next(cls.prefix.glob("lib*/**/libwavycon.so")).parent
+        for project, name in ((HERE, "project"), (HERE / "only_c", "only_c")):
+            run(options.cmake, "-S", project, "-B", cls.folder / name, "-G", options.generator, "-D",
+                f"CMAKE_PREFIX_PATH={cls.prefix}", *cls.compilers())
+            run(options.cmake, "--build", cls.folder / name)
+        # The program that the digits are compared with is the installed one.
+        (cls.folder / "deck.nml").write_text(DECK)
+        run(cls.prefix / "bin" / "wavycon", "deck.nml", "--output", ".", "--quiet", cwd=cls.folder)
+        cls.expected = numbers(run(cls.folder / "project" / "consumer_fortran"))
+
+    @classmethod
+    def compilers(cls):
+        options = cls.options
+        return [f"-DCMAKE_C_COMPILER={options.c}", f"-DCMAKE_Fortran_COMPILER={options.fortran}",
+                f"-DCMAKE_C_FLAGS={options.flags}", f"-DCMAKE_Fortran_FLAGS={options.flags}"]
+
+    def pkg_config(self, *arguments):
+        if not shutil.which("pkg-config"):
+            self.skipTest("there is no pkg-config")
+        return shlex.split(run("pkg-config", *arguments, "wavycon",
+                               environment={"PKG_CONFIG_PATH": str(self.lib / "pkgconfig")}))
+
+    def test_digits_of_the_deck(self):
+        table = rows_of(self.folder / "deck.summary.dat")
+        self.assertEqual(3, len(table))
+        for row, values in zip(table, self.expected):
+            self.assertEqual(row["status"], values[-1])
+            for column, value in zip(COLUMNS, values):
+                self.assertLessEqual(abs(float(row[column]) - value), DIGITS*abs(value), column)
+        highest, in_contact, open_gap, edges = self.expected[3]
+        contour = rows_of(self.folder / "deck.contour.dat")
+        self.assertEqual(len({row["curve"] for row in contour if row.get("load") == "3"}), int(edges))
+        # The map of the last load: its highest point is at most the peak, and the peak lies on it, at the crest.
+        self.assertLessEqual(abs(highest - self.expected[2][3]), 1e-6*highest)
+        self.assertGreater(in_contact, 0)
+        self.assertGreater(open_gap, 0)
+
+    def test_fortran_with_the_shared_library(self):
+        self.assertEqual(self.expected, numbers(run(self.folder / "project" / "consumer_fortran_shared")))
+
+    def test_c_with_the_static_library(self):
+        self.assertEqual(self.expected, numbers(run(self.folder / "project" / "consumer_c")))
+
+    def test_a_project_in_c_alone(self):
+        self.assertEqual(self.expected, numbers(run(self.folder / "only_c" / "consumer_c_shared")))
+
+    def test_python(self):
+        if self.is_sanitized:
+            self.skipTest("Python cannot load a library with a sanitizer")
+        self.assertEqual(self.expected, numbers(run(sys.executable, HERE / "consumer.py", self.lib / "libwavycon.so")))
+
+    def test_pkg_config_with_the_shared_library(self):
+        program = self.folder / "by_pkg_config"
+        run(self.options.c, *shlex.split(self.options.flags), HERE / "consumer.c", "-o", program,
+            *self.pkg_config("--cflags", "--libs"))
+        output = run(program, environment={"LD_LIBRARY_PATH": str(self.lib)})
+        self.assertEqual(self.expected, numbers(output))
+
+    def test_pkg_config_with_the_static_library(self):
+        program = self.folder / "static_by_pkg_config"
+        words = self.pkg_config("--cflags", "--libs", "--static")
+        words[words.index("-lwavycon")] = "-l:libwavycon.a"
+        run(self.options.c, *shlex.split(self.options.flags), HERE / "consumer.c", "-o", program, *words)
+        self.assertEqual(self.expected, numbers(run(program)))
+
+    def test_misuse(self):
+        self.assertEqual("0 failures\n", run(self.folder / "project" / "misuse"))
+
+    def test_threads(self):
+        self.assertEqual("0 failures\n", run(self.folder / "project" / "threads"))
+
+    def test_memory(self):
+        if self.is_sanitized:
+            self.skipTest("valgrind cannot run a program with a sanitizer")
+        if not shutil.which("valgrind"):
+            self.skipTest("there is no valgrind")
+        for program in (self.folder / "project" / "misuse", self.folder / "only_c" / "consumer_c_shared"):
+            run("valgrind", "--quiet", "--leak-check=full", "--show-leak-kinds=definite,indirect,possible",
+                "--errors-for-leak-kinds=definite,indirect,possible", "--error-exitcode=1", program)
+
+    def test_subproject(self):
+        options = self.options
+        run(options.cmake, "-S", HERE / "subproject", "-B", self.folder / "subproject", "-G", options.generator,
+            "-D", f"WAVYCON_SOURCES={options.sources}", *self.compilers())
+        listed = run(pathlib.Path(options.cmake).with_name("ctest"), "-N", "--test-dir", self.folder / "subproject")
+        self.assertIn("Total Tests: 0", listed)
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    for name in ("build", "cmake", "sources", "generator", "c", "fortran", "flags"):
+        parser.add_argument(f"--{name}", required=True)
+    Consumers.options, others = parser.parse_known_args()
+    unittest.main(argv=[sys.argv[0], *others], verbosity=2)

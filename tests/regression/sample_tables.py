@@ -1,0 +1,62 @@
+"""Tables of every kind, and the examples of outputs/README.md, for the tests of programs that read them."""
+import pathlib
+import re
+import subprocess
+
+from tables import Table
+
+PAGE = pathlib.Path(__file__).resolve().parents[2] / "outputs" / "README.md"
+LOADS = "&load pbar_over_pstar = 0, 0.2, 0.6, 1 /\n"
+ALL = "lines = t, map = t, contours = t, line_points = 8, map_points = 8"
+HEIGHTS = "".join(" ".join(str((3*i*i + 5*j + i*j) % 7) for i in range(8)) + "\n" for j in range(8))
+# Both dimensions, every solver, every table, labels of units, loads without numbers, a single load, tables without rows.
+DECKS = {
+    "line": f"&surface kind = 'wave_1d' /\n{LOADS}&output {ALL}, coefficients = t, theory = t /\n",
+    "plane": f"&surface kind = 'wave_2d' /\n{LOADS}&output {ALL}, coefficients = t, theory = t /\n",
+    "closed_form": f"&surface kind = 'wave_1d' /\n{LOADS}&method solver = 'auto' /\n&output {ALL}, theory = t /\n",
+    "fitted": "&surface kind = 'crossed_1d', amplitude1 = 1, wavelength1 = 2, amplitude2 = 1, wavelength2 = 1 /\n"
+              "&load pbar_over_pstar = 0, 0.1, 0.3, 1 /\n"
+              f"&method solver = 'fitted' /\n&output {ALL}, details = t /\n",
+    "grid": f"&surface kind = 'hexagonal' /\n{LOADS}&method solver = 'grid', accuracy = 0.1 /\n&output {ALL} /\n",
+    "file": f"&surface kind = 'file', file = 'heights.txt' /\n{LOADS}&output {ALL} /\n",
+    "units": "&scene title = 'With [labels] # of units', pressure_unit = 'N/mm^2', length_unit = 'mm' /\n"
+             f"&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0.3 /\n&output {ALL} /\n",
+    "no_edge": "&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0, 1 /\n&output contours = t /\n",
+    "flat": f"&surface kind = 'wave_2d', amplitude = 0 /\n&load mean_pressure = 0, 1 /\n&output {ALL} /\n",
+}
+# Columns of text.
+WORDS = "solver", "status"
+
+
+def make_tables(program, folder):
+    """Runs the decks in a folder, and returns all tables."""
+    (folder / "heights.txt").write_text(HEIGHTS)
+    for name, text in DECKS.items():
+        (folder / f"{name}.nml").write_text(text)
+        # 2: a load of `fitted` has no solution, by intention.
+        result = subprocess.run([program, f"{name}.nml", "--quiet", "--output", "."], cwd=folder, check=False)
+        if result.returncode != (2 if name == "fitted" else 0):
+            raise RuntimeError(f"{name}.nml: exit status {result.returncode}")
+    return [Table(path) for path in sorted(folder.glob("*.dat"))]
+
+
+def blocks_of(table):
+    """The records of each block: a table of blocks begins a new one with each load."""
+    if table.blocks <= 1:
+        return [table.records()]
+    found = {}
+    for record in table.records():
+        found.setdefault(record["load"], []).append(record)
+    return list(found.values())
+
+
+def page_examples(language):
+    """The examples of outputs/README.md in a language."""
+    return re.findall(rf"^```{language}\n(.*?)^```$", PAGE.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
+
+
+def run_page_deck(program, folder):
+    """Runs the deck of these examples in a folder."""
+    deck, = page_examples("fortran")
+    (folder / "demo.nml").write_text(deck)
+    subprocess.run([program, "demo.nml", "--quiet"], cwd=folder, check=True)

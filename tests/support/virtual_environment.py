@@ -1,0 +1,35 @@
+"""Virtual environments with packages from the Python package index."""
+import os
+import subprocess
+import sys
+
+PIP = ["-m", "pip", "install", "--disable-pip-version-check", "--no-input", "--timeout", "10", "--retries", "1"]
+PATIENCE = 600  # [s] for one installation
+
+
+def python_with(home, requirements, imports, interpreters=(sys.executable,), options=()):
+    """The Python of an environment in the folder `home`, made if necessary; None if that fails.
+
+    requirements: as pip takes them. imports: modules that show that the environment is complete. interpreters: Pythons
+    to try, in this order. options: more options for pip. What was tried is in the file `home`.log.
+    """
+    python = os.path.join(home, "bin", "python")
+    os.makedirs(os.path.dirname(home), exist_ok=True)
+    with open(f"{home}.log", "a", encoding="utf-8") as log:
+        probe = [python, "-c", "import " + ", ".join(imports)]
+        if succeeds(probe, log):
+            return python
+        print(f"installing {', '.join(requirements)} into {home} (log beside it)", file=sys.stderr)
+        for interpreter in interpreters:
+            if (succeeds([interpreter, "-m", "venv", "--clear", home], log)
+                    and succeeds([python, *PIP, *options, *requirements], log) and succeeds(probe, log)):
+                return python
+    return None
+
+
+def succeeds(command, log):
+    try:
+        return subprocess.run(command, stdin=subprocess.DEVNULL, stdout=log, stderr=log, timeout=PATIENCE,
+                              check=False).returncode == 0
+    except (OSError, subprocess.TimeoutExpired):
+        return False
