@@ -25,6 +25,7 @@ module wavycon_fitted_map
       complex(dp), private :: last = 0.0_dp
    contains
       procedure :: at
+      procedure :: places_of_table
    end type fitted_map
 
 contains
@@ -95,5 +96,12 @@ contains
          call self%fields%fields_inside(place, v, pressure, displacement, gap)
       end if
    end subroutine at
+
+   !> The number of places at which the integrals outside were taken for the table.
+   pure integer function places_of_table(self)
+      class(fitted_map), intent(in) :: self
+
+      places_of_table = self%table%places
+   end function places_of_table
 
 end module wavycon_fitted_map
