@@ -50,7 +50,7 @@ contains
          if (answer%island) tolerance = tolerance*answer%peak_pressure*4*pi**2
          call start_cell_sector(map%sector, fields%lattice, answer%island, answer%solution%shape)
       end associate
-      call start_outside_table(map%table, map%fields, map%sector, tolerance, nint(outside), map%has_table)
+      call start_outside_table(map%table, map%fields, map%sector, tolerance, outside, map%has_table)
    end subroutine start_fitted_map
 
    !> The fields at a place. It is quickest where the last place was a neighbour.

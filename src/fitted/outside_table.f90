@@ -53,7 +53,7 @@ contains
       type(fitted_fields), intent(inout) :: fields   !! that the table is made from
       type(cell_sector), intent(in) :: sector        !! of the same solution
       real(dp), intent(in) :: tolerance              !! > 0, of the integral in its unit
-      integer, intent(in) :: most_places             !! of one table
+      real(dp), intent(in) :: most_places            !! of one table, in evaluations by the full rules
       logical, intent(out) :: found                  !! whether the table is within the tolerance
 
       type(fitted_fields) :: rules
@@ -76,11 +76,11 @@ contains
             attempts = attempts + 1
             places = 0
             do i = 1, size(table%part)
-               call fit_part(table%part(i), rules, sector%centre, limit, most_places, places, found)
+               call fit_part(table%part(i), rules, sector%centre, limit, nint(most_places/refinement**2), places, found)
                if (.not. found) exit
             end do
             table%places = table%places + places
-            if (places > most_places) return
+            if (places > most_places/refinement**2) return
          end if
          if (found) then
             found = all([((abs(table%at(v(i, j)) - exact(i, j)), i=1, size(v, 1)), j=1, size(v, 2))] <= tolerance)

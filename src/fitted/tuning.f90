@@ -253,7 +253,7 @@ module wavycon_fitted_tuning
    real(dp), parameter, public :: table_bend = 2.0_dp
       !! Place of the pole, over the border's, of the rational coordinate from edge to border. Smaller: terms fall slowly
       !! because of the neighbour's edge. Larger: because of the spot's centre, at light loads.
-   real(dp), parameter, public :: largest_enlargement = 2.2_dp
+   real(dp), parameter, public :: largest_enlargement = 2.5_dp
       !! Largest factor on the number of terms from one fit to the next. Larger: too many terms where the first ones do
       !! not show yet how they fall. Smaller: more fits.
    real(dp), parameter, public :: last_terms = 8.0_dp
