@@ -2,16 +2,17 @@
 !>
 !> Places are from a crest, in s. Inside the spot or island the fields are the expansion and the condition of contact.
 !> Elsewhere they are integrals over the expansion and all its images: README.md (F2) and (F10). For an image that is
-!> near, these are taken along chords through the preimage of the place under the continued map, for all others by one
-!> rule over the disc.
+!> near, these are taken along chords through the preimage of the place under the continued map, or by a fine rule over
+!> the disc where that map folds, and for all others by one coarser rule: README.md, section 12.
 module wavycon_fitted_fields
    use wavycon_chord_rule, only: chord_rule, start_chord_rule
    use wavycon_constants, only: pi
    use wavycon_disc_rule, only: disc_rule, start_disc_rule
+   use wavycon_expansion, only: expansion
    use wavycon_exterior_map, only: find_exterior
    use wavycon_fitted_answer, only: fitted_answer
-   use wavycon_fitted_tuning, only: chord_field_radius, field_angles, field_chord_points, field_chords, field_radii, &
-      field_radius_margin, outside_chords, outside_half_points, sharp_field_ratio, sharp_field_refinement
+   use wavycon_fitted_tuning, only: field_angles, field_chord_points, field_chords, field_radii, field_radius_margin, &
+      near_field_radius, near_field_refinement, outside_chords, outside_half_points
    use wavycon_kinds, only: dp
    use wavycon_outside_integral, only: outside_rule, start_outside_rule
    use wavycon_shape_search, only: find_preimage
@@ -20,6 +21,16 @@ module wavycon_fitted_fields
    private
 
    public :: fitted_fields, start_fitted_fields, fitted_separations
+
+   !> Rules for the integral over one spot or island.
+   integer, parameter :: by_plain_rule = 1, by_finer_rule = 2, by_chords = 3
+
+   type :: disc_sources
+      complex(dp), allocatable :: place(:)               !! from the centre, shape (n) [s]
+      real(dp), allocatable :: strength(:)               !! of the expansion there, with area and weight, shape (n)
+   contains
+      procedure :: sum_at
+   end type disc_sources
 
    type :: fitted_fields
       type(wave_lattice) :: lattice
@@ -30,15 +41,16 @@ module wavycon_fitted_fields
       complex(dp), allocatable, private :: image(:)      !! centres of the spot or island, 0, and of its near images [s]
       type(chord_rule), private :: chords
       type(outside_rule), private :: outside
-      complex(dp), allocatable, private :: source(:)     !! points of the rule over the whole disc, shape (n) [s]
-      real(dp), allocatable, private :: strength(:)      !! of the expansion there, with area and weight, shape (n)
+      type(disc_sources), private :: sources             !! of the rule over the whole disc
+      type(disc_sources), private :: near_sources        !! of a finer one for near places; made when first needed
+      real(dp), private :: near_refinement = 1.0_dp
+      real(dp), private :: reach = 0.0_dp                !! places farther from the centre have |v| > near_radius [s]
    contains
       procedure :: at
       procedure :: edge
       procedure :: fields_inside
       procedure :: fields_outside
       procedure :: outside_integral
-      procedure :: has_chords
       procedure, private :: find_inside
       procedure, private :: integral_at
    end type fitted_fields
@@ -72,38 +84,58 @@ contains
          call start_outside_rule(fields%outside, solution%basis%power, ceiling(finer*outside_chords), &
                                  ceiling(finer*outside_half_points))
       end associate
-      if (answer%merging_ratio > sharp_field_ratio) finer = finer*sharp_field_refinement
-      call place_sources(fields, finer)
+      associate (solution => fields%answer%solution)
+         call place_sources(solution, finer, fields%sources)
+         fields%near_refinement = finer*near_field_refinement
+         associate (b => solution%shape%b)
+            fields%reach = near_field_radius*b(0)*(1.0_dp + solution%shape%clustering) + sum(abs(b(1:)))
+         end associate
+      end associate
    end subroutine start_fitted_fields
 
-   !> Sets the sources of the rule over the whole disc.
-   subroutine place_sources(fields, refinement)
-      type(fitted_fields), intent(inout) :: fields
+   !> Sets the sources of a rule over the whole disc.
+   subroutine place_sources(solution, refinement, sources)
+      type(expansion), intent(in) :: solution
       real(dp), intent(in) :: refinement
+      type(disc_sources), intent(out) :: sources
 
       type(disc_rule) :: rule
       real(dp), allocatable :: density(:), values(:, :)
       complex(dp) :: turn
       integer :: fold, g, n
 
-      associate (solution => fields%answer%solution)
-         fold = solution%basis%fold
-         call start_disc_rule(rule, solution%basis%power, fold, ceiling(refinement*field_radii), &
-                              ceiling(refinement*field_angles/(2*fold)))
-         n = size(rule%point)
-         allocate (values(n, solution%basis%terms), density(n))
-         call solution%basis%evaluate(n, rule%point, values)
-         density = matmul(values, solution%c)*rule%weight/(2*fold)*solution%shape%jacobian(rule%point)
-         allocate (fields%source(2*fold*n), fields%strength(2*fold*n))
-         do g = 0, fold - 1
-            turn = exp(cmplx(0.0_dp, 2*pi*g/fold, dp))
-            fields%source(2*g*n + 1:(2*g + 1)*n) = solution%shape%place(turn*rule%point)
-            fields%source((2*g + 1)*n + 1:(2*g + 2)*n) = solution%shape%place(turn*conjg(rule%point))
-            fields%strength(2*g*n + 1:(2*g + 1)*n) = density
-            fields%strength((2*g + 1)*n + 1:(2*g + 2)*n) = density
-         end do
-      end associate
+      fold = solution%basis%fold
+      call start_disc_rule(rule, solution%basis%power, fold, ceiling(refinement*field_radii), &
+                           ceiling(refinement*field_angles/(2*fold)))
+      n = size(rule%point)
+      allocate (values(n, solution%basis%terms), density(n))
+      call solution%basis%evaluate(n, rule%point, values)
+      density = matmul(values, solution%c)*rule%weight/(2*fold)*solution%shape%jacobian(rule%point)
+      allocate (sources%place(2*fold*n), sources%strength(2*fold*n))
+      do g = 0, fold - 1
+         turn = exp(cmplx(0.0_dp, 2*pi*g/fold, dp))
+         sources%place(2*g*n + 1:(2*g + 1)*n) = solution%shape%place(turn*rule%point)
+         sources%place((2*g + 1)*n + 1:(2*g + 2)*n) = solution%shape%place(turn*conjg(rule%point))
+         sources%strength(2*g*n + 1:(2*g + 1)*n) = density
+         sources%strength((2*g + 1)*n + 1:(2*g + 2)*n) = density
+      end do
    end subroutine place_sources
+
+   !> The sum of strength/r^power at z.
+   pure real(dp) function sum_at(self, z, power)
+      class(disc_sources), intent(in) :: self
+      complex(dp), intent(in) :: z         !! from the centre of the spot or island [s]
+      integer, intent(in) :: power         !! 1 or 3
+
+      real(dp), dimension(size(self%place)) :: inverse_square
+
+      inverse_square = 1.0_dp/((z%re - self%place%re)**2 + (z%im - self%place%im)**2)
+      if (power == 1) then
+         sum_at = dot_product(self%strength, sqrt(inverse_square))
+      else
+         sum_at = dot_product(self%strength, sqrt(inverse_square)*inverse_square)
+      end if
+   end function sum_at
 
    !> The fields at a place.
    subroutine at(self, place, pressure, displacement, gap)
@@ -228,14 +260,13 @@ contains
       class(fitted_fields), intent(inout) :: self
       complex(dp), intent(in) :: z      !! from the centre, reduced [s]
 
-      real(dp), dimension(size(self%source)) :: value, x, y
-      complex(dp) :: w
-      integer :: k, n, power
-      logical :: by_chords
+      real(dp), dimension(size(self%sources%place)) :: value, x, y
+      complex(dp) :: from_image, w
+      integer :: k, n, power, rule
 
-      n = size(self%source)
-      x = z%re - self%source%re
-      y = z%im - self%source%im
+      n = size(self%sources%place)
+      x = z%re - self%sources%place%re
+      y = z%im - self%sources%place%im
       if (self%answer%island) then
          call self%lattice%pressure_kernel%evaluate(n, x, y, value)
          power = self%lattice%pressure_kernel%power
@@ -243,44 +274,42 @@ contains
          call self%lattice%displacement_kernel%evaluate(n, x, y, value)
          power = self%lattice%displacement_kernel%power
       end if
-      total = 0.0_dp
+      total = dot_product(self%sources%strength, value)
       do k = 1, size(self%image)
-         call find_chords(self, z - self%image(k), w, by_chords)
-         if (by_chords) total = total + integral_by_chords(self, w)
+         from_image = z - self%image(k)
+         call find_rule(self, from_image, w, rule)
+         if (rule == by_chords) total = total + integral_by_chords(self, w)
+         if (rule == by_finer_rule) then
+            if (.not. allocated(self%near_sources%place)) &
+               call place_sources(self%answer%solution, self%near_refinement, self%near_sources)
+            total = total + self%near_sources%sum_at(from_image, power)
+         end if
          ! The smooth part has the terms 1/r^power of all images but not that of the one at the origin.
-         if (by_chords .and. k > 1) value = value - 1.0_dp/hypot(x - self%image(k)%re, y - self%image(k)%im)**power
-         if (.not. by_chords .and. k == 1) value = value + 1.0_dp/hypot(x, y)**power
+         if (rule == by_plain_rule .and. k == 1) total = total + self%sources%sum_at(from_image, power)
+         if (rule /= by_plain_rule .and. k > 1) total = total - self%sources%sum_at(from_image, power)
       end do
-      total = total + dot_product(self%strength, value)
    end function integral_at
 
-   !> Whether the integral over one spot or island is taken along chords, through the place's preimage.
-   pure subroutine find_chords(fields, z, w, by_chords)
+   !> How to take the integral of 1/r or 1/r^3 over one spot or island for a place.
+   !>
+   !> A rule over the disc converges as the powers of |v| of the exterior map. Near places take chords through their
+   !> preimage under the continued map, as far as that goes, which beyond sharp tips is not far.
+   pure subroutine find_rule(fields, z, w, rule)
       type(fitted_fields), intent(in) :: fields
       complex(dp), intent(in) :: z                 !! from the centre of this spot or island [s]
-      complex(dp), intent(out) :: w
-      logical, intent(out) :: by_chords
+      complex(dp), intent(out) :: w                !! the preimage, for chords
+      integer, intent(out) :: rule
 
       complex(dp) :: v
+      logical :: found
 
-      call find_preimage(fields%answer%solution%shape, z, w, by_chords)
-      if (.not. by_chords .or. abs(w) < chord_field_radius) return
-      ! The rule over the disc converges as the powers of |v| of the exterior map, which on the flat side of a long shape
-      ! is much less than |w|.
-      call find_exterior(fields%answer%solution%shape, z, v, by_chords)
-      by_chords = by_chords .and. abs(v) < chord_field_radius
-   end subroutine find_chords
-
-   !> Whether the integral over the spot or island at the centre is taken along chords for a place, or by the rule over
-   !> the disc, which is least exact at the nearest of its places.
-   pure logical function has_chords(self, z)
-      class(fitted_fields), intent(in) :: self
-      complex(dp), intent(in) :: z                 !! from the centre [s]
-
-      complex(dp) :: w
-
-      call find_chords(self, z, w, has_chords)
-   end function has_chords
+      rule = by_plain_rule
+      if (abs(z) > fields%reach) return
+      call find_exterior(fields%answer%solution%shape, z, v, found)
+      if (found .and. abs(v) > near_field_radius) return
+      call find_preimage(fields%answer%solution%shape, z, w, found)
+      rule = merge(by_chords, by_finer_rule, found)
+   end subroutine find_rule
 
    !> The integral over one spot or island with 1/r, or over an island with 1/r^3.
    real(dp) function integral_by_chords(fields, w) result(integral)

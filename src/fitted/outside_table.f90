@@ -13,7 +13,7 @@ module wavycon_outside_table
    use wavycon_exterior_map, only: exterior_place, find_exterior, linearise_exterior
    use wavycon_fitted_fields, only: fitted_fields, start_fitted_fields
    use wavycon_fitted_tuning, only: bend => table_bend, coarsest_rules, first_table_size, largest_enlargement, &
-      last_table_size, last_terms, rules_share, rules_step
+      last_table_size, last_terms, near_field_radius, rules_share, rules_step
    use wavycon_kinds, only: dp
    use wavycon_shape_map, only: shape_map
    implicit none (type, external)
@@ -27,6 +27,8 @@ module wavycon_outside_table
    integer, parameter :: checks_of_part = 9
    !> The first as a part of the way to the border.
    real(dp), parameter :: near_edge = 0.02_dp
+   !> The second by its |v|, where the plain rule over the disc is least exact.
+   real(dp), parameter :: beyond_chords = 1.01_dp*near_field_radius
 
    !> The table between two directions.
    type :: table_part
@@ -121,36 +123,11 @@ contains
                direction = part(i)%direction(-1.0_dp + 2*(j - 1.0_dp)/(size(v, 1) - 3))
                call find_border(part(i), shape, direction, border, found)
                if (.not. found) return
-               v(j:j + 2, i) = [1.0_dp + near_edge*(border - 1.0_dp), end_of_chords(fields, direction, border), &
-                                border]*direction
+               v(j:j + 2, i) = [1.0_dp + near_edge*(border - 1.0_dp), min(beyond_chords, border), border]*direction
             end do
          end do
       end associate
    end subroutine place_parts
-
-   !> |v| on a ray where the rule over the disc takes the place of chords, by bisection; or on the border.
-   pure real(dp) function end_of_chords(fields, direction, border) result(radius)
-      type(fitted_fields), intent(in) :: fields
-      complex(dp), intent(in) :: direction
-      real(dp), intent(in) :: border
-
-      !> They find it to a thousandth of the way.
-      integer, parameter :: halvings = 10
-      real(dp) :: lower, upper
-      integer :: i
-
-      lower = 1.0_dp
-      upper = border
-      do i = 1, halvings
-         radius = 0.5_dp*(lower + upper)
-         if (fields%has_chords(exterior_place(fields%answer%solution%shape, radius*direction))) then
-            lower = radius
-         else
-            upper = radius
-         end if
-      end do
-      radius = upper
-   end function end_of_chords
 
    !> The integral at some places of the sector.
    subroutine evaluate(fields, centre, v, values)

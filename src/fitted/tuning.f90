@@ -208,15 +208,13 @@ module wavycon_fitted_tuning
       !! fields. Larger: more expensive fields.
    integer, parameter, public :: field_radii = 20
       !! Points per radius of that rule. As field_angles.
-   real(dp), parameter, public :: sharp_field_refinement = 3.0_dp
-      !! Factor on both for sharp shapes. The continued map does not get far beyond sharp tips, so that this rule is
-      !! used for near places, too.
-   real(dp), parameter, public :: sharp_field_ratio = 0.8_dp
-      !! Merging ratio beyond which shapes are sharp in this sense. Larger: the quadrature's error shows in the fields.
-      !! Smaller: more expensive fields.
-   real(dp), parameter, public :: chord_field_radius = 1.6_dp
-      !! The integral over an image is taken along chords if the place's preimage has |w| below this. Smaller: the rule
-      !! over the disc does not resolve the nearest places. Larger: chords where that rule is exact.
+   real(dp), parameter, public :: near_field_refinement = 3.0_dp
+      !! Factor on both for near places that have no chords: the continued map does not get far beyond sharp tips.
+      !! Smaller: the quadrature's error shows there. Larger: more expensive fields.
+   real(dp), parameter, public :: near_field_radius = 1.6_dp
+      !! |v| of the exterior map up to which a place is near to a spot or island: its integral is taken along chords or
+      !! by a finer rule. Smaller: the plain rule does not resolve the nearest places. Larger: chords where that rule is
+      !! exact.
    real(dp), parameter, public :: field_radius_margin = 1.05_dp
       !! Factor on a shape's radius, which is that of some of its points. Smaller: places inside sharp tips count as
       !! outside. Larger: the map is inverted for places far outside.
