@@ -52,13 +52,14 @@ contains
       logical, intent(in) :: with_fields   !! whether the solutions keep pressures and gaps
       character(:), allocatable :: words
 
-      integer, parameter :: fields = 2
+      integer, parameter :: bytes_of_point = 2*storage_size(1.0_dp)/8
       integer(int64) :: available, bytes
       integer :: points(2)
 
       points = results%solver%finest_grid()
       bytes = bytes_of_grid(points)
-      if (with_fields) bytes = bytes + fields*storage_size(1.0_dp)/8*product(int(points, int64))*size(results%scene%target)
+      if (with_fields) &
+         bytes = bytes + bytes_of_point*product(int(points, int64))*size(results%scene%target, kind=int64)
       words = 'at most '//megabytes(bytes)//' for grids of up to '//integer_text(points(1))
       if (results%scene%surface%dimension == 2) words = words//' x '//integer_text(points(2))
       words = words//' points in the part of the cell that is solved'

@@ -96,7 +96,9 @@ contains
    end subroutine note_failure
 
    !> Writes the table. Columns of keys are those that are set on the command line, and those that a deck gives and that
-   !> differ between decks. A deck without such a key has NaN there, or '-' in place of a word. Errors: exit_file_trouble.
+   !> differ between decks. A deck without such a key has NaN there, or '-' in place of a word.
+   !>
+   !> Errors: exit_file_trouble.
    subroutine write_table(self, path, settings, error)
       class(collected_table), intent(in) :: self
       character(*), intent(in) :: path

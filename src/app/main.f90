@@ -162,8 +162,9 @@ contains
       end if
       if (.not. command_line%keep_going .or. command_line%quiet) return
       call separate(size(scenes) + 1, command_line%quiet)
-      write (output_unit, '(a)') integer_text(size(scenes))//' decks: '//integer_text(size(scenes) - failed - not_solved)// &
-         ' solved, '//integer_text(not_solved)//' with loads NOT solved as requested, '//integer_text(failed)//' failed'
+      write (output_unit, '(a)') integer_text(size(scenes))//' decks: '// &
+         integer_text(size(scenes) - failed - not_solved)//' solved, '//integer_text(not_solved)// &
+         ' with loads NOT solved as requested, '//integer_text(failed)//' failed'
    end subroutine run_scenes
 
    !> Writes an empty line between two decks.

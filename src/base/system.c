@@ -167,7 +167,7 @@ long long wavycon_memory_of_group(const char *directory)
     return -1;
 }
 
-/* The least that the control groups of this process leave to it: its own group and all above. -1 if none has a limit. */
+/* The least that the control groups of this process, its own and all above, leave to it. -1 if none has a limit. */
 static long long memory_of_groups(void)
 {
     static const char top[] = "/sys/fs/cgroup", top_of_version_1[] = "/sys/fs/cgroup/memory";

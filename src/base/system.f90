@@ -184,8 +184,8 @@ contains
       available_memory = int(c_available_memory(), int64)
    end function available_memory
 
-   !> Memory that a control group of Linux leaves to its processes [byte]: limit less use, where files that can be dropped
-   !> from memory count as free. -1 if it has no limit.
+   !> Memory that a control group of Linux leaves to its processes [byte]: limit less use, where files that can be
+   !> dropped from memory count as free. -1 if it has no limit.
    integer(int64) function memory_of_group(directory)
       character(*), intent(in) :: directory   !! of the group, such as /sys/fs/cgroup
 

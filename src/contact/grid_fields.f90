@@ -1,5 +1,5 @@
 !> The fields of a solution on a grid: at the points of the grid those of the solution, between them interpolated by
-!> (C19) of README.md so that contact and gap exclude each other.
+!> (C19), (C20) of README.md so that contact and gap exclude each other.
 !>
 !> One function has the signs and the places of both: p^2 in contact and -(a gap)^(2/3) elsewhere fall in proportion to
 !> the distance from the edge on either side of it, and the factor a makes the slopes the same on the average.
@@ -22,9 +22,9 @@ module wavycon_grid_fields
       type(fourier_series) :: shape          !! of the surface: 1 - h/Delta
       real(dp) :: mean_gap = 1.0_dp          !! G
       logical :: turned = .false.            !! whether the angles of the grid are X + Y and X - Y
-      real(dp) :: scale = 1.0_dp             !! of the gaps in psi: a^(2/3)
-      !> psi at the points of the grid and at two more beyond each side, shape (-1:M+2, -1:N+2); not allocated before
-      !> it is needed.
+      real(dp) :: scale = 1.0_dp             !! a^(2/3) [p*^2/Delta^(2/3)]
+      !> psi [p*^2] at the points of the grid and at two more beyond each side, shape (-1:M+2, -1:N+2). Not allocated
+      !> before it is needed.
       real(dp), allocatable :: psi(:, :)
    contains
       procedure :: at
@@ -150,7 +150,8 @@ contains
          logical :: contact(4)
 
          contact = psi > 0.0_dp
-         if ((contact(1) .neqv. contact(2)) .or. (contact(3) .neqv. contact(4)) .or. (contact(2) .eqv. contact(3))) return
+         if (contact(2) .eqv. contact(3)) return
+         if ((contact(1) .neqv. contact(2)) .or. (contact(3) .neqv. contact(4))) return
          if (contact(2)) then
             inside = inside + (psi(1) - psi(2))
             outside = outside + (psi(3) - psi(4))
@@ -209,7 +210,7 @@ contains
       if (rest <= rounding) rest = 0.0_dp
    end subroutine locate
 
-   !> The cubic (C19) through the values and slopes of four points, from those of the points about them.
+   !> The cubic (C20) through the values and slopes of four points, from those of the points about them.
    pure real(dp) function cubic(psi, s, t)
       real(dp), intent(in) :: psi(-1:, -1:)      !! shape (-1:2, -1:2)
       real(dp), intent(in) :: s, t               !! from point (0, 0) to the next, 0 .. 1

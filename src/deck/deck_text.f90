@@ -1,5 +1,5 @@
-!> The text of a deck file, and the line of each of its bytes. Options of the command line that set keys of the deck stand
-!> behind it, each as a line, so that problems with them have a place too.
+!> The text of a deck file, and the line of each of its bytes. Options of the command line that set keys of the deck
+!> stand behind it, each as a line, so that problems with them have a place too.
 module wavycon_deck_text
    use wavycon_error, only: error_type
    use wavycon_file_bytes, only: byte_order_mark, read_file

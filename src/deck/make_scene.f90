@@ -29,6 +29,7 @@ contains
       call move_alloc(deck%surface, scene%surface)
       call move_alloc(deck%map, scene%map)
       scene%e_star = plane_strain_modulus(deck%material)
+      scene%gives_modulus = deck%material%has('e_star') .or. deck%material%has('e1')
       scene%p_star = scene%surface%full_contact_pressure(scene%e_star)
       call take_loads(deck%load, deck%path, scene%surface%amplitude, scene%p_star, scene%loads_by, scene%target, &
                       scene%mean_pressure, error)

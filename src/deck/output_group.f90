@@ -45,9 +45,9 @@ contains
          integer_key('line_points', '128', &
             'intervals of the lines along a side of the cell; both ends are points.', 8, most_points), &
          integer_key('map_points', "128, or the grid's", &
-            'points of the map along x and y; one number for both. The default is that of the grid, if it is given, '// &
-            'or of the file. Where they are those of the grid that was solved the map shows its points, otherwise '// &
-            'what lies between them.', 4, most_points, most_values=2), &
+            'points of the map along x and y; one number for both. The default is that of the grid, if it is '// &
+            'given, or of the file. Where they are those of the grid that was solved the map shows its points, '// &
+            'otherwise what lies between them.', 4, most_points, most_values=2), &
          choice_key('map_format', "'auto'", &
             "'text'; 'npy', a file of numpy, short and fast to read; 'auto', text up to "//integer_text(text_side)// &
             ' x '//integer_text(text_side)//' points, npy beyond.', [character(4) :: 'auto', 'text', 'npy'])], &
@@ -70,7 +70,8 @@ contains
       call values%set_default('directory', 'outputs/'//case)
       call values%set('directory', plain_directory(values%text('directory')))
       if (.not. allocated(surface)) return
-      if (.not. (values%is_bad('map_points') .or. method%is_bad('grid_points'))) call set_map_points(values, method, surface)
+      if (.not. (values%is_bad('map_points') .or. method%is_bad('grid_points'))) &
+         call set_map_points(values, method, surface)
       call get_solvers(solvers)
       call all_tables(tables)
       do k = 1, size(solvers)

@@ -111,8 +111,9 @@ contains
       quote_is_open = .false.
       call read_values(text, scan%tokens, t, quote_is_open, problems)
       entry%last_value = t - 1
-      if (t <= size(scan%tokens)) call problems%add(scan%tokens(t)%first, '--set takes one key and its value, found '// &
-         "'"//excerpt(text%content(scan%tokens(t)%first:scan%tokens(t)%last))//"' behind them")
+      if (t <= size(scan%tokens)) call problems%add(scan%tokens(t)%first, &
+         "--set takes one key and its value, found '"// &
+         excerpt(text%content(scan%tokens(t)%first:scan%tokens(t)%last))//"' behind them")
       scan%entries = [scan%entries, entry]
    end subroutine add_entry
 
@@ -168,8 +169,8 @@ contains
 
    contains
 
-      !> Whether other alternatives read the key and the one that is set does not. Misspelt keys of the deck stay and are
-      !> reported.
+      !> Whether other alternatives read the key and the one that is set does not. Misspelt keys of the deck stay and
+      !> are reported.
       logical function is_key_of_others(alternatives)
          type(alternative_type), intent(in) :: alternatives(:)
 

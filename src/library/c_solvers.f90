@@ -4,6 +4,7 @@ module wavycon_c_solvers
    use wavycon_c_handles, only: begin_call, check_pointers, close_call, close_new, handle_at, handle_type, put_text, &
       text_at
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
+   use wavycon_run_deck, only: run_deck
    use wavycon_wavy_solver, only: make_solver, make_solver_of_deck, wavy_scales
    implicit none (type, external)
    private
@@ -56,6 +57,25 @@ contains
       end if
       handle = close_new(error, made, trouble)
    end function new_solver_of_deck
+
+   integer(c_int) function c_run_deck(error, path, directory, quiet, exit_status) bind(c, name='wavycon_run_deck')
+      type(c_ptr), value :: error, path, directory, exit_status
+      integer(c_int), value :: quiet
+
+      type(error_type), allocatable :: trouble
+      character(:), allocatable :: deck, tables
+      integer(c_int), pointer :: answer
+
+      call begin_call()
+      call check_pointers([c_associated(path), c_associated(directory), c_associated(exit_status)], trouble)
+      if (.not. allocated(trouble)) then
+         call text_at(path, deck)
+         call text_at(directory, tables)
+         call c_f_pointer(exit_status, answer)
+         call run_deck(deck, tables, quiet /= 0, answer, trouble)
+      end if
+      c_run_deck = close_call(error, trouble)
+   end function c_run_deck
 
    integer(c_int) function describe_solver(error, solver, buffer, bytes) bind(c, name='wavycon_describe_solver')
       type(c_ptr), value :: error, solver, buffer

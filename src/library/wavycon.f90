@@ -22,6 +22,7 @@ module wavycon
    use wavycon_line_crack
    use wavycon_near_closure
    use wavycon_penny_crack
+   use wavycon_run_deck, only: run_deck
    use wavycon_threads, only: set_threads
    use wavycon_version, only: revision, version
    use wavycon_wavy_solution, only: wavy_edge, wavy_measures, wavy_solution

@@ -155,6 +155,12 @@ wavycon_solution wavycon_solve(wavycon_error error, wavycon_solver solver, const
 /* Solves a load of the deck, 0 <= load < the number of its loads. */
 wavycon_solution wavycon_solve_load(wavycon_error error, wavycon_solver solver, int load);
 
+/* Runs a deck as the program does: solves its loads and writes its tables to `directory`, "" for that of the deck. quiet:
+   nonzero for no log on standard output. exit_status: that of the program, 0 or, if loads were not solved as requested,
+   2, which is no error. While it runs, those of SIGINT, SIGTERM and SIGHUP that the process does not handle remove an
+   unfinished file and end the process. */
+int wavycon_run_deck(wavycon_error error, const char *path, const char *directory, int quiet, int *exit_status);
+
 /* Solutions ------------------------------------------------------------------------------------------------------- */
 
 int wavycon_get_measures(wavycon_error error, wavycon_solution solution, wavycon_measures *measures);

@@ -104,7 +104,8 @@ contains
       is_text = map_format == 'text' .or. (map_format == 'auto' .and. product(int(points, int64)) <= text_side**2)
    end function is_text
 
-   !> The place of the first point, in steps, the same for all loads: that of a grid that was solved with as many points.
+   !> The place of the first point, in steps, the same for all loads: that of a grid that was solved with as many
+   !> points.
    function map_offset(results, points) result(offset)
       type(results_type), intent(in) :: results
       integer, intent(in) :: points(2)

@@ -25,6 +25,7 @@ module wavycon_results
       procedure :: begin_block
       procedure :: unit_in_words
       procedure :: mean_pressure
+      procedure :: peak_pressure
    end type results_type
 
 contains
@@ -117,6 +118,18 @@ contains
          mean_pressure = self%scene%p_star*self%loads(load)%solution%pbar_over_pstar
       end if
    end function mean_pressure
+
+   !> The peak pressure of a load [pressure]. On a flat surface, whose p* is zero, it is the mean pressure.
+   pure real(dp) function peak_pressure(self, load)
+      class(results_type), intent(in) :: self
+      integer, intent(in) :: load
+
+      if (self%scene%p_star > 0.0_dp) then
+         peak_pressure = self%scene%p_star*self%loads(load)%solution%measures%peak_pressure_over_pstar
+      else
+         peak_pressure = self%mean_pressure(load)
+      end if
+   end function peak_pressure
 
    !> The entry of a table for a number that does not exist.
    pure real(dp) function not_a_number()

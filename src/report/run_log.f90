@@ -2,6 +2,7 @@
 module wavycon_run_log
    use, intrinsic :: iso_fortran_env, only: int64, output_unit
    use wavycon_kinds, only: dp
+   use wavycon_load_lines, only: heading_of_loads, line_of_load
    use wavycon_plain_text, only: escaped, integer_text, short_number
    use wavycon_results, only: results_type
    use wavycon_scene, only: target_words
@@ -89,15 +90,15 @@ contains
          call self%say('deck      '//escaped(scene%deck_path))
          if (scene%title /= '') call self%say('title     '//escaped(scene%title))
          call self%say('surface   '//scene%surface_kind//', Delta = '// &
-                       short_number(scene%surface%amplitude)// &
-                       ' [length], cell '//cell_of(scene%surface)//' [length]')
+                       short_number(scene%surface%amplitude)//' ['//scene%length_unit//'], cell '// &
+                       cell_of(scene%surface)//' ['//scene%length_unit//']')
          if (allocated(scene%map)) call self%say('map       '//integer_text(scene%map%points(1))//' x '// &
             integer_text(scene%map%points(2))//' points ('//trim(scene%map%format)// &
             '), heights over their mean '// &
             short_number(scene%map%lowest)//' to '//short_number(scene%map%highest)//', rms '// &
-            short_number(scene%map%rms)//' [length]')
-         call self%say('material  E* = '//short_number(scene%e_star)//' [pressure], p* = '// &
-                       short_number(scene%p_star)//' [pressure]')
+            short_number(scene%map%rms)//' ['//scene%length_unit//']')
+         call self%say('material  E* = '//short_number(scene%e_star)//' ['//scene%pressure_unit//'], p* = '// &
+                       short_number(scene%p_star)//' ['//scene%pressure_unit//']')
          call self%say('loads     '//integer_text(size(scene%target))//', '//target_words(scene%loads_by)// &
                        ' from '//short_number(minval(scene%target))//' to '//short_number(maxval(scene%target)))
          call self%say('method    '//results%solver%name()//', '//results%solver%describe())
@@ -155,53 +156,14 @@ contains
       class(run_log), intent(inout) :: self
       type(results_type), intent(in) :: results
 
-      character(160) :: line
       integer :: i
 
       if (self%quiet) return
-      write (line, '(5a12, 2a11, a9, 2x, a)') 'pbar/p*', 'pbar', 'gap/Delta', 'area/A0', 'peak/p*', 'active', &
-         'iterations', 'residual', 'status'
-      call self%say(trim(line))
+      call self%say(heading_of_loads(results))
       do i = 1, size(results%loads)
-         associate (solution => results%loads(i)%solution, measures => results%loads(i)%solution%measures)
-            write (line, '(5a, 2i11, a9, 2x, a)') &
-               cell(solution%pbar_over_pstar), cell(results%mean_pressure(i)), &
-               cell(measures%mean_gap_over_amplitude), cell(measures%contact_area_fraction), &
-               cell(measures%peak_pressure_over_pstar), solution%active_constraints, solution%iterations, &
-               with_exponent(solution%residual, 1), trim(solution%status)
-            call self%say(trim(line))
-         end associate
+         call self%say(line_of_load(results, i))
       end do
    end subroutine show_loads
-
-   !> A number in 12 characters: with six decimals from 0.001 to 10000, otherwise with an exponent.
-   character(12) function cell(number)
-      real(dp), intent(in) :: number
-
-      real(dp), parameter :: least = 1.0e-3_dp, most = 1.0e4_dp
-
-      if ((abs(number) >= least .and. abs(number) < most) .or. .not. abs(number) > 0) then
-         write (cell, '(f12.6)') number
-      else
-         write (cell, '(a12)') with_exponent(number, 4)
-      end if
-   end function cell
-
-   !> A number as 1.2345E+06, or as 1.2345E+249 if the exponent has three digits: there Fortran's `es` without an
-   !> exponent width would omit the E.
-   function with_exponent(number, decimals) result(text)
-      real(dp), intent(in) :: number
-      integer, intent(in) :: decimals   !! at most 4, for a column of 12
-      character(:), allocatable :: text
-
-      character(20) :: buffer, layout
-
-      write (layout, '(a, i0, a)') '(es20.', decimals, ')'
-      write (buffer, layout) number
-      write (layout, '(a, i0, a)') '(es20.', decimals, 'e3)'
-      if (index(buffer, 'E') == 0) write (buffer, layout) number
-      text = trim(adjustl(buffer))
-   end function with_exponent
 
    !> Overwrites the progress line with blanks.
    subroutine clear_progress(self)

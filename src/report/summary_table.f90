@@ -93,23 +93,11 @@ contains
                                 scene%surface%amplitude*measures%approach_over_amplitude, &
                                 product(scene%surface%length(:scene%surface%dimension))* &
                                 measures%contact_area_fraction, &
-                                peak_pressure(results, load)]), &
+                                results%peak_pressure(load)]), &
                   integer_text(solution%active_constraints), integer_text(solution%iterations), &
                   number_words(solution%residual), solution%solver, &
                   integer_text(status_code(solution%status)), solution%status]
       end associate
    end function summary_row
-
-   !> The peak pressure of a load [pressure]. On a flat surface, whose p* is zero, it is the mean pressure.
-   pure real(dp) function peak_pressure(results, load)
-      type(results_type), intent(in) :: results
-      integer, intent(in) :: load
-
-      if (results%scene%p_star > 0.0_dp) then
-         peak_pressure = results%scene%p_star*results%loads(load)%solution%measures%peak_pressure_over_pstar
-      else
-         peak_pressure = results%mean_pressure(load)
-      end if
-   end function peak_pressure
 
 end module wavycon_summary_table

@@ -25,6 +25,7 @@ module wavycon_scene
       character(:), allocatable :: pressure_unit    !! label of the deck's unit of pressures, such as 'MPa'
       character(:), allocatable :: length_unit      !! likewise of lengths
       real(dp) :: e_star = 1.0_dp                   !! plane-strain modulus [pressure]
+      logical :: gives_modulus = .false.            !! whether the deck gives it
       real(dp) :: p_star = 0.0_dp                   !! p*, mean pressure that just closes the gap [pressure]
       integer :: loads_by = by_pressure             !! by_pressure, by_mean_gap or by_contact_area
       real(dp), allocatable :: target(:)            !! P, G or the contact area fraction, in the deck's order

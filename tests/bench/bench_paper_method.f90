@@ -239,7 +239,7 @@ contains
       type(fourier_series) :: displacement, pressure
       real(dp) :: own_gap
 
-      call self%solution%pressure(pressure)
+      call self%solution%coefficients(self%fresh%surface, pressure)
       displacement = self%fresh%surface%displacement_of(pressure)
       own_gap = 1.0_dp - displacement%at(0.0_dp, 0.0_dp)   ! eq. (28)
       write (output_unit, '(i5,i7,a10,a6,i9,i12,f7.2,2i7,3f10.4,f14.9,es14.3,1x,a)') &

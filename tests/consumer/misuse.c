@@ -117,6 +117,11 @@ static void solvers(wavycon_surface surface, wavycon_solver solver, wavycon_solu
     NOTHING(wavycon_new_solver_of_deck(error, "", 1));
     NOTHING(wavycon_new_solver_of_deck(error, "there is no such deck.nml", 1));
     check(wavycon_check_error(error) == WAVYCON_FILE_TROUBLE, "a missing deck is file trouble", __LINE__);
+    int status;
+    REFUSED(wavycon_run_deck(error, NULL, "", 1, &status));
+    REFUSED(wavycon_run_deck(error, "there is no such deck.nml", NULL, 1, &status));
+    REFUSED(wavycon_run_deck(error, "there is no such deck.nml", "", 1, NULL));
+    REFUSED(wavycon_run_deck(error, "there is no such deck.nml", "", 1, &status));
     REFUSED(wavycon_describe_solver(error, NULL, text, sizeof text));
     REFUSED(wavycon_describe_solver(error, (wavycon_solver)surface, text, sizeof text));
     REFUSED(wavycon_describe_solver(error, solver, NULL, sizeof text));

@@ -30,7 +30,7 @@ TABLE_DECKS = {
     "expansion": "&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0.5 /\n"
                  "&method solver = 'fitted' /\n&output details = t /\n"}
 # Columns of the log that rounding may change.
-ROUNDED = ("iterations", "residual")
+ROUNDED = ("error",)
 
 
 def read(page):
@@ -82,6 +82,21 @@ def explained_columns(text):
             for name in re.findall(r"`(\w+)`", names)}
 
 
+def explained_statuses(text):
+    """{status: code} in the rows with a number in the second cell."""
+    return {name: int(code) for names, code in re.findall(r"^\| (`[^|]*?) \| (\d+) \|", text, re.MULTILINE)
+            for name in re.findall(r"`(\w+)`", names)}
+
+
+def statuses_of_sources():
+    """{status: code} as the sources have them."""
+    of_contact = read("src/contact/contact_status.f90")
+    codes = {name: int(code) for name, code in re.findall(r"case \((\w+)\)\s+status_code = (\d+)", of_contact)}
+    other = int(re.search(r"case default\s+status_code = (\d+)", of_contact)[1])
+    of_programme = re.findall(r"case \(qp_\w+\)\s+name = '(\w+)'", read("src/qp/qp_problem.f90"))
+    return {**{name: other for name in of_programme}, **codes}
+
+
 def named_keys(text):
     """The keys in the brief reference of README.md, where groups and values of keys are quoted too."""
     return set(re.findall(r"`(\w+)`", section(text, "Groups and keys")))
@@ -99,7 +114,7 @@ def comparable(log):
         if re.match(r"wavycon \d|\[ *[\d.]+ s\]", line):
             continue
         if words[:1] == ["pbar/p*"]:
-            left_out = [words.index(name) for name in ROUNDED if name in words]
+            left_out = [place for place, name in enumerate(words) if name in ROUNDED]
         elif words and not re.match(r"[\d.]", words[0]):
             left_out = ()
         lines.append([word for place, word in enumerate(words) if place not in left_out])
@@ -166,6 +181,12 @@ class Pages(unittest.TestCase):
                 "| `load` | - | |\n| `area` | `a^2`, in 1-D `a` | |\n## Lines\n| `p` | - | |\n")
         self.assertEqual({"x": {"length"}, "y": {"length"}, "load": {"-"}, "area": {"a^2", "a"}},
                          explained_columns(section(text, "Map")))
+
+    def test_statuses(self):
+        page = section(read("outputs/README.md"), "Statuses and exit statuses")
+        self.assertGreater(len(statuses_of_sources()), 10)
+        self.assertEqual(statuses_of_sources(), explained_statuses(page))
+        self.assertNotEqual(statuses_of_sources(), explained_statuses(page.replace("| 10 |", "| 12 |")))
 
     def test_keys(self):
         keys = keys_of_help(self.run_program("--help").stdout)

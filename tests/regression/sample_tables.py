@@ -9,7 +9,7 @@ PAGE = pathlib.Path(__file__).resolve().parents[2] / "outputs" / "README.md"
 LOADS = "&load pbar_over_pstar = 0, 0.2, 0.6, 1 /\n"
 ALL = "lines = t, map = t, contours = t, line_points = 8, map_points = 8"
 HEIGHTS = "".join(" ".join(str((3*i*i + 5*j + i*j) % 7) for i in range(8)) + "\n" for j in range(8))
-# Both dimensions, every solver, every table, labels of units, loads without numbers, a single load, tables without rows.
+# Both dimensions, every solver and table, labels of units, loads without numbers, a single load, tables without rows.
 DECKS = {
     "line": f"&surface kind = 'wave_1d' /\n{LOADS}&output {ALL}, coefficients = t, theory = t /\n",
     "plane": f"&surface kind = 'wave_2d' /\n{LOADS}&output {ALL}, coefficients = t, theory = t /\n",
@@ -24,8 +24,9 @@ DECKS = {
     "no_edge": "&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0, 1 /\n&output contours = t /\n",
     "flat": f"&surface kind = 'wave_2d', amplitude = 0 /\n&load mean_pressure = 0, 1 /\n&output {ALL} /\n",
 }
-# Columns of text.
-WORDS = "solver", "status"
+# Decks of these in one table of --table, and columns of text.
+COLLECTED = "plane", "grid", "no_edge"
+WORDS = "solver", "status", "deck", "case", "surface_kind", "method_solver"
 
 
 def make_tables(program, folder):
@@ -37,6 +38,8 @@ def make_tables(program, folder):
         result = subprocess.run([program, f"{name}.nml", "--quiet", "--output", "."], cwd=folder, check=False)
         if result.returncode != (2 if name == "fitted" else 0):
             raise RuntimeError(f"{name}.nml: exit status {result.returncode}")
+    subprocess.run([program, *(f"{name}.nml" for name in COLLECTED), "--table", "collected.dat", "--quiet",
+                    "--set", "material.e_star=2"], cwd=folder, check=True)
     return [Table(path) for path in sorted(folder.glob("*.dat"))]
 
 
@@ -55,8 +58,8 @@ def page_examples(language):
     return re.findall(rf"^```{language}\n(.*?)^```$", PAGE.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
 
 
-def run_page_deck(program, folder):
-    """Runs the deck of these examples in a folder."""
-    deck, = page_examples("fortran")
-    (folder / "demo.nml").write_text(deck)
-    subprocess.run([program, "demo.nml", "--quiet"], cwd=folder, check=True)
+def run_page_decks(program, folder):
+    """Runs the decks of these examples in a folder."""
+    for deck in page_examples("fortran"):
+        (folder / "deck.nml").write_text(deck)
+        subprocess.run([program, "deck.nml", "--quiet"], cwd=folder, check=True)

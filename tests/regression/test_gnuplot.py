@@ -10,7 +10,8 @@ import unittest
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from sample_tables import WORDS, blocks_of, make_tables, page_examples, run_page_deck  # noqa: E402
+from sample_tables import WORDS, blocks_of, make_tables, page_examples, run_page_decks  # noqa: E402
+from tables import Table  # noqa: E402
 
 SKIPPED = 77
 # Of sums of some hundred numbers.
@@ -55,23 +56,31 @@ class Gnuplot(unittest.TestCase):
                     self.assertEqual([[str(sum(record[name] == word for record in table.records()))]], found)
 
     def test_the_examples_of_the_page(self):
-        example, = page_examples("gnuplot")
-        with tempfile.TemporaryDirectory() as folder:
-            run_page_deck(self.program, pathlib.Path(folder))
-            # gnuplot says nothing else about a name that it does not find or about a block without points.
-            result = subprocess.run(["gnuplot"], input="set terminal dumb\nset output 'drawn'\n" + example, cwd=folder,
-                                    capture_output=True, text=True, check=True)
-            self.assertEqual("", result.stderr)
-            self.assertEqual(example.count("\nplot "), (pathlib.Path(folder)/"drawn").read_text().count("\f"))
-            wrong = example.replace('"distance"', '"distanse"')
-            self.assertNotEqual(example, wrong)
-            result = subprocess.run(["gnuplot"], input="set terminal dumb\nset output 'drawn'\n" + wrong, cwd=folder,
-                                    capture_output=True, text=True, check=False)
-            self.assertIn("distanse", result.stderr)
+        with tempfile.TemporaryDirectory() as scratch:
+            folder = pathlib.Path(scratch)
+            run_page_decks(self.program, folder)
+            text, binary = page_examples("gnuplot")
+            for example in (text, binary):
+                # gnuplot only warns if it does not find a name or a point.
+                self.assertEqual("", self.drawn(example, folder))
+                self.assertEqual(example.count("\nplot "), (folder/"drawn").read_text().count("\f"))
+            self.assertIn("distanse", self.drawn(text.replace('"distance"', '"distanse"'), folder))
+            # The numbers of the second load.
+            numbers = binary.split("\n")[0] + "\nstats" + binary[binary.index("\nplot") + 5:].split("with")[0]
+            found, = self.answers([numbers.replace("using 1:2:3", "using 3") + " nooutput",
+                                   "print sprintf('%d %.12e', STATS_records, STATS_mean)"], folder)
+            record = Table(folder/"outputs"/"fine"/"fine.summary.dat").records()[1]
+            self.assertEqual("4096", found[0])
+            self.assertAlmostEqual(float(record["mean_pressure"]), float(found[1]), places=9)
 
-    def answers(self, script):
-        result = subprocess.run(["gnuplot"], input="set print '-'\n" + "\n".join(script) + "\n", capture_output=True,
-                                text=True, check=True)
+    def drawn(self, script, folder):
+        """What gnuplot says while it draws into the file `drawn`."""
+        return subprocess.run(["gnuplot"], input="set terminal dumb\nset output 'drawn'\n" + script, cwd=folder,
+                              capture_output=True, text=True, check=False).stderr
+
+    def answers(self, script, folder=None):
+        result = subprocess.run(["gnuplot"], input="set print '-'\n" + "\n".join(script) + "\n", cwd=folder,
+                                capture_output=True, text=True, check=True)
         return [line.split() for line in result.stdout.splitlines()]
 
 

@@ -9,6 +9,7 @@ import contextlib
 import io
 import os
 import pathlib
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -16,28 +17,32 @@ import unittest
 sys.dont_write_bytecode = True
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent / "support")]
-from sample_tables import WORDS, blocks_of, make_tables, page_examples, run_page_deck  # noqa: E402
+from sample_tables import WORDS, blocks_of, make_tables, page_examples, run_page_decks  # noqa: E402
+from tables import Table  # noqa: E402
 from virtual_environment import python_with  # noqa: E402
+
+try:
+    import numpy
+except ImportError:  # this Python only makes the environment
+    pass
 
 SKIPPED = 77
 # pandas reads numbers fast, to within some units of the last of 16 digits.
 ROUNDING = 1e-15
-# Of each library's example: the table in blocks that it reads, beside the summary, and its name for these blocks.
+# The table in blocks that a library's example reads, beside the summary, and its name for these blocks.
 EXAMPLES = {"pandas": ("lines", "lines"), "numpy": ("map", "maps")}
 
 
-def examples():
-    """{library: example}."""
-    found = {}
-    for example in page_examples("python"):
-        name, = [name for name in EXAMPLES if f"import {name} " in example]
-        found[name] = example
-    return found
+def example_of(library):
+    """The example that reads text with a library."""
+    example, = [example for example in page_examples("python")
+                if f"import {library} " in example and f"demo.{EXAMPLES[library][0]}.dat" in example]
+    return example
 
 
 def read_as_in(library, kind, name, path):
     """What an example has under a name if it reads another table in the place of that kind."""
-    text, names = examples()[library], {}
+    text, names = example_of(library), {}
     exec(text[:text.index("\nprint(")].replace(f"outputs/demo/demo.{kind}.dat", str(path)), names)
     return names[name]
 
@@ -51,7 +56,7 @@ class PythonReaders(unittest.TestCase):
         cls.addClassCleanup(folder.cleanup)
         cls.addClassCleanup(os.chdir, os.getcwd())
         os.chdir(folder.name)
-        run_page_deck(cls.program, pathlib.Path(folder.name))
+        run_page_decks(cls.program, pathlib.Path(folder.name))
         cls.tables = make_tables(cls.program, pathlib.Path(folder.name))
 
     def test_all_tables(self):
@@ -85,14 +90,43 @@ class PythonReaders(unittest.TestCase):
         elif expected != value:
             self.assertLessEqual(abs(value - expected), ROUNDING*abs(expected))
 
+    def test_maps_in_numpys_format(self):
+        import numpy
+        pathlib.Path("binary.nml").write_text(
+            "&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0.1, 0.5 /\n&method solver = 'auto' /\n"
+            "&output map = t, map_points = 24, 16, map_format = 'npy' /\n")
+        for map_format in "npy", "text":
+            subprocess.run([self.program, "binary.nml", "--quiet", "--output", ".", "--set",
+                            f"output.map_format={map_format}"], check=True)
+        found = numpy.load("binary.map.npy")
+        self.assertEqual((2, 16, 24), found.shape)
+        table = Table("binary.map.dat")
+        self.assertEqual(["load", *found.dtype.names], table.columns)
+        for record, values in zip(table.records(), found.reshape(-1).tolist(), strict=True):
+            for name, value in zip(found.dtype.names, values):
+                self.assert_close(float(record[name]), value)
+
     def test_the_examples_of_the_page(self):
-        self.assertEqual(set(EXAMPLES), set(examples()))
-        for library, example in examples().items():
+        self.assertEqual(3, len(page_examples("python")))
+        for example in page_examples("python"):
             printed = io.StringIO()
             with contextlib.redirect_stdout(printed):
                 exec(example, {})
-            # The contact area at P = 0.5.
-            self.assertIn("0.704", printed.getvalue(), library)
+            # The contact area, or the peak pressure, at P = 0.5.
+            self.assertRegex(printed.getvalue(), "6.56167" if "fine" in example else "0.704", example)
+
+    def test_a_map_in_the_format_of_numpy(self):
+        found = numpy.load("outputs/fine/fine.map.npy")
+        text = pathlib.Path("deck.nml").read_text(encoding="utf-8").replace("'npy'", "'text'")
+        pathlib.Path("deck.nml").write_text(text, encoding="utf-8")
+        subprocess.run([self.program, "deck.nml", "--quiet", "--output", "text"], check=True)
+        table = Table("text/fine.map.dat")
+        self.assertEqual(table.columns[1:], list(found.dtype.names))
+        self.assertEqual((2, 64, 64), found.shape)
+        for expected, block in zip(blocks_of(table), found):
+            for name in found.dtype.names:
+                for record, value in zip(expected, block[name].flat):
+                    self.assert_close(float(record[name]), float(value))
 
 
 def main():

@@ -59,6 +59,7 @@ def solvers(settings, results):
 
 def decks(settings, results):
     for fuzz, amount in ((fuzz_decks.fuzz_checks, 150 if settings.quick else 5000),
+                         (fuzz_decks.fuzz_settings, 100 if settings.quick else 3000),
                          (fuzz_decks.fuzz_monsters, 100000 if settings.quick else 10000000),
                          (fuzz_decks.fuzz_runs, 30 if settings.quick else 500),
                          (fuzz_maps.fuzz_checks, 60 if settings.quick else 3000),

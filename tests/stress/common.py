@@ -157,7 +157,8 @@ def result_complaints(folder, names):
         if not path.read_text(errors="replace").endswith("\n"):
             words.append(f"{name} does not end with a line")
         try:
-            words += [f"{name}: {complaint}" for complaint in table_complaints(Table(path), MAY_BE_MISSING[kind[1]])[:1]]
+            complaints = table_complaints(Table(path), MAY_BE_MISSING[kind[1]])
+            words += [f"{name}: {complaint}" for complaint in complaints[:1]]
         except ValueError as error:
             words.append(str(error))
     return words

@@ -260,11 +260,44 @@ def message_complaints(outcome):
     if outcome.status not in (1, 3) or not outcome.stderr:
         return []
     first = outcome.stderr.decode(errors="replace").splitlines()[0]
-    if re.match(r"deck\.nml(:\d+:\d+)?: error 1 of (at least )?\d+: \S", first):
+    if re.match(r"deck\.nml(:\d+:\d+|: --set .*)?: error 1 of (at least )?\d+: \S", first):
         return []
     if re.match(r"(wavycon: )?(deck\.nml|[^:]+)(:\d+)?: \S", first):
         return []
     return [f"no file is named: {first[:80]}"]
+
+
+def random_setting(stream):
+    """The word behind --set: most often a group, a key and a value that could be."""
+    groups = [group for text in LARGE for group in re.findall(r"&(\w+)([^&]*)", text)]
+    pairs = sorted({(group.lower(), key.lower()) for group, body in groups for key in re.findall(r"(\w+)\s*=", body)})
+    group, key = stream.choice(pairs)
+    if stream.random() < 0.2:
+        group = stream.choice(["surface", "surfac", "LOAD", "&load", "x", ""])
+    if stream.random() < 0.1:
+        key = stream.choice([key[:-1], key.upper(), "x", "a b", ""])
+    value = stream.choice(["1", "0.5", "2", "64", "1, 2", "auto", "grid", "hexagonal", "t", ""])
+    if stream.random() < 0.5:
+        value = stream.choice(stream.choice((NUMBERS, TEXTS, LOGICALS, [value + ",", "=", "/", "&load", "!", "a b"])))
+    return (group + stream.choice("........ =") + key + stream.choice("========.") + value).replace("\x00", "")
+
+
+def fuzz_settings(program, seed, count, work, failures):
+    """Decks with keys that the command line sets, with --check."""
+    part = Part("keys that are set, --check")
+    accepted = 0
+    (work/"heights.dat").write_text(HEIGHTS)
+    for i in range(count):
+        stream = random.Random(f"{seed} set {i}")
+        (work/"deck.nml").write_text(stream.choice(LARGE))
+        words = [random_setting(stream) for _ in range(stream.choice((1, 1, 2, 4)))]
+        outcome = run([program, "--check", "deck.nml"] + [option for word in words for option in ("--set", word)], work)
+        complaints = complaints_about(outcome, (0, 1, 3)) + message_complaints(outcome)
+        accepted += outcome.status == 0
+        if not part.count(f"set-{i}.txt", complaints):
+            save(failures, f"set-{i}.txt", "\n".join(words).encode("utf-8", "surrogatepass"))
+    part.worst = f"{accepted} accepted"
+    return part
 
 
 def fuzz_monsters(program, seed, size, work, failures):

@@ -79,6 +79,14 @@ def cases(program, programs, quick, work):
         yield name, [program, "deck.nml"], folder, status
     if quick:
         return
+    folder = work/"many decks"
+    folder.mkdir()
+    for name, text, _ in DECKS[:4] + DECKS[-1:]:
+        (folder/f"{name.replace(' ', '-')}.nml").write_text(text)
+    decks = sorted(path.name for path in folder.iterdir())
+    options = ["--keep-going", "--table", "all.dat", "--set", "surface.amplitude=2", "--set", "scene.title=it's"]
+    yield "many decks", [program, *decks, *options], folder, 1
+    yield "many decks, --check", [program, "--check", *decks, *options], folder, 1
     for path in sorted(programs.glob("unit/unit.*")) + sorted(programs.glob("exact/exact.*")):
         if path.is_file() and os.access(path, os.X_OK) and path.name not in LEFT_OUT:
             folder = work/path.name

@@ -1,0 +1,111 @@
+"""Scales, labels and ranges of axes, and the loads to be shown: what scripts/plot tells gnuplot of a table's numbers."""
+import math
+import re
+
+# Prefixes of the units that are converted to one whose numbers are easy to read: powers of ten.
+PREFIXES = {"n": -9, "µ": -6, "u": -6, "m": -3, "": 0, "k": 3, "M": 6, "G": 9}
+SHOWN = {-9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
+CONVERTED = re.compile(r"([nµumkMG]?)(Pa|m)")
+# Numbers between these need no power of ten beside them.
+SMALL, LARGE = 1e-2, 1e4
+# An axis is logarithmic if its numbers span more than this and half of them would lie in its first tenth.
+WIDE, CROWDED = 100, 0.1
+
+
+def quoted(text):
+    """A string of gnuplot's: within single quotes nothing is expanded."""
+    return "'" + re.sub(r"[\x00-\x1f\x7f]", "?", text).replace("'", "''") + "'"
+
+
+def marked_up(text):
+    """A text for gnuplot's enhanced mode, in which exponents are raised and nothing else has a meaning."""
+    text = re.sub(r"([\\{}_@&~])", r"\\\1", text)
+    return re.sub(r"\^([+-]?\d+)?", lambda found: "^{" + found[1].replace("-", "−") + "}" if found[1] else r"\^", text)
+
+
+class Scale:
+    """How the numbers of an axis are shown: times `factor`, beside a label.
+
+    most: the largest number. unit: its label, '' if it has none. over: a name of gnuplot's for that by which numbers
+    without a label are divided, '' if they are not.
+    """
+
+    def __init__(self, most, unit="", over=""):
+        self.unit, self.over = unit, "" if unit else over
+        self.factor, self.power = 1.0, 0
+        if not most > 0 or SMALL <= most < LARGE:
+            return
+        power = 3*math.floor((math.log10(most) + 1)/3)
+        known = CONVERTED.fullmatch(unit)
+        if known and PREFIXES[known[1]] + power in SHOWN:
+            self.unit = SHOWN[PREFIXES[known[1]] + power] + known[2]
+        else:
+            self.power = power
+        self.factor = 10.0**-power
+
+    def label(self, symbol, words=""):
+        """A gnuplot expression for the label; symbol: the name of gnuplot's variable that holds it."""
+        parts = [quoted(words + " ")] if words else []
+        if self.power and not self.unit:
+            parts.append(quoted(f"{ten_to(-self.power)} "))
+        parts.append(symbol)
+        if self.over:
+            parts.append("'/'." + self.over)
+        if self.unit:
+            power = ten_to(self.power) + " " if self.power else ""
+            parts.append(quoted(f" ({power}{marked_up(self.unit)})"))
+        return ".".join(parts)
+
+    def value(self, symbol, number):
+        """A gnuplot expression that says what a quantity is, such as p/p* = 0.2 or p = 3 MPa; number: on the axis."""
+        shown = f"{number*10.0**self.power:.4g}"
+        if "e" in shown:
+            mantissa, exponent = shown.split("e")
+            shown = ("" if mantissa == "1" else f"{mantissa}·") + ten_to(int(exponent))
+        over = ".'/'." + self.over if self.over else ""
+        unit = " " + marked_up(self.unit) if self.unit else ""
+        return symbol + over + "." + quoted(f" = {shown}{unit}")
+
+
+def ten_to(power):
+    """A power of ten in gnuplot's enhanced mode."""
+    return "10^{" + str(power).replace("-", "−") + "}"
+
+
+def axis(numbers, may_be_wide=True, up_to=None):
+    """The range of an axis: (lowest, highest, step of its tics, whether it is logarithmic).
+
+    numbers: those to be shown. up_to: the axis ends there if they come near it.
+    """
+    numbers = [number for number in numbers if math.isfinite(number)] or [0.0, 1.0]
+    low, high = min(numbers), max(numbers)
+    positive = sorted(number for number in numbers if number > 0)
+    if may_be_wide and low >= 0 and positive and high > WIDE*positive[0] and \
+            positive[len(positive)//2] < CROWDED*high:
+        low, high = positive[0]/1.6, high*1.6
+        return low, high, 10.0**math.ceil(math.log10(high/low)/5), True
+    if low > 0.6*high and low < high:
+        margin = 0.1*(high - low)
+        low, high = low - margin, high + margin
+    elif low < high or high > 0:
+        margin = 0.06*(max(high, 0) - min(low, 0)) if low < high else 0.3*high
+        low, high = min(0.0, low - margin if low < 0 else 0.0), max(high + margin, 0.0)
+    else:
+        low, high = min(low, 0.0), 1.0
+    if up_to and 0.7*up_to < high < 1.15*up_to:
+        high = up_to
+    return low, high, step_of(high - low), False
+
+
+def step_of(span):
+    """A round step that divides a range into four to eight, at most."""
+    rough = span/6
+    power = 10.0**math.floor(math.log10(rough))
+    return next(step for step in (power, 2*power, 5*power, 10*power) if step >= 0.999*rough)
+
+
+def chosen(count, most):
+    """Places of at most so many loads, evenly spread with the first and the last."""
+    if count <= most:
+        return list(range(count))
+    return sorted({round(i*(count - 1)/(most - 1)) for i in range(most)})

@@ -1,0 +1,31 @@
+# The picture of maps of profiles: pressure above gap along one wavelength. The fields stand in folder.'/map1' ... as
+# records of x, y, pressure and gap.
+map(i) = sprintf('%s/map%d', folder, i)
+array label_of[2] = [pressure_label, gap_label]
+array low[2] = [pressure_low, gap_low]
+array high[2] = [pressure_high, gap_high]
+array step[2] = [pressure_step, gap_step]
+factor(n) = n == 1 ? pressure_factor[1] : gap_factor[1]
+shade(i) = loads_shown == 1 ? 0.6 : (i - 1.0)/(loads_shown - 1)
+set cbrange [0:1]
+
+set xrange [0:cell[1]]
+set xtics length_step
+set lmargin at screen 0.14
+set rmargin at screen 0.7
+set multiplot
+set label 1 title_words noenhanced at screen 0.42, 0.965 center font ',15'
+do for [row = 1:2] {
+   set tmargin at screen (row == 1 ? 0.92 : 0.51)
+   set bmargin at screen (row == 1 ? 0.545 : 0.135)
+   set yrange [low[row]:high[row]]
+   set ytics step[row]
+   set ylabel label_of[row]
+   set format x (row == 1 ? '' : '%g')
+   if (row == 2) { set xlabel length_label }
+   if (row == 1) { set key at screen 0.715, 0.93 left top samplen 2 } else { unset key }
+   plot for [i = 1:loads_shown] map(i) binary record=(columns) format='%double%double%double%double' \
+      using (length_factor[1]*$1):(factor(row)*column(2 + row)) with lines lc palette cb shade(i) lw 1.5 title load_name[i]
+   unset label 1
+}
+unset multiplot

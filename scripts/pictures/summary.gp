@@ -1,0 +1,63 @@
+# The picture of summaries: contact area, mean gap and peak pressure against the mean pressure.
+array quantity[3] = ['contact_area_fraction', 'mean_gap', 'peak_pressure']
+array error_of[3] = ['contact_area_fraction_error', 'mean_gap_over_amplitude_error', 'peak_pressure_over_pstar_error']
+array label_of[3] = [area_label, gap_label, peak_label]
+array low[3] = [area_low, gap_low, peak_low]
+array high[3] = [area_high, gap_high, peak_high]
+array step[3] = [area_step, gap_step, peak_step]
+array wide[3] = [area_wide, gap_wide, peak_wide]
+factor(n, r) = n == 1 ? area_factor : n == 2 ? gap_factor[r] : peak_factor[r]
+unit_of_error(n, r) = n == 1 ? 1 : n == 2 ? Delta_of[r] : p_star_of[r]
+
+x(r) = load_factor[r]*column('mean_pressure')
+y(n, r) = factor(n, r)*column(quantity[n])
+code(x) = column('status_code')
+# Errors that are unknown (NaN) or as large as the value are not drawn.
+bar(error, value) = error > 0 && error < value ? error : NaN
+error(n, r) = bar(factor(n, r)*unit_of_error(n, r)*column(error_of[n]), y(n, r))
+
+# Converged values of the paper's waves, normalised: a table, or Kuznetsov's and Westergaard's closed forms.
+closed_form(n, P) = n == 1 ? 2/pi*asin(sqrt(P)) : n == 2 ? 1 - P + P*log(P) : 2*sqrt(P)
+array of_reference[3] = ['contact_area_fraction', 'mean_gap_over_amplitude', 'peak_pressure_over_pstar']
+one = p_star_of[1]*load_factor[1]   # p* on the axis
+
+# The points of the paper's series are not joined: the curve is that of the converged values.
+joined = reference eq '' ? runs : 0
+set style line 41 lc rgb red lw 1.3 pt 2 ps mark
+set style line 42 lc rgb red lw 1.3 pt 6 ps 1.3*mark
+
+set xlabel load_label
+set xrange [load_low:load_high]
+if (load_wide) { set logscale x }
+set xtics load_step
+if (load_wide) { set mxtics (load_step > 10 ? 1 : 10) }
+set format x (format_of(load_wide))
+unset key
+set multiplot layout 1, 3 margins 0.08, 0.985, 0.2, 0.87 spacing 0.092, 0
+set label 1 title_words noenhanced at screen 0.5, 0.95 center font ',15'
+do for [n = 1:3] {
+   set ylabel label_of[n]
+   unset logscale y
+   set yrange [low[n]:high[n]]
+   if (wide[n]) { set logscale y }
+   set ytics step[n]
+   if (wide[n]) { set mytics (step[n] > 10 ? 1 : 10) } else { unset mytics }
+   set format y (format_of(wide[n]))
+   if (n == 2) { set key top right samplen 1.8 } else { unset key }
+   if (n == 2) { unset label 1 }
+   # Each loop runs once or never: a reference, a key.
+   plot for [k = 1:reference eq 'table'] folder.'/reference' using (one*column('pbar_over_pstar')): \
+           (factor(n, 1)*unit_of_error(n, 1)*column(of_reference[n])) with lines ls 31 title 'converged', \
+        for [k = 1:reference eq 'closed form'] [P = 0:1] '+' using (one*P): \
+           (factor(n, 1)*unit_of_error(n, 1)*closed_form(n, P)) with lines ls 31 title 'closed form', \
+        for [r = 1:joined] run(r) using (code(0) <= 10 ? x(r) : NaN):(y(n, r)) smooth unique with lines ls 30 + r, \
+        for [r = 1:runs == 1] run(r) using (x(r)):(y(n, r) - error(n, r)):(0):(2*error(n, r)) with vectors ls 31 nohead, \
+        for [r = 1:runs] run(r) using (code(0) < 10 ? x(r) : NaN):(y(n, r)) with points ls joined ? 30 + r : 11, \
+        for [r = 1:runs] run(r) using (code(0) > 10 ? x(r) : NaN):(y(n, r)) with points ls 41, \
+        for [r = 1:runs] run(r) using (code(0) == 10 ? x(r) : NaN):(y(n, r)) with points ls 42, \
+        for [k = 1:joined == 0] NaN with points ls 11 title 'the paper''s series', \
+        for [r = 1:runs > 1 ? runs : 0] NaN with linespoints ls 30 + r title run_names[r] noenhanced, \
+        for [k = 1:inaccurate > 0] NaN with points ls 42 title 'not accurate', \
+        for [k = 1:unsolved > 0] NaN with points ls 41 title 'not solved'
+}
+unset multiplot

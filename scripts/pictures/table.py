@@ -1,0 +1,144 @@
+"""Reads the tables of wavycon for scripts/plot: text with a row of names, and maps in numpy's format."""
+import array
+import ast
+import math
+import re
+import sys
+
+# A table is known by columns that no other kind has.
+MARKS = {"summary": ("pbar_over_pstar", "active_constraints", "mean_pressure", "status_code"),
+         "lines": ("load", "line", "distance", "pbar_over_pstar", "pressure", "gap"),
+         "theory_lines": ("load", "line", "distance", "pbar_over_pstar", "westergaard_pressure_over_pstar"),
+         "map": ("x", "y", "pressure", "gap", "undeformed_gap"),
+         "contour": ("load", "curve", "x", "y"),
+         "coefficients": ("load", "i", "j", "pressure_over_pstar"),
+         "theory": ("pbar_over_pstar", "hertz_contact_area_fraction", "kuznetsov_mean_gap_over_amplitude"),
+         "details": ("pbar_over_pstar", "trough_gap_over_amplitude", "elastic_energy_over_pstar_amplitude")}
+# The labels of units if the deck gives none.
+UNLABELLED = {"pressure", "length"}
+HEAD_NUMBER = re.compile(r"(Delta|p\*|cell_x|cell_y|edge_level)\[([^]]*)\] = ([^ ,]+)")
+MAGIC = b"\x93NUMPY\x01\x00"
+
+
+class NotATable(ValueError):
+    """The file is no table of wavycon, or has no rows."""
+
+
+class Block:
+    """The rows of a load, or of a whole table without blocks: `columns` holds arrays of numbers by name."""
+
+    def __init__(self, names):
+        self.load = None   # its number in the deck's order
+        self.pbar_over_pstar = math.nan
+        self.columns = {name: array.array("d") for name in names}
+
+    def add(self, words, names):
+        if len(words) != len(names):
+            raise NotATable(f"a row has {len(words)} entries below {len(names)} names")
+        for name, word in zip(names, words):
+            try:
+                self.columns[name].append(float(word))
+            except ValueError:
+                self.columns[name].append(math.nan)   # a status, the name of a solver
+
+
+class Table:
+    """A table: kind, names of columns, `blocks` in the order of gnuplot's `index`, and what the head says.
+
+    `numbers` holds Delta, p*, cell_x, cell_y and edge_level as far as the head gives them, `units` their units;
+    `surface` and `method` are the first words of their lines. The rest of a line that begins a block is not needed.
+    """
+
+    def __init__(self, path):
+        self.path = path
+        self.names, self.blocks = [], []
+        self.numbers, self.units, self.surface, self.method = {}, {}, "", ""
+        self.points = self.skip = self.endian = None   # of a map in numpy's format
+        with open(path, "rb") as file:
+            binary = file.read(len(MAGIC)) == MAGIC
+        if binary:
+            self._read_npy()
+        else:
+            self._read_text()
+        self.kind = next((kind for kind, mark in MARKS.items() if set(mark) <= set(self.names)), None)
+        if self.kind is None:
+            raise NotATable("this is not a table of this version of wavycon: none has these columns")
+        if not any(len(next(iter(block.columns.values()))) for block in self.blocks):
+            raise NotATable("the table has no rows")
+
+    def _read_text(self):
+        load, words_of_load = None, ""
+        try:
+            with open(self.path, encoding="utf-8") as file:
+                for line in file:
+                    if line.startswith("#"):
+                        self._read_head(line)
+                        begun = re.match(r"# load (\d+): pbar/p\* = ([^ ,]+)", line)
+                        if begun:
+                            load, words_of_load = int(begun[1]), begun[2]
+                        continue
+                    words = line.split()
+                    if not words:
+                        continue
+                    if not self.names:
+                        if not all(re.fullmatch(r"[A-Za-z]\w*", word) for word in words):
+                            raise NotATable("this is not a table of wavycon: its first row holds no names of columns")
+                        self.names = words
+                    if words == self.names:
+                        self.blocks.append(Block(words))
+                        if load is not None:
+                            self.blocks[-1].load, self.blocks[-1].pbar_over_pstar = load, float(words_of_load)
+                    else:
+                        self.blocks[-1].add(words, self.names)
+        except UnicodeDecodeError:
+            raise NotATable("this is not a table of wavycon: it is not a text") from None
+
+    def _read_head(self, line):
+        for name, unit, number in HEAD_NUMBER.findall(line):
+            self.numbers[name], self.units[name] = float(number), unit
+        for name in ("surface", "method"):
+            if line.startswith(f"# {name}: "):
+                setattr(self, name, line.split(":", 1)[1].split(",")[0].strip())
+
+    def _read_npy(self):
+        with open(self.path, "rb") as file:
+            data = file.read()
+        try:
+            self.skip = 10 + int.from_bytes(data[8:10], "little")
+            header = ast.literal_eval(data[10:self.skip].decode("latin-1").strip())
+            self.names = [name for name, form in header["descr"] if form[1:] == "f8"]
+            self.endian = "little" if header["descr"][0][1][0] == "<" else "big"
+            loads, rows, columns = header["shape"]
+        except (ValueError, SyntaxError, TypeError, KeyError, IndexError, UnicodeDecodeError):
+            raise NotATable("this array is not a map of wavycon: its records have other fields") from None
+        self.points = (columns, rows)
+        size = len(self.names)*rows*columns
+        for load in range(loads):
+            numbers = array.array("d", data[self.skip + 8*load*size:self.skip + 8*(load + 1)*size])
+            if len(numbers) != size:
+                raise NotATable("the file is cut short")
+            if self.endian != sys.byteorder:
+                numbers.byteswap()
+            block = Block([])
+            block.load = load + 1
+            block.columns = {name: numbers[i::len(self.names)] for i, name in enumerate(self.names)}
+            self.blocks.append(block)
+
+    def take_head(self, summary):
+        """Takes what the summary of the same run says: a map in numpy's format has no head."""
+        self.numbers, self.units = summary.numbers, summary.units
+        self.surface, self.method = summary.surface, summary.method
+        for block, pbar_over_pstar in zip(self.blocks, summary.column("pbar_over_pstar")):
+            block.pbar_over_pstar = pbar_over_pstar
+
+    def label(self, name):
+        """The unit of a number of the head, '' if the deck gives it no label."""
+        unit = self.units.get(name, "")
+        return "" if unit in UNLABELLED else unit
+
+    def column(self, name, blocks=None):
+        """All finite numbers of a column, of all blocks or of those given by their places."""
+        if name not in self.names:
+            return []
+        chosen = self.blocks if blocks is None else [self.blocks[i] for i in blocks]
+        return [number for block in chosen for number in block.columns[name] if math.isfinite(number)]
