@@ -7,8 +7,7 @@
 module wavycon_fitted_fields
    use wavycon_chord_rule, only: chord_rule, start_chord_rule
    use wavycon_constants, only: pi
-   use wavycon_disc_rule, only: disc_rule, start_disc_rule
-   use wavycon_expansion, only: expansion
+   use wavycon_disc_sources, only: disc_sources, start_disc_sources
    use wavycon_exterior_map, only: find_exterior
    use wavycon_fitted_answer, only: fitted_answer
    use wavycon_fitted_tuning, only: field_angles, field_chord_points, field_chords, field_radii, field_radius_margin, &
@@ -24,13 +23,6 @@ module wavycon_fitted_fields
 
    !> Rules for the integral over one spot or island.
    integer, parameter :: by_plain_rule = 1, by_finer_rule = 2, by_chords = 3
-
-   type :: disc_sources
-      complex(dp), allocatable :: place(:)               !! from the centre, shape (n) [s]
-      real(dp), allocatable :: strength(:)               !! of the expansion there, with area and weight, shape (n)
-   contains
-      procedure :: sum_at
-   end type disc_sources
 
    type :: fitted_fields
       type(wave_lattice) :: lattice
@@ -85,57 +77,13 @@ contains
                                  ceiling(finer*outside_half_points))
       end associate
       associate (solution => fields%answer%solution)
-         call place_sources(solution, finer, fields%sources)
+         call start_disc_sources(fields%sources, solution, ceiling(finer*field_radii), ceiling(finer*field_angles))
          fields%near_refinement = finer*near_field_refinement
          associate (b => solution%shape%b)
             fields%reach = near_field_radius*b(0)*(1.0_dp + solution%shape%clustering) + sum(abs(b(1:)))
          end associate
       end associate
    end subroutine start_fitted_fields
-
-   !> Sets the sources of a rule over the whole disc.
-   subroutine place_sources(solution, refinement, sources)
-      type(expansion), intent(in) :: solution
-      real(dp), intent(in) :: refinement
-      type(disc_sources), intent(out) :: sources
-
-      type(disc_rule) :: rule
-      real(dp), allocatable :: density(:), values(:, :)
-      complex(dp) :: turn
-      integer :: fold, g, n
-
-      fold = solution%basis%fold
-      call start_disc_rule(rule, solution%basis%power, fold, ceiling(refinement*field_radii), &
-                           ceiling(refinement*field_angles/(2*fold)))
-      n = size(rule%point)
-      allocate (values(n, solution%basis%terms), density(n))
-      call solution%basis%evaluate(n, rule%point, values)
-      density = matmul(values, solution%c)*rule%weight/(2*fold)*solution%shape%jacobian(rule%point)
-      allocate (sources%place(2*fold*n), sources%strength(2*fold*n))
-      do g = 0, fold - 1
-         turn = exp(cmplx(0.0_dp, 2*pi*g/fold, dp))
-         sources%place(2*g*n + 1:(2*g + 1)*n) = solution%shape%place(turn*rule%point)
-         sources%place((2*g + 1)*n + 1:(2*g + 2)*n) = solution%shape%place(turn*conjg(rule%point))
-         sources%strength(2*g*n + 1:(2*g + 1)*n) = density
-         sources%strength((2*g + 1)*n + 1:(2*g + 2)*n) = density
-      end do
-   end subroutine place_sources
-
-   !> The sum of strength/r^power at z.
-   pure real(dp) function sum_at(self, z, power)
-      class(disc_sources), intent(in) :: self
-      complex(dp), intent(in) :: z         !! from the centre of the spot or island [s]
-      integer, intent(in) :: power         !! 1 or 3
-
-      real(dp), dimension(size(self%place)) :: inverse_square
-
-      inverse_square = 1.0_dp/((z%re - self%place%re)**2 + (z%im - self%place%im)**2)
-      if (power == 1) then
-         sum_at = dot_product(self%strength, sqrt(inverse_square))
-      else
-         sum_at = dot_product(self%strength, sqrt(inverse_square)*inverse_square)
-      end if
-   end function sum_at
 
    !> The fields at a place.
    subroutine at(self, place, pressure, displacement, gap)
@@ -281,7 +229,9 @@ contains
          if (rule == by_chords) total = total + integral_by_chords(self, w)
          if (rule == by_finer_rule) then
             if (.not. allocated(self%near_sources%place)) &
-               call place_sources(self%answer%solution, self%near_refinement, self%near_sources)
+               call start_disc_sources(self%near_sources, self%answer%solution, &
+                                       ceiling(self%near_refinement*field_radii), &
+                                       ceiling(self%near_refinement*field_angles))
             total = total + self%near_sources%sum_at(from_image, power)
          end if
          ! The smooth part has the terms 1/r^power of all images but not that of the one at the origin.

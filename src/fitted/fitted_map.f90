@@ -1,6 +1,6 @@
 !> Fields at many places, such as those of a map.
 !>
-!> Outside of spots and islands they come from a table, which is made at a few hundred places: README.md, section 13.
+!> Outside of spots and islands they come from a table, which is made at a few hundred places: README.md, section 12.
 !> For few places, and where no table gets to its tolerance, each place is evaluated for itself.
 module wavycon_fitted_map
    use wavycon_cell_sector, only: cell_sector, start_cell_sector

@@ -1,21 +1,22 @@
-!> A field outside of spots or islands as a table: the gap about a spot, the pressure about an island.
+!> The integral that gives the fields outside of spots or islands, as a table: README.md, section 12.
 !>
 !> Over the sector of a cell that symmetry makes the whole it is
 !>
-!>     s^a sum over j, k of c_jk T_j(2 s - 1) T_k(t),   a = 3/2 (gap) or 1/2 (pressure),   README.md (F50),
+!>     sum over j, k of c_jk T_j(t) T_k(2 sqrt(s) - 1),   README.md (F50),
 !>
 !> T Chebyshev's polynomials, s from 0 at the edge to 1 at the border to the neighbours, t from -1 to 1 with the angle of
-!> the exterior map, between directions in which the border has corners. The sum is analytic also beyond the edge. Its
-!> coefficients come from the accurate integrals at a few hundred places.
+!> the exterior map, between directions in which the border has corners. The coefficients come from the integrals
+!> themselves at a few hundred places.
 module wavycon_outside_table
    use wavycon_cell_sector, only: cell_sector
+   use wavycon_chebyshev, only: chebyshev_coefficients, chebyshev_node, chebyshev_polynomials
    use wavycon_constants, only: pi
-   use wavycon_exterior_map, only: exterior_place, find_exterior, linearise_exterior
+   use wavycon_exterior_map, only: exterior_place, find_exterior
    use wavycon_fitted_fields, only: fitted_fields, start_fitted_fields
-   use wavycon_fitted_tuning, only: bend => table_bend, coarsest_rules, first_table_size, largest_enlargement, &
+   use wavycon_fitted_tuning, only: coarsest_rules, first_table_size, largest_enlargement, &
       last_table_size, last_terms, near_field_radius, rules_share, rules_step
    use wavycon_kinds, only: dp
-   use wavycon_shape_map, only: shape_map
+   use wavycon_sector_part, only: radius_at, s_at, sector_part
    implicit none (type, external)
    private
 
@@ -31,13 +32,9 @@ module wavycon_outside_table
    real(dp), parameter :: beyond_chords = 1.01_dp*near_field_radius
 
    !> The table between two directions.
-   type :: table_part
-      complex(dp) :: from = 0.0_dp, to = 0.0_dp     !! ends of the border's line
-      real(dp) :: first = 0.0_dp, last = 0.0_dp     !! angles of the exterior map
+   type, extends(sector_part) :: table_part
       real(dp), allocatable :: border(:)            !! |v| on the border as a series in T_k(t), shape (0:n_t-1)
       real(dp), allocatable :: c(:, :)              !! shape (0:n_t-1, 0:n_s-1)
-   contains
-      procedure, private :: direction
    end type table_part
 
    type :: outside_table
@@ -88,6 +85,8 @@ contains
             found = all([((abs(table%at(v(i, j)) - exact(i, j)), i=1, size(v, 1)), j=1, size(v, 2))] <= tolerance)
             if (found) return
             limit = 0.25_dp*limit
+         else if (refinement >= 1.0_dp) then
+            return
          else
             refinement = min(refinement*rules_step, 1.0_dp)
          end if
@@ -121,7 +120,7 @@ contains
          do i = 1, parts
             do j = 1, size(v, 1), 3
                direction = part(i)%direction(-1.0_dp + 2*(j - 1.0_dp)/(size(v, 1) - 3))
-               call find_border(part(i), shape, direction, border, found)
+               call part(i)%find_border(shape, direction, border, found)
                if (.not. found) return
                v(j:j + 2, i) = [1.0_dp + near_edge*(border - 1.0_dp), min(beyond_chords, border), border]*direction
             end do
@@ -209,7 +208,7 @@ contains
       of_radius = chebyshev_coefficients(terms(2))
       do i = 1, terms(1)
          associate (direction => part%direction(chebyshev_node(i, terms(1))))
-            call find_border(part, fields%answer%solution%shape, direction, border(i), found)
+            call part%find_border(fields%answer%solution%shape, direction, border(i), found)
             if (.not. found) return
             do j = 1, terms(2)
                v(i, j) = radius_at((0.5_dp*(1.0_dp + chebyshev_node(j, terms(2))))**2, border(i))*direction
@@ -221,121 +220,29 @@ contains
       part%c = matmul(of_angle, matmul(values, transpose(of_radius)))
    end subroutine fit_terms
 
-   !> e^(i angle) at t between -1 and 1.
-   pure complex(dp) function direction(self, t)
-      class(table_part), intent(in) :: self
-      real(dp), intent(in) :: t
-
-      direction = exp(cmplx(0.0_dp, 0.5_dp*(self%first + self%last + (self%last - self%first)*t), dp))
-   end function direction
-
-   !> |v| at which a ray of the exterior map meets the border's line, by Newton's method.
-   pure subroutine find_border(part, shape, direction, radius, found)
-      type(table_part), intent(in) :: part         !! with its border
-      type(shape_map), intent(in) :: shape
-      complex(dp), intent(in) :: direction         !! of modulus 1
-      real(dp), intent(out) :: radius
-      logical, intent(out) :: found                !! false if there is none, or it is on the edge
-
-      !> Safety limit: most steps.
-      integer, parameter :: most_steps = 50
-      !> Relative step that rounding leaves; distance from the edge below which there is no room for a table.
-      real(dp), parameter :: rounding = 1e-13_dp, least_distance = 1e-6_dp
-      complex(dp) :: conjugate_slope, normal, slope, z
-      real(dp) :: step
-      integer :: i
-
-      normal = (0.0_dp, -1.0_dp)*(part%to - part%from)/abs(part%to - part%from)
-      radius = 2*max(abs(part%from), abs(part%to))/shape%b(0)
-      found = .false.
-      do i = 1, most_steps
-         call linearise_exterior(shape, radius*direction, z, slope, conjugate_slope)
-         slope = slope*direction + conjugate_slope*conjg(direction)
-         z = part%from - z
-         step = (z%re*normal%re + z%im*normal%im)/(slope%re*normal%re + slope%im*normal%im)
-         radius = max(radius + step, 1.0_dp)
-         found = abs(step) <= rounding*radius
-         if (found) exit
-      end do
-      found = found .and. radius > 1.0_dp + least_distance
-   end subroutine find_border
-
-   !> s of a place at |v| = radius where the border is at |v| = border: README.md (F49). It is 0 at the edge and 1 at the
-   !> border, and the singularities of the field inside of the edge and beyond the border are about equally far off.
-   pure real(dp) function s_at(radius, border) result(s)
-      real(dp), intent(in) :: radius, border
-
-      s = (radius - 1.0_dp)*(1.0_dp + bend)*border/((radius + bend*border)*(border - 1.0_dp))
-   end function s_at
-
-   !> Its inverse.
-   pure real(dp) function radius_at(s, border) result(radius)
-      real(dp), intent(in) :: s, border
-
-      associate (ratio => s*(border - 1.0_dp)/((1.0_dp + bend)*border))
-         radius = (1.0_dp + bend*border*ratio)/(1.0_dp - ratio)
-      end associate
-   end function radius_at
-
-   !> The i-th of n nodes of Chebyshev's interpolation.
-   pure real(dp) function chebyshev_node(i, n) result(x)
-      integer, intent(in) :: i, n
-
-      x = cos(pi*(i - 0.5_dp)/n)
-   end function chebyshev_node
-
-   !> The matrix that turns values at n nodes into coefficients of T_0 to T_(n-1).
-   pure function chebyshev_coefficients(n) result(matrix)
-      integer, intent(in) :: n
-      real(dp) :: matrix(0:n - 1, n)
-
-      integer :: i, k
-
-      do i = 1, n
-         matrix(:, i) = [(merge(1, 2, k == 0)*cos(pi*k*(i - 0.5_dp)/n)/n, k=0, n - 1)]
-      end do
-   end function chebyshev_coefficients
-
-   !> T_0 to T_(n-1).
-   pure function chebyshev(x, n) result(t)
-      real(dp), intent(in) :: x
-      integer, intent(in) :: n          !! >= 2
-      real(dp) :: t(0:n - 1)
-
-      integer :: i
-
-      t(0) = 1.0_dp
-      t(1) = x
-      do i = 2, n - 1
-         t(i) = 2*x*t(i - 1) - t(i - 2)
-      end do
-   end function chebyshev
-
-   !> The field at a place of the sector: the gap [Delta] about a spot, the pressure [pi E* Delta/s] about an island.
+   !> The integral at a place of the sector.
    pure real(dp) function at(self, v)
       class(outside_table), intent(in) :: self   !! one that was found
       complex(dp), intent(in) :: v               !! preimage of the place under the exterior map, |v| >= 1
 
-      real(dp) :: angle
       integer :: i
 
-      angle = atan2(v%im, v%re)
       do i = 1, size(self%part) - 1
-         if (angle < self%part(i)%last) exit
+         if (atan2(v%im, v%re) < self%part(i)%last) exit
       end do
-      at = sum_of_part(self%part(i), abs(v), angle)
+      at = sum_of_part(self%part(i), v)
    end function at
 
-   !> The sum of one part, README.md (F50).
-   pure real(dp) function sum_of_part(part, radius, angle)
+   !> The sum of one part.
+   pure real(dp) function sum_of_part(part, v)
       type(table_part), intent(in) :: part
-      real(dp), intent(in) :: radius, angle
+      complex(dp), intent(in) :: v
 
       real(dp) :: of_angle(size(part%c, 1)), of_radius(size(part%c, 2)), s
 
-      of_angle = chebyshev((2*angle - part%first - part%last)/(part%last - part%first), size(of_angle))
-      s = max(s_at(radius, dot_product(part%border, of_angle)), 0.0_dp)
-      of_radius = chebyshev(2*sqrt(s) - 1.0_dp, size(of_radius))
+      of_angle = chebyshev_polynomials(part%t_of(v), size(of_angle))
+      s = max(s_at(abs(v), dot_product(part%border, of_angle)), 0.0_dp)
+      of_radius = chebyshev_polynomials(2*sqrt(s) - 1.0_dp, size(of_radius))
       sum_of_part = dot_product(of_angle, matmul(part%c, of_radius))
    end function sum_of_part
 
