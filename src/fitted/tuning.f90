@@ -235,7 +235,7 @@ module wavycon_fitted_tuning
    real(dp), parameter, public :: table_share = 0.1_dp
       !! Error of a table over the estimated one of the solution. Larger: the table's error shows in maps. Smaller: more
       !! places.
-   real(dp), parameter, public :: table_share_of_accuracy = 1e-2_dp
+   real(dp), parameter, public :: table_share_of_accuracy = 1e-3_dp
       !! The same over the accuracy asked for, if that is larger: solutions may be much more exact than asked for.
    real(dp), parameter, public :: least_table_tolerance = 2e-11_dp
       !! Least error of a table over the field's scale. Smaller: the quadrature's error next to sharp shapes hinders it.
