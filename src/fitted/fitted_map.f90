@@ -43,11 +43,13 @@ contains
       associate (answer => map%fields%answer)
          outside = places*merge(answer%area_fraction, 1.0_dp - answer%area_fraction, answer%island)
          if (outside < least_map) return
-         tolerance = max(table_share*max(answer%mean_gap_error/answer%mean_gap, answer%area_error/answer%area_fraction, &
-                                         answer%peak_error/answer%peak_pressure), &
-                         table_share_of_accuracy*accuracy, least_table_tolerance)
-         ! Of the field outside: displacements and gaps are of order 1, pressures of the order of their peak.
-         if (answer%island) tolerance = tolerance*answer%peak_pressure*4*pi**2
+         ! Displacements are of order 1, pressures of the order of their peak.
+         if (answer%island) then
+            tolerance = 4*pi**2*max(table_share*answer%peak_error, &
+                                    answer%peak_pressure*max(table_share_of_accuracy*accuracy, least_table_tolerance))
+         else
+            tolerance = max(table_share*answer%mean_gap_error, table_share_of_accuracy*accuracy, least_table_tolerance)
+         end if
          call start_cell_sector(map%sector, fields%lattice, answer%island, answer%solution%shape)
       end associate
       call start_outside_table(map%table, map%fields, map%sector, tolerance, outside, map%has_table)
