@@ -2,7 +2,7 @@
 !> from 0 at the edge to 1 at the border, which is a straight line.
 module wavycon_sector_part
    use wavycon_exterior_map, only: linearise_exterior
-   use wavycon_fitted_tuning, only: bend => table_bend
+   use wavycon_fitted_tuning, only: table_bend
    use wavycon_kinds, only: dp
    use wavycon_shape_map, only: shape_map
    implicit none (type, external)
@@ -73,7 +73,7 @@ contains
    pure real(dp) function s_at(radius, border) result(s)
       real(dp), intent(in) :: radius, border       !! > 1
 
-      s = (radius - 1.0_dp)*(1.0_dp + bend)*border/((radius + bend*border)*(border - 1.0_dp))
+      s = (radius - 1.0_dp)*(1.0_dp + table_bend)*border/((radius + table_bend*border)*(border - 1.0_dp))
    end function s_at
 
    !> Its inverse.
@@ -81,8 +81,8 @@ contains
       real(dp), intent(in) :: s                    !! 0 to 1
       real(dp), intent(in) :: border
 
-      associate (ratio => s*(border - 1.0_dp)/((1.0_dp + bend)*border))
-         radius = (1.0_dp + bend*border*ratio)/(1.0_dp - ratio)
+      associate (ratio => s*(border - 1.0_dp)/((1.0_dp + table_bend)*border))
+         radius = (1.0_dp + table_bend*border*ratio)/(1.0_dp - ratio)
       end associate
    end function radius_at
 
