@@ -65,7 +65,8 @@ def names_of(tables):
     names = [os.path.basename(table.stem) for table in tables]
     if len(set(names)) < len(names):
         names = [os.path.join(*table.stem.split(os.sep)[-2:]) for table in tables]
-    return names
+    # Bytes that are not UTF-8 cannot be shown.
+    return [name.encode("utf-8", "replace").decode("utf-8") for name in names]
 
 
 def titles(tables):

@@ -3,6 +3,7 @@
 
 usage: test_plot.py --program WAVYCON [unittest's options]
 """
+import os
 import pathlib
 import re
 import shutil
@@ -180,6 +181,10 @@ class Plot(unittest.TestCase):
             shutil.copy(self.folder/("auto." + name.split(".")[-2] + ".dat"), self.folder/name)
             self.assertEqual("", self.plot("--", name)[1])
         self.assertFalse((self.folder/"CANARY").exists())
+        name = b"\xff.summary.dat"
+        shutil.copy(self.folder/"auto.summary.dat", os.path.join(os.fsencode(self.folder), name))
+        result = subprocess.run([ROOT/"scripts"/"plot", name], cwd=self.folder, capture_output=True, check=False)
+        self.assertEqual((0, b"picture: \xff.summary.png\n", b""), (result.returncode, result.stdout, result.stderr))
 
     def test_command_line(self):
         self.assertIn("--compare", self.plot("--help")[0])
