@@ -89,13 +89,14 @@ def maps(tables, beside, loads, folder):
     places = shown(table, loads, MOST_CURVES if height == 1 else MOST_PANELS)
     facts = load_facts(table, places)
     facts += array_of("block_of", [str(place) for place in places])
-    length = numbers_in(tables, of_column("x"), "cell_x", "")
+    length = numbers_in(tables, lambda table: ends_of(table, "x", places), "cell_x", "")
     facts += put_scale("length", length, "x_symbol") + [f"y_label = {length[0].label('y_symbol')}"]
     for name, unit, over, symbol in (("pressure", "p*", "p_star", "p"), ("gap", "Delta", "Delta", "gap_symbol")):
-        found = numbers_in(tables, lambda table: table.column(name, places), unit, over)
+        ends = ends_of(table, name, places)
+        found = numbers_in(tables, lambda table: ends, unit, over)
         facts += put_scale(name, found, symbol, name)
-        numbers = [found[1][0]*number for number in table.column(name, places)]
-        facts += put_range(name, numbers, may_be_wide=False) + [f"{name}_most = {max(numbers, default=0) or 1.0!r}"]
+        numbers = [found[1][0]*number for number in ends]
+        facts += put_range(name, numbers, may_be_wide=False) + [f"{name}_most = {max(numbers) or 1.0!r}"]
     cell = [length[1][0]*side for side in cell_of(table)]
     facts += array_of("cell", [repr(side) for side in cell])
     facts += [f"length_step = {step_of(max(3*min(cell), max(cell)))!r}"]
@@ -115,6 +116,12 @@ def maps(tables, beside, loads, folder):
     down = 1 if len(places) == 1 else 2
     size = (70 + across*(wide + 16) + 75 + (75 if down == 1 else 0), 46 + down*(tall + 16) + 60)
     return "map", size, facts + [f"panel_wide = {wide!r}", f"panel_tall = {tall!r}"]
+
+
+def ends_of(table, name, places):
+    """The least and the greatest number of a column: a map has too many for a list of all."""
+    columns = [table.blocks[place].columns[name] for place in places]
+    return [end(end(column) for column in columns) for end in (min, max)]
 
 
 def cell_of(table):

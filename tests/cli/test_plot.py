@@ -166,6 +166,9 @@ class Plot(unittest.TestCase):
         self.assertIn("no rows", self.plot("bad/head.summary.dat", status=3)[1])
         self.assertEqual("plot: nowhere.dat: No such file or directory\n", self.plot("nowhere.dat", status=3)[1])
         self.plot("bad", status=3)
+        subprocess.run([self.program, "auto.nml", "--quiet", "--output", ".", "--table", "bad/all.dat"], cwd=self.folder,
+                       check=True)
+        self.assertIn("several decks", self.plot("bad/all.dat", status=3)[1])
         shortened = (self.folder/"npy.map.npy").read_bytes()[:-8]
         (self.folder/"bad"/"short.map.npy").write_bytes(shortened)
         self.assertIn("cut short", self.plot("bad/short.map.npy", status=3)[1])
