@@ -146,6 +146,7 @@ contains
          own%frame = self%frame
          own%lattice = self%lattice
          own%answer = answer
+         own%accuracy = self%accuracy
       end if
       call move_alloc(own, solution)
    end subroutine solve_partial_contact

@@ -9,6 +9,7 @@ module wavycon_fitted_solution
    use wavycon_fitted_details, only: find_fitted_details, fitted_details
    use wavycon_fitted_fields, only: fitted_fields, start_fitted_fields
    use wavycon_fitted_frame, only: fitted_frame
+   use wavycon_fitted_map, only: fitted_map, start_fitted_map
    use wavycon_kinds, only: dp
    use wavycon_surface, only: surface_type
    use wavycon_wave_lattice, only: wave_lattice
@@ -21,6 +22,7 @@ module wavycon_fitted_solution
       type(fitted_frame) :: frame
       type(wave_lattice), allocatable :: lattice   !! not allocated, and the rest unset, if the fields were not kept
       type(fitted_answer) :: answer     !! in the units of src/fitted
+      real(dp) :: accuracy = 0.0_dp     !! that it was asked for, as of wavycon_fitted_map
    contains
       procedure :: fields
       procedure :: edge_curves
@@ -31,6 +33,7 @@ module wavycon_fitted_solution
       real(dp) :: length(2) = 1.0_dp    !! sides of the surface's cell [length]
       logical :: is_square = .false.    !! whether x and y are equivalent
       type(fitted_frame) :: frame
+      real(dp) :: accuracy = 0.0_dp
       type(fitted_fields), allocatable :: fitted
    contains
       procedure :: at
@@ -54,6 +57,7 @@ contains
       own%length = surface%length
       own%is_square = self%lattice%square
       own%frame = self%frame
+      own%accuracy = self%accuracy
       allocate (own%fitted)
       call start_fitted_fields(own%fitted, self%lattice, self%answer)
       call move_alloc(own, answer)
@@ -64,16 +68,26 @@ contains
       real(dp), intent(in) :: x, y
       real(dp), intent(out) :: pressure, displacement, gap
 
-      complex(dp) :: place
+      call self%fitted%at(on_lattice(self, x, y), pressure, displacement, gap)
+      call convert(self, pressure, gap)
+   end subroutine at
 
-      associate (length => self%length)
-         place = self%frame%place(length(1)*x/(2*pi), length(2)*y/(2*pi))
-      end associate
-      call self%fitted%at(place, pressure, displacement, gap)
-      ! Next to the edge rounding could make them negative.
+   !> The point X, Y on the lattice.
+   pure complex(dp) function on_lattice(self, x, y)
+      class(fitted_solution_fields), intent(in) :: self
+      real(dp), intent(in) :: x, y
+
+      on_lattice = self%frame%place(self%length(1)*x/(2*pi), self%length(2)*y/(2*pi))
+   end function on_lattice
+
+   !> To p*, and without what errors next to the edge may leave below 0.
+   elemental subroutine convert(self, pressure, gap)
+      class(fitted_solution_fields), intent(in) :: self
+      real(dp), intent(inout) :: pressure, gap
+
       pressure = max(pressure*self%frame%pressure_unit, 0.0_dp)
       gap = max(gap, 0.0_dp)
-   end subroutine at
+   end subroutine convert
 
    !> Points that are equivalent by mirror symmetry, by the diagonals of a square cell or by the second crest are
    !> evaluated once.
@@ -84,6 +98,7 @@ contains
       real(dp), allocatable, intent(out) :: pressure(:, :), displacement(:, :), gap(:, :)
 
       real(dp), parameter :: rounding = 1e-12_dp
+      type(fitted_map) :: map
       integer :: k, l, first(2), twice_offset(2)
       logical :: has_mirrors, is_square
 
@@ -91,14 +106,14 @@ contains
       twice_offset = nint(2*offset)
       has_mirrors = all(abs(2*offset - twice_offset) <= rounding)
       is_square = self%is_square .and. points(1) == points(2) .and. twice_offset(1) == twice_offset(2)
+      call start_fitted_map(map, self%fitted, self%accuracy, count_of_first())
       do l = 0, points(2) - 1
          do k = 0, points(1) - 1
-            first = [k, l]
-            if (has_mirrors) first = first_image(first)
+            first = first_image([k, l])
             if (all(first == [k, l])) then
                associate (angles => 2*pi*([k, l] + offset)/points)
-                  call self%at(angles(1), angles(2), pressure(k + 1, l + 1), displacement(k + 1, l + 1), &
-                               gap(k + 1, l + 1))
+                  call map%at(on_lattice(self, angles(1), angles(2)), pressure(k + 1, l + 1), &
+                              displacement(k + 1, l + 1), gap(k + 1, l + 1))
                end associate
             else
                pressure(k + 1, l + 1) = pressure(first(1) + 1, first(2) + 1)
@@ -107,8 +122,21 @@ contains
             end if
          end do
       end do
+      call convert(self, pressure, gap)
 
    contains
+
+      !> The number of points that are evaluated.
+      pure integer function count_of_first() result(n)
+         integer :: i, j
+
+         n = 0
+         do j = 0, points(2) - 1
+            do i = 0, points(1) - 1
+               if (all(first_image([i, j]) == [i, j])) n = n + 1
+            end do
+         end do
+      end function count_of_first
 
       !> Of all points equivalent to this one, the one that the loop reaches first.
       pure function first_image(point) result(first)
@@ -117,6 +145,8 @@ contains
 
          integer :: other(2)
 
+         first = point
+         if (.not. has_mirrors) return
          first = reflected(point)
          if (self%frame%crests == 2 .and. all(mod(points, 2) == 0)) then
             other = reflected(point + points/2)

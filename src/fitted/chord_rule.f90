@@ -63,7 +63,7 @@ contains
       complex(dp), intent(in) :: target                !! w_t; for 1/|z - z'|^3 |w_t| <= 1
       real(dp), intent(in) :: c(:)                     !! coefficients of the sum, shape (N)
       real(dp), intent(out) :: row(:)                  !! integrals of the terms, shape (N) [s, 1/s with power 3]
-      real(dp), intent(out) :: shape_row(0:)           !! d(integral of the sum)/d b_k, shape (0:K) [1, 1/s^2]
+      real(dp), intent(out), optional :: shape_row(0:) !! d(integral of the sum)/d b_k, shape (0:K) [1, 1/s^2]
 
       integer :: i, n
 
@@ -82,6 +82,7 @@ contains
          f_slope = self%kernel_power*jacobian*f_slope
          f = jacobian*density
          call dgemv('T', n, basis%terms, 1.0_dp, self%values, n, f, 1, 0.0_dp, row, 1)
+         if (.not. present(shape_row)) return
          call dgemv('N', n, basis%terms, 1.0_dp, self%values, n, c, 1, 0.0_dp, f, 1)
          density = density*f
       end associate

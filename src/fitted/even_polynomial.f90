@@ -4,7 +4,7 @@
 !> README.md (F22).
 !> Coefficients below rounding are dropped, and the rest is turned into powers of u and v, evaluated by Horner's scheme.
 module wavycon_even_polynomial
-   use wavycon_constants, only: pi
+   use wavycon_chebyshev, only: chebyshev_coefficients, chebyshev_node
    use wavycon_fitted_tuning, only: kernel_fit_degree
    use wavycon_kinds, only: dp
    implicit none (type, external)
@@ -33,7 +33,7 @@ contains
       real(dp) :: node(0:fit_degree)
 
       do i = 0, fit_degree
-         node(i) = sqrt(0.5_dp*(1.0_dp + cos(pi*(i + 0.5_dp)/(fit_degree + 1))))
+         node(i) = sqrt(0.5_dp*(1.0_dp + chebyshev_node(i + 1, fit_degree + 1)))
       end do
       do i = 0, fit_degree
          x(:, i) = 0.5_dp*node
@@ -49,17 +49,11 @@ contains
       real(dp), intent(in) :: rounding                 !! of the values: smaller coefficients are dropped
 
       integer, parameter :: n = fit_degree
-      real(dp), dimension(0:n, 0:n) :: chebyshev, cosine, powers
-      integer :: degree(0:n), i, j, k
+      real(dp), dimension(0:n, 0:n) :: chebyshev, of_values, powers
+      integer :: degree(0:n), j, k
 
-      do j = 0, n
-         do i = 0, n
-            cosine(i, j) = cos(pi*i*(j + 0.5_dp)/(n + 1))
-         end do
-      end do
-      chebyshev = matmul(cosine, matmul(values, transpose(cosine)))*(2.0_dp/(n + 1))**2
-      chebyshev(0, :) = 0.5_dp*chebyshev(0, :)
-      chebyshev(:, 0) = 0.5_dp*chebyshev(:, 0)
+      of_values = chebyshev_coefficients(n + 1)
+      chebyshev = matmul(of_values, matmul(values, transpose(of_values)))
       do j = 0, n
          degree(j) = findloc(abs(chebyshev(:, j)) > rounding, .true., dim=1, back=.true.) - 1
          chebyshev(degree(j) + 1:, j) = 0.0_dp

@@ -70,7 +70,7 @@ contains
       type(wave_lattice), intent(in) :: lattice
       type(fitted_answer), intent(in) :: answer
       real(dp), intent(out) :: values(:)             !! trough gap, saddle gap, saddle pressure, shape (3)
-      integer, intent(in), optional :: refinement    !! of the rules
+      real(dp), intent(in), optional :: refinement   !! of the rules
 
       call fitted_separations(lattice, answer, values(1), values(2), values(3), refinement)
    end subroutine separations

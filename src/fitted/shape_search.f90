@@ -7,7 +7,7 @@ module wavycon_shape_search
    implicit none (type, external)
    private
 
-   public :: find_preimage, distance_from_edge
+   public :: find_preimage, find_edge_in_direction, distance_from_edge
 
    !> Safety limit: most steps of either of Newton's iterations. Places for which the continued map has a preimage take
    !> fewer. At the limit no preimage is found, and the place counts as far or as outside; a polar angle that is not
@@ -28,11 +28,12 @@ contains
    !>
    !> Newton's method, README.md (F19), from the point of the edge that is seen from the centre in the direction of z.
    !> The shapes in use are star-shaped: there is one such point.
-   pure subroutine find_preimage(shape, z, w, found)
+   pure subroutine find_preimage(shape, z, w, found, near)
       type(shape_map), intent(in) :: shape
-      complex(dp), intent(in) :: z       !! [s]
+      complex(dp), intent(in) :: z                !! [s]
       complex(dp), intent(out) :: w
-      logical, intent(out) :: found      !! false where the continued map folds before it gets to z
+      logical, intent(out) :: found               !! false where the continued map folds before it gets to z
+      complex(dp), intent(in), optional :: near   !! the preimage of a neighbouring place, to start from
 
       !> Step, and distance over b_0, that rounding leaves.
       real(dp), parameter :: rounding = 64*epsilon(1.0_dp)
@@ -43,8 +44,12 @@ contains
       w = 0.0_dp
       found = abs(z) <= tiny(1.0_dp)
       if (found) return
-      call find_edge_in_direction(shape, z, w, edge)
-      w = w*min(abs(z)/abs(edge), farthest_inverse_start)
+      if (present(near)) then
+         w = near
+      else
+         call find_edge_in_direction(shape, z, w, edge)
+         w = w*min(abs(z)/abs(edge), farthest_inverse_start)
+      end if
       do i = 1, most_inverse_steps
          left = z - shape%place(w)
          slope = shape%conjugate_slope(w)

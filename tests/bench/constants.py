@@ -38,6 +38,7 @@ LINE = "&surface kind = 'wave_1d' /"
 ROUGH = "&surface kind = 'file', file = 'rough_surface.dat', length_x = 1.0, height_scale = 0.01 /"
 DETAILS = '&output details = .true. /'
 SUMMARY = '&output /'
+MAP = '&output map = .true., map_points = 64 /'  # enough points for a table
 TIGHT = "solver = 'fitted', accuracy = 1e-12"
 
 # Of each room the decks: surface, loads, method, output, and the reference: a table of outputs/reference or the method
@@ -50,8 +51,8 @@ CASES = {
         (HEXAGONAL, '0.05, 0.3, 0.6, 0.75, 0.9', "solver = 'fitted', accuracy = 1e-7", DETAILS, 'hexagonal'),
         (CROSSED, '0.01, 0.05, 0.5, 0.9', "solver = 'fitted', accuracy = 1e-6", DETAILS, TIGHT),
         (RHOMBIC, '0.02, 0.15, 0.4, 0.9', "solver = 'fitted', accuracy = 1e-6", DETAILS, TIGHT),
-        (WAVE, '0.2', "solver = 'fitted', accuracy = 1e-7",
-         '&output map = .true., map_points = 24 /', TIGHT),
+        (WAVE, '0.2', "solver = 'fitted', accuracy = 1e-7", MAP, TIGHT),
+        (WAVE, '0.5', "solver = 'fitted', accuracy = 1e-7", MAP, TIGHT),
     ],
     'contact': [
         (WAVE, '0.01, 0.05, 0.2, 0.25, 0.5, 0.9', "solver = 'grid', accuracy = 1e-3", SUMMARY, 'wave_2d'),
