@@ -10,7 +10,9 @@ draw_figure 480 480 <<'EOF'
 lines = table('fig01', 'theory_lines')
 bottom = -2.45
 top = 0.75
-unfold = 'plot for [k = -2:2] for [side = -1:1:2] lines index profile using (k + side*column("x")):(-column("westergaard_gap_over_amplitude")) with lines'
+gap = "westergaard_gap_over_amplitude"
+unfold = 'plot for [k = -2:2] for [side = -1:1:2] lines index profile ' \
+   .'using (k + side*column("x")):(-column(gap)) with lines'
 set xrange [-1.25:1.25]
 set yrange [bottom:top]
 set table $pieces

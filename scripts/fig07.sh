@@ -22,7 +22,8 @@ stats curves using "crack_contact_area_fraction" nooutput
 set label '(24)' at 0.03, STATS_min offset 0, 1.6 left
 plot curves using "pbar_over_pstar":"hertz_contact_area_fraction" with lines ls 2, \
      curves using "pbar_over_pstar":"crack_contact_area_fraction" with lines ls 2 title 'asymptotes (23), (24)', \
-     'outputs/reference/wave_2d.dat' using "pbar_over_pstar":"contact_area_fraction" with lines ls 31 title 'converged', \
+     'outputs/reference/wave_2d.dat' using "pbar_over_pstar":"contact_area_fraction" with lines ls 31 \
+        title 'converged', \
      'inputs/reference_2d.dat' using "pbar_over_pstar":"contact_area_fraction" with points ls 14 \
         title 'converged, other methods', \
      table('fig07', 'summary') using "pbar_over_pstar":"contact_area_fraction" with points ls 13 \

@@ -1,4 +1,4 @@
-"""Scales, labels and ranges of axes, and the loads to be shown: what scripts/plot tells gnuplot of a table's numbers."""
+"""Scales, labels and ranges of axes, and the loads to be shown."""
 import math
 import re
 

@@ -13,4 +13,5 @@ set bmargin at screen 0.2
 set key at graph 1.03, 1 left top samplen 1.5
 set title title_words noenhanced font ',15' offset 0, -0.3
 plot for [i = 1:loads_shown] run(1) index block_of[i] using (sqrt(column('i')**2 + column('j')**2)): \
-        (abs(column('pressure_over_pstar'))) with points lc palette cb shade(i) lw 1.2 pt 7 ps 0.7*mark title load_name[i]
+        (abs(column('pressure_over_pstar'))) \
+   with points lc palette cb shade(i) lw 1.2 pt 7 ps 0.7*mark title load_name[i]

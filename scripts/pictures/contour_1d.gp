@@ -13,4 +13,5 @@ set title title_words noenhanced font ',15' offset 0, -0.3
 
 # A curve is the two ends of a strip.
 plot for [i = 1:loads_shown] for [k = first_copy[1]:last_copy[1]] \
-   run(1) index block_of[i] using (k*cell[1] + s*column('x')):(load_of[i]) with linespoints lc rgb blue lw 2 pt 7 ps 0.6*mark
+   run(1) index block_of[i] using (k*cell[1] + s*column('x')):(load_of[i]) \
+   with linespoints lc rgb blue lw 2 pt 7 ps 0.6*mark

@@ -19,7 +19,8 @@ do for [n = 1:9] {
       set format y (format_of(wide_of[n]))
       set ytics step_of[n]
       set ylabel label_of[n]
-      plot run(1) using (column('pbar_over_pstar')):(factor_of[n]*column(column_of[n])) with linespoints ls 30 + n dt solid ps point_size
+      plot run(1) using (column('pbar_over_pstar')):(factor_of[n]*column(column_of[n])) \
+         with linespoints ls 30 + n dt solid ps point_size
       unset label 1
    } else {
       set yrange [error_low:error_high]

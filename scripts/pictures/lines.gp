@@ -11,7 +11,8 @@ array low[2] = [pressure_low, gap_low]
 array high[2] = [pressure_high, gap_high]
 array step[2] = [pressure_step, gap_step]
 
-# In two dimensions a closed form holds for light loads, about a crest, or for heavy ones, about a trough. Outside it is 0.
+# In two dimensions a closed form holds for light loads, about a crest, or for heavy ones, about a trough; outside it
+# is 0.
 holds(name, i) = dimension == 1 || (name[1:5] eq 'hertz') == light[i]
 form(row, name, i) = holds(name, i) && (dimension == 1 || column(name) > 0) ? of_theory(row)*column(name) : NaN
 # From light loads, pale, to heavy ones; runs that are compared have colours of their own.
@@ -47,8 +48,9 @@ do for [row = 1:2] {
       plot for [i = 1:runs == 1 && solved ? loads_shown : 0] run(1) index block(1, i) every :::line - 1::line - 1 \
               using (length_factor[1]*column('distance')):(factor(row, 1)*column(field[row])) \
               with lines lc palette cb shade(i) lw 1.5 title load_name[i], \
-           for [i = 1:runs > 1 ? loads_shown : 0] for [r = 1:runs] run(r) index block(r, i) every :::line - 1::line - 1 \
-              using (length_factor[r]*column('distance')):(factor(row, r)*column(field[row])) with lines ls 30 + r, \
+           for [i = 1:runs > 1 ? loads_shown : 0] for [r = 1:runs] run(r) index block(r, i) \
+              every :::line - 1::line - 1 using (length_factor[r]*column('distance')):(factor(row, r)*column(field[row])) \
+              with lines ls 30 + r, \
            for [name in names[row]] for [i = 1:loads_shown] closed_forms index block(1, i) every :::line - 1::line - 1 \
               using (length_factor[1]*column('distance')):(form(row, name, i)) \
               with lines ls 43 lc palette cb shade(i), \

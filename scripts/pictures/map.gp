@@ -35,7 +35,8 @@ do for [n = 1:2] {
       set tmargin at screen top(n)
       set bmargin at screen top(n) - panel_tall/height
       if (down(n) == lowest) { set xlabel length_label; set format x '%g' } else { unset xlabel; set format x '' }
-      if (i == 1 && (n == 1 || !beside)) { set ylabel y_label; set format y '%g' } else { unset ylabel; set format y '' }
+      if (i == 1 && (n == 1 || !beside)) { set ylabel y_label; set format y '%g' }
+      if (i > 1 || (n > 1 && beside)) { unset ylabel; set format y '' }
       if (down(n) == 0) { set title load_name[i] offset 0, -0.6 font small } else { unset title }
       if (i == loads_shown) {
          set colorbox user origin screen start(i, n) + (panel_wide + 8)/width, screen top(n) - 0.9*panel_tall/height \

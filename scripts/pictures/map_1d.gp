@@ -25,7 +25,8 @@ do for [row = 1:2] {
    if (row == 2) { set xlabel length_label }
    if (row == 1) { set key at screen 0.715, 0.93 left top samplen 2 } else { unset key }
    plot for [i = 1:loads_shown] map(i) binary record=(columns) format='%double%double%double%double' \
-      using (length_factor[1]*$1):(factor(row)*column(2 + row)) with lines lc palette cb shade(i) lw 1.5 title load_name[i]
+      using (length_factor[1]*$1):(factor(row)*column(2 + row)) \
+      with lines lc palette cb shade(i) lw 1.5 title load_name[i]
    unset label 1
 }
 unset multiplot

@@ -54,13 +54,14 @@ do for [n = 1:3] {
         for [k = 1:reference eq 'closed form'] [P = 0:1] '+' using (one*P): \
            (factor(n, 1)*unit_of_error(n, 1)*closed_form(n, P)) with lines ls 31, \
         for [r = 1:joined] run(r) using (code(0) <= 10 ? x(r) : NaN):(y(n, r)) smooth unique with lines ls 30 + r, \
-        for [r = 1:runs == 1] run(r) using (x(r)):(y(n, r) - error(n, r)):(0):(2*error(n, r)) with vectors ls 31 nohead, \
+        for [r = 1:runs == 1] run(r) using (x(r)):(y(n, r) - error(n, r)):(0):(2*error(n, r)) \
+           with vectors ls 31 nohead, \
         for [r = 1:runs] run(r) using (code(0) < 10 ? x(r) : NaN):(y(n, r)) with points ls joined ? 30 + r : 11, \
         for [r = 1:runs] run(r) using (code(0) > 10 ? x(r) : NaN):(y(n, r)) with points ls 41, \
         for [r = 1:runs] run(r) using (code(0) == 10 ? x(r) : NaN):(y(n, r)) with points ls 42
 }
 
-# The key, whose entries are in key_entries, in a plot of nothing that is as wide as the picture, beside the title; runs that are compared have no title.
+# The key, in a plot of nothing that is as wide as the picture, beside the title; runs that are compared have no title.
 set lmargin at screen 0.02
 set rmargin at screen 0.985
 set bmargin at screen 0.9

@@ -63,6 +63,8 @@ class Table:
         self.kind = next((kind for kind, mark in MARKS.items() if set(mark) <= set(self.names)), None)
         if self.kind is None:
             raise NotATable("this is not a table of this version of wavycon: none has these columns")
+        if {"deck", "case"} <= set(self.names):
+            raise NotATable("this is a table of several decks; draw their summaries, with --compare in one picture")
         if not any(len(next(iter(block.columns.values()))) for block in self.blocks):
             raise NotATable("the table has no rows")
 

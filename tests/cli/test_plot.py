@@ -3,6 +3,7 @@
 
 usage: test_plot.py --program WAVYCON [unittest's options]
 """
+import os
 import pathlib
 import re
 import shutil
@@ -16,6 +17,7 @@ sys.dont_write_bytecode = True
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT/"scripts"/"pictures"))
 import facts  # noqa: E402
+import fields  # noqa: E402
 from axes import Scale, axis, chosen, marked_up  # noqa: E402
 from table import NotATable, Table  # noqa: E402
 
@@ -164,6 +166,9 @@ class Plot(unittest.TestCase):
         self.assertIn("no rows", self.plot("bad/head.summary.dat", status=3)[1])
         self.assertEqual("plot: nowhere.dat: No such file or directory\n", self.plot("nowhere.dat", status=3)[1])
         self.plot("bad", status=3)
+        subprocess.run([self.program, "auto.nml", "--quiet", "--output", ".", "--table", "bad/all.dat"], cwd=self.folder,
+                       check=True)
+        self.assertIn("several decks", self.plot("bad/all.dat", status=3)[1])
         shortened = (self.folder/"npy.map.npy").read_bytes()[:-8]
         (self.folder/"bad"/"short.map.npy").write_bytes(shortened)
         self.assertIn("cut short", self.plot("bad/short.map.npy", status=3)[1])
@@ -174,10 +179,15 @@ class Plot(unittest.TestCase):
         self.assertIn("nowhere.dat", complaints)
 
     def test_names_are_not_commands(self):
-        for name in ("a'b; touch CANARY.summary.dat", "$(touch CANARY) `touch CANARY`.lines.dat", "<x {-Bold_^.map.dat"):
+        for name in ("a'b; touch CANARY.summary.dat", "$(touch CANARY) `touch CANARY`.lines.dat",
+                     "<x {-Bold_^.map.dat"):
             shutil.copy(self.folder/("auto." + name.split(".")[-2] + ".dat"), self.folder/name)
             self.assertEqual("", self.plot("--", name)[1])
         self.assertFalse((self.folder/"CANARY").exists())
+        name = b"\xff.summary.dat"
+        shutil.copy(self.folder/"auto.summary.dat", os.path.join(os.fsencode(self.folder), name))
+        result = subprocess.run([ROOT/"scripts"/"plot", name], cwd=self.folder, capture_output=True, check=False)
+        self.assertEqual((0, b"picture: \xff.summary.png\n", b""), (result.returncode, result.stdout, result.stderr))
 
     def test_command_line(self):
         self.assertIn("--compare", self.plot("--help")[0])
@@ -223,7 +233,7 @@ class Numbers(unittest.TestCase):
                 path.write_text("# surface: file, Delta[length] = 1, cell_x[length] = 1, cell_y[length] = 2\n"
                                 "load x y pressure gap displacement undeformed_gap\n" + rows)
                 closed = pathlib.Path(folder)/"map1"
-                self.assertEqual((5, 4), facts.write_closed(Table(path), 0, closed))
+                self.assertEqual((5, 4), fields.write_closed(Table(path), 0, closed))
                 numbers = memoryview(closed.read_bytes()).cast("d").tolist()
                 points = [numbers[4*k:4*k + 4] for k in range(20)]
                 self.assertEqual([1 + offset/4, 2*offset/3, 0.0, 0.0], points[4])

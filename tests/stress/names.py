@@ -46,10 +46,10 @@ def campaign(program, scripts, quick, work, failures):
             elif outcome.status == 0 and shutil.which("gnuplot"):
                 drawn = subprocess.run([scripts/"plot", "--", target/"deck.summary.dat"], cwd=folder, capture_output=True,
                                        check=False)
-                if drawn.returncode or not (target/"deck.png").exists():
+                if drawn.returncode or not (target/"deck.summary.png").exists():
                     complaints.append(f"no picture: {drawn.stderr.decode(errors='replace').strip()}")
                 complaints += [f"the picture makes {name}" for name in files_below(work) - made
-                               if not name.endswith("deck.png")]
+                               if not name.endswith("deck.summary.png")]
             if not part.count(f"{place}-{i}.nml", complaints):
                 save(failures, f"{place}-{i}.nml", text.encode())
     return part

@@ -1,0 +1,213 @@
+"""What the pictures of fields show: lines, maps, edges of contact, coefficients. See facts.py."""
+import array
+import math
+import os
+
+from axes import axis, chosen, quoted, step_of
+from variables import MOST_CURVES, MOST_EDGES, MOST_PANELS, REFERENCE, CannotBeDrawn, array_of, load_facts, \
+    numbers_in, of_column, of_loads, put_range, put_scale, shown
+
+# Points of a map along a side that a picture can show.
+MOST_PIXELS = 800
+
+
+def matched(tables, loads, most):
+    """For each load to be shown, its place in each table: the loads that all tables have."""
+    first = tables[0]
+    common = []
+    for i, block in enumerate(first.blocks):
+        found = [next((j for j, other in enumerate(table.blocks)
+                       if math.isclose(other.pbar_over_pstar, block.pbar_over_pstar, rel_tol=1e-6)), None)
+                 for table in tables[1:]]
+        if None not in found:
+            common.append([i] + found)
+    if not common:
+        raise CannotBeDrawn("the tables have no load in common")
+    places = shown(first, loads, most) if len(tables) == 1 else [common[i][0] for i in chosen(len(common), most)]
+    return [places_of_load for places_of_load in common if places_of_load[0] in places]
+
+
+# Closed forms along lines, by the number of dimensions: the columns of pressures and gaps.
+ALONG_LINES = {1: (["westergaard_pressure_over_pstar"], ["westergaard_gap_over_amplitude"]),
+               2: (["hertz_pressure_over_pstar", "crack_pressure_over_pstar"], ["crack_gap_over_amplitude"])}
+
+
+def is_light(block):
+    return block.pbar_over_pstar < 0.4
+
+
+def lines(tables, beside, loads, folder):
+    """Lines, and closed forms along lines, alone or with the lines."""
+    first, solved = tables[0], tables[0].kind == "lines"
+    theory = beside.get("theory_lines") if solved else first
+    dimension = min(int(max(table.column("line"))) for table in tables)
+    forms = ALONG_LINES[dimension]
+
+    def in_units(column, unit, names):
+        if solved:
+            return of_column(column)
+        # In 2-D the Hertz pressure is shown for light loads and the crack for heavy ones, where they are positive.
+        blocks = {name: [i for i, block in enumerate(first.blocks) if dimension == 1 or
+                         (name.startswith("hertz") == is_light(block))] for name in names}
+        return lambda table: [0.0] + [number*table.numbers.get(unit, 1.0) for name in names
+                                      for number in table.column(name, blocks[name]) if number > 0]
+
+    places = matched(tables, loads, MOST_PANELS if len(tables) > 1 else MOST_CURVES)
+    facts = load_facts(first, [place[0] for place in places])
+    facts += array_of("block_of", [str(place[r]) for r in range(len(tables)) for place in places])
+    facts += array_of("light", [str(int(is_light(first.blocks[place[0]]))) for place in places])
+    longest = [max(distance for distance, line in zip(first.column("distance"), first.column("line")) if line == number)
+               for number in range(1, dimension + 1)]
+    length = numbers_in(tables, of_column("distance"), "cell_x", "")
+    for name, column, unit, over, symbol, words, names in (
+            ("pressure", "pressure", "p*", "p_star", "p", "pressure", forms[0]),
+            ("gap", "gap", "Delta", "Delta", "gap_symbol", "gap", forms[1])):
+        numbers = in_units(column, unit, names)
+        found = numbers_in(tables, numbers, unit, over)
+        facts += put_scale(name, found, symbol, words)
+        on_axis = [number*factor for table, factor in zip(tables, found[1]) for number in numbers(table)]
+        facts += put_range(name, on_axis, may_be_wide=False)
+        facts.append(f"{name}_of_theory = {found[1][0]*first.numbers.get(unit, 1.0)!r}")
+        facts += [f"{name}_forms = '{' '.join(names) if theory else ''}'"]
+    facts += [f"length_label = {length[0].label(quoted('distance' if dimension == 1 else 'distance along x'))}"]
+    facts += array_of("length_factor", [repr(factor) for factor in length[1]])
+    facts += array_of("longest", [repr(number*length[1][0]) for number in longest])
+    facts += [f"diagonal_label = {length[0].label(quoted('distance along the diagonal'))}", f"dimension = {dimension}",
+              f"solved = {int(solved)}", f"length_step = {axis([longest[0]*length[1][0]])[2]!r}"]
+    if solved and not theory:
+        # gnuplot wants the file even if it plots nothing of it.
+        os.symlink(os.path.abspath(first.path), os.path.join(folder, "theory_lines"))
+    return "lines", (430 if dimension == 1 else 710, 430), facts
+
+
+
+
+def maps(tables, beside, loads, folder):
+    """Maps: a column of panels for each load, pressure above gap."""
+    table = tables[0]
+    height = len(set(table.blocks[0].columns["y"]))
+    places = shown(table, loads, MOST_CURVES if height == 1 else MOST_PANELS)
+    facts = load_facts(table, places)
+    facts += array_of("block_of", [str(place) for place in places])
+    length = numbers_in(tables, lambda table: ends_of(table, "x", places), "cell_x", "")
+    facts += put_scale("length", length, "x_symbol") + [f"y_label = {length[0].label('y_symbol')}"]
+    for name, unit, over, symbol in (("pressure", "p*", "p_star", "p"), ("gap", "Delta", "Delta", "gap_symbol")):
+        ends = ends_of(table, name, places)
+        found = numbers_in(tables, lambda table: ends, unit, over)
+        facts += put_scale(name, found, symbol, name)
+        numbers = [found[1][0]*number for number in ends]
+        facts += put_range(name, numbers, may_be_wide=False) + [f"{name}_most = {max(numbers) or 1.0!r}"]
+    cell = [length[1][0]*side for side in cell_of(table)]
+    facts += array_of("cell", [repr(side) for side in cell])
+    facts += [f"length_step = {step_of(max(3*min(cell), max(cell)))!r}"]
+    for number, place in enumerate(places, 1):
+        columns, rows = write_closed(table, place, os.path.join(folder, f"map{number}"))
+    facts += [f"columns = {columns}", f"rows = {rows}"]
+    if height == 1:
+        return "map_1d", (430, 430), facts
+    facts += edge_facts(beside.get("contour"), [table.blocks[place].load for place in places], cell_of(table))
+    if "contour" not in beside:
+        # gnuplot wants the file even if it plots nothing of it.
+        os.symlink(os.path.realpath(REFERENCE), os.path.join(folder, "contour"))
+    # Panels of about the same area, whatever the cell's shape.
+    stretch = min(max(math.sqrt(cell[1]/cell[0]), 0.45), 2.2)
+    wide, tall = 150/stretch, 150*stretch
+    across = 2 if len(places) == 1 else len(places)
+    down = 1 if len(places) == 1 else 2
+    size = (70 + across*(wide + 16) + 75 + (75 if down == 1 else 0), 46 + down*(tall + 16) + 60)
+    return "map", size, facts + [f"panel_wide = {wide!r}", f"panel_tall = {tall!r}"]
+
+
+def ends_of(table, name, places):
+    """The least and the greatest number of a column: a map has too many for a list of all."""
+    columns = [table.blocks[place].columns[name] for place in places]
+    return [end(end(column) for column in columns) for end in (min, max)]
+
+
+def cell_of(table):
+    """The sides of the cell: as in the head, otherwise from the points, of which the last is not written."""
+    sides = []
+    for axis_name in "xy":
+        places = sorted(set(table.blocks[0].columns[axis_name]))
+        step = places[1] - places[0] if len(places) > 1 else 1.0
+        sides.append(table.numbers.get(f"cell_{axis_name}", len(places)*step))
+    return sides if len(set(table.blocks[0].columns["y"])) > 1 else sides[:1]
+
+
+def write_closed(table, place, path):
+    """Writes x, y, pressure and gap of a map for gnuplot's binary format. The first column and row stand once more
+    behind the last: the cell is closed. Points that a picture cannot show are left out. Returns the numbers of points.
+    """
+    block = table.blocks[place].columns
+    columns = len(set(block["x"]))
+    rows = len(block["x"])//columns
+    step = max(1, math.ceil(max(columns, rows)/MOST_PIXELS))
+    cell = cell_of(table)
+    across = list(range(0, columns, step)) + [columns]
+    down = list(range(0, rows, step)) + ([rows] if rows > 1 else [])
+    with open(path, "wb") as file:
+        for j in down:
+            numbers = array.array("d")
+            for i in across:
+                point = (j % rows)*columns + i % columns
+                numbers.extend((block["x"][point] + (cell[0] if i == columns else 0.0),
+                                block["y"][point] + (cell[1] if j == rows > 1 else 0.0),
+                                block["pressure"][point], block["gap"][point]))
+            numbers.tofile(file)
+    return len(across), len(down)
+
+
+def edge_facts(contour, numbers, cell):
+    """The blocks of contours of loads, -1 without, and the cells in which copies of the curves are to be drawn."""
+    places, low, high = [-1]*len(numbers), [0, 0], [0, 0]
+    if contour:
+        blocks = {block.load: i for i, block in enumerate(contour.blocks)}
+        places = [blocks.get(number, -1) for number in numbers]
+        for axis_name, side, k in zip("xy", cell, (0, 1)):
+            found = contour.column(axis_name, [place for place in places if place >= 0]) or [0.0]
+            low[k], high[k] = -math.floor(max(found)/side), -math.floor(min(found)/side)
+    return array_of("edge_of", [str(place) for place in places]) + array_of("first_copy", [str(k) for k in low]) \
+        + array_of("last_copy", [str(k) for k in high])
+
+
+def edges(tables, beside, loads, folder):
+    """Contours: all loads on one cell, coloured by the load; in 1-D the strips of contact, one above the other."""
+    table = tables[0]
+    places = shown(table, loads, MOST_EDGES)
+    load = numbers_in(tables, of_loads, "p*", "p_star")
+    p_star = table.numbers.get("p*", 1.0)
+    on_axis = [load[1][0]*p_star*table.blocks[place].pbar_over_pstar for place in places]
+    length = numbers_in(tables, lambda table: [*cell_in_head(table)], "cell_x", "")
+    cell = [length[1][0]*side for side in cell_in_head(table)]
+    facts = put_scale("load", load, "p_bar", "mean pressure")
+    facts += array_of("load_of", [repr(number) for number in on_axis])
+    facts += array_of("block_of", [str(place) for place in places]) + [f"loads_shown = {len(places)}"]
+    facts += put_range("load", on_axis, up_to=load[1][0]*p_star)
+    facts += put_scale("length", length, "x_symbol") + [f"y_label = {length[0].label('y_symbol')}"]
+    facts += array_of("cell", [repr(side) for side in cell])
+    facts += [f"length_step = {step_of(max(1.5*min(cell), max(cell)))!r}"]
+    facts += edge_facts(table, [table.blocks[place].load for place in places], cell_in_head(table))
+    if len(cell) == 1:
+        return "contour_1d", (480, 320), facts
+    stretch = min(max(math.sqrt(cell[1]/cell[0]), 0.45), 2.2)
+    wide, tall = 300/stretch, 300*stretch
+    return "contour", (wide + 170, tall + 105), facts + [f"panel_wide = {wide!r}", f"panel_tall = {tall!r}"]
+
+
+def cell_in_head(table):
+    return [table.numbers[name] for name in ("cell_x", "cell_y") if name in table.numbers]
+
+
+def series(tables, beside, loads, folder):
+    """Coefficients: their sizes against the harmonic, coloured by the load."""
+    table = tables[0]
+    places = shown(table, loads, MOST_CURVES)
+    sizes = [abs(number) for number in table.column("pressure_over_pstar", places) if number]
+    facts = load_facts(table, places) + array_of("block_of", [str(place) for place in places])
+    facts += [f"dimension = {2 if any(table.column('j')) else 1}"]
+    # Coefficients of exactly zero are no less than the least that is shown.
+    top = max(sizes, default=1.0)
+    low = max(min(sizes, default=top/10), 1e-16*top)
+    highest = max(map(math.hypot, table.column("i"), table.column("j")))
+    facts += [f"least = {10.0**math.floor(math.log10(low))!r}", f"most = {10.0**math.ceil(math.log10(1.001*top))!r}"]
+    return "coefficients", (560, 340), facts + [f"highest = {highest!r}"]

@@ -1,0 +1,99 @@
+"""Variables of gnuplot that several kinds of pictures have: scales and ranges of axes, names of runs and of loads."""
+import math
+import os
+import sys
+
+from axes import Scale, axis, chosen, quoted
+
+REFERENCE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "outputs", "reference", "wave_2d.dat")
+# At most so many loads are shown as panels, as curves, or as edges of contact.
+MOST_PANELS, MOST_CURVES, MOST_EDGES = 4, 8, 20
+
+
+class CannotBeDrawn(ValueError):
+    """There is nothing to be shown."""
+
+
+def put_range(name, numbers, **kind):
+    low, high, step, wide = axis(numbers, **kind)
+    return [f"{name}_low = {low!r}", f"{name}_high = {high!r}", f"{name}_step = {step!r}", f"{name}_wide = {int(wide)}"]
+
+
+def array_of(name, words):
+    return [f"array {name}[{len(words)}] = [{', '.join(words)}]"]
+
+
+def numbers_in(tables, column, name, over, may_be_wide=False):
+    """The scale of a column of several tables, and the factor for each table.
+
+    column: gives the numbers of a table. name: of the number of the head by which they are divided if their unit has no
+    label. over: its symbol in gnuplot. may_be_wide: whether the axis may be logarithmic, then without powers of ten
+    in its label.
+    """
+    labels = {table.label(name) for table in tables}
+    unit = labels.pop() if len(labels) == 1 else ""
+    divisors = [1.0 if unit else table.numbers.get(name) or 0.0 for table in tables]
+    if not all(divisors):
+        over, divisors = "", [1.0]*len(tables)
+    numbers = [number/divisor for table, divisor in zip(tables, divisors) for number in column(table)]
+    most = max((abs(number) for number in numbers), default=0.0)
+    scale = Scale(1.0 if may_be_wide and axis(numbers)[-1] else most, unit, over)
+    return scale, [scale.factor/divisor for divisor in divisors]
+
+
+def put_scale(name, found, symbol, words=""):
+    scale, factors = found
+    return [f"{name}_label = {scale.label(symbol, words)}"] + array_of(f"{name}_factor", [repr(f) for f in factors])
+
+
+def of_column(name):
+    return lambda table: table.column(name)
+
+
+def of_loads(table):
+    """The mean pressures of the blocks."""
+    p_star = table.numbers.get("p*", 1.0)
+    return [p_star*block.pbar_over_pstar for block in table.blocks if math.isfinite(block.pbar_over_pstar)]
+
+
+def scaled(tables, factors, name):
+    return [number*factor for table, factor in zip(tables, factors) for number in table.column(name)]
+
+
+def names_of(tables):
+    """The names of the cases; with their folders where the names alone are the same."""
+    names = [os.path.basename(table.stem) for table in tables]
+    if len(set(names)) < len(names):
+        names = [os.path.join(*table.stem.split(os.sep)[-2:]) for table in tables]
+    # Bytes that are not UTF-8 cannot be shown.
+    return [name.encode("utf-8", "replace").decode("utf-8") for name in names]
+
+
+def titles(tables):
+    """The name above the picture, none if runs are compared, and the names of the runs."""
+    names = names_of(tables)
+    return [f"title_words = {quoted(names[0] if len(names) == 1 else '')}"] + \
+        array_of("run_names", [quoted(name) for name in names])
+
+
+def shown(table, loads, most):
+    """The places of the blocks to be shown. What is left out is said."""
+    if loads is not None:
+        places = [i for i, block in enumerate(table.blocks) if block.load in loads]
+        if not places:
+            raise CannotBeDrawn(f"it has none of the loads {', '.join(str(load) for load in loads)}")
+        return places
+    places = chosen(len(table.blocks), most)
+    if len(places) < len(table.blocks):
+        numbers = ",".join(str(table.blocks[i].load) for i in places)
+        print(f"plot: {table.path}: {len(places)} of its {len(table.blocks)} loads are shown, --loads {numbers}; "
+              "choose others with --loads", file=sys.stderr)
+    return places
+
+
+def load_facts(table, places):
+    """How many loads are shown, and what they are called."""
+    scale, factor = numbers_in([table], of_loads, "p*", "p_star")
+    p_star = table.numbers.get("p*", 1.0)
+    names = [scale.value("p_bar", factor[0]*p_star*table.blocks[i].pbar_over_pstar) for i in places]
+    return [f"loads_shown = {len(places)}"] + array_of("load_name", names)
