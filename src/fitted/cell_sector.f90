@@ -2,8 +2,8 @@
 !> mirror lines that are not beyond the border to its neighbours.
 !>
 !> The border is a chain of straight lines. Between spots that are mirror images of each other it is their mirror line.
-!> Neighbours on a rhombic lattice are each other's half-turn about the midpoint between them; there any line through the
-!> midpoint does, and one along the edge at its nearest point keeps clear of both.
+!> Neighbours on a rhombic lattice are each other's half-turn about the midpoint between them; there any line through
+!> the midpoint does, and one along the edge at its nearest point keeps clear of both.
 module wavycon_cell_sector
    use wavycon_constants, only: pi
    use wavycon_kinds, only: dp
