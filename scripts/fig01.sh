@@ -7,10 +7,10 @@ start_figure fig01 'Fig. 1, the profiles of a flat and a one-dimensional wave,' 
 run_decks fig01
 draw_figure 480 480 <<'EOF'
 # The gap of eq. (5) over the wavelengths shown, from that over half a wavelength.
-lines = table('fig01', 'lines')
+lines = table('fig01', 'theory_lines')
 bottom = -2.45
 top = 0.75
-unfold = 'plot for [k = -2:2] for [side = -1:1:2] lines index profile using (k + side*$4):(-$11) with lines'
+unfold = 'plot for [k = -2:2] for [side = -1:1:2] lines index profile using (k + side*column("x")):(-column("westergaard_gap_over_amplitude")) with lines'
 set xrange [-1.25:1.25]
 set yrange [bottom:top]
 set table $pieces
@@ -34,7 +34,8 @@ unset table
 set table $partial
 plot $pieces using 1:2 smooth unique with lines
 unset table
-stats table('fig01', 'theory') every ::2::2 using 3 nooutput
+stats table('fig01', 'theory') \
+   using (column("load") == 3 ? column("westergaard_contact_area_fraction") : NaN) nooutput
 contact = STATS_max   # 2a/lambda of the partial contact
 
 unset tics

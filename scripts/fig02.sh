@@ -7,8 +7,9 @@ start_figure fig02 'Fig. 2, the pressures of the one-dimensional wave,' "$@"
 run_decks fig02
 draw_figure 480 400 "edge_level = $(header_value fig02 lines 'edge_level[p*]')" <<'EOF'
 lines = table('fig02', 'lines')
+theory = table('fig02', 'theory_lines')
 dundurs_load = 0.4
-stats lines using 1 nooutput
+stats lines using "pbar_over_pstar" nooutput
 loads = STATS_blocks
 set xlabel '{/:Italic x}/'.lambda
 set ylabel p.'/'.p_star
@@ -21,9 +22,9 @@ set key top left samplen 3 font ',12'
 
 # A load is named under its crest, the highest beside it.
 do for [i = 0:loads - 1] {
-   stats lines index i using 9 nooutput
+   stats theory index i using "westergaard_pressure_over_pstar" nooutput
    crest = STATS_max
-   stats lines index i using 1 nooutput
+   stats lines index i using "pbar_over_pstar" nooutput
    if (i < loads - 1) {
       set label sprintf('%.1f', STATS_max) at 0, crest - 0.16 center font ',13'
    } else {
@@ -31,9 +32,12 @@ do for [i = 0:loads - 1] {
    }
 }
 
-plot for [i = 0:loads - 1] for [side = -1:1:2] lines index i using (side*$4):9 with lines ls 1, \
-     for [i = 0:loads - 1] for [side = -1:1:2] lines index i using (side*$4):6 with lines ls 2 lc rgb blue, \
-     for [side = -1:1:2] lines using (side*$4):(abs($1 - dundurs_load) < 1e-9 ? $12 : NaN) \
+plot for [i = 0:loads - 1] for [side = -1:1:2] theory index i \
+        using (side*column("x")):"westergaard_pressure_over_pstar" with lines ls 1, \
+     for [i = 0:loads - 1] for [side = -1:1:2] lines index i \
+        using (side*column("x")):"pressure_over_pstar" with lines ls 2 lc rgb blue, \
+     for [i = 0:loads - 1] for [side = -1:1:2] theory index i using (side*column("x")): \
+        (abs(column("pbar_over_pstar") - dundurs_load) < 1e-9 ? column("dundurs_pressure_over_pstar") : NaN) \
         with lines ls 3 lc rgb red, \
      edge_level with lines ls 3 lw 0.8, \
      NaN with lines ls 2 lc rgb blue title 'quadratic programming', \

@@ -12,7 +12,7 @@ set contour base
 set cntrparam levels incremental step, step, levels*step
 unset surface
 set table $contours
-splot table('fig04', 'map') using 2:3:4 with lines
+splot table('fig04', 'map') using "x":"y":"undeformed_gap" with lines
 unset table
 
 set style fill solid noborder
@@ -63,8 +63,11 @@ $dotted << EOD
 0.0 0.0
 0.5 0.5
 EOD
+# The map ends before its first row and column come again: the contours and their mirror images fill the cell.
+mirrored(k, x) = k > 0 ? x : 1 - x
 plot $triangle using 1:2 with filledcurves closed lc rgb '#e4e4e4', \
-     $contours using 1:2 with lines ls 5 title '{/:Italic h}/'.Delta, \
+     for [k = -1:1:2] for [l = -1:1:2] $contours using (mirrored(k, $1)):(mirrored(l, $2)) with lines ls 5, \
+     NaN with lines ls 5 title '{/:Italic h}/'.Delta, \
      $triangle using 1:2 with lines ls 1 lw 1.4, \
      $dotted using 1:2 with lines ls 4 lc rgb red lw 2.4, \
      $crests using 1:2 with points ls 11 ps 1.5*mark title 'crest', \

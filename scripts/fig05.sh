@@ -8,7 +8,7 @@ run_decks fig05 fig05_fine
 draw_figure 600 400 <<'EOF'
 lines = table('fig05', 'lines')
 fine = table('fig05_fine', 'lines')
-stats lines using 1 nooutput
+stats lines using "pbar_over_pstar" nooutput
 loads = STATS_blocks
 
 # Panels as wide as the lines that they show are long.
@@ -22,8 +22,9 @@ set mytics 5
 set xtics 0.1 format '%.1f'
 set mxtics 2
 set key at graph 0.5, 0.96 center top samplen 3
-pressures = 'for [i = 0:loads - 1] fine index i every :::block::block using 3:6 with lines ls 5,' \
-   .' for [i = 0:loads - 1] lines index i every :::block::block using 3:6 with lines ls 1'
+pressure = '"distance":"pressure_over_pstar"'
+pressures = 'for [i = 0:loads - 1] fine index i every :::block::block using @pressure with lines ls 5,' \
+   .' for [i = 0:loads - 1] lines index i every :::block::block using @pressure with lines ls 1'
 
 set multiplot
 set bmargin screen 0.16
@@ -49,9 +50,10 @@ set label 'saddle' at graph 0.5, 1.04 center
 set label 'crest' at graph 1, 1.04 right
 # A load is named over its curve's saddle.
 do for [i = 0:loads - 1] {
-   stats lines index i every :::1::1 using (abs($4 - 0.25) < 1e-6 ? $6 : NaN) nooutput
+   stats lines index i every :::1::1 \
+      using (abs(column("x") - 0.25) < 1e-6 ? column("pressure_over_pstar") : NaN) nooutput
    saddle = STATS_max
-   stats lines index i using 1 nooutput
+   stats lines index i using "pbar_over_pstar" nooutput
    if (i < loads - 1) {
       set label sprintf('%.1f', STATS_max) at graph 0.5, first saddle + 0.07 center font ',12'
    } else {

@@ -8,9 +8,16 @@ run_decks fig06 fig06_circles
 draw_figure 480 480 "edge_level = $(header_value fig06 contour 'edge_level[p*]')" <<'EOF'
 edges = table('fig06', 'contour')
 circles = table('fig06_circles', 'theory')
-stats edges using 1 nooutput
+stats edges using "load" nooutput
 loads = STATS_blocks
 array P[loads]
+# Before there are ranges, which would leave out values.
+do for [i = 0:loads - 1] {
+   stats edges index i using "load" nooutput
+   number = STATS_max
+   stats table('fig06', 'summary') using (column("load") == number ? column("pbar_over_pstar") : NaN) nooutput
+   P[i + 1] = STATS_max
+}
 
 load 'scripts/unit_cell.gp'
 set cbrange [0:1]
@@ -24,24 +31,30 @@ set key at graph 0.5, 1.01 center bottom samplen 3 font ',12.5'
 # or on its left.
 set style textbox opaque fillcolor rgb '#ffffff' noborder margins 0.3, 0.3
 do for [i = 0:loads - 1] {
-   stats edges index i using (abs($3) < 0.01 && abs($2) < 0.5 ? abs($2) : NaN) nooutput
+   stats edges index i \
+      using (abs(column("y")) < 0.01 && abs(column("x")) < 0.5 ? abs(column("x")) : NaN) nooutput
    r = STATS_mean
-   stats edges index i using 1 nooutput
-   P[i + 1] = STATS_max
    # The lightest load's would hide the circle beside its curve.
    aside = (i == 0 ? 0.022 : 0)
    set label sprintf('%.1f', P[i + 1]) at 0.5 + (i % 2 ? -r : r) + aside, 0.5 \
       center rotate by 90 front font ',10' boxed
 }
 
+# The circles of one load: contact spots of the first, open islands of the second.
+set datafile columnheaders
+of_load(number, value) = column('load') == number ? value : NaN
+contact(x) = of_load(1, x)
+island(x) = of_load(2, x)
+
 # The table has the edges of one cell; the next ones are a wavelength away.
 set style fill empty
-plot for [i = 0:loads - 1] for [k = 0:2] for [l = 0:2] edges index i using (k + $2):(l + $3) \
+plot for [i = 0:loads - 1] for [k = 0:2] for [l = 0:2] edges index i \
+        using (k + column("x")):(l + column("y")) \
         with lines lc palette cb P[i + 1] lw 1.4, \
-     for [k = 0:1] for [l = 0:1] circles every ::0::0 using (k):(l):12 with circles ls 4, \
-     circles every ::0::0 using (0.5):(0.5):12 with circles ls 4, \
-     for [k = 0:1] circles every ::1::1 using (k):(0.5):13 with circles ls 4, \
-     for [k = 0:1] circles every ::1::1 using (0.5):(k):13 with circles ls 4, \
+     for [k = 0:1] for [l = 0:1] circles using (contact(k)):(l):"hertz_radius" with circles ls 4, \
+     circles using (contact(0.5)):(0.5):"hertz_radius" with circles ls 4, \
+     for [k = 0:1] circles using (island(k)):(0.5):"crack_radius" with circles ls 4, \
+     for [k = 0:1] circles using (island(0.5)):(k):"crack_radius" with circles ls 4, \
      NaN with lines lc palette cb P[loads] lw 1.4 \
         title sprintf('%s = %.1f %s, %s = %.1f to %.1f', p, edge_level, p_star, load, P[1], P[loads]), \
      NaN with lines ls 4 title sprintf('(23) at %.1f, (24) at %.1f', P[1], P[loads])

@@ -16,13 +16,15 @@ set ytics 0.2 format '%.1f'
 set mxtics 2
 set mytics 2
 set key bottom right
-stats curves using 2 nooutput
+stats curves using "hertz_contact_area_fraction" nooutput
 set label '(23)' at 0.97, STATS_max offset 0, -1.6 right
-stats curves using 3 nooutput
+stats curves using "crack_contact_area_fraction" nooutput
 set label '(24)' at 0.03, STATS_min offset 0, 1.6 left
-plot curves using 1:2 with lines ls 2, \
-     curves using 1:3 with lines ls 2 title 'asymptotes (23), (24)', \
-     table('fig07', 'summary') using 1:5 with points ls 12 \
-        title sprintf('numerical, %s ≥ %.1f %s', p, edge_level, p_star), \
-     'inputs/reference_2d.dat' using 1:3 with points ls 14 title 'converged, other methods'
+plot curves using "pbar_over_pstar":"hertz_contact_area_fraction" with lines ls 2, \
+     curves using "pbar_over_pstar":"crack_contact_area_fraction" with lines ls 2 title 'asymptotes (23), (24)', \
+     'outputs/reference/wave_2d.dat' using "pbar_over_pstar":"contact_area_fraction" with lines ls 31 title 'converged', \
+     'inputs/reference_2d.dat' using "pbar_over_pstar":"contact_area_fraction" with points ls 14 \
+        title 'converged, other methods', \
+     table('fig07', 'summary') using "pbar_over_pstar":"contact_area_fraction" with points ls 13 \
+        title sprintf('numerical, %s ≥ %.1f %s', p, edge_level, p_star)
 EOF

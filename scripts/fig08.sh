@@ -8,6 +8,7 @@ run_decks fig07 fig07_curves
 draw_figure 480 380 <<'EOF'
 curves = table('fig07_curves', 'theory')
 numerical = table('fig07', 'summary')
+converged = 'outputs/reference/wave_2d.dat'
 independent = 'inputs/reference_2d.dat'
 set multiplot
 set xlabel load
@@ -21,11 +22,16 @@ set mytics 2
 set key top right
 set label '(29)' at 0.21, 0.02 right
 set label '(30)' at 0.02, 0.145 left
-plot curves using 1:4 with lines ls 2, \
-     curves using 1:6 with lines ls 2 title 'asymptotes (29), (30)', \
-     curves using 1:($1 < 0.5 ? $5 : NaN) with lines ls 5 title '(29), the whole lattice', \
-     numerical using 1:3 with points ls 13 title 'numerical, equation (28)', \
-     independent using 1:2 with points ls 14 title 'converged, other methods'
+set datafile columnheaders
+P = "pbar_over_pstar"
+gap = "mean_gap_over_amplitude"
+plot curves using P:"light_eq29_mean_gap_over_amplitude" with lines ls 2, \
+     curves using P:"crack_mean_gap_over_amplitude" with lines ls 2 title 'asymptotes (29), (30)', \
+     curves using P:(column(P) < 0.5 ? column("light_lattice_mean_gap_over_amplitude") : NaN) \
+        with lines ls 5 title '(29), the whole lattice', \
+     converged using P:gap with lines ls 31 title 'converged', \
+     independent using P:gap with points ls 14 title 'converged, other methods', \
+     numerical using P:gap with points ls 13 title 'numerical, equation (28)'
 
 # The end of the curve, enlarged.
 set origin 0.45, 0.24
@@ -39,8 +45,9 @@ set yrange [-0.002:0.02]
 set xtics 0.1 font ',11'
 set ytics 0, 0.01 format '%.2f' font ',11'
 plot 0 with lines ls 5, \
-     curves using 1:6 with lines ls 2, \
-     numerical using 1:3 with points ls 13, \
-     independent using 1:2 with points ls 14
+     curves using P:"crack_mean_gap_over_amplitude" with lines ls 2, \
+     converged using P:gap with lines ls 31, \
+     independent using P:gap with points ls 14, \
+     numerical using P:gap with points ls 13
 unset multiplot
 EOF

@@ -7,10 +7,11 @@ start_figure figA1 'Fig. A1, the penny-shaped crack of radius b,' "$@"
 run_decks figA1 figA1_paper
 draw_figure 480 480 <<'EOF'
 lines = table('figA1', 'lines')
+theory = table('figA1', 'theory_lines')
 paper = table('figA1_paper', 'lines')
-stats table('figA1', 'theory') using 1 nooutput
+stats table('figA1', 'theory') using "pbar_over_pstar" nooutput
 load_shown = STATS_max
-stats table('figA1', 'theory') using 13 nooutput
+stats table('figA1', 'theory') using "crack_radius" nooutput
 b = STATS_max
 trough = 0.5
 
@@ -30,8 +31,8 @@ set ytics -0.05, 0.05 format '%.2f'
 set arrow from -b, graph 0 to -b, first 0.02 arrowstyle 2
 set arrow from b, graph 0 to b, first 0.02 arrowstyle 2
 set xzeroaxis lc rgb grey lw 0.5 lt 1 dt solid
-plot for [side = -1:1:2] lines every :::0::0 \
-        using (side*(trough - $4)):($10 == 0 ? NaN : $10) with lines ls 1, \
+plot for [side = -1:1:2] theory every :::0::0 using (side*(trough - column("x"))): \
+        (column("crack_pressure_over_pstar") == 0 ? NaN : column("crack_pressure_over_pstar")) with lines ls 1, \
      NaN with lines ls 1 title 'equation (A4)'
 
 unset title
@@ -48,9 +49,11 @@ set arrow from 0, -0.011 to b, -0.011 arrowstyle 1
 set label '{/:Italic b}' at -b/2, -0.0072 center
 set label '{/:Italic b}' at b/2, -0.0072 center
 plot for [side = -1:1:2] lines every 8:::0::0 \
-        using (side*(trough - $4)):8 with points ls 11 lc rgb red ps 0.8*mark, \
-     for [side = -1:1:2] paper every :::0::0 using (side*(trough - $4)):8 with lines ls 2 lc rgb blue, \
-     for [side = -1:1:2] lines every :::0::0 using (side*(trough - $4)):11 with lines ls 1, \
+        using (side*(trough - column("x"))):"gap_over_amplitude" with points ls 11 lc rgb red ps 0.8*mark, \
+     for [side = -1:1:2] paper every :::0::0 \
+        using (side*(trough - column("x"))):"gap_over_amplitude" with lines ls 2 lc rgb blue, \
+     for [side = -1:1:2] theory every :::0::0 \
+        using (side*(trough - column("x"))):"crack_gap_over_amplitude" with lines ls 1, \
      NaN with lines ls 1 title 'equation (A6)', \
      NaN with lines ls 2 lc rgb blue title 'numerical, to the 9th harmonic', \
      NaN with points ls 11 lc rgb red ps 0.8*mark title 'numerical, to the 60th'

@@ -82,6 +82,11 @@ draw_figure() {
    trap 'rm -f "$aside"' EXIT
    # -d: without the user's own gnuplot settings. UTF-8 in any locale, for the labels.
    LC_ALL=C.UTF-8 gnuplot -d -e "$settings; picture = '$aside'" scripts/figure_style.gp /dev/stdin
+   # Some programs drop the blanks where a text of an svg changes its face, unless it asks for them.
+   if [ "$format" = svg ]; then
+      sed 's/<text>/<text xml:space="preserve">/' "$aside" >"$aside.part"
+      mv "$aside.part" "$aside"
+   fi
    mv "$aside" "$picture"
    printf '%s\n' "$PWD/$picture"
 }

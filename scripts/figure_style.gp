@@ -28,6 +28,8 @@ black = '#000000'
 grey = '#8c8c8c'
 blue = '#0065a3'
 red = '#c8500a'
+green = '#0b7a3b'
+violet = '#9c5fa0'
 body = '#d9d9d9'
 
 # The line styles of the captions.
@@ -41,6 +43,16 @@ set style line 11 lc rgb black lw 1.0 pt 6 ps mark
 set style line 12 lc rgb black lw 1.0 pt 7 ps mark
 set style line 13 lc rgb black lw 1.2 pt 2 ps mark
 set style line 14 lc rgb red lw 1.2 pt 1 ps 1.1*mark
+
+# Colours and dashes for runs and for closed forms; 31 is that of converged values.
+set style line 31 lc rgb blue lw 1.3 dt solid pt 7 ps 0.7*mark
+set style line 32 lc rgb red lw 1.3 dt (7, 3) pt 5 ps 0.65*mark
+set style line 33 lc rgb green lw 1.3 dt (2.5, 2.5) pt 9 ps 0.8*mark
+set style line 34 lc rgb black lw 1.3 dt (9, 3, 2, 3) pt 11 ps 0.8*mark
+set style line 35 lc rgb violet lw 1.3 dt (5, 5) pt 13 ps 0.8*mark
+set style line 36 lc rgb grey lw 1.6 dt solid pt 6 ps 0.8*mark
+set style line 37 lc rgb '#a67c00' lw 1.3 dt solid pt 4 ps 0.65*mark
+set style line 38 lc rgb '#5ab4e0' lw 1.3 dt (7, 3) pt 8 ps 0.8*mark
 
 # From light loads, pale, to heavy ones.
 set palette defined (0 '#7fb8de', 0.5 '#2f6fb0', 1 '#08204a')

@@ -8,7 +8,7 @@ set -eu
 . "$(dirname "$0")/figure_common.sh"
 start_figure fits 'errors of fits and asymptotes of the two-dimensional wave' "$@"
 run_decks fits
-# A row of the summary, 15 columns, and the theory's row of the same load beside it.
+# Each row of the summary, names first, and the theory's row of the same load beside it.
 awk '/^#/ { next } NR == FNR { row[++rows] = $0; next } { print row[++joined], $0 }' \
    outputs/fits/fits.summary.dat outputs/fits/fits.theory.dat >outputs/fits/fits.joined
 draw_figure 640 320 <<'EOF'
@@ -19,6 +19,11 @@ area_fit(p, a1, a2) = p < 0.8 ? a1*(1 - p**1.51) + a2*p**1.04 : a2
 # Rostami and Jackson.
 gap_fit(p) = (1 - sqrt(p))**2.5
 error(formula, exact) = abs(formula/exact - 1)
+area(formula) = error(formula, column('contact_area_fraction'))
+gap(formula) = error(formula, column('mean_gap_over_amplitude'))
+up_to(most, value) = column('pbar_over_pstar') < most ? value : NaN
+set datafile columnheaders
+P = 'pbar_over_pstar'
 
 # Where a curve dips the error changes its sign. The asymptotes at light load mean nothing near closure.
 set multiplot layout 1, 2 margins 0.11, 0.975, 0.17, 0.89 spacing 0.12, 0
@@ -32,17 +37,21 @@ set ytics 10 format '10^{%T}'
 set key bottom center samplen 2.5 spacing 1.0 font ',10'
 set ylabel 'relative error' offset 0.4, 0
 set title 'contact area {/:Italic A}_{real}' offset 0, -0.5
-plot joined using 1:(error($17, $5)) with lines ls 2 title '(23)', \
-     '' using 1:(error($22, $5)) with lines lc rgb blue lw 1.1 dt (7, 4) title '(23), longer', \
-     '' using 1:(error($18, $5)) with lines ls 1 title '(24)', \
-     '' using 1:(error($24, $5)) with lines lc rgb blue lw 1.1 title '(24), longer', \
-     '' using 1:(error(area_fit($1, $17, $18), $5)) with lines lc rgb red lw 1.4 title 'Jackson and Streator'
+A_1 = 'hertz_contact_area_fraction'
+A_2 = 'crack_contact_area_fraction'
+plot joined using P:(area(column(A_1))) with lines ls 2 title '(23)', \
+     '' using P:(area(column('light_longer_contact_area_fraction'))) with lines ls 31 dt (7, 4) title '(23), longer', \
+     '' using P:(area(column(A_2))) with lines ls 1 title '(24)', \
+     '' using P:(area(column('closure_longer_contact_area_fraction'))) with lines ls 31 title '(24), longer', \
+     '' using P:(area(area_fit(column(P), column(A_1), column(A_2)))) with lines ls 32 dt solid \
+        title 'Jackson and Streator'
 unset ylabel
 set title 'mean gap {/:Italic G}'
-plot joined using 1:($1 < 0.5 ? error($19, $3) : NaN) with lines ls 2 title '(29)', \
-     '' using 1:($1 < 0.5 ? error($20, $3) : NaN) with lines ls 4 title '(29), the whole lattice', \
-     '' using 1:(error($23, $3)) with lines lc rgb blue lw 1.1 dt (7, 4) title '(29), longer', \
-     '' using 1:(error($21, $3)) with lines ls 1 title '(30)', \
-     '' using 1:(error($25, $3)) with lines lc rgb blue lw 1.1 title '(30), longer', \
-     '' using 1:(error(gap_fit($1), $3)) with lines lc rgb red lw 1.4 title 'Rostami and Jackson'
+plot joined using P:(up_to(0.5, gap(column('light_eq29_mean_gap_over_amplitude')))) with lines ls 2 title '(29)', \
+     '' using P:(up_to(0.5, gap(column('light_lattice_mean_gap_over_amplitude')))) with lines ls 4 \
+        title '(29), the whole lattice', \
+     '' using P:(gap(column('light_longer_mean_gap_over_amplitude'))) with lines ls 31 dt (7, 4) title '(29), longer', \
+     '' using P:(gap(column('crack_mean_gap_over_amplitude'))) with lines ls 1 title '(30)', \
+     '' using P:(gap(column('closure_longer_mean_gap_over_amplitude'))) with lines ls 31 title '(30), longer', \
+     '' using P:(gap(gap_fit(column(P)))) with lines ls 32 dt solid title 'Rostami and Jackson'
 unset multiplot

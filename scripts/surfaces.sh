@@ -5,7 +5,11 @@ set -eu
 . "$(dirname "$0")/figure_common.sh"
 start_figure surfaces 'contact pressures of four surfaces that are none' "$@"
 run_decks surface_rectangular surface_hexagonal surface_sum surface_rough
-draw_figure 620 170 <<'END'
+for case in surface_rectangular surface_hexagonal surface_sum surface_rough; do
+   facts="${facts-} $(header_value $case map 'cell_x[length]') $(header_value $case map 'cell_y[length]')"
+   facts="$facts $(header_value $case map 'p*[pressure]')"
+done
+draw_figure 620 170 "facts = '$facts'" <<'END'
 cases = 'surface_rectangular surface_hexagonal surface_sum surface_rough'
 names = '"wavelengths 1 and 2" "hexagonal" "sum of three waves" "rough, from a file"'
 
@@ -19,10 +23,9 @@ set multiplot layout 1, 4 margins 0.02, 0.87, 0.08, 0.86 spacing 0.03, 0
 do for [i = 1:words(cases)] {
    map = table(word(cases, i), 'map')
    edges = table(word(cases, i), 'contour')
-   stats map using 2 nooutput
-   wide = STATS_max
-   stats map using 3 nooutput
-   tall = STATS_max
+   wide = real(word(facts, 3*i - 2))
+   tall = real(word(facts, 3*i - 1))
+   p_star_here = real(word(facts, 3*i))
    side = wide > tall ? wide : tall
    set xrange [0:side]
    set yrange [0:side]
@@ -35,8 +38,10 @@ do for [i = 1:words(cases)] {
    }
    set title word(names, i) font ',12' offset 0, -0.4
    # The cell of the tables, drawn as often as the window holds it.
-   plot for [k = 0:1] for [l = 0:1] map using (k*wide + $2):(l*tall + $3):($5 > 0 ? $5 : 0) with image, \
-        for [k = -2:2] for [l = -2:2] edges using (k*wide + $2):(l*tall + $3) with lines lc rgb '#303338' lw 0.7
+   plot for [k = 0:2] for [l = 0:2] map \
+           using (k*wide + column("x")):(l*tall + column("y")):(column("pressure")/p_star_here) with image, \
+        for [k = -2:2] for [l = -2:2] edges \
+           using (k*wide + column("x")):(l*tall + column("y")) with lines lc rgb '#303338' lw 0.7
 }
 unset multiplot
 END

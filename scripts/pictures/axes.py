@@ -47,7 +47,7 @@ class Scale:
         """A gnuplot expression for the label; symbol: the name of gnuplot's variable that holds it."""
         parts = [quoted(words + " ")] if words else []
         if self.power and not self.unit:
-            parts.append(quoted(f"{ten_to(-self.power)} "))
+            parts.append(quoted(ten_to(-self.power) + " "))
         parts.append(symbol)
         if self.over:
             parts.append("'/'." + self.over)
@@ -81,7 +81,7 @@ def axis(numbers, may_be_wide=True, up_to=None):
     low, high = min(numbers), max(numbers)
     positive = sorted(number for number in numbers if number > 0)
     if may_be_wide and low >= 0 and positive and high > WIDE*positive[0] and \
-            positive[len(positive)//2] < CROWDED*high:
+            positive[(len(positive) - 1)//2] < CROWDED*high:
         low, high = positive[0]/1.6, high*1.6
         return low, high, 10.0**math.ceil(math.log10(high/low)/5), True
     if low > 0.6*high and low < high:

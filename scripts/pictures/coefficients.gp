@@ -5,11 +5,11 @@ set logscale y
 set yrange [least:most]
 set xrange [0:highest + 0.5]
 set format y '10^{%T}'
-set ylabel 'coefficient  |'.(dimension == 1 ? '{/:Italic A_i}' : '{/:Italic A_{ij}}').'|/'.p_star
-set xlabel 'harmonic  '.(dimension == 1 ? '{/:Italic i}' : '({/:Italic i}^2 + {/:Italic j}^2)^{1/2}')
-set lmargin at screen 0.14
+set ylabel 'coefficient |'.(dimension == 1 ? '{/:Italic A_i}' : '{/:Italic A_{ij}}').'|/'.p_star
+set xlabel 'harmonic '.(dimension == 1 ? '{/:Italic i}' : '({/:Italic i}^2 + {/:Italic j}^2)^{1/2}')
+set lmargin at screen 0.15
 set rmargin at screen 0.72
-set bmargin at screen 0.17
+set bmargin at screen 0.2
 set key at graph 1.03, 1 left top samplen 1.5
 set title title_words noenhanced font ',15' offset 0, -0.3
 plot for [i = 1:loads_shown] run(1) index block_of[i] using (sqrt(column('i')**2 + column('j')**2)): \

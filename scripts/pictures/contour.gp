@@ -10,14 +10,14 @@ set xtics length_step
 set ytics length_step
 set xlabel length_label
 set ylabel y_label
-set lmargin at screen 65.0/width
-set rmargin at screen (65 + panel_wide)/width
-set bmargin at screen 52.0/height
-set tmargin at screen (52 + panel_tall)/height
+set lmargin at screen 72.0/width
+set rmargin at screen (72 + panel_wide)/width
+set bmargin at screen 66.0/height
+set tmargin at screen (66 + panel_tall)/height
 set title title_words noenhanced font ',15' offset 0, -0.3
 set cbrange [load_low:load_high]
 if (load_wide) { set logscale cb; set format cb '10^{%T}' }
-set colorbox user origin screen (65 + panel_wide + 14)/width, screen (52 + 0.1*panel_tall)/height \
+set colorbox user origin screen (72 + panel_wide + 14)/width, screen (66 + 0.1*panel_tall)/height \
    size screen 12.0/width, screen 0.8*panel_tall/height
 set cblabel load_label
 set cbtics font small offset -0.5, 0

@@ -68,13 +68,19 @@ def scaled(tables, factors, name):
     return [number*factor for table, factor in zip(tables, factors) for number in table.column(name)]
 
 
-def titles(stems):
+def names_of(tables):
     """The names of the cases; with their folders where the names alone are the same."""
-    names = [os.path.basename(stem) for stem in stems]
+    names = [os.path.basename(table.stem) for table in tables]
     if len(set(names)) < len(names):
-        names = [os.path.join(*stem.split(os.sep)[-2:]) for stem in stems]
-    words = names[0] if len(names) == 1 else ""
-    return [f"title_words = {quoted(words)}"] + array_of("run_names", [quoted(name) for name in names])
+        names = [os.path.join(*table.stem.split(os.sep)[-2:]) for table in tables]
+    return names
+
+
+def titles(tables):
+    """The name above the picture, none if runs are compared, and the names of the runs."""
+    names = names_of(tables)
+    return [f"title_words = {quoted(names[0] if len(names) == 1 else '')}"] + \
+        array_of("run_names", [quoted(name) for name in names])
 
 
 def shown(table, loads, most):
@@ -129,14 +135,23 @@ def summary(tables, beside, loads, folder):
     facts += array_of("p_star_of", [repr(table.numbers.get("p*", 0.0)) for table in tables])
     facts += array_of("Delta_of", [repr(table.numbers.get("Delta", 0.0)) for table in tables])
     codes = [code for table in tables for code in table.column("status_code")]
-    facts += [f"inaccurate = {codes.count(10)}", f"unsolved = {sum(code > 10 for code in codes)}"]
     # The paper's series is shown beside converged values: its waves have one shape, whatever their size.
     reference = ""
     if len(tables) == 1 and first.method == "beale":
         reference = "table" if "cell_y" in first.numbers else "closed form"
     # gnuplot wants the file even if it plots nothing of it.
     os.symlink(os.path.realpath(REFERENCE), os.path.join(folder, "reference"))
-    return "summary", (760, 280), facts + [f"reference = '{reference}'"]
+    entries = []
+    if reference:
+        entries += [("lines ls 31", "converged" if reference == "table" else "closed form"),
+                    ("points ls 11", "the paper's series")]
+    if len(tables) > 1:
+        entries += [(f"linespoints ls {30 + r}", name) for r, name in enumerate(names_of(tables), 1)]
+    entries += [("points ls 42", "not accurate")] if 10 in codes else []
+    entries += [("points ls 41", "not solved")] if any(code > 10 for code in codes) else []
+    key = "".join(f", keyentry with {style} title key_title[{k}] noenhanced" for k, (style, _) in enumerate(entries, 1))
+    facts += array_of("key_title", [quoted(words) for _, words in entries] or ["''"])
+    return "summary", (780, 300), facts + [f"reference = '{reference}'", f"key_entries = {quoted(key)}"]
 
 
 def matched(tables, loads, most):
@@ -175,7 +190,7 @@ def lines(tables, beside, loads, folder):
     """Lines, and closed forms along lines, alone or with the lines."""
     first, solved = tables[0], tables[0].kind == "lines"
     theory = beside.get("theory_lines") if solved else first
-    dimension = int(max(first.column("line")))
+    dimension = min(int(max(table.column("line"))) for table in tables)
     forms = ALONG_LINES[dimension]
 
     def in_units(column, unit, names):
@@ -212,7 +227,7 @@ def lines(tables, beside, loads, folder):
     if solved and not theory:
         # gnuplot wants the file even if it plots nothing of it.
         os.symlink(os.path.abspath(first.path), os.path.join(folder, "theory_lines"))
-    return "lines", (420 if dimension == 1 else 700, 420), facts
+    return "lines", (430 if dimension == 1 else 710, 430), facts
 
 
 
@@ -237,7 +252,7 @@ def fields(tables, beside, loads, folder):
         columns, rows = write_closed(table, place, os.path.join(folder, f"map{number}"))
     facts += [f"columns = {columns}", f"rows = {rows}"]
     if height == 1:
-        return "map_1d", (420, 420), facts
+        return "map_1d", (430, 430), facts
     facts += edge_facts(beside.get("contour"), [table.blocks[place].load for place in places], cell_of(table))
     if "contour" not in beside:
         # gnuplot wants the file even if it plots nothing of it.
@@ -247,7 +262,7 @@ def fields(tables, beside, loads, folder):
     wide, tall = 150/stretch, 150*stretch
     across = 2 if len(places) == 1 else len(places)
     down = 1 if len(places) == 1 else 2
-    size = (60 + across*(wide + 16) + 75 + (75 if down == 1 else 0), 46 + down*(tall + 16) + 46)
+    size = (70 + across*(wide + 16) + 75 + (75 if down == 1 else 0), 46 + down*(tall + 16) + 60)
     return "map", size, facts + [f"panel_wide = {wide!r}", f"panel_tall = {tall!r}"]
 
 
@@ -316,7 +331,7 @@ def edges(tables, beside, loads, folder):
     facts += edge_facts(table, [table.blocks[place].load for place in places], cell_in_head(table))
     stretch = min(max(math.sqrt(cell[1]/cell[0]), 0.45), 2.2)
     wide, tall = 300/stretch, 300*stretch
-    return "contour", (wide + 160, tall + 90), facts + [f"panel_wide = {wide!r}", f"panel_tall = {tall!r}"]
+    return "contour", (wide + 170, tall + 105), facts + [f"panel_wide = {wide!r}", f"panel_tall = {tall!r}"]
 
 
 def cell_in_head(table):
@@ -333,7 +348,7 @@ def series(tables, beside, loads, folder):
     # Coefficients of exactly zero are no less than the least that is shown.
     top = max(sizes, default=1.0)
     low = max(min(sizes, default=top/10), 1e-16*top)
-    return "coefficients", (560, 320), facts + [f"least = {10.0**math.floor(math.log10(low))!r}",
+    return "coefficients", (560, 340), facts + [f"least = {10.0**math.floor(math.log10(low))!r}",
                                                 f"most = {10.0**math.ceil(math.log10(1.001*top))!r}",
                                                 f"highest = {max(map(math.hypot, table.column('i'), table.column('j')))!r}"]
 
@@ -376,7 +391,7 @@ def theory(tables, beside, loads, folder):
     facts += [f"solved = {int('summary' in beside)}", f"many = {int(len(table.column('pbar_over_pstar')) > 30)}"]
     if "summary" not in beside:
         os.symlink(os.path.realpath(REFERENCE), os.path.join(folder, "summary"))
-    return "theory", (860, 370), facts
+    return "theory", (860, 400), facts
 
 
 # Quantities of details: column, label as gnuplot's expression.
@@ -409,7 +424,7 @@ def details(tables, beside, loads, folder):
     errors = [error for name, _ in DETAILS for error in table.column(name + "_error") if error > 0]
     facts += [f"error_low = {10.0**math.floor(math.log10(max(min(errors, default=0.1), 1e-18)))!r}",
               f"error_high = {10.0**math.ceil(math.log10(max(errors, default=0.5)))!r}"]
-    return "details", (760, 680), facts
+    return "details", (780, 700), facts
 
 
 COMPANIONS = {"lines": ("theory_lines",), "map": ("contour",), "theory": ("summary",)}

@@ -19,7 +19,7 @@ shade(i) = loads_shown == 1 ? 0.6 : (i - 1.0)/(loads_shown - 1)
 set cbrange [0:1]
 if (solved) { set style line 43 lw 1.2 dt (4, 3) } else { set style line 43 lw 1.5 dt solid }
 
-left = dimension == 1 ? 0.14 : 0.09
+left = dimension == 1 ? 0.16 : 0.097
 right = dimension == 1 ? 0.7 : 0.8
 between = dimension == 1 ? 0 : 0.03
 unit = (right - left - between)/(dimension == 1 ? longest[1] : longest[1] + longest[2])
@@ -30,8 +30,8 @@ if (runs == 1) { set label 1 title_words noenhanced at screen 0.5*(left + right)
 set multiplot
 set xtics length_step
 do for [row = 1:2] {
-   set tmargin at screen (row == 1 ? 0.92 : 0.51)
-   set bmargin at screen (row == 1 ? 0.545 : 0.135)
+   set tmargin at screen (row == 1 ? 0.92 : 0.52)
+   set bmargin at screen (row == 1 ? 0.555 : 0.155)
    set yrange [low[row]:high[row]]
    set ytics step[row]
    set format x (row == 1 ? '' : '%g')

@@ -19,7 +19,7 @@ set size ratio -1
 # Panels side by side for one load, otherwise pressures above gaps.
 beside = loads_shown == 1
 down(n) = beside ? 0 : n - 1
-start(i, n) = (60 + (beside ? (n - 1)*(panel_wide + 91) : (i - 1)*(panel_wide + 16)))/width
+start(i, n) = (70 + (beside ? (n - 1)*(panel_wide + 91) : (i - 1)*(panel_wide + 16)))/width
 top(n) = 1 - (46 + down(n)*(panel_tall + 16))/height
 lowest = beside ? 0 : 1
 set multiplot

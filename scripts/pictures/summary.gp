@@ -33,9 +33,13 @@ set xtics load_step
 if (load_wide) { set mxtics (load_step > 10 ? 1 : 10) }
 set format x (format_of(load_wide))
 unset key
-set multiplot layout 1, 3 margins 0.08, 0.985, 0.2, 0.87 spacing 0.092, 0
-set label 1 title_words noenhanced at screen 0.5, 0.95 center font ',15'
+set bmargin at screen 0.225
+set tmargin at screen 0.875
+set multiplot
+set label 1 title_words noenhanced at screen 0.09, 0.955 left font ',15'
 do for [n = 1:3] {
+   set lmargin at screen 0.09 + 0.33*(n - 1)
+   set rmargin at screen 0.325 + 0.33*(n - 1)
    set ylabel label_of[n]
    unset logscale y
    set yrange [low[n]:high[n]]
@@ -43,21 +47,32 @@ do for [n = 1:3] {
    set ytics step[n]
    if (wide[n]) { set mytics (step[n] > 10 ? 1 : 10) } else { unset mytics }
    set format y (format_of(wide[n]))
-   if (n == 2) { set key top right samplen 1.8 } else { unset key }
    if (n == 2) { unset label 1 }
    # Each loop runs once or never: a reference, a key.
    plot for [k = 1:reference eq 'table'] folder.'/reference' using (one*column('pbar_over_pstar')): \
-           (factor(n, 1)*unit_of_error(n, 1)*column(of_reference[n])) with lines ls 31 title 'converged', \
+           (factor(n, 1)*unit_of_error(n, 1)*column(of_reference[n])) with lines ls 31, \
         for [k = 1:reference eq 'closed form'] [P = 0:1] '+' using (one*P): \
-           (factor(n, 1)*unit_of_error(n, 1)*closed_form(n, P)) with lines ls 31 title 'closed form', \
+           (factor(n, 1)*unit_of_error(n, 1)*closed_form(n, P)) with lines ls 31, \
         for [r = 1:joined] run(r) using (code(0) <= 10 ? x(r) : NaN):(y(n, r)) smooth unique with lines ls 30 + r, \
         for [r = 1:runs == 1] run(r) using (x(r)):(y(n, r) - error(n, r)):(0):(2*error(n, r)) with vectors ls 31 nohead, \
         for [r = 1:runs] run(r) using (code(0) < 10 ? x(r) : NaN):(y(n, r)) with points ls joined ? 30 + r : 11, \
         for [r = 1:runs] run(r) using (code(0) > 10 ? x(r) : NaN):(y(n, r)) with points ls 41, \
-        for [r = 1:runs] run(r) using (code(0) == 10 ? x(r) : NaN):(y(n, r)) with points ls 42, \
-        for [k = 1:joined == 0] NaN with points ls 11 title 'the paper''s series', \
-        for [r = 1:runs > 1 ? runs : 0] NaN with linespoints ls 30 + r title run_names[r] noenhanced, \
-        for [k = 1:inaccurate > 0] NaN with points ls 42 title 'not accurate', \
-        for [k = 1:unsolved > 0] NaN with points ls 41 title 'not solved'
+        for [r = 1:runs] run(r) using (code(0) == 10 ? x(r) : NaN):(y(n, r)) with points ls 42
 }
+
+# The key, whose entries are in key_entries, in a plot of nothing that is as wide as the picture, beside the title; runs that are compared have no title.
+set lmargin at screen 0.02
+set rmargin at screen 0.985
+set bmargin at screen 0.9
+set tmargin at screen 0.99
+unset border
+unset tics
+unset grid
+unset xlabel
+unset ylabel
+unset logscale
+set xrange [0:1]
+set yrange [0:1]
+set key at screen 0.985, 0.955 right center horizontal maxrows 1 samplen 2 width 1
+plot NaN @key_entries
 unset multiplot

@@ -50,7 +50,7 @@ class Table:
     """
 
     def __init__(self, path):
-        self.path = path
+        self.path = str(path)
         self.names, self.blocks = [], []
         self.numbers, self.units, self.surface, self.method = {}, {}, "", ""
         self.points = self.skip = self.endian = None   # of a map in numpy's format
@@ -123,6 +123,12 @@ class Table:
             block.load = load + 1
             block.columns = {name: numbers[i::len(self.names)] for i, name in enumerate(self.names)}
             self.blocks.append(block)
+
+    @property
+    def stem(self):
+        """The name of the file without kind and ending."""
+        stem = self.path[:-4] if self.path.endswith((".dat", ".npy")) else self.path
+        return stem[:-len(self.kind) - 1] if stem.endswith("." + self.kind) else stem
 
     def take_head(self, summary):
         """Takes what the summary of the same run says: a map in numpy's format has no head."""

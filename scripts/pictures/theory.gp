@@ -15,10 +15,10 @@ solved_style = many ? 'lines ls 36 lw 2.5' : 'points ls 11'
 set multiplot
 set label 1 title_words noenhanced at screen 0.5, 0.955 center font ',15'
 do for [n = 1:3] {
-   set lmargin at screen 0.075 + 0.325*(n - 1)
+   set lmargin at screen 0.085 + 0.325*(n - 1)
    set rmargin at screen 0.325 + 0.325*(n - 1)
-   set tmargin at screen 0.66
-   set bmargin at screen 0.17
+   set tmargin at screen 0.62
+   set bmargin at screen 0.18
    set key at graph -0.02, 1.03 left bottom font ',10.5' spacing 1.05 samplen 2.4
    unset logscale y
    set yrange [low[n]:high[n]]
@@ -33,5 +33,4 @@ do for [n = 1:3] {
            with @solved_style title 'solved'
    unset label 1
 }
-unsolved_style = many ? 'lines ls 36 lw 2.5' : 'points ls 11'
-set multiplot
+unset multiplot

@@ -137,7 +137,7 @@ contains
                    maxval(self%points)/2**(levels + 1) >= least_search_points)
             levels = levels + 1
          end do
-      else
+      else if (self%accuracy > 0.0_dp) then
          do while (self%accuracy*10.0_dp**levels < worst_search_accuracy)
             levels = levels + 1
          end do

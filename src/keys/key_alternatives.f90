@@ -28,15 +28,17 @@ contains
       logical, intent(in), optional :: required
       type(key_type) :: key
 
+      character(name_length) :: names(size(alternatives))
       character(:), allocatable :: meanings
       integer :: i
 
       meanings = ''
       do i = 1, size(alternatives)
+         names(i) = alternatives(i)%name
          if (i > 1) meanings = meanings//' '
          meanings = meanings//"'"//trim(alternatives(i)%name)//"': "//alternatives(i)%meaning//'.'
       end do
-      key = choice_key(name, default, meanings, alternatives%name, required)
+      key = choice_key(name, default, meanings, names, required)
    end function selector_key
 
    !> The keys of all alternatives, each once, in the order of their first alternatives. The meanings begin with the

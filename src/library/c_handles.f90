@@ -16,11 +16,12 @@ module wavycon_c_handles
 
    public :: handle_type, begin_call, check_pointers, close_call, close_new, handle_at, put_text, text_at
 
-   integer, parameter :: mark = 1935764579
+   !> Marks the objects of this library in memory.
+   integer, parameter :: our_mark = 1935764579
 
    !> What a handle points to. One of the components is allocated.
    type :: handle_type
-      integer :: mark = mark
+      integer :: mark = our_mark
       type(error_type), allocatable :: error          !! the outcome of the last call
       type(wavy_surface), allocatable :: surface
       type(wavy_solver), allocatable :: solver
@@ -70,7 +71,7 @@ contains
       nullify (contents)
       if (.not. c_associated(handle)) return
       call c_f_pointer(handle, contents)
-      if (contents%mark /= mark) nullify (contents)
+      if (contents%mark /= our_mark) nullify (contents)
    end function handle_at
 
    !> Ends a call: stores its outcome in the caller's error object and returns its code, 0 for success.

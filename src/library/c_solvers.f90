@@ -3,8 +3,8 @@ module wavycon_c_solvers
    use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_int, c_ptr, c_size_t
    use wavycon_c_handles, only: begin_call, check_pointers, close_call, close_new, handle_at, handle_type, put_text, &
       text_at
+   use wavycon_deck_run, only: run_deck
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
-   use wavycon_run_deck, only: run_deck
    use wavycon_wavy_solver, only: make_solver, make_solver_of_deck, wavy_scales
    implicit none (type, external)
    private

@@ -52,6 +52,7 @@ module wavycon_wavy_solver
       procedure :: is_made
       procedure :: name => get_name
       procedure :: describe
+      procedure :: why_chosen
       procedure :: scales
       procedure :: number_of_loads
       procedure :: solve
@@ -143,6 +144,15 @@ contains
       words = ''
       if (self%is_made()) words = self%solver%describe()
    end function describe
+
+   !> Why 'auto' solves this surface as it does; empty for the other solvers.
+   function why_chosen(self) result(words)
+      class(wavy_solver), intent(in) :: self
+      character(:), allocatable :: words
+
+      words = ''
+      if (self%is_made()) words = self%solver%why_chosen()
+   end function why_chosen
 
    !> Modulus, p*, Delta and the cell. Zeros before the solver is made.
    pure type(wavy_scales) function scales(self)

@@ -12,6 +12,7 @@ module wavycon
    use wavycon_contact_details, only: contact_details
    use wavycon_contact_status, only: closed_form, converged, full_contact, is_good_status, no_load, no_memory, &
       not_accurate, not_finite, not_found, status_code
+   use wavycon_deck_run, only: run_deck
    use wavycon_dundurs, only: dundurs_coefficients, dundurs_pressure_over_pstar
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, exit_fine, exit_not_converged
    use wavycon_hertz_line
@@ -22,7 +23,6 @@ module wavycon
    use wavycon_line_crack
    use wavycon_near_closure
    use wavycon_penny_crack
-   use wavycon_run_deck, only: run_deck
    use wavycon_threads, only: set_threads
    use wavycon_version, only: revision, version
    use wavycon_wavy_solution, only: wavy_edge, wavy_measures, wavy_solution

@@ -128,6 +128,8 @@ static void solvers(wavycon_surface surface, wavycon_solver solver, wavycon_solu
     REFUSED(wavycon_get_scales(error, NULL, &scales));
     REFUSED(wavycon_get_scales(error, (wavycon_solver)solution, &scales));
     REFUSED(wavycon_get_scales(error, solver, NULL));
+    FINE(wavycon_get_scales(error, solver, &scales));
+    check(scales.e_star == 1 && scales.length_y == 1 && scales.dimension == 2, "the scales", __LINE__);
     REFUSED(wavycon_get_number_of_loads(error, NULL, &loads));
     REFUSED(wavycon_get_number_of_loads(error, solver, NULL));
     FINE(wavycon_get_number_of_loads(error, solver, &loads));
@@ -156,6 +158,37 @@ static void solvers(wavycon_surface surface, wavycon_solver solver, wavycon_solu
     REFUSED(wavycon_set_threads(error, 1000000));
 }
 
+/* A deck in this directory: its solver, its loads, and a run of it. */
+static void decks(void)
+{
+    int loads = 0, status = -1;
+    wavycon_measures measures;
+    FILE *deck = fopen("misuse.nml", "w");
+    check(deck != NULL, "the deck can be written", __LINE__);
+    if (deck == NULL)
+        return;
+    fputs("&surface kind = 'wave_1d' /\n&load pbar_over_pstar = 0.2, 0.3 /\n&output directory = '.' /\n", deck);
+    fclose(deck);
+    wavycon_solver solver = wavycon_new_solver_of_deck(error, "misuse.nml", 0);
+    MADE(solver);
+    FINE(wavycon_get_number_of_loads(error, solver, &loads));
+    check(loads == 2, "the deck has two loads", __LINE__);
+    NOTHING(wavycon_solve_load(error, solver, 2));
+    wavycon_solution solution = wavycon_solve_load(error, solver, 1);
+    MADE(solution);
+    FINE(wavycon_get_measures(error, solution, &measures));
+    check(measures.pbar_over_pstar == 0.3, "the second load", __LINE__);
+    FINE(wavycon_run_deck(error, "misuse.nml", "", 1, &status));
+    check(status == 0 && remove("misuse.summary.dat") == 0, "the deck was run", __LINE__);
+    /* A file for the directory. */
+    REFUSED(wavycon_run_deck(error, "misuse.nml", "misuse.nml", 1, &status));
+    check(status == WAVYCON_FILE_TROUBLE, "the program's exit status", __LINE__);
+    remove("misuse.resolved.nml");
+    remove("misuse.nml");
+    wavycon_delete(&solution);
+    wavycon_delete(&solver);
+}
+
 static void solutions(wavycon_surface surface, wavycon_solution solution, wavycon_solution without_fields)
 {
     const double nans[2] = {0, NAN};
@@ -175,6 +208,9 @@ static void solutions(wavycon_surface surface, wavycon_solution solution, wavyco
         REFUSED(wavycon_get_edge_points(error, bad[i], 0, &points));
         REFUSED(wavycon_get_edge(error, bad[i], 0, 1000, x, y));
     }
+    FINE(wavycon_get_measures(error, solution, &measures));
+    check(measures.pbar_over_pstar == 0.2 && measures.iterations > 0 && measures.status_code == WAVYCON_CONVERGED,
+          "first and last numbers", __LINE__);
     REFUSED(wavycon_get_measures(error, solution, NULL));
     REFUSED(wavycon_get_status(error, solution, NULL, 100));
     REFUSED(wavycon_get_solver_name(error, solution, NULL, 100));
@@ -251,6 +287,7 @@ int main(void)
     MADE(without_fields);
     surfaces();
     solvers(surface, solver, solution);
+    decks();
     wavycon_delete(&solver);
     wavycon_delete(&bare);
     solutions(surface, solution, without_fields);

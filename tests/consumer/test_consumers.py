@@ -22,17 +22,22 @@ DECK = f"""&surface kind = 'wave_2d', amplitude = 1e-6, wavelength = 1e-3 /
 &output contours = .true. /
 """
 COLUMNS = ["pbar_over_pstar", "mean_gap", "contact_area_fraction", "peak_pressure", "peak_pressure_over_pstar_error"]
+# Seconds after which a command counts as hanging; the slowest take a few.
+LONGEST = 240
 # Half a unit of the last of the 16 digits that tables have.
 DIGITS = 1e-15
-ENVIRONMENT = dict(os.environ, OPENBLAS_NUM_THREADS="1")
+# Of a Fortran main program the variables live as long as the process, which the address sanitizer takes for leaks.
+ENVIRONMENT = dict(os.environ, OPENBLAS_NUM_THREADS="1", ASAN_OPTIONS="detect_leaks=0")
 
 
 def run(*command, **options):
     """Runs a command; its output, which a failure shows."""
-    done = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+    done = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                          stdin=subprocess.DEVNULL, timeout=LONGEST,
                           env=dict(ENVIRONMENT, **options.pop("environment", {})), **options)
     if done.returncode != 0:
-        raise AssertionError(f"{shlex.join(map(str, command))}: exit status {done.returncode}\n{done.stdout}")
+        raise AssertionError(f"{shlex.join(map(str, command))}: exit status {done.returncode}\n{done.stdout}\n"
+                             f"{done.stderr}")
     return done.stdout
 
 
@@ -64,7 +69,8 @@ class Consumers(unittest.TestCase):
         run(options.cmake, "--install", options.build, "--prefix", cls.prefix)
         # The installation must not need the place that it was configured for.
         cls.prefix = cls.prefix.rename(cls.folder / "moved")
-        cls.lib = next(cls.prefix.glob("lib*/**/libwavycon.so")).parent
+        cls.library = next(cls.prefix.glob("lib*/**/libwavycon." + ("dylib" if sys.platform == "darwin" else "so")))
+        cls.lib = cls.library.parent
         for project, name in ((HERE, "project"), (HERE / "only_c", "only_c")):
             run(options.cmake, "-S", project, "-B", cls.folder / name, "-G", options.generator, "-D",
                 f"CMAKE_PREFIX_PATH={cls.prefix}", *cls.compilers())
@@ -85,6 +91,9 @@ class Consumers(unittest.TestCase):
             self.skipTest("there is no pkg-config")
         return shlex.split(run("pkg-config", *arguments, "wavycon",
                                environment={"PKG_CONFIG_PATH": str(self.lib / "pkgconfig")}))
+
+    def path_of_library(self):
+        return {name: str(self.lib) for name in ("LD_LIBRARY_PATH", "DYLD_LIBRARY_PATH")}
 
     def test_digits_of_the_deck(self):
         table = rows_of(self.folder / "deck.summary.dat")
@@ -113,24 +122,40 @@ class Consumers(unittest.TestCase):
     def test_python(self):
         if self.is_sanitized:
             self.skipTest("Python cannot load a library with a sanitizer")
-        self.assertEqual(self.expected, numbers(run(sys.executable, HERE / "consumer.py", self.lib / "libwavycon.so")))
+        self.assertEqual(self.expected, numbers(run(sys.executable, HERE / "consumer.py", self.library)))
 
     def test_pkg_config_with_the_shared_library(self):
         program = self.folder / "by_pkg_config"
         run(self.options.c, *shlex.split(self.options.flags), HERE / "consumer.c", "-o", program,
             *self.pkg_config("--cflags", "--libs"))
-        output = run(program, environment={"LD_LIBRARY_PATH": str(self.lib)})
+        output = run(program, environment=self.path_of_library())
         self.assertEqual(self.expected, numbers(output))
 
     def test_pkg_config_with_the_static_library(self):
         program = self.folder / "static_by_pkg_config"
         words = self.pkg_config("--cflags", "--libs", "--static")
-        words[words.index("-lwavycon")] = "-l:libwavycon.a"
+        words[words.index("-lwavycon")] = self.lib / "libwavycon.a"
         run(self.options.c, *shlex.split(self.options.flags), HERE / "consumer.c", "-o", program, *words)
         self.assertEqual(self.expected, numbers(run(program)))
 
+    def test_programs_of_the_page(self):
+        page = (self.options.sources / "src" / "library" / "README.md").read_text()
+        found = []
+        for language, suffix, compiler, before, after in (
+                ("fortran", ".f90", self.options.fortran, "program page\n", "end program page\n"),
+                ("c", ".c", self.options.c, "#include <stdio.h>\n#include <wavycon.h>\nint main(void)\n{\n", "}\n")):
+            code = page.split(f"```{language}\n")[1].split("```")[0]
+            source = self.folder / ("page" + suffix)
+            source.write_text(before + code + after)
+            run(compiler, *shlex.split(self.options.flags), source, "-o", source.with_suffix(".exe"),
+                *self.pkg_config("--cflags", "--libs"))
+            output = run(source.with_suffix(".exe"), environment=self.path_of_library())
+            found.append([float(word) for word in output.split()[:3]])
+        for one, other in zip(*found):
+            self.assertAlmostEqual(one/other, 1, delta=1e-5)
+
     def test_misuse(self):
-        self.assertEqual("0 failures\n", run(self.folder / "project" / "misuse"))
+        self.assertEqual("0 failures\n", run(self.folder / "project" / "misuse", cwd=self.folder))
 
     def test_threads(self):
         self.assertEqual("0 failures\n", run(self.folder / "project" / "threads"))
@@ -142,7 +167,7 @@ class Consumers(unittest.TestCase):
             self.skipTest("there is no valgrind")
         for program in (self.folder / "project" / "misuse", self.folder / "only_c" / "consumer_c_shared"):
             run("valgrind", "--quiet", "--leak-check=full", "--show-leak-kinds=definite,indirect,possible",
-                "--errors-for-leak-kinds=definite,indirect,possible", "--error-exitcode=1", program)
+                "--errors-for-leak-kinds=definite,indirect,possible", "--error-exitcode=1", program, cwd=self.folder)
 
     def test_subproject(self):
         options = self.options
@@ -154,7 +179,8 @@ class Consumers(unittest.TestCase):
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    for name in ("build", "cmake", "sources", "generator", "c", "fortran", "flags"):
+    parser.add_argument("--sources", type=pathlib.Path, required=True)
+    for name in ("build", "cmake", "generator", "c", "fortran", "flags"):
         parser.add_argument(f"--{name}", required=True)
     Consumers.options, others = parser.parse_known_args()
     unittest.main(argv=[sys.argv[0], *others], verbosity=2)

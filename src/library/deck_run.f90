@@ -1,5 +1,5 @@
 !> Runs a deck as the program does.
-module wavycon_run_deck
+module wavycon_deck_run
    use wavycon_deck, only: deck_type
    use wavycon_error, only: error_type, exit_fine
    use wavycon_make_scene, only: make_scene
@@ -44,4 +44,4 @@ contains
       if (allocated(error)) status = error%status
    end subroutine run_deck
 
-end module wavycon_run_deck
+end module wavycon_deck_run

@@ -1,0 +1,247 @@
+#!/usr/bin/env python3
+"""scripts/plot draws every kind of table, and says what it cannot draw.
+
+usage: test_plot.py --program WAVYCON [unittest's options]
+"""
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.dom.minidom
+
+sys.dont_write_bytecode = True
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT/"scripts"/"pictures"))
+import facts  # noqa: E402
+from axes import Scale, axis, chosen, marked_up  # noqa: E402
+from table import NotATable, Table  # noqa: E402
+
+SKIPPED = 77
+SOUND_START = {"png": b"\x89PNG", "svg": b"<?xml", "pdf": b"%PDF"}
+WAVE = """\
+&surface kind = 'wave_2d' /
+&load pbar_over_pstar = 0, 0.1, 0.5 /
+"""
+TABLES = "lines = t, map = t, contours = t, map_points = 16, line_points = 16"
+DECKS = {
+    "auto": WAVE + "&method solver = 'fitted' /\n&output " + TABLES + ", theory = t, details = t /",
+    "paper": WAVE + "&output " + TABLES + ", theory = t, coefficients = t /",
+    "line": "&surface kind = 'wave_1d' /\n&load pbar_over_pstar = 0.1, 0.6 /\n&output " + TABLES +
+            ", theory = t, coefficients = t /",
+    "oblong": "&surface kind = 'wave_2d', wavelength_y = 2 /\n&load pbar_over_pstar = 0.3 /\n&output " + TABLES + " /",
+    "npy": WAVE + "&method solver = 'auto' /\n&output map = t, contours = t, map_points = 16, map_format = 'npy' /",
+    "si": "&scene pressure_unit = 'Pa', length_unit = 'm' /\n"
+          "&surface kind = 'wave_2d', amplitude = 1e-6, wavelength = 1e-3 /\n&material e_star = 230e9 /\n"
+          "&load pbar_over_pstar = 0.05, 0.4 /\n&method solver = 'auto' /\n&output " + TABLES + " /",
+    "sweep": "&surface kind = 'wave_1d' /\n&load sweep_from = 0.05, sweep_to = 0.95, sweep_steps = 19 /\n"
+             "&method solver = 'auto' /\n&output lines = t, contours = t, line_points = 16 /",
+    "unsolved": "&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0.1, 0.22861 /\n"
+                "&method solver = 'fitted', accuracy = 1e-12 /",
+}
+
+
+class Plot(unittest.TestCase):
+    program = ""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.scratch = tempfile.TemporaryDirectory()
+        cls.folder = pathlib.Path(cls.scratch.name)
+        for case, deck in DECKS.items():
+            (cls.folder/f"{case}.nml").write_text(deck + "\n")
+            subprocess.run([cls.program, f"{case}.nml", "--quiet", "--output", "."], cwd=cls.folder, check=False)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.scratch.cleanup()
+
+    def plot(self, *words, status=0):
+        """Runs scripts/plot. Returns what it writes on standard output and on standard error."""
+        result = subprocess.run([ROOT/"scripts"/"plot", *words], cwd=self.folder, capture_output=True, text=True,
+                                check=False)
+        self.assertEqual(status, result.returncode, result.stderr)
+        self.assertNotIn("Traceback", result.stderr)
+        return result.stdout, result.stderr
+
+    def drawn(self, *words, name=None):
+        """The words of a picture that is drawn without any message."""
+        said, complaints = self.plot("--format", "svg", *words)
+        self.assertEqual("", complaints)
+        picture = self.folder/said.removeprefix("picture: ").strip()
+        if name:
+            self.assertEqual(name, picture.name)
+        # Texts are broken up where the face changes.
+        xml.dom.minidom.parse(str(picture))   # one document, not several
+        shown = re.sub(r"<title>.*?</title>", "", picture.read_text(encoding="utf-8"), flags=re.S)
+        return re.sub(r"\s+", " ", re.sub(r"<[^>]*>", "", shown))
+
+    def test_every_table_in_every_format(self):
+        kinds = set()
+        for path in sorted(self.folder.glob("*.dat")) + sorted(self.folder.glob("*.npy")):
+            if path.name.startswith("sweep"):
+                continue
+            kinds.add(Table(path).kind)
+            for form, start in SOUND_START.items():
+                with self.subTest(table=path.name, format=form):
+                    said, complaints = self.plot("--format", form, path.name)
+                    picture = path.with_suffix("." + form)
+                    self.assertEqual((f"picture: {picture.name}\n", ""), (said, complaints))
+                    self.assertTrue(picture.read_bytes().startswith(start))
+        self.assertEqual(set(facts.FACTS), kinds)
+
+    def test_labels(self):
+        """gnuplot's svg leaves out what lies outside of the picture."""
+        expected = {"summary": "contact area A/A0 mean pressure p̄/p*", "lines": "pressure p/p*", "map": "gap g/Δ",
+                    "theory_lines": "distance along the diagonal", "contour": "y mean pressure p̄/p*",
+                    "theory": "mean gap ḡ/Δ", "details": "perimeter", "coefficients": "harmonic"}
+        for kind, words in expected.items():
+            case = "paper" if kind == "coefficients" else "auto"
+            with self.subTest(kind=kind):
+                shown = self.drawn(f"{case}.{kind}.dat")
+                for word in words.split():
+                    self.assertIn(word, shown)
+                self.assertIn(case, shown)
+        shown = self.drawn("auto.summary.dat")
+        self.assertEqual(3, shown.count("mean pressure p̄/p*"))
+
+    def test_units(self):
+        words = self.drawn("si.summary.dat", name="si.summary.svg")
+        self.assertIn("(GPa)", words)
+        self.assertIn("(µm)", words)
+        words = self.drawn("si.map.dat")
+        self.assertIn("(mm)", words)
+        words = self.drawn("auto.summary.dat")
+        self.assertIn("p̄/p*", words)
+        self.assertNotIn("pressure)", words)
+
+    def test_converged_values_beside_the_papers_series(self):
+        self.assertIn("converged", self.drawn("paper.summary.dat"))
+        self.assertIn("closed form", self.drawn("line.summary.dat"))
+        self.assertNotIn("converged", self.drawn("auto.summary.dat"))
+
+    def test_loads_that_were_not_solved(self):
+        self.assertIn("not accurate", self.drawn("unsolved.summary.dat"))
+        self.assertNotIn("not accurate", self.drawn("auto.summary.dat"))
+
+    def test_compare(self):
+        words = self.drawn("--compare", "auto.summary.dat", "paper.summary.dat", name="auto.summary.compare.svg")
+        self.assertIn("auto", words)
+        self.assertIn("paper", words)
+        words = self.drawn("--compare", "auto.lines.dat", "paper.lines.dat")
+        self.assertIn("p̄/p* = 0.1, p̄/p* = 0.5", words)
+        # Units only where they are the same.
+        self.assertNotIn("GPa", self.drawn("--compare", "si.summary.dat", "auto.summary.dat"))
+        self.assertIn("GPa", self.drawn("--compare", "si.summary.dat", "si.summary.dat"))
+        for others in (("auto.lines.dat", "auto.summary.dat"), ("auto.map.dat", "paper.map.dat")):
+            self.assertIn("can be compared", self.plot("--compare", *others, status=3)[1])
+        self.assertIn("no load in common", self.plot("--compare", "auto.lines.dat", "si.lines.dat", status=3)[1])
+        self.drawn("--compare", "auto.lines.dat", "sweep.lines.dat")
+        self.assertIn("--compare needs", self.plot("--compare", "auto.lines.dat", status=1)[1])
+
+    def test_many_loads(self):
+        said, complaints = self.plot("--format", "svg", "sweep.lines.dat")
+        self.assertIn("8 of its 19 loads", complaints)
+        words = self.drawn("--loads", "2,19", "sweep.lines.dat")
+        self.assertIn("p̄/p* = 0.1 p̄/p* = 0.95", words)
+        self.assertIn("none of the loads 99", self.plot("--loads", "99", "sweep.lines.dat", status=3)[1])
+        self.assertIn("numbers of loads", self.plot("--loads", "a", "sweep.lines.dat", status=1)[1])
+
+    def test_files_that_are_no_tables(self):
+        head = (self.folder/"auto.summary.dat").read_text().splitlines()[:7]
+        contents = {"text.dat": b"Once upon a time.\n1 2 3\n", "numbers.dat": b"1 2 3\n4 5 6\n", "nothing.dat": b"",
+                    "other.dat": b"# a\nx y\n1 2\n", "head.summary.dat": "\n".join(head).encode() + b"\n",
+                    "raw.dat": bytes(range(256)), "array.npy": b"\x93NUMPY\x01\x00\x10\x00{'descr': '<f8'}"}
+        for name, content in contents.items():
+            (self.folder/"bad").mkdir(exist_ok=True)
+            (self.folder/"bad"/name).write_bytes(content)
+            with self.subTest(name=name):
+                said, complaints = self.plot(f"bad/{name}", status=3)
+                self.assertEqual("", said)
+                self.assertRegex(complaints, rf"^plot: bad/{name}: .+\n$")
+        self.assertIn("no rows", self.plot("bad/head.summary.dat", status=3)[1])
+        self.assertEqual("plot: nowhere.dat: No such file or directory\n", self.plot("nowhere.dat", status=3)[1])
+        self.plot("bad", status=3)
+        shortened = (self.folder/"npy.map.npy").read_bytes()[:-8]
+        (self.folder/"bad"/"short.map.npy").write_bytes(shortened)
+        self.assertIn("cut short", self.plot("bad/short.map.npy", status=3)[1])
+
+    def test_other_tables_are_drawn_beside_a_bad_one(self):
+        said, complaints = self.plot("nowhere.dat", "auto.summary.dat", status=3)
+        self.assertEqual("picture: auto.summary.png\n", said)
+        self.assertIn("nowhere.dat", complaints)
+
+    def test_names_are_not_commands(self):
+        for name in ("a'b; touch CANARY.summary.dat", "$(touch CANARY) `touch CANARY`.lines.dat", "<x {-Bold_^.map.dat"):
+            shutil.copy(self.folder/("auto." + name.split(".")[-2] + ".dat"), self.folder/name)
+            self.assertEqual("", self.plot("--", name)[1])
+        self.assertFalse((self.folder/"CANARY").exists())
+
+    def test_command_line(self):
+        self.assertIn("--compare", self.plot("--help")[0])
+        for words in ((), ("--format", "gif", "a"), ("--format",), ("--what", "a")):
+            self.assertIn("usage: scripts/plot", self.plot(*words, status=1)[1])
+
+
+class Numbers(unittest.TestCase):
+    def test_axes_are_those_of_the_data(self):
+        for loads in ([1e-4, 2e-4, 3e-4], [50.0, 200.0, 900.0], [0.2], [0.0, 0.0], []):
+            low, high, step, wide = axis(loads)
+            self.assertFalse(wide)
+            self.assertLess(low, high)
+            self.assertTrue(all(low <= load <= high for load in loads))
+            self.assertLessEqual((high - low)/step, 8)
+            if max(loads, default=0) > 0:
+                self.assertLess(high, 1.4*max(loads))
+        self.assertEqual(1.0, axis([0.01, 0.9], up_to=1.0)[1])
+        # Many light loads: logarithmic; loads spread over the range are not.
+        self.assertTrue(axis([1e-6, 1e-5, 1e-4, 1e-3])[-1])
+        self.assertFalse(axis([1e-3, 0.2, 0.5, 0.9])[-1])
+
+    def test_scales(self):
+        self.assertEqual(("GPa", 1e-9), (Scale(2e9, "Pa").unit, Scale(2e9, "Pa").factor))
+        self.assertEqual("µm", Scale(5e-7, "m").unit)
+        self.assertEqual("mm", Scale(0.24, "mm").unit)
+        self.assertEqual(("ksi", 3), (Scale(2e4, "ksi").unit, Scale(2e4, "ksi").power))
+        self.assertEqual("N/mm^{2}", marked_up("N/mm^2"))
+        self.assertEqual("p.' = 0.2 GPa'", Scale(2e9, "Pa").value("p", 0.2))
+        self.assertEqual("p.' = 10^{−5}'", Scale(1.0).value("p", 1e-5))
+
+    def test_chosen_loads(self):
+        self.assertEqual([0, 1, 2], chosen(3, 4))
+        self.assertEqual([0, 6, 12, 18], chosen(19, 4))
+
+    def test_cells_are_closed(self):
+        """What gnuplot draws of a map ends with the first column and row, a period on, wherever the points lie."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder)/"x.map.dat"
+            for offset in (0.0, 0.5):
+                rows = "".join(f"1 {(i + offset)/4} {2*(j + offset)/3} {10*i + j} {i - j} 0 0\n"
+                               for j in range(3) for i in range(4))
+                path.write_text("# surface: file, Delta[length] = 1, cell_x[length] = 1, cell_y[length] = 2\n"
+                                "load x y pressure gap displacement undeformed_gap\n" + rows)
+                closed = pathlib.Path(folder)/"map1"
+                self.assertEqual((5, 4), facts.write_closed(Table(path), 0, closed))
+                numbers = memoryview(closed.read_bytes()).cast("d").tolist()
+                points = [numbers[4*k:4*k + 4] for k in range(20)]
+                self.assertEqual([1 + offset/4, 2*offset/3, 0.0, 0.0], points[4])
+                self.assertEqual([offset/4, 2 + 2*offset/3, 0.0, 0.0], points[15])
+                self.assertEqual([1 + (0 + offset)/4, 2*(1 + offset)/3, 1.0, -1.0], points[9])
+
+    def test_a_table_needs_names(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder)/"old.summary.dat"
+            path.write_text("# pbar_over_pstar[-] status[-]\n0.1 converged\n")
+            with self.assertRaises(NotATable):
+                Table(path)
+
+
+if __name__ == "__main__":
+    Plot.program = str(pathlib.Path(sys.argv.pop(sys.argv.index("--program") + 1)).resolve())
+    sys.argv.remove("--program")
+    if not shutil.which("gnuplot"):
+        print("SKIPPED: gnuplot is not installed")
+        sys.exit(SKIPPED)
+    unittest.main()
