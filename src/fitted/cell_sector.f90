@@ -132,13 +132,11 @@ contains
       complex(dp), intent(in) :: z
 
       complex(dp) :: reduced
-      integer :: i
 
       reduced = self%rows%reduced(z)
-      from_nearest = reduced
-      do i = 2, size(self%image)
-         if (abs(reduced - self%image(i)) < abs(from_nearest)) from_nearest = reduced - self%image(i)
-      end do
+      associate (x => reduced%re - self%image%re, y => reduced%im - self%image%im)
+         from_nearest = reduced - self%image(minloc(x**2 + y**2, 1))
+      end associate
    end function from_nearest
 
    !> The equivalent place at an angle between 0 and pi/fold.
