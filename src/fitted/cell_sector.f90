@@ -2,8 +2,8 @@
 !> mirror lines that are not beyond the border to its neighbours.
 !>
 !> The border is a chain of straight lines. Between spots that are mirror images of each other it is their mirror line.
-!> Neighbours on a rhombic lattice are each other's half-turn about the midpoint between them; there any line through the
-!> midpoint does, and one along the edge at its nearest point keeps clear of both.
+!> Neighbours on a rhombic lattice are each other's half-turn about the midpoint between them; there any line through
+!> the midpoint does, and one along the edge at its nearest point keeps clear of both.
 module wavycon_cell_sector
    use wavycon_constants, only: pi
    use wavycon_kinds, only: dp
@@ -132,13 +132,11 @@ contains
       complex(dp), intent(in) :: z
 
       complex(dp) :: reduced
-      integer :: i
 
       reduced = self%rows%reduced(z)
-      from_nearest = reduced
-      do i = 2, size(self%image)
-         if (abs(reduced - self%image(i)) < abs(from_nearest)) from_nearest = reduced - self%image(i)
-      end do
+      associate (x => reduced%re - self%image%re, y => reduced%im - self%image%im)
+         from_nearest = reduced - self%image(minloc(x**2 + y**2, 1))
+      end associate
    end function from_nearest
 
    !> The equivalent place at an angle between 0 and pi/fold.

@@ -1,5 +1,5 @@
-!> Coordinates outside of a spot or island that follow its edge: the plane outside as a map of the plane outside the unit
-!> disc.
+!> Coordinates outside of a spot or island that follow its edge: the plane outside as a map of the plane outside the
+!> unit disc.
 !>
 !>     z(v) = b_0 v (1 - tau/conj(v)^fold) + sum over k = 1..K of b_k v^(1 - fold k),   |v| >= 1,   README.md (F48).
 !>

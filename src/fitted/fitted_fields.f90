@@ -71,8 +71,8 @@ contains
       end associate
       associate (solution => fields%answer%solution)
          fields%radius = field_radius_margin*solution%shape%radius()
-         call start_chord_rule(fields%chords, solution%basis, ubound(solution%shape%b, 1), ceiling(finer*field_chords), &
-                               ceiling(finer*field_chord_points))
+         call start_chord_rule(fields%chords, solution%basis, ubound(solution%shape%b, 1), &
+                               ceiling(finer*field_chords), ceiling(finer*field_chord_points))
          call start_outside_rule(fields%outside, solution%basis%power, ceiling(finer*outside_chords), &
                                  ceiling(finer*outside_half_points))
       end associate

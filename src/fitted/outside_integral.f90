@@ -49,9 +49,10 @@ contains
       complex(dp), intent(in) :: target             !! w_t, |w_t| > 1, where the continued map has the target
       real(dp), intent(in) :: c(:)                  !! coefficients of f, shape (N)
 
-      real(dp), dimension(2*size(self%node)) :: density, t, weight
+      real(dp), dimension(2*size(self%node)) :: density, inverse_square, t, weight
       real(dp) :: values(2*size(self%node), basis%terms)
-      complex(dp) :: e, w(2*size(self%node)), z_target
+      complex(dp), dimension(2*size(self%node)) :: w, z
+      complex(dp) :: e, z_target
       real(dp) :: distance, half, middle, nearer_end, opening
       integer :: i, points
 
@@ -69,7 +70,9 @@ contains
                              self%far_weight, t, weight)
          w = target + t*e
          call basis%evaluate(points, w, values)
-         density = weight*t*shape%jacobian(w)/abs(shape%place(w) - z_target)**3
+         z = shape%place(w) - z_target
+         inverse_square = 1.0_dp/(z%re**2 + z%im**2)
+         density = weight*t*shape%jacobian(w)*inverse_square*sqrt(inverse_square)
          integral = integral + opening*self%angle_weight(i)*half**(2*self%power + 1) &
             *dot_product(density, matmul(values, c))
       end do

@@ -4,8 +4,8 @@
 !>
 !>     sum over j, k of c_jk T_j(t) T_k(2 sqrt(s) - 1),   README.md (F50),
 !>
-!> T Chebyshev's polynomials, s from 0 at the edge to 1 at the border to the neighbours, t from -1 to 1 with the angle of
-!> the exterior map, between directions in which the border has corners. The coefficients come from the integrals
+!> T Chebyshev's polynomials, s from 0 at the edge to 1 at the border to the neighbours, t from -1 to 1 with the angle
+!> of the exterior map, between directions in which the border has corners. The coefficients come from the integrals
 !> themselves at a few hundred places.
 module wavycon_outside_table
    use wavycon_cell_sector, only: cell_sector
@@ -93,8 +93,8 @@ contains
       end do
    end subroutine start_outside_table
 
-   !> Sets angles and borders of the parts and the places where tables are compared with the integrals: next to the edge,
-   !> where the rule over the disc begins to take the place of chords, and on the border.
+   !> Sets angles and borders of the parts and the places where tables are compared with the integrals: next to the
+   !> edge, where the plain rule over the disc begins to take the place of chords, and on the border.
    subroutine place_parts(table, fields, sector, v, found)
       type(outside_table), intent(inout) :: table
       type(fitted_fields), intent(in) :: fields

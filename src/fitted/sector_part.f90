@@ -68,8 +68,8 @@ contains
       found = found .and. radius > 1.0_dp + least_distance
    end subroutine find_border
 
-   !> s of a place at |v| = radius where the border is at |v| = border: README.md (F49). It is 0 at the edge and 1 at the
-   !> border, and the singularities of the field inside of the edge and beyond the border are about equally far off.
+   !> s of a place at |v| = radius where the border is at |v| = border: README.md (F49). It is 0 at the edge and 1 at
+   !> the border, and the singularities of the field inside of the edge and beyond the border are about equally far off.
    pure real(dp) function s_at(radius, border) result(s)
       real(dp), intent(in) :: radius, border       !! > 1
 

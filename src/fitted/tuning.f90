@@ -249,8 +249,8 @@ module wavycon_fitted_tuning
       !! Most terms either way. Larger: tables near merging that cost more than the map. Smaller: maps near merging
       !! without a table.
    real(dp), parameter, public :: table_bend = 2.0_dp
-      !! Place of the pole, over the border's, of the rational coordinate from edge to border. Smaller: terms fall slowly
-      !! because of the neighbour's edge. Larger: because of the spot's centre, at light loads.
+      !! Place of the pole, over the border's, of the rational coordinate from edge to border. Smaller: terms fall
+      !! slowly because of the neighbour's edge. Larger: because of the spot's centre, at light loads.
    real(dp), parameter, public :: largest_enlargement = 2.5_dp
       !! Largest factor on the number of terms from one fit to the next. Larger: too many terms where the first ones do
       !! not show yet how they fall. Smaller: more fits.

@@ -14,10 +14,13 @@ module wavycon_c_handles
    implicit none (type, external)
    private
 
-   public :: handle_type, begin_call, check_pointers, close_call, close_new, handle_at, put_text, text_at
+   public :: not_a_handle, handle_type, begin_call, check_pointers, close_call, close_new, handle_at, put_text, text_at
 
    !> Marks the objects of this library in memory.
    integer, parameter :: our_mark = 1935764579
+
+   !> How the message for a handle that is NULL or of another kind begins.
+   character(*), parameter :: not_a_handle = 'the handle is NULL or not that of a '
 
    !> What a handle points to. One of the components is allocated.
    type :: handle_type
@@ -74,7 +77,8 @@ contains
       if (contents%mark /= our_mark) nullify (contents)
    end function handle_at
 
-   !> Ends a call: stores its outcome in the caller's error object and returns its code, 0 for success.
+   !> Ends a call: stores its outcome in the caller's error object and returns its code, 0 for success. The error of a
+   !> call that failed to make a handle is kept by the calls that then get NULL.
    integer(c_int) function close_call(error_handle, error) result(code)
       type(c_ptr), intent(in) :: error_handle                     !! may be null: then the code alone tells
       type(error_type), allocatable, intent(inout) :: error       !! not allocated: success
@@ -85,12 +89,23 @@ contains
       if (allocated(error)) code = int(error%status, c_int)
       caller => handle_at(error_handle)
       if (is_error(caller)) then
-         caller%error%status = code
-         caller%error%message = ''
-         if (allocated(error)) call move_alloc(error%message, caller%error%message)
+         if (.not. is_consequence(error, caller%error)) then
+            caller%error%status = code
+            caller%error%message = ''
+            if (allocated(error)) caller%error%message = error%message
+         end if
       end if
       call end_call()
    end function close_call
+
+   !> Whether an error is that of a handle that is none, after another error.
+   logical function is_consequence(error, last)
+      type(error_type), allocatable, intent(in) :: error
+      type(error_type), intent(in) :: last   !! the outcome of the last call
+
+      is_consequence = allocated(error) .and. last%status /= exit_fine
+      if (is_consequence) is_consequence = index(error%message, not_a_handle) == 1
+   end function is_consequence
 
    !> Whether a handle's contents are an error object.
    logical function is_error(contents)

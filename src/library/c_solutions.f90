@@ -1,7 +1,8 @@
 !> The solutions of the C interface. wavycon.h documents each procedure.
 module wavycon_c_solutions
    use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_int, c_ptr, c_size_t
-   use wavycon_c_handles, only: begin_call, check_pointers, close_call, handle_at, handle_type, put_text
+   use wavycon_c_handles, only: begin_call, check_pointers, close_call, handle_at, handle_type, not_a_handle, &
+      put_text
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_kinds, only: dp
    use wavycon_wavy_solution, only: wavy_measures
@@ -211,7 +212,7 @@ contains
       contents => handle_at(solution)
       found = associated(contents)
       if (found) found = allocated(contents%solution)
-      if (.not. found) call fatal_error(error, exit_bad_input, 'the handle is NULL or not that of a solution')
+      if (.not. found) call fatal_error(error, exit_bad_input, not_a_handle//'solution')
    end subroutine find_solution
 
    !> Likewise, with the edges found. Errors also: as of wavy_solution%edges.

@@ -1,8 +1,8 @@
 !> The solvers of the C interface. wavycon.h documents each procedure.
 module wavycon_c_solvers
    use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_int, c_ptr, c_size_t
-   use wavycon_c_handles, only: begin_call, check_pointers, close_call, close_new, handle_at, handle_type, put_text, &
-      text_at
+   use wavycon_c_handles, only: begin_call, check_pointers, close_call, close_new, handle_at, handle_type, &
+      not_a_handle, put_text, text_at
    use wavycon_deck_run, only: run_deck
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_wavy_solver, only: make_solver, make_solver_of_deck, wavy_scales
@@ -30,7 +30,7 @@ contains
       if (.not. allocated(text)) then
          call fatal_error(trouble, exit_bad_input, 'method is NULL')
       else if (.not. has_surface(from)) then
-         call fatal_error(trouble, exit_bad_input, 'the handle is NULL or not that of a surface')
+         call fatal_error(trouble, exit_bad_input, not_a_handle//'surface')
       else
          call make_solver(from%surface, e_star, text, keep_fields /= 0, made%solver, trouble)
       end if
@@ -179,7 +179,7 @@ contains
       contents => handle_at(solver)
       found = associated(contents)
       if (found) found = allocated(contents%solver)
-      if (.not. found) call fatal_error(error, exit_bad_input, 'the handle is NULL or not that of a solver')
+      if (.not. found) call fatal_error(error, exit_bad_input, not_a_handle//'solver')
    end subroutine find_solver
 
    logical function has_surface(contents)

@@ -48,6 +48,7 @@ module wavycon_wavy_solver
       integer :: loads_by = by_pressure               !! of the deck's loads
       real(dp), allocatable :: target(:)              !! of the deck's loads, as of scene_type
       real(dp), allocatable :: mean_pressure(:)
+      character(:), allocatable :: trouble            !! why it could not be made
    contains
       procedure :: is_made
       procedure :: name => get_name
@@ -77,9 +78,9 @@ contains
       type(problem_list_type) :: problems
       type(surface_type), allocatable :: inner
 
-      call copy_surface(surface, inner, kind)
-      if (.not. allocated(inner)) then
-         call fatal_error(error, exit_bad_input, 'the surface has not been made')
+      call copy_surface(surface, inner, kind, error)
+      if (allocated(error)) then
+         solver%trouble = error%message
          return
       end if
       call read_group_text(material_table(), 'e_star = '//number_words(e_star), values, text, problems)
@@ -90,6 +91,7 @@ contains
       end if
       if (problems%number > 0) then
          call fatal_error(error, exit_bad_input, problem_report(problems, text))
+         solver%trouble = error%message
          return
       end if
       solver%p_star = inner%full_contact_pressure(solver%e_star)
@@ -110,7 +112,10 @@ contains
 
       call read_deck(path, deck, error)
       if (.not. allocated(error)) call make_scene(deck, scene, error)
-      if (allocated(error)) return
+      if (allocated(error)) then
+         solver%trouble = error%message
+         return
+      end if
       solver%e_star = scene%e_star
       solver%p_star = scene%p_star
       solver%keep_fields = keep_fields
@@ -251,12 +256,17 @@ contains
                           self%solver%has_error_estimates(), solution, error)
    end subroutine solve_one
 
-   !> Errors: exit_bad_input if the solver has not been made.
+   !> Errors: exit_bad_input if the solver has not been made, with the reason.
    subroutine check_made(self, error)
       class(wavy_solver), intent(in) :: self
       type(error_type), allocatable, intent(out) :: error
 
-      if (.not. self%is_made()) call fatal_error(error, exit_bad_input, 'the solver has not been made')
+      if (self%is_made()) return
+      if (allocated(self%trouble)) then
+         call fatal_error(error, exit_bad_input, self%trouble)
+      else
+         call fatal_error(error, exit_bad_input, 'the solver has not been made')
+      end if
    end subroutine check_made
 
 end module wavycon_wavy_solver

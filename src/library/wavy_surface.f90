@@ -27,6 +27,7 @@ module wavycon_wavy_surface
       private
       type(surface_type), allocatable :: surface
       character(:), allocatable :: kind          !! as decks name it
+      character(:), allocatable :: trouble       !! why it could not be made
    contains
       procedure :: is_made
       procedure :: dimension => get_dimension
@@ -158,12 +159,17 @@ contains
       if (.not. allocated(error)) call make_surface_of_keys("kind = 'sum', amplitudes = 0, waves_x = 1"// &
                                                             pair('length_x', [length_x])// &
                                                             pair('length_y', [length_y]), cell, error)
-      if (allocated(error)) return
+      if (allocated(error)) then
+         surface%trouble = error%message
+         return
+      end if
       height = heights
       allocate (surface%surface)
       call surface_of_heights(source, [length_x, length_y], 1.0_dp, height, surface%surface, error)
-      if (allocated(error)) deallocate (surface%surface)
       surface%kind = 'file'
+      if (.not. allocated(error)) return
+      deallocate (surface%surface)
+      surface%trouble = error%message
    end subroutine make_heights
 
    !> Any surface that a deck can describe. Errors: exit_bad_input, with all problems of the keys; exit_file_trouble for
@@ -182,21 +188,29 @@ contains
       call check_surface_group(values, problems)
       if (problems%number > 0) then
          call fatal_error(error, exit_bad_input, problem_report(problems, text))
-         return
+      else
+         call make_surface(values, surface%surface, map, error)
       end if
-      call make_surface(values, surface%surface, map, error)
       surface%kind = values%text('kind')
+      if (allocated(error)) surface%trouble = error%message
    end subroutine make_surface_of_keys
 
-   !> A copy of the internal surface and its kind, for the solver.
-   subroutine copy_surface(from, surface, kind)
+   !> A copy of the internal surface and its kind, for the solver. Errors: exit_bad_input if it has not been made, with
+   !> the reason.
+   subroutine copy_surface(from, surface, kind, error)
       type(wavy_surface), intent(in) :: from
-      type(surface_type), allocatable, intent(out) :: surface   !! not allocated if it was not made
+      type(surface_type), allocatable, intent(out) :: surface
       character(:), allocatable, intent(out) :: kind
+      type(error_type), allocatable, intent(out) :: error
 
-      if (.not. from%is_made()) return
-      surface = from%surface
-      kind = from%kind
+      if (from%is_made()) then
+         surface = from%surface
+         kind = from%kind
+      else if (allocated(from%trouble)) then
+         call fatal_error(error, exit_bad_input, from%trouble)
+      else
+         call fatal_error(error, exit_bad_input, 'the surface has not been made')
+      end if
    end subroutine copy_surface
 
    !> ', key = numbers' as in a deck, the numbers to all digits.

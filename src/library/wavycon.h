@@ -6,9 +6,10 @@
 
    All other functions return 0 on success and otherwise the code of the error: 1 (WAVYCON_BAD_INPUT) for arguments that
    are wrong, NULL or not finite, 3 (WAVYCON_FILE_TROUBLE) for files and memory.
-   The first argument of most functions is an error object, which then holds code and message of that call. It may be
-   NULL: then the return value alone tells. A handle that is NULL or of another kind is an error and no crash; one that
-   was deleted through another variable is not found out.
+   The first argument of most functions is an error object, which then holds code and message of that call. A call
+   that gets NULL because the one before it failed keeps that one's message, so that it is enough to check at the end
+   of a chain. The error object may be NULL: then the return value alone tells. A handle that is NULL or of another
+   kind is an error and no crash; one that was deleted through another variable is not found out.
 
    A load that cannot be solved as requested is no error: the solution has a status, see wavycon_measures.status_code.
 
@@ -155,10 +156,10 @@ wavycon_solution wavycon_solve(wavycon_error error, wavycon_solver solver, const
 /* Solves a load of the deck, 0 <= load < the number of its loads. */
 wavycon_solution wavycon_solve_load(wavycon_error error, wavycon_solver solver, int load);
 
-/* Runs a deck as the program does: solves its loads and writes its tables to `directory`, "" for that of the deck. quiet:
-   nonzero for no log on standard output. exit_status: that of the program, 0 or, if loads were not solved as requested,
-   2, which is no error. While it runs, those of SIGINT, SIGTERM and SIGHUP that the process does not handle remove an
-   unfinished file and end the process. */
+/* Runs a deck as the program does: solves its loads and writes its tables to `directory`, "" for that of the deck.
+   quiet: nonzero for no log on standard output. exit_status: that of the program, 0 or, if loads were not solved as
+   requested, 2, which is no error. While it runs, those of SIGINT, SIGTERM and SIGHUP that the process does not
+   handle remove an unfinished file and end the process. */
 int wavycon_run_deck(wavycon_error error, const char *path, const char *directory, int quiet, int *exit_status);
 
 /* Solutions ------------------------------------------------------------------------------------------------------- */

@@ -26,7 +26,7 @@ program bench_maps
    type(fitted_contact) :: fitted
    type(grid_contact) :: grid
 
-   write (output_unit, '(a)') '# Maps: a load solved, and its fields on the points of a map; medians of a few runs, and the least'
+   write (output_unit, '(a)') '# Maps: a load solved, and its fields on the points of a map; medians and least times'
    write (output_unit, '(a)') '# solver      surface   accuracy      P  solve[ms] points    map[ms]      least'
    call measure_fitted(1e-4_dp)
    call measure_fitted(1e-10_dp)

@@ -246,6 +246,19 @@ static void solutions(wavycon_surface surface, wavycon_solution solution, wavyco
     REFUSED(wavycon_get_number_of_edges(error, without_fields, &edges));
 }
 
+/* The message is that of the call that failed, not of those that then got NULL. */
+static void chains(void)
+{
+    char message[1000];
+    wavycon_measures measures;
+    wavycon_surface surface = wavycon_new_wave_1d(error, -5, 1);
+    wavycon_solver solver = wavycon_new_solver(error, surface, 1, "", 0);
+    wavycon_solution solution = wavycon_solve(error, solver, "pbar_over_pstar", 0.2);
+    REFUSED(wavycon_get_measures(error, solution, &measures));
+    wavycon_get_error_message(error, message, sizeof message);
+    check(strstr(message, "'-5'") != NULL, "the message of the first call of a chain", __LINE__);
+}
+
 /* Without an error object the return value alone tells; buffers that are NULL or small are no danger. */
 static void errors_and_texts(wavycon_surface surface, wavycon_solution solution)
 {
@@ -291,6 +304,7 @@ int main(void)
     wavycon_delete(&solver);
     wavycon_delete(&bare);
     solutions(surface, solution, without_fields);
+    chains();
     errors_and_texts(surface, solution);
     wavycon_delete(&without_fields);
     wavycon_delete(&solution);
