@@ -2,44 +2,47 @@
 import math
 import os
 
-from axes import Scale, axis, quoted
+from axes import axis, quoted
 from variables import REFERENCE, array_of, names_of, numbers_in, of_column, put_range, put_scale, scaled
 
 
-def ends_of_bars(table, name, error_name, unit):
-    """The values of a column and the ends of their error bars, as far as these are smaller than the values."""
-    errors = [unit*error for error in table.column(error_name)]
-    values = table.column(name)
-    if len(errors) != len(values):
-        return values
-    return values + [value + sign*error for value, error in zip(values, errors) if error < value for sign in (-1, 1)]
+def ends_of_bars(tables, factors, name, error_name, head=None):
+    """The values of a column, on the axis, and the ends of their error bars as far as these are smaller than the values.
+
+    head: the name of the number of the head by which the errors are to be multiplied.
+    """
+    ends = []
+    for table, factor in zip(tables, factors):
+        unit = table.numbers.get(head, 0.0) if head else 1.0
+        for block in table.blocks:
+            for value, error in zip(block.columns[name], block.columns[error_name]):
+                reach = unit*error if unit*error < value else 0.0   # an error that is unknown is NaN
+                ends += [factor*(value - reach), factor*(value + reach)]
+    return ends
 
 
 def summary(tables, beside, loads, folder):
+    """Summaries: contact area, mean gap and peak pressure against the mean pressure."""
+    first = tables[0]
     load = numbers_in(tables, of_column("mean_pressure"), "p*", "p_star", may_be_wide=True)
     means = scaled(tables, load[1], "mean_pressure")
     wide = axis(means)[-1]
-    gap = numbers_in(tables, of_column("mean_gap"), "Delta", "Delta")
-    peak = numbers_in(tables, of_column("peak_pressure"), "p*", "p_star", may_be_wide=wide)
-    first = tables[0]
-    facts = put_scale("load", load, "p_bar", "mean pressure") + put_scale("gap", gap, "mean_gap", "mean gap")
-    facts += put_scale("peak", peak, "p_max", "peak pressure")
     full = load[1][0]*first.numbers.get("p*", 0.0) if len(tables) == 1 else 0.0
-    facts += put_range("load", means, up_to=full)
-    ends = [ends_of_bars(table, "contact_area_fraction", "contact_area_fraction_error", 1.0) for table in tables]
-    ends = [end for some in ends for end in some]
-    area = Scale(1.0 if wide and axis(ends)[-1] else max(ends, default=1.0), over="area_0")
-    facts += put_range("area", [end*area.factor for end in ends], may_be_wide=wide, up_to=1.0)
-    facts += [f"area_factor = {area.factor!r}", f"area_label = {area.label('area', 'contact area')}"]
-    ends = [[end*factor for end in ends_of_bars(table, "mean_gap", "mean_gap_over_amplitude_error",
-                                                table.numbers.get("Delta", 0.0))]
-            for table, factor in zip(tables, gap[1])]
-    facts += put_range("gap", [end for some in ends for end in some], may_be_wide=False,
-                       up_to=gap[1][0]*first.numbers.get("Delta", 0.0))
-    ends = [[end*factor for end in ends_of_bars(table, "peak_pressure", "peak_pressure_over_pstar_error",
-                                                table.numbers.get("p*", 0.0))]
-            for table, factor in zip(tables, peak[1])]
-    facts += put_range("peak", [end for some in ends for end in some], may_be_wide=wide)
+    facts = put_scale("load", load, "p_bar", "mean pressure") + put_range("load", means, up_to=full)
+
+    area = numbers_in(tables, of_column("contact_area_fraction"), "", "area_0", may_be_wide=wide)
+    ends = ends_of_bars(tables, area[1], "contact_area_fraction", "contact_area_fraction_error")
+    facts += put_scale("area", area, "area", "contact area") + put_range("area", ends, may_be_wide=wide, up_to=1.0)
+
+    gap = numbers_in(tables, of_column("mean_gap"), "Delta", "Delta")
+    ends = ends_of_bars(tables, gap[1], "mean_gap", "mean_gap_over_amplitude_error", "Delta")
+    facts += put_scale("gap", gap, "mean_gap", "mean gap")
+    facts += put_range("gap", ends, may_be_wide=False, up_to=gap[1][0]*first.numbers.get("Delta", 0.0))
+
+    peak = numbers_in(tables, of_column("peak_pressure"), "p*", "p_star", may_be_wide=wide)
+    ends = ends_of_bars(tables, peak[1], "peak_pressure", "peak_pressure_over_pstar_error", "p*")
+    facts += put_scale("peak", peak, "p_max", "peak pressure") + put_range("peak", ends, may_be_wide=wide)
+
     facts += array_of("p_star_of", [repr(table.numbers.get("p*", 0.0)) for table in tables])
     facts += array_of("Delta_of", [repr(table.numbers.get("Delta", 0.0)) for table in tables])
     codes = [code for table in tables for code in table.column("status_code")]

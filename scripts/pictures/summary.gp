@@ -6,7 +6,7 @@ array low[3] = [area_low, gap_low, peak_low]
 array high[3] = [area_high, gap_high, peak_high]
 array step[3] = [area_step, gap_step, peak_step]
 array wide[3] = [area_wide, gap_wide, peak_wide]
-factor(n, r) = n == 1 ? area_factor : n == 2 ? gap_factor[r] : peak_factor[r]
+factor(n, r) = n == 1 ? area_factor[1] : n == 2 ? gap_factor[r] : peak_factor[r]
 unit_of_error(n, r) = n == 1 ? 1 : n == 2 ? Delta_of[r] : p_star_of[r]
 
 x(r) = load_factor[r]*column('mean_pressure')

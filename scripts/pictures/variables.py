@@ -15,11 +15,13 @@ class CannotBeDrawn(ValueError):
 
 
 def put_range(name, numbers, **kind):
+    """The range of an axis, as `axis` finds it from the numbers on it."""
     low, high, step, wide = axis(numbers, **kind)
     return [f"{name}_low = {low!r}", f"{name}_high = {high!r}", f"{name}_step = {step!r}", f"{name}_wide = {int(wide)}"]
 
 
 def array_of(name, words):
+    """An array of gnuplot's; words: its elements as expressions."""
     return [f"array {name}[{len(words)}] = [{', '.join(words)}]"]
 
 
@@ -27,12 +29,12 @@ def numbers_in(tables, column, name, over, may_be_wide=False):
     """The scale of a column of several tables, and the factor for each table.
 
     column: gives the numbers of a table. name: of the number of the head by which they are divided if their unit has no
-    label. over: its symbol in gnuplot. may_be_wide: whether the axis may be logarithmic, then without powers of ten
-    in its label.
+    label. over: its symbol in gnuplot, '' if they are not to be divided. may_be_wide: whether the axis may be
+    logarithmic, then without powers of ten in its label.
     """
     labels = {table.label(name) for table in tables}
     unit = labels.pop() if len(labels) == 1 else ""
-    divisors = [1.0 if unit else table.numbers.get(name) or 0.0 for table in tables]
+    divisors = [1.0 if unit or not name or not over else table.numbers.get(name) or 0.0 for table in tables]
     if not all(divisors):
         over, divisors = "", [1.0]*len(tables)
     numbers = [number/divisor for table, divisor in zip(tables, divisors) for number in column(table)]
@@ -42,11 +44,13 @@ def numbers_in(tables, column, name, over, may_be_wide=False):
 
 
 def put_scale(name, found, symbol, words=""):
+    """The label of an axis and the factors of the tables, as found by `numbers_in`."""
     scale, factors = found
     return [f"{name}_label = {scale.label(symbol, words)}"] + array_of(f"{name}_factor", [repr(f) for f in factors])
 
 
 def of_column(name):
+    """For `numbers_in`: the numbers of a column."""
     return lambda table: table.column(name)
 
 
@@ -57,6 +61,7 @@ def of_loads(table):
 
 
 def scaled(tables, factors, name):
+    """The numbers of a column on the axis."""
     return [number*factor for table, factor in zip(tables, factors) for number in table.column(name)]
 
 

@@ -33,7 +33,7 @@ DECKS = {
     "paper": WAVE + "&output " + TABLES + ", theory = t, coefficients = t /",
     "line": "&surface kind = 'wave_1d' /\n&load pbar_over_pstar = 0.1, 0.6 /\n&output " + TABLES +
             ", theory = t, coefficients = t /",
-    "oblong": "&surface kind = 'wave_2d', wavelength_y = 2 /\n&load pbar_over_pstar = 0.3 /\n&output " + TABLES + " /",
+    "oblong": "&surface kind = 'wave_2d', wavelength = 30, wavelength_y = 60 /\n&load pbar_over_pstar = 0.3 /\n&output " + TABLES + " /",
     "npy": WAVE + "&method solver = 'auto' /\n&output map = t, contours = t, map_points = 16, map_format = 'npy' /",
     "si": "&scene pressure_unit = 'Pa', length_unit = 'm' /\n"
           "&surface kind = 'wave_2d', amplitude = 1e-6, wavelength = 1e-3 /\n&material e_star = 230e9 /\n"
@@ -115,6 +115,10 @@ class Plot(unittest.TestCase):
         self.assertIn("(µm)", words)
         words = self.drawn("si.map.dat")
         self.assertIn("(mm)", words)
+        # Lengths without a label are those of the deck.
+        for kind in ("map", "contour"):
+            self.assertIn(" 60 ", self.drawn(f"oblong.{kind}.dat"))
+        self.assertIn(" 10 ", self.drawn("oblong.lines.dat"))
         words = self.drawn("auto.summary.dat")
         self.assertIn("p̄/p*", words)
         self.assertNotIn("pressure)", words)
