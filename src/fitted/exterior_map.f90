@@ -92,7 +92,8 @@ contains
          jacobian = slope%re**2 + slope%im**2 - (conjugate_slope%re**2 + conjugate_slope%im**2)
          if (.not. jacobian > least_jacobian*shape%b(0)**2) exit
          step = (conjg(slope)*left - conjugate_slope*conjg(left))/jacobian
-         v = v + step*min(1.0_dp, longest_step*abs(v)/max(abs(step), tiny(1.0_dp)))
+         if (abs(step) > longest_step*abs(v)) step = step*(longest_step*abs(v)/abs(step))
+         v = v + step
          found = abs(v) >= 1.0_dp
          if (abs(step) <= small_step*abs(v)) return
          if (found) cycle
