@@ -26,8 +26,8 @@ contains
 
       allocate (values(points(1), points(2)))
       call transform%start(points, even=.false.)
-      turn_x = turns(ubound(series%c, 1), 1)
-      turn_y = turns(ubound(series%c, 2), 2)
+      allocate (turn_x, source=turns(ubound(series%c, 1), 1))
+      allocate (turn_y, source=turns(ubound(series%c, 2), 2))
       transform%waves = 0.0_dp
       ! cos iX cos jY is a quarter of the sum of e^(+-iX +-jY); each sine brings a factor of -+i.
       do sign_y = -1, 1, 2
