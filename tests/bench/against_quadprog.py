@@ -56,7 +56,9 @@ def main():
     if len(sys.argv) != 4:
         sys.exit(__doc__.split('\n\n')[1])
     wavycon = Wavycon(sys.argv[1])
-    loads = numpy.loadtxt(sys.argv[2])[:, 0]
+    with open(sys.argv[2], encoding="utf-8") as reference:
+        rows = [line for line in reference if not line.startswith("#")]
+    loads = numpy.genfromtxt(rows, names=True)["pbar_over_pstar"]
     seconds = float(sys.argv[3])
     n, m = wavycon.normals.shape
 
