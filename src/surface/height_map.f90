@@ -53,7 +53,8 @@ contains
             longest_path, required=.true.), &
          choice_key('file_format', "'auto'", &
             "'matrix', a row of heights for each y; 'xyz', lines of x, y, z on a regular grid, from which the "// &
-            "sides of the cell follow in place of length_x and length_y; 'auto', xyz if all lines have three numbers.", &
+            "sides of the cell follow, without length_x and length_y; 'auto', xyz if all lines have three "// &
+            'numbers.', &
             [character(6) :: 'auto', 'matrix', 'xyz']), &
          real_key('height_scale', '1.0', 'length', "length of one unit of the file's heights.", above=0.0_dp)]
    end function keys
