@@ -39,7 +39,7 @@ set multiplot
 set label 1 title_words noenhanced at screen 0.09, 0.955 left font ',15'
 do for [n = 1:3] {
    set lmargin at screen 0.09 + 0.33*(n - 1)
-   set rmargin at screen 0.325 + 0.33*(n - 1)
+   set rmargin at screen 0.32 + 0.33*(n - 1)
    set ylabel label_of[n]
    unset logscale y
    set yrange [low[n]:high[n]]

@@ -127,7 +127,11 @@ contains
          call grid%start(surface, accuracy, keep_fields, points)
          call move_alloc(grid, self%first)
          self%reason = 'the surface has neither a closed form nor expansions'
-         if (.not. by_accuracy) self%reason = 'the points of the grid are given'
+         if (.not. by_accuracy) then
+            self%reason = 'the points of the grid are given'
+            if (all(points == surface%points)) &
+               self%reason = 'a height map is solved on its own points unless an accuracy is given'
+         end if
       end if
    end subroutine start
 

@@ -21,7 +21,7 @@ contains
       type(key_group_type) :: table
 
       table = key_group('scene', 'what the case is called', [ &
-         text_key('title', "''", 'One line for the heads of tables and for plots.', longest_name, &
+         text_key('title', "''", 'One line for the log and the heads of tables.', longest_name, &
             may_be_blank=.true.), &
          text_key('case', "the deck's name", &
             'Stem of the names of the result files: '//plain_in_words// &

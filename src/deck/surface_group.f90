@@ -58,7 +58,8 @@ contains
 
    !> Makes the surface. Errors: exit_file_trouble for a height map that cannot be read, exit_bad_input for a bad one.
    subroutine make_surface(values, surface, map, error)
-      type(group_values), intent(in) :: values   !! without problems
+      !> Without problems. Keys that have no effect beside what a file says are left out of the resolved deck.
+      type(group_values), intent(inout) :: values
       type(surface_type), allocatable, intent(out) :: surface   !! not allocated in case of an error
       type(map_statistics), allocatable, intent(out) :: map     !! allocated for a height map
       type(error_type), allocatable, intent(out) :: error

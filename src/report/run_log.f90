@@ -3,6 +3,7 @@ module wavycon_run_log
    use, intrinsic :: iso_fortran_env, only: int64, output_unit
    use wavycon_kinds, only: dp
    use wavycon_load_lines, only: heading_of_loads, line_of_load
+   use wavycon_map_statistics, only: map_statistics
    use wavycon_plain_text, only: escaped, integer_text, short_number
    use wavycon_results, only: results_type
    use wavycon_scene, only: target_words
@@ -97,6 +98,7 @@ contains
             '), heights over their mean '// &
             short_number(scene%map%lowest)//' to '//short_number(scene%map%highest)//', rms '// &
             short_number(scene%map%rms)//' ['//scene%length_unit//']')
+         if (allocated(scene%map)) call show_broken_borders(self, scene%map, scene%length_unit)
          call self%say('material  E* = '//short_number(scene%e_star)//' ['//scene%pressure_unit//'], p* = '// &
                        short_number(scene%p_star)//' ['//scene%pressure_unit//']')
          call self%say('loads     '//integer_text(size(scene%target))//', '//target_words(scene%loads_by)// &
@@ -104,6 +106,22 @@ contains
          call self%say('method    '//results%solver%name()//', '//results%solver%describe())
       end associate
    end subroutine show_scene
+
+   !> Warns of a map whose opposite borders do not fit together.
+   subroutine show_broken_borders(self, map, length_unit)
+      class(run_log), intent(inout) :: self
+      type(map_statistics), intent(in) :: map
+      character(*), intent(in) :: length_unit
+
+      integer :: direction
+
+      do direction = 1, 2
+         if (map%is_broken_along(direction)) call self%say('note: along '//'xy'(direction:direction)// &
+            ' the map ends with a step of '//short_number(map%border_step(direction))//' ['//length_unit// &
+            '] (rms), where other neighbours differ by at most '//short_number(map%largest_step(direction))// &
+            '; such a step carries load')
+      end do
+   end subroutine show_broken_borders
 
    !> The sides of the cell, such as "2 x 3".
    pure function cell_of(surface) result(words)

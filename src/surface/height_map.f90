@@ -53,7 +53,8 @@ contains
             longest_path, required=.true.), &
          choice_key('file_format', "'auto'", &
             "'matrix', a row of heights for each y; 'xyz', lines of x, y, z on a regular grid, from which the "// &
-            "sides of the cell follow; 'auto', xyz if all lines have three numbers.", &
+            "sides of the cell follow, without length_x and length_y; 'auto', xyz if all lines have three "// &
+            'numbers.', &
             [character(6) :: 'auto', 'matrix', 'xyz']), &
          real_key('height_scale', '1.0', 'length', "length of one unit of the file's heights.", above=0.0_dp)]
    end function keys
@@ -64,16 +65,16 @@ contains
       call values%set_default('length_y', values%real('length_x'))
    end subroutine set_defaults
 
-   !> Reads the map. Errors: exit_file_trouble if the file cannot be read, exit_bad_input if it is not a map or its
-   !> heights are out of range.
+   !> Reads the map. Errors: exit_file_trouble if the file cannot be read, exit_bad_input if it is not a map, its
+   !> heights are out of range, or the deck gives sides of the cell beside coordinates, which may be in another unit.
    subroutine make(values, surface, map, error)
-      type(group_values), intent(in) :: values
+      type(group_values), intent(inout) :: values
       type(surface_type), intent(out) :: surface
       type(map_statistics), allocatable, intent(out) :: map
       type(error_type), allocatable, intent(out) :: error
 
       type(height_map_type) :: heights
-      character(:), allocatable :: map_of, path
+      character(:), allocatable :: map_of, path, sides
       real(dp) :: length(2)
 
       path = place_of_map(values%deck_path, values%text('file'))
@@ -88,6 +89,17 @@ contains
          if (all(step > 0.0_dp)) length = step*shape(height)
          if (step(1) > 0.0_dp .and. size(height, 2) == 1) length = step(1)*size(height, 1)
       end associate
+      if (heights%format == 'xyz') then
+         if (values%has('length_x') .or. values%has('length_y')) then
+            sides = short_number(length(1))
+            if (size(heights%height, 2) > 1) sides = sides//' x '//short_number(length(2))
+            call fatal_error(error, exit_bad_input, escaped(path)//': the coordinates make the cell '//sides// &
+                             ': leave out length_x and length_y'//map_of)
+            return
+         end if
+         call values%leave_out('length_x')
+         call values%leave_out('length_y')
+      end if
       call surface_of_heights(path, length, values%real('height_scale'), heights%height, surface, error)
       if (allocated(error)) then
          error%message = error%message//map_of

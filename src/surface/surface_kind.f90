@@ -40,11 +40,11 @@ module wavycon_surface_kind
          type(key_type), allocatable :: keys(:)
       end function keys_interface
 
-      !> `make`: makes the surface. Errors: exit_file_trouble for a height map that cannot be read, exit_bad_input for
-      !> a bad one.
+      !> `make`: makes the surface. Leaves keys out of the resolved deck that have no effect beside what a file says.
+      !> Errors: exit_file_trouble for a height map that cannot be read, exit_bad_input for a bad one.
       subroutine make_interface(values, surface, map, error)
          import :: error_type, group_values, map_statistics, surface_type
-         type(group_values), intent(in) :: values   !! of &surface, after `set_defaults` and `check`, without problems
+         type(group_values), intent(inout) :: values   !! of &surface, after `set_defaults` and `check`, no problems
          type(surface_type), intent(out) :: surface
          type(map_statistics), allocatable, intent(out) :: map   !! allocated for a height map
          type(error_type), allocatable, intent(out) :: error

@@ -149,7 +149,7 @@ contains
    end subroutine check_count
 
    subroutine make(values, surface, map, error)
-      type(group_values), intent(in) :: values
+      type(group_values), intent(inout) :: values
       type(surface_type), intent(out) :: surface
       type(map_statistics), allocatable, intent(out) :: map
       type(error_type), allocatable, intent(out) :: error

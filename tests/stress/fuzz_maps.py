@@ -189,7 +189,8 @@ def deck(stream, name="heights.dat"):
     """A deck for a map."""
     scale = stream.choice(("", "", ", height_scale = 1e-9", ", height_scale = 1e85", ", height_scale = 1e-85"))
     form = stream.choice(("", "", ", file_format = 'matrix'", ", file_format = 'xyz'"))
-    return (f"&surface kind = 'file', file = '{name}'{form}{scale}, length_x = 2 /\n"
+    length = ", length_x = 2" if "matrix" in form else ""   # refused beside coordinates
+    return (f"&surface kind = 'file', file = '{name}'{form}{scale}{length} /\n"
             f"&load pbar_over_pstar = 0.05, 0.7, 1.2 /\n&output lines = t, line_points = 8 /\n")
 
 
