@@ -46,7 +46,8 @@ class Table:
     """A table: kind, names of columns, `blocks` in the order of gnuplot's `index`, and what the head says.
 
     `numbers` holds Delta, p*, cell_x, cell_y and edge_level as far as the head gives them, `units` their units;
-    `title` is the deck's, '' if it has none; `surface` and `method` are the first words of their lines. The rest of a line that begins a block is not needed.
+    `title` is the deck's, '' if it has none; `surface` and `method` are the first words of their lines. The rest of a
+    line that begins a block is not needed.
     """
 
     def __init__(self, path):

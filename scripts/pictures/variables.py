@@ -9,7 +9,7 @@ REFERENCE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..",
 # At most so many loads are shown as panels, as curves, or as edges of contact.
 MOST_PANELS, MOST_CURVES, MOST_EDGES = 4, 8, 20
 # Sizes of the letters of titles in points, and the width of a letter over its size, about.
-LARGEST, SMALLEST, LETTER = 15.0, 10.0, 0.5
+LARGEST, SMALLEST, LETTER = 15.0, 10.0, 0.45
 
 
 class CannotBeDrawn(ValueError):
@@ -91,7 +91,7 @@ def fitted(case, title, width):
     """
     room = 0.95*width/LETTER
     words = title or case
-    if title and title != case and len(f"{case}: {title}")*LARGEST <= room:
+    if title and title.casefold() != case.casefold() and len(f"{case}: {title}")*LARGEST <= room:
         words = f"{case}: {title}"
     size = max(SMALLEST, min(LARGEST, room/len(words)))
     most = int(room/size)
