@@ -29,6 +29,10 @@ module wavycon_fitted_solver
    public :: fitted_solved, fitted_less_exact, fitted_merged, fitted_bad_input, fitted_failed
    public :: wave_lattice, square_lattice, rectangular_lattice, rhombic_lattice, hexagonal_lattice
 
+   !> Guard: degrees in a row at which Newton's method does not converge, before the regime is
+   !> given up. Next to merging, and beyond it, it may fail at every degree, and the last ones take seconds each.
+   integer, parameter :: most_failed_degrees = 3
+
 contains
 
    !> Solves for one load.
@@ -82,7 +86,7 @@ contains
       type(expansion) :: now
       type(lattice_images) :: images
       real(dp) :: change, measures(all_measures), ratio, residual, tolerance
-      integer :: degree, required
+      integer :: degree, failed, required
       logical :: merged, valid
 
       answer%island = island
@@ -98,6 +102,7 @@ contains
       ratio = merging_ratio(lattice, now)
       ! A lower degree gives the estimates of round shapes one more difference; it cannot represent sharp ones.
       if (degree == first_degree .and. ratio < round_shape_ratio) degree = first_degree - degree_step/2
+      failed = 0
       do
          call resize(lattice, degree, now)
          call images%prepare(lattice, now, series_growth, &
@@ -111,7 +116,9 @@ contains
          merged = ratio >= 1.0_dp
          if (.not. valid .or. merged) exit
          ! Without convergence there is nothing to compare, but the next degree may converge.
+         failed = failed + 1
          if (change <= largest_change) then
+            failed = 0
             call measure_expansion(equations, lattice, answer%pbar_over_pstar, now, measures)
             if (.not. all(measures(:peak_measure) > 0.0_dp)) exit
             call history%push(now, measures, change, ratio)
@@ -122,7 +129,7 @@ contains
                exit
             end if
          end if
-         if (degree >= last_degree) exit
+         if (degree >= last_degree .or. failed == most_failed_degrees) exit
          degree = next_degree(degree, now%basis%fold, ratio)
       end do
       ! On the square lattice a solution of a lower degree is kept although a higher one has merged: it is nearly right.
