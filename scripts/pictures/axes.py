@@ -6,7 +6,7 @@ import re
 PREFIXES = {"n": -9, "µ": -6, "u": -6, "m": -3, "": 0, "k": 3, "M": 6, "G": 9}
 SHOWN = {-9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
 CONVERTED = re.compile(r"([nµumkMG]?)(Pa|m)")
-# Numbers between these need no power of ten beside them.
+# Numbers between these need no power of ten beside them. Units with prefixes always get the one that suits them.
 SMALL, LARGE = 1e-2, 1e4
 # An axis is logarithmic if its numbers span more than this and half of them would lie in its first tenth.
 WIDE, CROWDED = 100, 0.1
@@ -33,14 +33,17 @@ class Scale:
     def __init__(self, most, unit="", over=""):
         self.unit, self.over = unit, "" if unit else over
         self.factor, self.power = 1.0, 0
-        if not most > 0 or SMALL <= most < LARGE:
+        if not most > 0:
             return
-        power = 3*math.floor((math.log10(most) + 1)/3)
         known = CONVERTED.fullmatch(unit)
+        # The largest number is then 1 to 1000, as far as there are prefixes; 0.9999 counts as 1.
+        power = 3*math.floor(math.log10(1.001*most)/3)
         if known and PREFIXES[known[1]] + power in SHOWN:
             self.unit = SHOWN[PREFIXES[known[1]] + power] + known[2]
+        elif SMALL <= most < LARGE:
+            return
         else:
-            self.power = power
+            power = self.power = 3*math.floor((math.log10(most) + 1)/3)
         self.factor = 10.0**-power
 
     def label(self, symbol, words=""):

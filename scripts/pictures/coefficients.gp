@@ -11,7 +11,7 @@ set lmargin at screen 0.15
 set rmargin at screen 0.72
 set bmargin at screen 0.2
 set key at graph 1.03, 1 left top samplen 1.5
-set title title_words noenhanced font ',15' offset 0, -0.3
+set tmargin at screen 1 - 42.0/height
 plot for [i = 1:loads_shown] run(1) index block_of[i] using (sqrt(column('i')**2 + column('j')**2)): \
         (abs(column('pressure_over_pstar'))) \
    with points lc palette cb shade(i) lw 1.2 pt 7 ps 0.7*mark title load_name[i]

@@ -1,6 +1,6 @@
 # What the pictures of scripts/plot share; loaded after figure_style.gp. scripts/plot sets before
 #    folder: the folder in which the tables to be drawn stand as 1.dat, 2.dat ..., and companions under their kinds
-#    title_words: the name of the case; runs, run_names: number and names of the tables
+#    title_words, title_size: the title and the size of its letters; runs, run_names: number and names of the tables
 
 mean_gap = '{/:Italic ḡ}'
 x_symbol = '{/:Italic x}'
@@ -20,4 +20,6 @@ set border 3 lw 0.7
 set tics nomirror out
 set grid lc rgb '#d9d9d9' lw 0.7 dt solid
 set key font small
+# In the middle of the picture's upper edge; pictures of several panels unset it after the first.
+set label 1 title_words noenhanced at screen 0.5, screen 1 - 15.0/height center font sprintf(',%g', title_size)
 format_of(wide) = wide ? '10^{%T}' : '%g'

@@ -14,7 +14,6 @@ set lmargin at screen 72.0/width
 set rmargin at screen (72 + panel_wide)/width
 set bmargin at screen 66.0/height
 set tmargin at screen (66 + panel_tall)/height
-set title title_words noenhanced font ',15' offset 0, -0.3
 set cbrange [load_low:load_high]
 if (load_wide) { set logscale cb; set format cb '10^{%T}' }
 set colorbox user origin screen (72 + panel_wide + 14)/width, screen (66 + 0.1*panel_tall)/height \

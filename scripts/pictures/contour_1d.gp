@@ -9,9 +9,15 @@ set ytics load_step
 set xtics length_step
 set xlabel length_label
 set ylabel load_label
-set title title_words noenhanced font ',15' offset 0, -0.3
+set tmargin at screen 1 - 42.0/height
 
-# A curve is the two ends of a strip.
+# A curve is the two ends of a strip, which is drawn as a vector from the first to the second: lines would begin with
+# small spikes, as gnuplot rounds their first point to whole pixels.
+first(x) = (begin = end, end = x, int(column(0))%2 ? begin : NaN)
+begin = 0
+end = 0
 plot for [i = 1:loads_shown] for [k = first_copy[1]:last_copy[1]] \
-   run(1) index block_of[i] using (k*cell[1] + s*column('x')):(load_of[i]) \
-   with linespoints lc rgb blue lw 2 pt 7 ps 0.6*mark
+   run(1) index block_of[i] using (k*cell[1] + s*first(column('x'))):(load_of[i]):(s*(end - begin)):(0) \
+   with vectors nohead lc rgb blue lw 2, \
+   for [i = 1:loads_shown] for [k = first_copy[1]:last_copy[1]] \
+   run(1) index block_of[i] using (k*cell[1] + s*column('x')):(load_of[i]) with points lc rgb blue pt 7 ps 0.4*mark

@@ -8,7 +8,6 @@ if (load_wide) { set logscale x }
 set format x (format_of(load_wide))
 unset key
 set multiplot layout 3, 3 margins 0.09, 0.985, 0.1, 0.945 spacing 0.095, 0.06
-set label 1 title_words noenhanced at screen 0.5, 0.975 center font ',15'
 do for [n = 1:9] {
    if (n > 6) { set xlabel 'mean pressure '.load } else { set format x '' }
    if (n == 7) { set format x (format_of(load_wide)) }

@@ -89,7 +89,7 @@ def maps(tables, beside, loads, folder):
     places = shown(table, loads, MOST_CURVES if height == 1 else MOST_PANELS)
     facts = load_facts(table, places)
     facts += array_of("block_of", [str(place) for place in places])
-    length = numbers_in(tables, lambda table: ends_of(table, "x", places), "cell_x", "")
+    length = numbers_in(tables, cell_of, "cell_x", "")
     facts += put_scale("length", length, "x_symbol") + [f"y_label = {length[0].label('y_symbol')}"]
     for name, unit, over, symbol in (("pressure", "p*", "p_star", "p"), ("gap", "Delta", "Delta", "gap_symbol")):
         ends = ends_of(table, name, places)
@@ -177,7 +177,7 @@ def edges(tables, beside, loads, folder):
     load = numbers_in(tables, of_loads, "p*", "p_star")
     p_star = table.numbers.get("p*", 1.0)
     on_axis = [load[1][0]*p_star*table.blocks[place].pbar_over_pstar for place in places]
-    length = numbers_in(tables, lambda table: [*cell_in_head(table)], "cell_x", "")
+    length = numbers_in(tables, cell_in_head, "cell_x", "")
     cell = [length[1][0]*side for side in cell_in_head(table)]
     facts = put_scale("load", load, "p_bar", "mean pressure")
     facts += array_of("load_of", [repr(number) for number in on_axis])

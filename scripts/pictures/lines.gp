@@ -26,8 +26,7 @@ between = dimension == 1 ? 0 : 0.03
 unit = (right - left - between)/(dimension == 1 ? longest[1] : longest[1] + longest[2])
 # Runs that are compared have their loads above.
 if (runs > 1) { do for [i = 1:loads_shown] { title_words = title_words.(i > 1 ? ', ' : '').load_name[i] } }
-if (runs > 1) { set label 1 title_words at screen 0.5*(left + right), 0.965 center font small }
-if (runs == 1) { set label 1 title_words noenhanced at screen 0.5*(left + right), 0.965 center font ',15' }
+if (runs > 1) { set label 1 title_words enhanced font small }
 set multiplot
 set xtics length_step
 do for [row = 1:2] {

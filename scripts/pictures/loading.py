@@ -21,6 +21,14 @@ def ends_of_bars(tables, factors, name, error_name, head=None):
     return ends
 
 
+def without_bar(table):
+    """Whether a good row has an error as large as the value, or the largest possible as nothing is known."""
+    return any(code < 10 and error > 0 and error >= value
+               for block in table.blocks for name in IN_THEORY.values()
+               for code, value, error in zip(block.columns["status_code"], block.columns[name],
+                                             block.columns[name + "_error"]))
+
+
 def summary(tables, beside, loads, folder):
     """Summaries: contact area, mean gap and peak pressure against the mean pressure."""
     first = tables[0]
@@ -58,11 +66,17 @@ def summary(tables, beside, loads, folder):
                     ("points ls 11", "the paper's series")]
     if len(tables) > 1:
         entries += [(f"linespoints ls {30 + r}", name) for r, name in enumerate(names_of(tables), 1)]
+    if len(tables) == 1 and without_bar(first):
+        entries += [("points lc rgb blue pt 6 ps 0.7*mark", "error unknown or as large as the value")]
     entries += [("points ls 42", "not accurate")] if 10 in codes else []
     entries += [("points ls 41", "not solved")] if any(code > 10 for code in codes) else []
     key = "".join(f", keyentry with {style} title key_title[{k}] noenhanced" for k, (style, _) in enumerate(entries, 1))
     facts += array_of("key_title", [quoted(words) for _, words in entries] or ["''"])
-    return "summary", (780, 300), facts + [f"reference = '{reference}'", f"key_entries = {quoted(key)}"]
+    # Heights of title and key in points: the names of several runs may need two rows.
+    title_high, key_high = (28, 24*(len(entries) > 0)) if len(tables) == 1 else (0, 40)
+    facts += [f"title_high = {title_high}", f"key_high = {key_high}"]
+    return "summary", (780, 272 + title_high + key_high), \
+        facts + [f"reference = '{reference}'", f"key_entries = {quoted(key)}"]
 
 
 # The closed forms of a table of theory, in the order in which they are drawn.

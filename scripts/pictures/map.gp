@@ -23,7 +23,6 @@ start(i, n) = (70 + (beside ? (n - 1)*(panel_wide + 91) : (i - 1)*(panel_wide + 
 top(n) = 1 - (46 + down(n)*(panel_tall + 16))/height
 lowest = beside ? 0 : 1
 set multiplot
-set label 1 title_words noenhanced at screen 0.5, screen 1 - 12.0/height center font ',15'
 do for [n = 1:2] {
    # White without pressure, and where the gap is closed.
    if (n == 1) { set palette defined (0 '#ffffff', 0.05 '#e8eef5', 0.5 '#5b8db8', 1 '#14304a') }

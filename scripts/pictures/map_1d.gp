@@ -14,7 +14,6 @@ set xtics length_step
 set lmargin at screen 0.16
 set rmargin at screen 0.7
 set multiplot
-set label 1 title_words noenhanced at screen 0.42, 0.965 center font ',15'
 do for [row = 1:2] {
    set tmargin at screen (row == 1 ? 0.92 : 0.52)
    set bmargin at screen (row == 1 ? 0.555 : 0.155)

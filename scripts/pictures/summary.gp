@@ -12,9 +12,12 @@ unit_of_error(n, r) = n == 1 ? 1 : n == 2 ? Delta_of[r] : p_star_of[r]
 x(r) = load_factor[r]*column('mean_pressure')
 y(n, r) = factor(n, r)*column(quantity[n])
 code(x) = column('status_code')
-# Errors that are unknown (NaN) or as large as the value are not drawn.
+# Errors that are as large as the value, or the largest possible as nothing is known, have no bar: the point is open.
 bar(error, value) = error > 0 && error < value ? error : NaN
-error(n, r) = bar(factor(n, r)*unit_of_error(n, r)*column(error_of[n]), y(n, r))
+error_on_axis(n, r) = factor(n, r)*unit_of_error(n, r)*column(error_of[n])
+error(n, r) = bar(error_on_axis(n, r), y(n, r))
+too_large(error, value) = error > 0 && error >= value
+open(n, r) = code(0) < 10 && too_large(error_on_axis(n, r), y(n, r)) ? y(n, r) : NaN
 
 # Converged values of the paper's waves, normalised: a table, or Kuznetsov's and Westergaard's closed forms.
 closed_form(n, P) = n == 1 ? 2/pi*asin(sqrt(P)) : n == 2 ? 1 - P + P*log(P) : 2*sqrt(P)
@@ -33,10 +36,9 @@ set xtics load_step
 if (load_wide) { set mxtics (load_step > 10 ? 1 : 10) }
 set format x (format_of(load_wide))
 unset key
-set bmargin at screen 0.225
-set tmargin at screen 0.875
+set bmargin at screen 67.5/height
+set tmargin at screen 1 - (title_high + key_high + 10.0)/height
 set multiplot
-set label 1 title_words noenhanced at screen 0.09, 0.955 left font ',15'
 do for [n = 1:3] {
    set lmargin at screen 0.09 + 0.33*(n - 1)
    set rmargin at screen 0.32 + 0.33*(n - 1)
@@ -57,11 +59,12 @@ do for [n = 1:3] {
         for [r = 1:runs == 1] run(r) using (x(r)):(y(n, r) - error(n, r)):(0):(2*error(n, r)) \
            with vectors ls 31 nohead, \
         for [r = 1:runs] run(r) using (code(0) < 10 ? x(r) : NaN):(y(n, r)) with points ls joined ? 30 + r : 11, \
+        for [r = 1:runs == 1] run(r) using (x(r)):(open(n, r)) with points lc rgb '#ffffff' pt 7 ps 0.35*mark, \
         for [r = 1:runs] run(r) using (code(0) > 10 ? x(r) : NaN):(y(n, r)) with points ls 41, \
         for [r = 1:runs] run(r) using (code(0) == 10 ? x(r) : NaN):(y(n, r)) with points ls 42
 }
 
-# The key, in a plot of nothing that is as wide as the picture, beside the title; runs that are compared have no title.
+# The key, in a plot of nothing that is as wide as the picture, below the title; runs that are compared have no title.
 set lmargin at screen 0.02
 set rmargin at screen 0.985
 set bmargin at screen 0.9
@@ -74,6 +77,6 @@ unset ylabel
 unset logscale
 set xrange [0:1]
 set yrange [0:1]
-set key at screen 0.985, 0.955 right center horizontal maxrows 1 samplen 2 width 1
+set key at screen 0.5, 1 - (title_high + 0.5*key_high)/height center center horizontal maxrows 1 samplen 2 width 1
 plot NaN @key_entries
 unset multiplot

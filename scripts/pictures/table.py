@@ -46,13 +46,14 @@ class Table:
     """A table: kind, names of columns, `blocks` in the order of gnuplot's `index`, and what the head says.
 
     `numbers` holds Delta, p*, cell_x, cell_y and edge_level as far as the head gives them, `units` their units;
-    `surface` and `method` are the first words of their lines. The rest of a line that begins a block is not needed.
+    `title` is the deck's, '' if it has none; `surface` and `method` are the first words of their lines. The rest of a
+    line that begins a block is not needed.
     """
 
     def __init__(self, path):
         self.path = str(path)
         self.names, self.blocks = [], []
-        self.numbers, self.units, self.surface, self.method = {}, {}, "", ""
+        self.numbers, self.units, self.surface, self.method, self.title = {}, {}, "", "", ""
         self.points = self.skip = self.endian = None   # of a map in numpy's format
         with open(path, "rb") as file:
             binary = file.read(len(MAGIC)) == MAGIC
@@ -98,6 +99,8 @@ class Table:
     def _read_head(self, line):
         for name, unit, number in HEAD_NUMBER.findall(line):
             self.numbers[name], self.units[name] = float(number), unit
+        if line.startswith("# title: "):
+            self.title = line.removeprefix("# title: ").strip()
         for name in ("surface", "method"):
             if line.startswith(f"# {name}: "):
                 setattr(self, name, line.split(":", 1)[1].split(",")[0].strip())
@@ -135,7 +138,7 @@ class Table:
     def take_head(self, summary):
         """Takes what the summary of the same run says: a map in numpy's format has no head."""
         self.numbers, self.units = summary.numbers, summary.units
-        self.surface, self.method = summary.surface, summary.method
+        self.surface, self.method, self.title = summary.surface, summary.method, summary.title
         for block, pbar_over_pstar in zip(self.blocks, summary.column("pbar_over_pstar")):
             block.pbar_over_pstar = pbar_over_pstar
 

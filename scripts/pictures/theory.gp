@@ -13,7 +13,6 @@ if (load_wide) { set logscale x }
 set format x (format_of(load_wide))
 solved_style = many ? 'lines ls 36 lw 2.5' : 'points ls 11'
 set multiplot
-set label 1 title_words noenhanced at screen 0.5, 0.955 center font ',15'
 do for [n = 1:3] {
    set lmargin at screen 0.085 + 0.325*(n - 1)
    set rmargin at screen 0.325 + 0.325*(n - 1)

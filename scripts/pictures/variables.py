@@ -8,6 +8,8 @@ from axes import Scale, axis, chosen, quoted
 REFERENCE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "outputs", "reference", "wave_2d.dat")
 # At most so many loads are shown as panels, as curves, or as edges of contact.
 MOST_PANELS, MOST_CURVES, MOST_EDGES = 4, 8, 20
+# Sizes of the letters of titles in points, and the width of a letter over its size, about.
+LARGEST, SMALLEST, LETTER = 15.0, 10.0, 0.45
 
 
 class CannotBeDrawn(ValueError):
@@ -74,11 +76,26 @@ def names_of(tables):
     return [name.encode("utf-8", "replace").decode("utf-8") for name in names]
 
 
-def titles(tables):
-    """The name above the picture, none if runs are compared, and the names of the runs."""
+def titles(tables, width):
+    """The title of a picture so wide, in points, none if runs are compared, and the names of the runs."""
     names = names_of(tables)
-    return [f"title_words = {quoted(names[0] if len(names) == 1 else '')}"] + \
+    words, size = fitted(names[0], tables[0].title, width) if len(names) == 1 else ("", LARGEST)
+    return [f"title_words = {quoted(words)}", f"title_size = {size:.3g}"] + \
         array_of("run_names", [quoted(name) for name in names])
+
+
+def fitted(case, title, width):
+    """The words of a title, and the size of its letters: the deck's title with the case before it if there is room.
+
+    Long titles are set smaller, and cut if they are still too long.
+    """
+    room = 0.95*width/LETTER
+    words = title or case
+    if title and title.casefold() != case.casefold() and len(f"{case}: {title}")*LARGEST <= room:
+        words = f"{case}: {title}"
+    size = max(SMALLEST, min(LARGEST, room/len(words)))
+    most = int(room/size)
+    return (words if len(words) <= most else words[:most - 1].rstrip() + "…"), size
 
 
 def shown(table, loads, most):

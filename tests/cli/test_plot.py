@@ -3,6 +3,7 @@
 
 usage: test_plot.py --program WAVYCON [unittest's options]
 """
+import html
 import os
 import pathlib
 import re
@@ -18,6 +19,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT/"scripts"/"pictures"))
 import facts  # noqa: E402
 import fields  # noqa: E402
+import variables  # noqa: E402
 from axes import Scale, axis, chosen, marked_up  # noqa: E402
 from table import NotATable, Table  # noqa: E402
 
@@ -28,6 +30,7 @@ WAVE = """\
 &load pbar_over_pstar = 0, 0.1, 0.5 /
 """
 TABLES = "lines = t, map = t, contours = t, map_points = 16, line_points = 16"
+TITLE = "Steel_1 {a}^2 'b' @c & 100 % \\n"   # marks that gnuplot or svg could take for commands
 DECKS = {
     "auto": WAVE + "&method solver = 'fitted' /\n&output " + TABLES + ", theory = t, details = t /",
     "paper": WAVE + "&output " + TABLES + ", theory = t, coefficients = t /",
@@ -35,7 +38,7 @@ DECKS = {
             ", theory = t, coefficients = t /",
     "oblong": "&surface kind = 'wave_2d', wavelength = 30, wavelength_y = 60 /\n&load pbar_over_pstar = 0.3 /\n&output " + TABLES + " /",
     "npy": WAVE + "&method solver = 'auto' /\n&output map = t, contours = t, map_points = 16, map_format = 'npy' /",
-    "si": "&scene pressure_unit = 'Pa', length_unit = 'm' /\n"
+    "si": f"&scene title = \"{TITLE}\", pressure_unit = 'Pa', length_unit = 'm' /\n"
           "&surface kind = 'wave_2d', amplitude = 1e-6, wavelength = 1e-3 /\n&material e_star = 230e9 /\n"
           "&load pbar_over_pstar = 0.05, 0.4 /\n&method solver = 'auto' /\n&output " + TABLES + " /",
     "sweep": "&surface kind = 'wave_1d' /\n&load sweep_from = 0.05, sweep_to = 0.95, sweep_steps = 19 /\n"
@@ -78,7 +81,7 @@ class Plot(unittest.TestCase):
         # Texts are broken up where the face changes.
         xml.dom.minidom.parse(str(picture))   # one document, not several
         shown = re.sub(r"<title>.*?</title>", "", picture.read_text(encoding="utf-8"), flags=re.S)
-        return re.sub(r"\s+", " ", re.sub(r"<[^>]*>", "", shown))
+        return re.sub(r"\s+", " ", html.unescape(re.sub(r"<[^>]*>", "", shown)))
 
     def test_every_table_in_every_format(self):
         kinds = set()
@@ -112,8 +115,9 @@ class Plot(unittest.TestCase):
     def test_units(self):
         words = self.drawn("si.summary.dat", name="si.summary.svg")
         self.assertIn("(GPa)", words)
-        self.assertIn("(µm)", words)
+        self.assertIn("(nm)", words)
         words = self.drawn("si.map.dat")
+        self.assertIn("(µm)", words)
         self.assertIn("(mm)", words)
         # Lengths without a label are those of the deck.
         for kind in ("map", "contour"):
@@ -122,6 +126,46 @@ class Plot(unittest.TestCase):
         words = self.drawn("auto.summary.dat")
         self.assertIn("p̄/p*", words)
         self.assertNotIn("pressure)", words)
+
+    def test_titles(self):
+        """The deck's title stands as it is, in the middle of the upper edge of every picture."""
+        pictures = [f"si.{kind}" for kind in ("summary", "lines", "map", "contour")]
+        pictures += [f"{case}.{kind}" for case in ("line", "auto") for kind in ("contour", "map", "lines", "theory")]
+        for picture in pictures + ["line.coefficients", "auto.details", "unsolved.summary", "npy.map"]:
+            words = self.drawn(f"{picture}.{'npy' if picture == 'npy.map' else 'dat'}")
+            case = picture.split(".")[0]
+            title = f"si: {TITLE}" if case == "si" else case
+            with self.subTest(picture=picture):
+                self.assertIn(title, words)
+                text = (self.folder/f"{picture}.svg").read_text(encoding="utf-8")
+                before = text[:text.index(f">{html.escape(title, quote=False)}</text>")]
+                x, y = re.findall(r'translate\(([^,]*),([^)]*)\)" stroke="none"', before)[-1]
+                self.assertAlmostEqual(float(re.search(r'width="(\d+)"', text)[1])/2, float(x), delta=1)
+                self.assertAlmostEqual(20, float(y), delta=1)
+        self.assertNotIn("Steel", self.drawn("--compare", "si.summary.dat", "auto.summary.dat"))
+
+    def test_strips_of_profiles(self):
+        """The strips of a load cover its contact area: cut at the ends of the cell they are two."""
+        self.drawn("line.contour.dat")
+        text = (self.folder/"line.contour.svg").read_text(encoding="utf-8")
+        strips = {}
+        for start, y, end in re.findall(r"stroke='rgb\([^)]*\)'  d='M([\d.]+),([\d.]+) L([\d.]+),\2  '", text):
+            strips.setdefault(y, []).append(float(end) - float(start))
+        self.assertEqual([2, 2], [len(lengths) for lengths in strips.values()])
+        frame = re.search(r"d='M([\d.]+),[\d.]+ L\1,[\d.]+ L([\d.]+),[\d.]+ M", text)
+        areas = sorted(sum(lengths)/(float(frame[2]) - float(frame[1])) for lengths in strips.values())
+        for expected, area in zip(Table(self.folder/"line.summary.dat").column("contact_area_fraction"), areas):
+            self.assertAlmostEqual(expected, area, delta=2e-3)
+
+    def test_errors_too_large_for_a_bar(self):
+        self.assertNotIn("error unknown", self.drawn("auto.summary.dat"))
+        table = Table(self.folder/"auto.summary.dat")
+        column = table.names.index("contact_area_fraction_error")
+        lines = (self.folder/"auto.summary.dat").read_text().splitlines()
+        words = lines[-1].split()
+        words[column] = "1.0"
+        (self.folder/"open.summary.dat").write_text("\n".join(lines[:-1] + [" ".join(words)]) + "\n")
+        self.assertIn("error unknown or as large as the value", self.drawn("open.summary.dat"))
 
     def test_converged_values_beside_the_papers_series(self):
         self.assertIn("converged", self.drawn("paper.summary.dat"))
@@ -216,12 +260,25 @@ class Numbers(unittest.TestCase):
 
     def test_scales(self):
         self.assertEqual(("GPa", 1e-9), (Scale(2e9, "Pa").unit, Scale(2e9, "Pa").factor))
-        self.assertEqual("µm", Scale(5e-7, "m").unit)
-        self.assertEqual("mm", Scale(0.24, "mm").unit)
+        # The largest number is 1 to 1000.
+        for most, unit, shown in ((5e-7, "m", "nm"), (1.2e-6, "m", "µm"), (0.24, "mm", "µm"), (0.27, "GPa", "MPa"),
+                                  (0.9999, "mm", "mm"), (750, "MPa", "MPa"), (2000, "GPa", "GPa"), (2e5, "Pa", "kPa")):
+            self.assertEqual(shown, Scale(most, unit).unit)
         self.assertEqual(("ksi", 3), (Scale(2e4, "ksi").unit, Scale(2e4, "ksi").power))
         self.assertEqual("N/mm^{2}", marked_up("N/mm^2"))
         self.assertEqual("p.' = 0.2 GPa'", Scale(2e9, "Pa").value("p", 0.2))
         self.assertEqual("p.' = 10^{−5}'", Scale(1.0).value("p", 1e-5))
+
+    def test_titles_fit(self):
+        self.assertEqual(("case", 15.0), variables.fitted("case", "", 430))
+        self.assertEqual(("Case", 15.0), variables.fitted("case", "Case", 430))
+        self.assertEqual(("case: Steel", 15.0), variables.fitted("case", "Steel", 430))
+        words, size = variables.fitted("case", "x"*70, 430)
+        self.assertEqual("x"*70, words)
+        self.assertTrue(10 < size < 15)
+        words, size = variables.fitted("case", "x"*200, 430)
+        self.assertEqual(10.0, size)
+        self.assertRegex(words, "^x{80,95}…$")
 
     def test_chosen_loads(self):
         self.assertEqual([0, 1, 2], chosen(3, 4))
