@@ -45,8 +45,7 @@ contains
             longest_directory), rows, &
          integer_key('line_points', "128, or the grid's", &
             'intervals of the lines along a side of the cell; both ends are points. The default is the larger '// &
-            'number of points of the grid, if it is given, or of the file; if that is less than 128, the first '// &
-            'multiple of it that is not.', 8, most_points), &
+            'number of points of the grid, if it is given, or of the file, multiplied to be at least 128.', 8, most_points), &
          integer_key('map_points', "128, or the grid's", &
             'points of the map along x and y; one number for both. The default is that of the grid, if it is '// &
             'given, or of the file. Where they are those of the grid that was solved the map shows its points, '// &
@@ -98,7 +97,7 @@ contains
       if (all(points == 0)) points = surface%points
    end function given_points
 
-   !> Sets the points of maps in full and those of lines: as given or, by default, such that they are those of the grid.
+   !> Sets the points of maps in full and those of lines: as given or, by default, from those of the grid.
    subroutine set_points(values, grid, dimension)
       type(group_values), intent(inout) :: values
       integer, intent(in) :: grid(2)      !! its points along x and y; zeros if there is none
@@ -106,7 +105,7 @@ contains
 
       integer :: finest, points(2)
 
-      ! The intervals of lines are a multiple of those of the grid, so that no peak is left out.
+      ! A multiple of the grid's points: lines on a square height map pass through its points and do not cut peaks.
       finest = max(1, maxval(grid))
       call values%set_default('line_points', finest*((max(usual_points, finest) + finest - 1)/finest))
       if (values%is_bad('map_points')) return
