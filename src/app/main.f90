@@ -84,7 +84,7 @@ contains
                call deck%output%set('directory', plain_directory(command_line%output))
             call list_keys(deck, scenes(i)%keys)
             allocate (scenes(i)%scene)
-            call make_scene(deck, scenes(i)%scene, error)
+            call make_scene(deck, scenes(i)%scene)
          end if
          if (allocated(error)) then
             write (error_unit, '(a)') error%message

@@ -240,7 +240,7 @@ contains
             if (token%kind == is_broken_word) is_good = .false.
             if (token%kind /= is_word) cycle
             if (used >= key%most_values) then
-               call problems%add(token%first, one_too_many(key, values%table, lower_case(word)))
+               call problems%add(token%first, one_too_many(key, values%table, word))
                is_good = .false.
                exit
             end if
@@ -271,12 +271,12 @@ contains
    pure function one_too_many(key, table, word) result(words)
       type(key_type), intent(in) :: key
       type(key_group_type), intent(in) :: table
-      character(*), intent(in) :: word
+      character(*), intent(in) :: word   !! as in the deck
       character(:), allocatable :: words
 
       words = trim(key%name)//' takes '//at_most(key%most_values)//", and here is one more: '"// &
          excerpt(word)//"'"
-      if (key_index(table%keys, word) > 0) words = words//"; is a '=' missing behind it?"
+      if (key_index(table%keys, lower_case(word)) > 0) words = words//"; is a '=' missing behind it?"
    end function one_too_many
 
    pure function at_most(number) result(words)

@@ -3,15 +3,16 @@ module wavycon_load_group
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: integer_key, key_group, key_group_type, real_key
    use wavycon_kinds, only: dp
+   use wavycon_plain_text, only: short_number
    use wavycon_problems, only: problem_list_type
    use wavycon_scene, only: by_contact_area, by_mean_gap, by_pressure
    implicit none (type, external)
    private
 
-   public :: load_table, check_load_group, given_loads, is_another_way
+   public :: load_table, check_load_group, check_loads_of_surface, given_loads, is_another_way
 
    !> Largest load accepted. Contact is full from 1 on: a load far above it is most likely a mistake of units.
-   real(dp), parameter, public :: largest_pbar_over_pstar = 1.0e6_dp
+   real(dp), parameter :: largest_pbar_over_pstar = 1.0e6_dp
 
    integer, parameter :: most_loads = 100000
 
@@ -76,6 +77,35 @@ contains
          call values%complain(problems, 'sweep_steps', &
             'sweep_steps = 1 leaves out sweep_to: the ends count as loads; give at least 2')
    end subroutine check_load_group
+
+   !> Reports loads that the surface cannot have: a mean gap above that before load, a pressure of more than
+   !> largest_pbar_over_pstar p*, and a gap or an area on a flat surface.
+   subroutine check_loads_of_surface(values, amplitude, p_star, problems)
+      type(group_values), intent(in) :: values               !! of a &load group without problems
+      real(dp), intent(in) :: amplitude                      !! Delta [length]
+      real(dp), intent(in) :: p_star                         !! p* [pressure]; 0: the surface is flat
+      type(problem_list_type), intent(inout) :: problems
+
+      character(:), allocatable :: key
+      integer :: loads_by
+      real(dp), allocatable :: loads(:)
+      real(dp) :: worst
+
+      call given_loads(values, key, loads_by, loads)
+      worst = maxval(loads)
+      if (p_star <= 0.0_dp) then
+         if (loads_by /= by_pressure) call values%complain(problems, key, &
+            'the surface is flat: give its loads by pressure, not by gap or area')
+      else if (key == 'mean_pressure' .and. worst > largest_pbar_over_pstar*p_star) then
+         call values%complain(problems, key, 'mean_pressure = '//short_number(worst)//' is more than '// &
+            short_number(largest_pbar_over_pstar)//' times p* = '//short_number(p_star)// &
+            '. Do its unit and that of e_star agree, and those of the lengths?')
+      else if (key == 'mean_gap' .and. worst > amplitude) then
+         call values%complain(problems, key, 'mean_gap = '//short_number(worst)// &
+            ' is more than the mean gap before load, '//short_number(amplitude)// &
+            '. Do the units of the lengths agree?')
+      end if
+   end subroutine check_loads_of_surface
 
    !> Whether two keys of &load give the loads in different ways: two lists, or a list and a sweep.
    pure logical function is_another_way(key, other)

@@ -16,7 +16,8 @@ module wavycon_output_group
 
    !> Points of lines and maps along a side of the cell: as many as a height map may have.
    integer, parameter :: most_points = 8192
-   !> Points of maps along a side of the cell where the deck, the surface and the method give none.
+   !> Points of maps along a side of the cell where the deck, the surface and the method give none; fewest intervals of
+   !> lines by default.
    integer, parameter :: usual_points = 128
 
    !> Bytes of a directory's name. The default, 'outputs/' and the name of the case, must fit.
@@ -42,8 +43,10 @@ contains
          text_key('directory', "'outputs/<case>'", &
             'Where the results go, relative to where the program is started; made if it is not there.', &
             longest_directory), rows, &
-         integer_key('line_points', '128', &
-            'intervals of the lines along a side of the cell; both ends are points.', 8, most_points), &
+         integer_key('line_points', "128, or the grid's", &
+            'intervals of the lines along a side of the cell; both ends are points. The default is the larger '// &
+            'number of points of the grid, if it is given, or of the file; if that is less than 128, the first '// &
+            'multiple of it that is not.', 8, most_points), &
          integer_key('map_points', "128, or the grid's", &
             'points of the map along x and y; one number for both. The default is that of the grid, if it is '// &
             'given, or of the file. Where they are those of the grid that was solved the map shows its points, '// &
@@ -54,7 +57,7 @@ contains
          former_key='points_per_wavelength', in_its_place='line_points for lines and map_points for maps')
    end function output_table
 
-   !> Sets the directory and the points of maps, and checks the tables against the solver and the surface.
+   !> Sets the directory and the points of lines and maps, and checks the tables against the solver and the surface.
    subroutine check_output_group(values, case, method, surface, problems)
       type(group_values), intent(inout) :: values
       character(*), intent(in) :: case     !! name of the case; the default directory is outputs/<case>
@@ -70,8 +73,7 @@ contains
       call values%set_default('directory', 'outputs/'//case)
       call values%set('directory', plain_directory(values%text('directory')))
       if (.not. allocated(surface)) return
-      if (.not. (values%is_bad('map_points') .or. method%is_bad('grid_points'))) &
-         call set_map_points(values, method, surface)
+      if (.not. method%is_bad('grid_points')) call set_points(values, given_points(method, surface), surface%dimension)
       call get_solvers(solvers)
       call all_tables(tables)
       do k = 1, size(solvers)
@@ -86,25 +88,35 @@ contains
       end do
    end subroutine check_output_group
 
-   !> Sets the points of maps in full: as given or, by default, those of the grid to solve or of the height map.
-   subroutine set_map_points(values, method, surface)
-      type(group_values), intent(inout) :: values
+   !> The points along x and y of the grid to solve or, if the deck gives none, of the height map; zeros without both.
+   pure function given_points(method, surface) result(points)
       type(group_values), intent(in) :: method
       type(surface_type), intent(in) :: surface
-
       integer :: points(2)
 
+      points = points_of_grid(method, surface)
+      if (all(points == 0)) points = surface%points
+   end function given_points
+
+   !> Sets the points of maps in full and those of lines: as given or, by default, such that they are those of the grid.
+   subroutine set_points(values, grid, dimension)
+      type(group_values), intent(inout) :: values
+      integer, intent(in) :: grid(2)      !! its points along x and y; zeros if there is none
+      integer, intent(in) :: dimension    !! of the contact
+
+      integer :: finest, points(2)
+
+      ! The intervals of lines are a multiple of those of the grid, so that no peak is left out.
+      finest = max(1, maxval(grid))
+      call values%set_default('line_points', finest*((max(usual_points, finest) + finest - 1)/finest))
+      if (values%is_bad('map_points')) return
+      points = grid
+      if (all(grid == 0)) points = usual_points
       associate (given => values%integers('map_points'))
-         if (values%has('map_points')) then
-            points = given([1, size(given)])
-         else
-            points = points_of_grid(method, surface)
-            if (all(points == 0)) points = surface%points
-            if (all(points == 0)) points = usual_points
-         end if
+         if (values%has('map_points')) points = given([1, size(given)])
       end associate
-      call values%set('map_points', points(:surface%dimension))
-   end subroutine set_map_points
+      call values%set('map_points', points(:dimension))
+   end subroutine set_points
 
    !> The path of a directory without superfluous './' and '/', so that equal paths are equal texts.
    pure function plain_directory(name) result(plain)

@@ -11,8 +11,8 @@ module wavycon_read_deck
    use wavycon_deck_text, only: deck_text_type, read_deck_text
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_group_values, only: group_values
-   use wavycon_load_group, only: check_load_group
-   use wavycon_material_group, only: check_material_group
+   use wavycon_load_group, only: check_load_group, check_loads_of_surface
+   use wavycon_material_group, only: check_material_group, plane_strain_modulus
    use wavycon_method_group, only: check_method_group
    use wavycon_output_group, only: check_output_group
    use wavycon_plain_text, only: escaped
@@ -75,9 +75,8 @@ contains
 
       call check_scene_group(deck%scene, problems)
       if (present(settings)) call name_case(deck%scene, settings, problems)
-      call check_material_group(deck%material, problems)
       call read_surface(deck, problems, error)
-      call check_load_group(deck%load, problems)
+      call check_material_and_loads(deck, problems)
       call check_method_group(deck%method, deck%surface_values%text('kind'), deck%surface, problems)
       call check_output_group(deck%output, deck%scene%text('case'), deck%method, deck%surface, problems)
       ! Problems of the deck are reported rather than an error of its height map: the path of the map may be one of
@@ -101,5 +100,21 @@ contains
       if (problems%number > before .or. deck%surface_values%any_bad()) return
       call make_surface(deck%surface_values, deck%surface, deck%map, error)
    end subroutine read_surface
+
+   !> Checks &material and &load and, where these and the surface have no problems, the loads against p* and Delta.
+   subroutine check_material_and_loads(deck, problems)
+      type(deck_type), intent(inout) :: deck   !! after read_surface
+      type(problem_list_type), intent(inout) :: problems
+
+      integer :: before
+
+      before = problems%number
+      call check_material_group(deck%material, problems)
+      call check_load_group(deck%load, problems)
+      if (problems%number > before .or. deck%material%any_bad() .or. deck%load%any_bad()) return
+      if (deck%load%place == 0 .or. .not. allocated(deck%surface)) return
+      call check_loads_of_surface(deck%load, deck%surface%amplitude, &
+         deck%surface%full_contact_pressure(plane_strain_modulus(deck%material)), problems)
+   end subroutine check_material_and_loads
 
 end module wavycon_read_deck

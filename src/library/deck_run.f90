@@ -38,7 +38,7 @@ contains
       call read_deck(path, deck, error, settings)
       if (.not. allocated(error)) then
          allocate (scene)
-         call make_scene(deck, scene, error)
+         call make_scene(deck, scene)
       end if
       if (.not. allocated(error)) call run_scene(scene, quiet, .false., results, status, error)
       if (allocated(error)) status = error%status

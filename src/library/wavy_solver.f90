@@ -9,7 +9,7 @@ module wavycon_wavy_solver
    use wavycon_group_text, only: read_group_text
    use wavycon_group_values, only: group_values
    use wavycon_kinds, only: dp
-   use wavycon_load_group, only: check_load_group, load_table
+   use wavycon_load_group, only: check_load_group, check_loads_of_surface, load_table
    use wavycon_make_scene, only: make_scene, take_loads
    use wavycon_material_group, only: material_table
    use wavycon_method_group, only: check_method_group, method_table
@@ -111,11 +111,11 @@ contains
       type(scene_type) :: scene
 
       call read_deck(path, deck, error)
-      if (.not. allocated(error)) call make_scene(deck, scene, error)
       if (allocated(error)) then
          solver%trouble = error%message
          return
       end if
+      call make_scene(deck, scene)
       solver%e_star = scene%e_star
       solver%p_star = scene%p_star
       solver%keep_fields = keep_fields
@@ -197,13 +197,13 @@ contains
       if (allocated(error)) return
       call read_group_text(load_table(), quantity//' = '//number_words(value), values, text, problems)
       call check_load_group(values, problems)
+      if (problems%number == 0) &
+         call check_loads_of_surface(values, self%solver%surface%amplitude, self%p_star, problems)
       if (problems%number > 0) then
          call fatal_error(error, exit_bad_input, problem_report(problems, text))
          return
       end if
-      call take_loads(values, text%path, self%solver%surface%amplitude, self%p_star, loads_by, target, mean_pressure, &
-                      error)
-      if (allocated(error)) return
+      call take_loads(values, self%solver%surface%amplitude, self%p_star, loads_by, target, mean_pressure)
       if (size(target) /= 1) then
          call fatal_error(error, exit_bad_input, text%path//': this is not one load but '//integer_text(size(target)))
          return

@@ -99,6 +99,7 @@ contains
             short_number(scene%map%lowest)//' to '//short_number(scene%map%highest)//', rms '// &
             short_number(scene%map%rms)//' ['//scene%length_unit//']')
          if (allocated(scene%map)) call show_broken_borders(self, scene%map, scene%length_unit)
+         if (scene%has_units) call show_steep_slopes(self, scene%surface%rms_slope(), allocated(scene%map))
          call self%say('material  E* = '//short_number(scene%e_star)//' ['//scene%pressure_unit//'], p* = '// &
                        short_number(scene%p_star)//' ['//scene%pressure_unit//']')
          call self%say('loads     '//integer_text(size(scene%target))//', '//target_words(scene%loads_by)// &
@@ -122,6 +123,23 @@ contains
             '; such a step carries load')
       end do
    end subroutine show_broken_borders
+
+   !> Warns of a surface that is too steep for the theory, most likely by a mistake of units.
+   subroutine show_steep_slopes(self, slope, is_map)
+      class(run_log), intent(inout) :: self
+      real(dp), intent(in) :: slope     !! root mean square
+      logical, intent(in) :: is_map     !! whether the surface is a height map
+
+      !> The theory of small slopes is off by the order of their square, here a tenth.
+      real(dp), parameter :: steepest = 0.3_dp
+      character(:), allocatable :: cause
+
+      if (slope <= steepest) return
+      cause = 'Are amplitudes and wavelengths in one unit?'
+      if (is_map) cause = 'Do height_scale, and the sides of the cell, suit the units of the file?'
+      call self%say('note: the slopes of the surface are '//short_number(slope)// &
+                    ' (rms); the theory needs small ones. '//cause)
+   end subroutine show_steep_slopes
 
    !> The sides of the cell, such as "2 x 3".
    pure function cell_of(surface) result(words)

@@ -26,6 +26,7 @@ module wavycon_scene
       character(:), allocatable :: length_unit      !! likewise of lengths
       real(dp) :: e_star = 1.0_dp                   !! plane-strain modulus [pressure]
       logical :: gives_modulus = .false.            !! whether the deck gives it
+      logical :: has_units = .false.                !! whether it gives a modulus or labels of units: not normalised
       real(dp) :: p_star = 0.0_dp                   !! p*, mean pressure that just closes the gap [pressure]
       integer :: loads_by = by_pressure             !! by_pressure, by_mean_gap or by_contact_area
       real(dp), allocatable :: target(:)            !! P, G or the contact area fraction, in the deck's order

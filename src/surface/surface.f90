@@ -30,6 +30,7 @@ module wavycon_surface
    contains
       procedure :: full_contact_pressure
       procedure :: undeformed_gap_over_amplitude
+      procedure :: rms_slope
       procedure :: frequency
       procedure :: pressure_of
       procedure :: displacement_of
@@ -120,6 +121,30 @@ contains
 
       gap = 1.0_dp - self%shape%at(x, y)
    end function undeformed_gap_over_amplitude
+
+   !> The root mean square of the slope, the size of the gradient of h: sqrt2 pi Delta/lambda for the paper's waves.
+   pure real(dp) function rms_slope(self)
+      class(surface_type), intent(in) :: self
+
+      real(dp) :: total
+      integer :: i, j
+
+      ! The mean square of each harmonic is 1, halved for each direction in which it varies; a gradient multiplies it by
+      ! the square of 2 pi times the frequency.
+      total = 0.0_dp
+      associate (shape => self%shape)
+         do j = 0, ubound(shape%c, 2)
+            do i = 0, ubound(shape%c, 1)
+               associate (weight => self%frequency(i, j)**2/2**count([i, j] > 0))
+                  total = total + weight*shape%c(i, j)**2
+                  if (.not. shape%is_even()) &
+                     total = total + weight*(shape%cs(i, j)**2 + shape%sc(i, j)**2 + shape%ss(i, j)**2)
+               end associate
+            end do
+         end do
+      end associate
+      rms_slope = 2*pi*self%amplitude*sqrt(total)
+   end function rms_slope
 
    !> One over the wavelength of a harmonic [1/length].
    elemental real(dp) function frequency(self, m, n)

@@ -32,8 +32,7 @@ program stress_scenes
    if (command_argument_count() /= 3) error stop 'usage: stress_scenes DECK SEED SAMPLES'
    call read_deck(word(1), deck, error)
    call stop_on(error)
-   call make_scene(deck, scene, error)
-   call stop_on(error)
+   call make_scene(deck, scene)
    call start_solver(scene%surface, scene%method, .true., solver)
    do i = 1, size(scene%target)
       call solver%solve(scene%target(i), solution)
