@@ -157,6 +157,23 @@ class Plot(unittest.TestCase):
         for expected, area in zip(Table(self.folder/"line.summary.dat").column("contact_area_fraction"), areas):
             self.assertAlmostEqual(expected, area, delta=2e-3)
 
+    def test_strips_have_clean_ends(self):
+        """The strips of a wave are symmetric, row by row of the picture. gnuplot reads the picture."""
+        self.plot("line.contour.dat")
+        subprocess.run(["gnuplot", "-d"], cwd=self.folder, check=True, text=True, input="set table 'pixels'\n"
+                       "plot 'line.contour.png' binary filetype=png using ($1 == 0 && $2 == 101) with image\n")
+        rows = {}
+        for line in (self.folder/"pixels").read_text().splitlines():
+            words = line.split()
+            if words and words[0] != "#" and float(words[2]):
+                rows.setdefault(int(words[1]), []).append(int(words[0]))
+        low, high = (end(end(row) for row in rows.values()) for end in (min, max))
+        self.assertGreater(len(rows), 10)
+        for row in rows.values():
+            left = max(x for x in row if x < (low + high)/2)
+            right = min(x for x in row if x > (low + high)/2)
+            self.assertAlmostEqual(left - low, high - right, delta=2)
+
     def test_errors_too_large_for_a_bar(self):
         self.assertNotIn("error unknown", self.drawn("auto.summary.dat"))
         table = Table(self.folder/"auto.summary.dat")
