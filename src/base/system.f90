@@ -196,8 +196,8 @@ contains
    logical function has_memory_for(numbers)
       integer(int64), intent(in) :: numbers
 
-      !> So few, 8 MB, are always granted: asking the system means to read a dozen files of it, which takes as long as to
-      !> solve a grid of 32 x 32 points.
+      !> So few, 8 MB, are always granted: asking the system means to read a dozen files of it, which takes as long as
+      !> to solve a grid of 32 x 32 points.
       integer(int64), parameter :: few = 1000000_int64
       integer(int64) :: available
       real(dp), allocatable :: probe(:)

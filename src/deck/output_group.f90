@@ -45,7 +45,8 @@ contains
             longest_directory), rows, &
          integer_key('line_points', "128, or the grid's", &
             'intervals of the lines along a side of the cell; both ends are points. The default is the larger '// &
-            'number of points of the grid, if it is given, or of the file, multiplied to be at least 128.', 8, most_points), &
+            'number of points of the grid, if it is given, or of the file, multiplied to be at least 128.', &
+            8, most_points), &
          integer_key('map_points', "128, or the grid's", &
             'points of the map along x and y; one number for both. The default is that of the grid, if it is '// &
             'given, or of the file. Where they are those of the grid that was solved the map shows its points, '// &

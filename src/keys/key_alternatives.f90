@@ -9,7 +9,8 @@ module wavycon_key_alternatives
    implicit none (type, external)
    private
 
-   public :: alternative_type, selector_key, merged_keys, names_reading, report_missing_keys, is_misplaced, leave_out_other_keys
+   public :: alternative_type, selector_key, merged_keys, names_reading, report_missing_keys, is_misplaced, &
+      leave_out_other_keys
 
    integer, parameter :: name_length = 12
 

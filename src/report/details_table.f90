@@ -1,7 +1,7 @@
 !> <case>.details.dat: numbers that the summary does not have, with error estimates, from solvers that compute them.
 !>
-!> The table has a row for each load. What a load without details (no load, full contact, no solution) does not have is NaN,
-!> its degree 0.
+!> The table has a row for each load. What a load without details (no load, full contact, no solution) does not have is
+!> NaN, its degree 0.
 module wavycon_details_table
    use wavycon_contact_details, only: contact_details
    use wavycon_contact_solver, only: contact_solver

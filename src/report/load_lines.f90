@@ -1,7 +1,7 @@
 !> The lines of the log that show the solved loads.
 !>
-!> Mean gap, area and peak pressure, each followed by its error estimate if the solver has them; mean and peak pressure in
-!> the deck's unit if the deck gives a modulus. No line is longer than 120 characters.
+!> Mean gap, area and peak pressure, each followed by its error estimate if the solver has them; mean and peak pressure
+!> in the deck's unit if the deck gives a modulus. No line is longer than 120 characters.
 module wavycon_load_lines
    use wavycon_kinds, only: dp
    use wavycon_results, only: results_type

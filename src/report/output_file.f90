@@ -1,7 +1,7 @@
 !> Result files. A file is written under a temporary name and renamed when it is complete.
 !>
-!> A table has header lines that start with '#', the last of them with the units of the columns, then one line with their
-!> names, then rows. gnuplot, numpy and pandas find columns by these names.
+!> A table has header lines that start with '#', the last of them with the units of the columns, then one line with
+!> their names, then rows. gnuplot, numpy and pandas find columns by these names.
 module wavycon_output_file
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_error, only: error_type, exit_file_trouble, fatal_error

@@ -30,8 +30,8 @@ module wavycon_results
 
 contains
 
-   !> Opens a table <case>.<kind>.dat, writes the header lines that all tables have and sets the columns. A table without
-   !> blocks has the names of its columns here, any other at the head of each block. Errors show in file%finish.
+   !> Opens a table <case>.<kind>.dat, writes the header lines that all tables have and sets the columns. A table
+   !> without blocks has the names of its columns here, any other at the head of each block. Errors show in file%finish.
    subroutine open_table(self, kind, columns, file, in_blocks)
       class(results_type), intent(in) :: self
       character(*), intent(in) :: kind         !! name of the table, such as 'summary'

@@ -1,7 +1,7 @@
 !> The lines along which the tables of lines show the fields.
 !>
-!> Line 1 runs from a crest along x; in 2-D line 2 runs from the same crest along the diagonal of the cell. Lines end after
-!> half a cell if the surface has a mirror line there, otherwise after a whole cell.
+!> Line 1 runs from a crest along x; in 2-D line 2 runs from the same crest along the diagonal of the cell. Lines end
+!> after half a cell if the surface has a mirror line there, otherwise after a whole cell.
 module wavycon_surface_lines
    use wavycon_constants, only: pi
    use wavycon_kinds, only: dp

@@ -38,7 +38,8 @@ module wavycon_theory_table
       'light_longer_contact_area_fraction[-]', 'light_longer_mean_gap_over_amplitude[-]', &
       'closure_longer_contact_area_fraction[-]', 'closure_longer_mean_gap_over_amplitude[-]', &
       'hertz_peak_pressure_over_pstar[-]', 'hertz_radius[length]', 'crack_radius[length]']
-   !> Columns for the wave in one dimension and for that in two, after the first two columns. Those of the other are NaN.
+   !> Columns for the wave in one dimension and for that in two, after the first two columns. Those of the other are
+   !> NaN.
    integer, parameter :: closed_forms(2) = [5, 12]
 
    type, extends(table_type) :: theory_table
