@@ -17,14 +17,14 @@ LEFT_OUT = ("unit.fitted_details", "unit.fitted_fields", "exact.fitted", "exact.
             "exact.grid", "exact.surfaces")
 LOADS = "&load pbar_over_pstar = 0.05, 0.3, 0.7, 1 /\n"
 TABLES = "&output lines = t, map = t, contours = t, line_points = 8, map_points = 8 /\n"
-OF_THE_PAPER = TABLES.replace("map", "coefficients = t, theory = t, map")
+OF_THE_PAPER = TABLES.replace("map = t", "map = t, coefficients = t, theory = t")
 COARSE = "&method solver = 'grid', accuracy = 1e-2 /\n"
 # Name, deck, exit status.
 DECKS = (
     ("beale 1-D", "&surface kind = 'wave_1d' /\n" + LOADS + OF_THE_PAPER, 0),
     ("beale 2-D", "&surface kind = 'wave_2d' /\n" + LOADS + OF_THE_PAPER
      + "&method harmonics = 5, constraint_points = 9 /\n", 0),
-    ("closed form", "&surface kind = 'wave_1d' /\n" + LOADS + TABLES.replace("map", "theory = t, map")
+    ("closed form", "&surface kind = 'wave_1d' /\n" + LOADS + TABLES.replace("map = t", "map = t, theory = t")
      + "&method solver = 'auto' /\n", 0),
     ("fitted", "&surface kind = 'wave_2d' /\n" + LOADS + "&method solver = 'fitted', accuracy = 1e-2 /\n"
      "&output lines = t, details = t, line_points = 8 /\n", 0),
