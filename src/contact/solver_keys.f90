@@ -8,7 +8,7 @@ module wavycon_solver_keys
    implicit none (type, external)
    private
 
-   public :: accuracy_key, check_grid_points, grid_points_key, points_of_grid, set_grid_defaults
+   public :: accuracy_key, check_grid_points, grid_points_key, is_another_way, points_of_grid, set_grid_defaults
 
 contains
 
@@ -67,5 +67,13 @@ contains
       if (any(mod(values%integers('grid_points'), 2) /= 0)) call values%complain(problems, 'grid_points', &
          'grid_points must be even: of surfaces with mirror symmetry half of them are solved each way')
    end subroutine check_grid_points
+
+   !> Whether two keys of &method choose the grid in different ways: accuracy, or grid_points.
+   pure logical function is_another_way(key, other)
+      character(*), intent(in) :: key, other
+
+      is_another_way = (key == 'accuracy' .and. other == 'grid_points') .or. &
+                       (key == 'grid_points' .and. other == 'accuracy')
+   end function is_another_way
 
 end module wavycon_solver_keys

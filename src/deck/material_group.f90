@@ -7,7 +7,10 @@ module wavycon_material_group
    implicit none (type, external)
    private
 
-   public :: material_table, check_material_group, plane_strain_modulus
+   public :: material_table, check_material_group, is_another_way, plane_strain_modulus
+
+   !> The keys that give the stiffness in place of e_star.
+   character(3), parameter :: moduli(*) = ['e1 ', 'nu1', 'e2 ', 'nu2']
 
 contains
 
@@ -31,7 +34,6 @@ contains
       type(group_values), intent(inout) :: values
       type(problem_list_type), intent(inout) :: problems
 
-      character(3), parameter :: moduli(*) = ['e1 ', 'nu1', 'e2 ', 'nu2']
       integer :: i
 
       call values%require(problems, 'e1', 'nu1')
@@ -45,6 +47,13 @@ contains
       end do
       if (values%has('e1')) call values%leave_out('e_star')
    end subroutine check_material_group
+
+   !> Whether two keys of &material give the stiffness in different ways: e_star, or the moduli of the bodies.
+   pure logical function is_another_way(key, other)
+      character(*), intent(in) :: key, other
+
+      is_another_way = (key == 'e_star' .and. any(moduli == other)) .or. (any(moduli == key) .and. other == 'e_star')
+   end function is_another_way
 
    !> E* of the pair [pressure]: as given, or from 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2, without the second term if
    !> the second body is rigid.

@@ -7,10 +7,12 @@ module wavycon_settings
    use wavycon_group_values, only: group_values
    use wavycon_key_alternatives, only: alternative_type
    use wavycon_key_table, only: choice_value, key_group_type, key_index, text_value
-   use wavycon_load_group, only: is_another_way
+   use wavycon_load_group, only: is_another_load => is_another_way
+   use wavycon_material_group, only: is_another_stiffness => is_another_way
    use wavycon_plain_text, only: excerpt, integer_text, is_printable, lower_case, quoted, unquoted
    use wavycon_problems, only: problem_list_type
    use wavycon_scene_group, only: longest_name, name_letters
+   use wavycon_solver_keys, only: is_another_grid => is_another_way
    use wavycon_solver_list, only: get_solvers, keys_of_solvers, solver_item
    use wavycon_surface_kinds, only: get_surface_kinds, keys_of_kinds, surface_kind_item
    implicit none (type, external)
@@ -155,16 +157,15 @@ contains
          call get_solvers(solvers)
          call keys_of_solvers(solvers, alternatives)
          replaces = is_key_of_others(alternatives)
-      case ('method.accuracy')
-         replaces = key == 'grid_points'
-      case ('method.grid_points')
-         replaces = key == 'accuracy'
-      case ('material.e_star')
-         replaces = any(key == [character(3) :: 'e1', 'nu1', 'e2', 'nu2'])
-      case ('material.e1', 'material.nu1', 'material.e2', 'material.nu2')
-         replaces = key == 'e_star'
       case default
-         if (setting%group == 'load') replaces = is_another_way(setting%key, key)
+         select case (setting%group)
+         case ('load')
+            replaces = is_another_load(setting%key, key)
+         case ('material')
+            replaces = is_another_stiffness(setting%key, key)
+         case ('method')
+            replaces = is_another_grid(setting%key, key)
+         end select
       end select
 
    contains
