@@ -1,5 +1,6 @@
 !> The table of --table: a row for each load of each deck, with the columns of the summary.
 module wavycon_collected_table
+   use wavycon_column_text, only: column_name, column_unit
    use wavycon_deck_keys, only: deck_key, longest_key_name
    use wavycon_error, only: error_type, exit_file_trouble, fatal_error
    use wavycon_output_file, only: narrowest, output_file
@@ -78,7 +79,7 @@ contains
          rows%case = results%scene%case
          rows%keys = keys
          do i = 1, size(summary_columns)
-            rows%units(i) = results%unit_in_words(unit_of(summary_columns(i)))
+            rows%units(i) = results%unit_in_words(trim(column_unit(summary_columns(i))))
          end do
          allocate (rows%words(size(summary_columns), size(results%loads)))
          do i = 1, size(results%loads)
@@ -150,7 +151,7 @@ contains
          names(before + k) = columns(k)%name
       end do
       do k = 1, size(summary_columns)
-         names(before + size(columns) + k) = name_of(summary_columns(k))
+         names(before + size(columns) + k) = column_name(summary_columns(k))
          units(before + size(columns) + k) = common_unit(table, k)
       end do
       do d = 1, table%number
@@ -230,27 +231,11 @@ contains
       integer, intent(in) :: column
       character(longest_unit) :: unit
 
-      unit = unit_of(summary_columns(column))
+      unit = column_unit(summary_columns(column))
       if (table%number == 0) return
       if (all(table%decks(:table%number)%units(column) == table%decks(1)%units(column))) &
          unit = table%decks(1)%units(column)
    end function common_unit
-
-   !> The name in 'name[unit]'.
-   pure function name_of(column) result(name)
-      character(*), intent(in) :: column
-      character(:), allocatable :: name
-
-      name = column(:index(column, '[') - 1)
-   end function name_of
-
-   !> The unit in 'name[unit]'.
-   pure function unit_of(column) result(unit)
-      character(*), intent(in) :: column
-      character(:), allocatable :: unit
-
-      unit = column(index(column, '[') + 1:index(column, ']') - 1)
-   end function unit_of
 
    !> A text as one word of a table.
    pure function without_blanks(text) result(word)

@@ -2,6 +2,7 @@
 !> format). Or <case>.map.npy: the same as an array of records for numpy.
 module wavycon_map_table
    use, intrinsic :: iso_fortran_env, only: int64
+   use wavycon_column_text, only: column_name
    use wavycon_contact_fields, only: contact_fields
    use wavycon_error, only: error_type
    use wavycon_kinds, only: dp
@@ -72,7 +73,8 @@ contains
          call results%open_table('map', columns, file, in_blocks=.true.)
       else
          call file%open(results%scene%directory, results%scene%case//'.map.npy', binary=.true.)
-         call file%put_raw(npy_header(record_names(), [size(results%loads), points(2), points(1)]))
+         ! The first index of the file's array is the load.
+         call file%put_raw(npy_header(column_name(columns(2:)), [size(results%loads), points(2), points(1)]))
       end if
       if (.not. has_memory_for(numbers_a_point*product(int(points, int64)))) call file%note_trouble( &
          'there is not enough memory for '//integer_text(points(1))//' x '//integer_text(points(2))//' points')
@@ -121,17 +123,6 @@ contains
       end do
       offset = 0.0_dp
    end function map_offset
-
-   !> The names of the columns in a file of numpy, whose first index is the load.
-   pure function record_names() result(names)
-      character(len(columns)) :: names(size(columns) - 1)
-
-      integer :: i
-
-      do i = 1, size(names)
-         names(i) = columns(i + 1)(:index(columns(i + 1), '[') - 1)
-      end do
-   end function record_names
 
    !> Writes the map of a load. The point after the last of a row is the first again and is not written.
    subroutine put_map(results, load, points, offset, as_text, file)

@@ -1,6 +1,7 @@
 !> The data that the tables of one scene are written from, and the header lines that all tables have.
 module wavycon_results
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use wavycon_column_text, only: column_name, column_unit
    use wavycon_contact_solution, only: contact_solution_item
    use wavycon_contact_solver, only: contact_solver
    use wavycon_kinds, only: dp
@@ -39,9 +40,8 @@ contains
       type(output_file), intent(out) :: file
       logical, intent(in) :: in_blocks         !! whether the rows come in blocks, each begun by `begin_block`
 
-      character(len(columns)) :: names(size(columns))
       character(longest_unit) :: units(size(columns))
-      integer :: bracket, i
+      integer :: i
 
       call file%open(self%scene%directory, self%scene%case//'.'//kind//'.dat')
       call file%put('# wavycon '//version//' ('//revision//')')
@@ -55,11 +55,9 @@ contains
          call file%put('# method: '//self%solver%name()//', '//self%solver%describe())
       end associate
       do i = 1, size(columns)
-         bracket = index(columns(i), '[')
-         names(i) = columns(i)(:bracket - 1)
-         units(i) = self%unit_in_words(columns(i)(bracket + 1:index(columns(i), ']') - 1))
+         units(i) = self%unit_in_words(trim(column_unit(columns(i))))
       end do
-      call file%put_columns(names, units)
+      call file%put_columns(column_name(columns), units)
       if (.not. in_blocks) call file%put_names()
 
    contains
