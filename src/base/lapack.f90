@@ -1,10 +1,10 @@
 !> Interfaces of the BLAS and LAPACK procedures in use.
 module wavycon_lapack
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, sp
    implicit none (type, external)
    private
 
-   public :: dgemm, dgemv, dger, dsymv, dsyr, dtrsv                           ! BLAS
+   public :: dgemm, dgemv, dger, dsymv, dsyr, dtrsv, sdot                     ! BLAS
    public :: dgels, dgeqp3, dgglse, dlarfg, dormqr, dpotrf, dtrtri            ! LAPACK
 
    interface
@@ -62,6 +62,13 @@ module wavycon_lapack
          real(dp), intent(inout) :: a(lda, *)
          integer, intent(out) :: info
       end subroutine dpotrf
+
+      pure function sdot(n, x, incx, y, incy)
+         import :: sp
+         integer, intent(in) :: n, incx, incy
+         real(sp), intent(in) :: x(*), y(*)
+         real(sp) :: sdot
+      end function sdot
 
       pure subroutine dtrtri(uplo, diag, n, a, lda, info)
          import :: dp

@@ -6,7 +6,7 @@
 module wavycon_grid_cascade
    use wavycon_compliance_operator, only: compliance_operator
    use wavycon_contact_measures, only: largest_errors
-   use wavycon_contact_tuning, only: given_grid_tolerance, iteration_limit, tolerance_factor
+   use wavycon_contact_tuning, only: iteration_limit
    use wavycon_grid_edge, only: grid_contact_area, grid_edge, start_grid_edge
    use wavycon_grid_error, only: change_history, estimate_errors
    use wavycon_grid_peak, only: grid_peak_pressure
@@ -14,6 +14,7 @@ module wavycon_grid_cascade
    use wavycon_grid_refinement, only: refine_pressure
    use wavycon_grid_solver, only: grid_state, solve_on_grid
    use wavycon_kinds, only: dp
+   use wavycon_local_stiffness, only: local_stiffness
    use wavycon_solver_progress, only: solver_progress
    use wavycon_surface, only: surface_type
    implicit none (type, external)
@@ -36,28 +37,33 @@ contains
 
    !> Solves one load, to an accuracy or up to a given grid. The sequence ends early if a grid does not fit into memory
    !> (`out_of_memory`) or the iteration on it does not converge (`state%converged` is false).
-   subroutine solve_by_cascade(surface, mean_pressure, accuracy, points, answer, progress)
+   subroutine solve_by_cascade(surface, mean_pressure, accuracy, points, answer, progress, residual)
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: mean_pressure           !! P in (0, 1)
       real(dp), intent(in) :: accuracy                !! largest error estimate allowed of the three values, >= 0
       integer, intent(in) :: points(2)                !! of the last grid, on the whole cell; zeros: to the accuracy
       type(cascade_answer), intent(out) :: answer
       class(solver_progress), intent(in), optional :: progress   !! is called after each grid
+      !> Residual (C9) of the last grid that `points` gives; absent or 0: as its edge needs it (C10).
+      real(dp), intent(in), optional :: residual
 
       real(dp), allocatable :: finer(:, :)
       type(change_history) :: history
       type(grid_plan) :: plan
+      real(dp) :: last_residual
       logical :: last
       integer :: grid(2)
 
       plan = plan_grids(surface, points)
       grid = plan%first
+      last_residual = 0.0_dp
+      if (present(residual) .and. all(points > 0)) last_residual = residual
       answer%out_of_memory = .not. fits_memory(grid)
       if (answer%out_of_memory) return
       allocate (answer%state%pressure(grid(1), grid(2)), source=mean_pressure)
       do
          last = all(grid == plan%last)
-         call solve_level(surface, mean_pressure, tolerance_of(grid, mean_pressure, last .and. all(points > 0)), answer)
+         call solve_level(surface, mean_pressure, merge(last_residual, 0.0_dp, last), answer)
          call measure_level(surface, history, answer)
          answer%accurate = answer%state%converged .and. all(answer%errors <= accuracy) .and. &
             all(grid >= plan%trusted)
@@ -78,23 +84,14 @@ contains
       answer%errors = min(answer%errors, largest_errors(surface%full_contact_peak))
    end subroutine solve_by_cascade
 
-   !> The tolerance (C10) of the residual on a grid.
-   pure real(dp) function tolerance_of(grid, mean_pressure, given) result(tolerance)
-      integer, intent(in) :: grid(2)
-      real(dp), intent(in) :: mean_pressure
-      logical, intent(in) :: given   !! whether this is the grid whose points the user gave
-
-      tolerance = tolerance_factor*mean_pressure**(1.0_dp/3)/maxval(grid)**1.5_dp
-      if (given) tolerance = given_grid_tolerance
-   end function tolerance_of
-
    !> Solves on one grid, that of answer%state%pressure, and starts from that pressure.
-   subroutine solve_level(surface, mean_pressure, tolerance, answer)
+   subroutine solve_level(surface, mean_pressure, residual, answer)
       type(surface_type), intent(in) :: surface
-      real(dp), intent(in) :: mean_pressure, tolerance
+      real(dp), intent(in) :: mean_pressure, residual
       type(cascade_answer), intent(inout) :: answer
 
       type(compliance_operator) :: half_space
+      type(local_stiffness) :: stencil
       real(dp), allocatable :: h(:, :)
       integer :: points(2)
 
@@ -104,7 +101,8 @@ contains
       call half_space%transform%sample(surface%shape, h)
       h = 1.0_dp - h
       answer%state%pressure = answer%state%pressure*(mean_pressure*size(h)/sum(answer%state%pressure))
-      call solve_on_grid(half_space, h, mean_pressure, tolerance, iteration_limit, answer%state)
+      call stencil%start(surface, points)
+      call solve_on_grid(half_space, stencil, h, residual, iteration_limit, answer%state)
       answer%grids = answer%grids + 1
       answer%iterations = answer%iterations + answer%state%iterations
       answer%transform_pairs = answer%transform_pairs/2**surface%dimension + half_space%transform_pairs

@@ -18,16 +18,26 @@ module wavycon_contact_tuning
 
    ! Tolerance of the iteration.
 
-   !> A grid of step h is solved to a residual of this times h^(3/2) P^(1/3) of the mean gap, so that the iteration adds
-   !> little to the error of the discretisation.
-   real(dp), parameter, public :: tolerance_factor = 1e-3_dp
-   !> Tolerance of a grid whose points the user gives: its values are compared with those of other programs.
-   real(dp), parameter, public :: given_grid_tolerance = 1e-11_dp
+   !> A grid is solved until the gap in contact deviates from zero by this part of the gap at the points next to the
+   !> contact, so that the iteration adds little to the error of the edge.
+   real(dp), parameter, public :: edge_tolerance = 0.01_dp
    !> Iterations on one grid, after which the status is iteration_limit.
    integer, parameter, public :: iteration_limit = 500
    !> A point enters the contact when its overlap exceeds this part of the allowed residual. Smaller overlaps may be
    !> rounding: such points would enter and leave without end.
    real(dp), parameter, public :: overlap_part = 0.1_dp
+
+   !> Part of its residual to which the pressure is corrected in single precision before the gap is computed anew in
+   !> double precision.
+   real(dp), parameter, public :: correction_part = 1e-4_dp
+   !> Most iterations of one correction.
+   integer, parameter, public :: correction_limit = 60
+   !> Points within this many steps of the contact may enter it in a correction.
+   integer, parameter, public :: halo = 2
+   !> Reach of the stencil that approximates S^-1, in steps.
+   integer, parameter, public :: stencil_reach = 3
+   !> Part of the points in contact below which the stencil replaces the transforms of S^-1.
+   real(dp), parameter, public :: stencil_fraction = 0.4_dp
 
    ! Error estimates of the grids.
 

@@ -1,0 +1,303 @@
+!> Corrects a pressure whose gap violates the conditions of contact: one inner solution of `solve_on_grid`, in single
+!> precision, on the points in and near the contact.
+!>
+!> Conjugate gradients on the points in contact, whose set is updated in each iteration, after Polonsky & Keer (Wear 231
+!> (1999) 206-219), with a preconditioner and Polak & Ribiere's factor. Numbers (C..) are the equations of README.md in
+!> this directory.
+module wavycon_pressure_correction
+   use wavycon_compliance_operator, only: compliance_operator
+   use wavycon_contact_region, only: contact_region
+   use wavycon_contact_tuning, only: overlap_part, stencil_fraction
+   use wavycon_kinds, only: dp, sp
+   use wavycon_lapack, only: sdot
+   use wavycon_local_stiffness, only: local_stiffness
+   implicit none (type, external)
+   private
+
+   public :: pressure_correction
+
+   !> Numbers of a vector that one sum in single precision adds. It bounds the rounding of sums, which do not depend on
+   !> the number of threads.
+   integer, parameter :: chunk = 4096
+
+   !> All vectors have the shape (region%points) and are over `scale`; pressures are in p*, gaps in Delta.
+   type :: pressure_correction
+      integer :: iterations = 0
+      integer :: local_iterations = 0           !! those whose preconditioner was the stencil
+      real(dp) :: residual = huge(1.0_dp)       !! as `solve_on_grid`'s, times G
+      type(contact_region) :: region
+      integer :: grid(2) = 0           !! M, N
+      real(dp) :: scale = 1.0_dp       !! the residual at the start
+      integer :: contact_points = 0
+      real(dp) :: descent = 0.0_dp     !! (gap, z) of the last direction
+      real(sp), allocatable :: start_pressure(:)
+      real(sp), allocatable :: change(:)      !! of the pressure since the start
+      real(sp), allocatable :: gap(:)
+      real(sp), allocatable :: contact(:)     !! 1 in contact, 0 outside
+      real(sp), allocatable :: residuals(:)   !! r: the gap in contact, zero outside, of the last iteration
+      real(sp), allocatable :: direction(:)   !! d
+      real(sp), allocatable :: image(:)       !! in turn r, z, d, Sd
+      real(sp), allocatable :: field(:, :)    !! a vector on the grid, for transforms
+      type(local_stiffness) :: stencil
+   contains
+      procedure :: start
+      procedure :: improve
+      procedure :: add_to
+      procedure :: shift_gap
+      procedure :: precondition
+      procedure :: update_direction
+      procedure :: find_step
+      procedure :: move
+      procedure :: restore_mean
+      procedure :: add_overlaps
+      procedure :: displace
+      procedure :: product_of
+      procedure :: subtract_mean
+   end type pressure_correction
+
+contains
+
+   subroutine start(self, inside, stencil, pressure, gap, residual)
+      class(pressure_correction), intent(out) :: self
+      logical, intent(in) :: inside(:, :)         !! the points in and near the contact
+      type(local_stiffness), intent(in) :: stencil
+      real(dp), intent(in) :: pressure(:, :)      !! p/p* >= 0, shape (M, N); zero outside the region
+      real(dp), intent(in) :: gap(:, :)           !! its gap/Delta, whose mean in contact is zero
+      real(dp), intent(in) :: residual            !! root mean square of the violated conditions [Delta]
+
+      real(dp), allocatable :: values(:)
+
+      self%scale = residual
+      self%grid = shape(inside)
+      self%stencil = stencil
+      call self%region%start(inside)
+      associate (n => self%region%points)
+         allocate (values(n), self%direction(n), self%image(n), self%residuals(n), self%change(n))
+         call self%region%gather(pressure, values)
+         self%start_pressure = real(values/residual, sp)
+         self%contact = merge(1.0_sp, 0.0_sp, values > 0.0_dp)
+         call self%region%gather(gap, values)
+         self%gap = real(values/residual, sp)
+      end associate
+      self%direction = 0.0_sp
+      self%residuals = 0.0_sp
+      self%change = 0.0_sp
+   end subroutine start
+
+   !> Iterates by (C3) to (C8) until the residual is below a part of its start, or for a number of iterations.
+   subroutine improve(self, half_space, part, most_iterations)
+      class(pressure_correction), intent(inout) :: self
+      type(compliance_operator), intent(inout) :: half_space
+      real(dp), intent(in) :: part                !! of the residual at the start
+      integer, intent(in) :: most_iterations
+
+      real(sp) :: step
+
+      allocate (self%field(self%grid(1), self%grid(2)))
+      do
+         call self%shift_gap()
+         if (self%residual <= part*self%scale .or. self%iterations >= most_iterations) exit
+         self%iterations = self%iterations + 1
+         call self%precondition(half_space)
+         call self%update_direction()
+         call self%find_step(half_space, step)
+         call self%move(step, half_space)
+         call self%add_overlaps(real(overlap_part*part, sp))
+      end do
+      deallocate (self%field)
+   end subroutine improve
+
+   !> Adds the change to the pressure and restores its mean.
+   subroutine add_to(self, pressure)
+      class(pressure_correction), intent(in) :: self
+      real(dp), intent(inout) :: pressure(:, :)   !! the pressure of `start`; its mean stays
+
+      real(dp), allocatable :: values(:)
+      real(dp) :: total
+      integer :: i
+
+      total = sum(pressure)
+      allocate (values(self%region%points))
+      call self%region%gather(pressure, values)
+      do i = 1, size(values)
+         if (self%contact(i) > 0.0_sp) then
+            values(i) = max(0.0_dp, values(i) + self%scale*self%change(i))
+         else
+            values(i) = 0.0_dp
+         end if
+      end do
+      call self%region%scatter(values, pressure)
+      pressure = pressure*(total/sum(pressure))
+   end subroutine add_to
+
+   !> Changes the approach so that the mean gap in contact is zero (C3), and computes the residual (C9) times G.
+   subroutine shift_gap(self)
+      class(pressure_correction), intent(inout) :: self
+
+      real(sp) :: shift
+
+      self%contact_points = nint(self%product_of(self%contact, self%contact))
+      shift = real(self%product_of(self%contact, self%gap)/self%contact_points, sp)
+      self%gap = self%gap - shift
+      self%image = merge(self%gap, min(self%gap, 0.0_sp), self%contact > 0.0_sp)
+      self%residual = self%scale*sqrt(self%product_of(self%image, self%image)/product(real(self%grid, dp)))
+   end subroutine shift_gap
+
+   !> Computes z (C4) of the residual r, in `image`.
+   subroutine precondition(self, half_space)
+      class(pressure_correction), intent(inout) :: self
+      type(compliance_operator), intent(inout) :: half_space
+
+      self%image = self%contact*self%gap
+      if (self%stencil%exists .and. self%contact_points < stencil_fraction*product(real(self%grid, dp))) then
+         call self%stencil%apply(self%region, self%grid, self%image)
+         self%local_iterations = self%local_iterations + 1
+      else
+         call self%region%clear(self%field)
+         call self%region%scatter(self%image, self%field)
+         call half_space%pressure(self%field, self%region%columns, self%region%columns)
+         call self%region%gather(self%field, self%image)
+      end if
+      call self%subtract_mean(self%image)
+   end subroutine precondition
+
+   !> Computes the next direction by Polak & Ribiere's factor (C5).
+   subroutine update_direction(self)
+      class(pressure_correction), intent(inout) :: self
+
+      real(dp) :: descent
+      real(sp) :: beta
+
+      descent = self%product_of(self%gap, self%image)
+      ! A contact of one point has no direction and (gap, z) = 0: the search restarts.
+      beta = 0.0_sp
+      if (self%descent > tiny(self%descent)) beta = real(max( &
+         (descent - self%product_of(self%residuals, self%image))/self%descent, 0.0_dp), sp)
+      self%descent = descent
+      self%direction = self%image + beta*self%direction
+      ! If points have left the contact, the mean of the last direction over the others is not zero.
+      call self%subtract_mean(self%direction)
+      self%residuals = self%contact*self%gap
+   end subroutine update_direction
+
+   !> Computes the step to the least energy along the direction (C6); `image` becomes Sd.
+   subroutine find_step(self, half_space, step)
+      class(pressure_correction), intent(inout) :: self
+      type(compliance_operator), intent(inout) :: half_space
+      real(sp), intent(out) :: step   !! zero for a contact of one point, where d = 0; overlaps may still be added
+
+      real(dp) :: curvature
+
+      self%image = self%direction
+      call self%displace(half_space)
+      curvature = self%product_of(self%direction, self%image)
+      step = 0.0_sp
+      if (curvature > 0.0_dp) step = real(self%product_of(self%residuals, self%direction)/curvature, sp)
+   end subroutine find_step
+
+   !> Moves pressure and gap by a step. Points whose pressure would not stay positive leave the contact; the others are
+   !> then multiplied by a factor that restores the mean pressure (C7).
+   subroutine move(self, step, half_space)
+      class(pressure_correction), intent(inout) :: self
+      real(sp), intent(in) :: step
+      type(compliance_operator), intent(inout) :: half_space
+
+      integer :: i, left
+
+      left = 0
+      !$omp parallel do num_threads(self%region%threads) reduction(+:left)
+      do i = 1, self%region%points
+         self%gap(i) = self%gap(i) - step*self%image(i)
+         self%change(i) = self%change(i) - step*self%direction(i)
+         self%image(i) = 0.0_sp
+         if (self%contact(i) > 0.0_sp .and. self%start_pressure(i) + self%change(i) <= 0.0_sp) then
+            self%image(i) = -self%start_pressure(i) - self%change(i)
+            self%change(i) = -self%start_pressure(i)
+            self%contact(i) = 0.0_sp
+            left = left + 1
+         end if
+      end do
+      if (left == 0) return
+      call self%restore_mean()
+      call self%displace(half_space)
+      self%gap = self%gap + self%image
+   end subroutine move
+
+   !> Multiplies the pressure in contact by a factor, so that its mean is that of the start, and adds the changes to
+   !> `image`.
+   subroutine restore_mean(self)
+      class(pressure_correction), intent(inout) :: self
+
+      real(sp) :: excess
+
+      excess = real(-sum_of(self%change)/self%product_of(self%contact, self%start_pressure + self%change), sp)
+      associate (growth => self%contact*excess*(self%start_pressure + self%change))
+         self%image = self%image + growth
+         self%change = self%change + growth
+      end associate
+   end subroutine restore_mean
+
+   !> Adds to the contact the points outside whose gap is below the mean gap in contact by more than an allowance (C8).
+   !> Smaller overlaps may be rounding: such points would enter and leave without end.
+   subroutine add_overlaps(self, allowance)
+      class(pressure_correction), intent(inout) :: self
+      real(sp), intent(in) :: allowance   !! over `scale`
+
+      real(sp) :: least
+
+      least = real(self%product_of(self%contact, self%gap)/self%product_of(self%contact, self%contact), sp) - allowance
+      where (self%gap < least) self%contact = 1.0_sp
+   end subroutine add_overlaps
+
+   !> Replaces the pressure in `image` by its displacement.
+   subroutine displace(self, half_space)
+      class(pressure_correction), intent(inout) :: self
+      type(compliance_operator), intent(inout) :: half_space
+
+      call self%region%clear(self%field)
+      call self%region%scatter(self%image, self%field)
+      call half_space%displacement(self%field, self%region%columns, self%region%columns)
+      call self%region%gather(self%field, self%image)
+   end subroutine displace
+
+   !> Subtracts from a vector its mean in contact, and sets it to zero outside.
+   subroutine subtract_mean(self, vector)
+      class(pressure_correction), intent(in) :: self
+      real(sp), intent(inout) :: vector(:)
+
+      vector = self%contact*(vector - real(self%product_of(self%contact, vector)/self%contact_points, sp))
+   end subroutine subtract_mean
+
+   !> Sum of a vector.
+   pure real(dp) function sum_of(a)
+      real(sp), intent(in), contiguous :: a(:)
+
+      real(sp), parameter :: ones(chunk) = 1.0_sp
+      integer :: c
+
+      sum_of = 0.0_dp
+      do c = 1, size(a), chunk
+         associate (n => min(chunk, size(a) - c + 1))
+            sum_of = sum_of + sdot(n, a(c:c + n - 1), 1, ones, 1)
+         end associate
+      end do
+   end function sum_of
+
+   !> Scalar product of two vectors.
+   real(dp) function product_of(self, a, b)
+      class(pressure_correction), intent(in) :: self
+      real(sp), intent(in), contiguous :: a(:), b(:)
+
+      real(dp) :: sums((size(a) - 1)/chunk + 1)
+      integer :: first, last, s
+
+      !$omp parallel do num_threads(self%region%threads) private(first, last)
+      do s = 1, size(sums)
+         first = (s - 1)*chunk + 1
+         last = min(s*chunk, size(a))
+         sums(s) = sdot(last - first + 1, a(first:last), 1, b(first:last), 1)
+      end do
+      product_of = sum(sums)
+   end function product_of
+
+end module wavycon_pressure_correction
