@@ -1,9 +1,11 @@
-!> The one real kind of the program.
+!> The real kinds of the program.
 module wavycon_kinds
-   use, intrinsic :: iso_fortran_env, only: real64
+   use, intrinsic :: iso_fortran_env, only: real32, real64
    implicit none (type, external)
    private
 
-   !> Real kind of every number of the mechanics: IEEE double precision.
+   !> IEEE double precision: the kind of every number of the mechanics.
    integer, parameter, public :: dp = real64
+   !> IEEE single precision, for corrections to fields that are computed in double precision.
+   integer, parameter, public :: sp = real32
 end module wavycon_kinds

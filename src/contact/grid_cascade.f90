@@ -12,6 +12,7 @@ module wavycon_grid_cascade
    use wavycon_grid_peak, only: grid_peak_pressure
    use wavycon_grid_plan, only: finer_grid, fits_memory, grid_plan, plan_grids
    use wavycon_grid_refinement, only: refine_pressure
+   use wavycon_grid_transform, only: grid_transform
    use wavycon_grid_solver, only: grid_state, solve_on_grid
    use wavycon_kinds, only: dp
    use wavycon_local_stiffness, only: local_stiffness
@@ -92,13 +93,15 @@ contains
 
       type(compliance_operator) :: half_space
       type(local_stiffness) :: stencil
+      type(grid_transform) :: transform
       real(dp), allocatable :: h(:, :)
       integer :: points(2)
 
       points = shape(answer%state%pressure)
       allocate (h(points(1), points(2)))
       call half_space%start(surface, points)
-      call half_space%transform%sample(surface%shape, h)
+      call transform%start(points, surface%shape%is_even())
+      call transform%sample(surface%shape, h)
       h = 1.0_dp - h
       answer%state%pressure = answer%state%pressure*(mean_pressure*size(h)/sum(answer%state%pressure))
       call stencil%start(surface, points)

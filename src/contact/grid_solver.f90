@@ -7,7 +7,7 @@
 !> Numbers (C..) are the equations of README.md in this directory.
 module wavycon_grid_solver
    use wavycon_compliance_operator, only: compliance_operator
-   use wavycon_contact_tuning, only: correction_limit, correction_part, edge_tolerance, halo
+   use wavycon_contact_tuning, only: correction_limit, correction_margin, correction_part, edge_tolerance, halo
    use wavycon_kinds, only: dp
    use wavycon_local_stiffness, only: local_stiffness
    use wavycon_pressure_correction, only: pressure_correction
@@ -59,7 +59,7 @@ contains
          if (state%converged .or. state%iterations >= most_iterations) exit
          call find_region(state, inside)
          call correction%start(inside, stencil, state%pressure, state%gap, state%residual)
-         call correction%improve(half_space, max(correction_part, margin*allowed/state%residual), &
+         call correction%improve(half_space, max(correction_part, correction_margin*allowed/state%residual), &
                                  min(correction_limit, most_iterations - state%iterations))
          call correction%add_to(state%pressure)
          state%iterations = state%iterations + correction%iterations

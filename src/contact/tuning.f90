@@ -20,7 +20,7 @@ module wavycon_contact_tuning
 
    !> A grid is solved until the gap in contact deviates from zero by this part of the gap at the points next to the
    !> contact, so that the iteration adds little to the error of the edge.
-   real(dp), parameter, public :: edge_tolerance = 0.01_dp
+   real(dp), parameter, public :: edge_tolerance = 0.005_dp
    !> Iterations on one grid, after which the status is iteration_limit.
    integer, parameter, public :: iteration_limit = 500
    !> A point enters the contact when its overlap exceeds this part of the allowed residual. Smaller overlaps may be
@@ -30,6 +30,9 @@ module wavycon_contact_tuning
    !> Part of its residual to which the pressure is corrected in single precision before the gap is computed anew in
    !> double precision.
    real(dp), parameter, public :: correction_part = 1e-4_dp
+   !> A correction ends at this part of the residual allowed: the true residual is a little larger than that in single
+   !> precision, and the gap at the edge, on which (C10) depends, falls in the first correction.
+   real(dp), parameter, public :: correction_margin = 0.3_dp
    !> Most iterations of one correction.
    integer, parameter, public :: correction_limit = 60
    !> Points within this many steps of the contact may enter it in a correction.

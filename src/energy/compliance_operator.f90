@@ -3,8 +3,9 @@
 !>
 !> A harmonic of wavelength w satisfies  p = stiffness u/w  (Johnson, Greenwood & Higginson 1985, App. 1).
 module wavycon_compliance_operator
-   use wavycon_grid_transform, only: grid_transform
-   use wavycon_kinds, only: dp
+   use wavycon_grid_convolution_dp, only: convolution_dp => grid_convolution
+   use wavycon_grid_convolution_sp, only: convolution_sp => grid_convolution
+   use wavycon_kinds, only: dp, sp
    use wavycon_surface, only: surface_type
    use wavycon_threads, only: threads_for
    implicit none (type, external)
@@ -13,83 +14,90 @@ module wavycon_compliance_operator
    public :: compliance_operator
 
    type :: compliance_operator
-      integer :: transform_pairs = 0               !! number of applications so far
-      type(grid_transform) :: transform
-      real(dp), private :: stiffness = 1.0_dp
-      real(dp), allocatable, private :: square_x(:), square_y(:)   !! squared frequencies of the spectrum's indices
+      integer :: transform_pairs = 0               !! number of applications so far to fields in double precision
+      integer :: single_pairs = 0                  !! likewise in single precision
+      type(convolution_dp), private :: in_double
+      type(convolution_sp), private :: in_single
    contains
       procedure :: start
-      procedure :: displacement
-      procedure :: pressure
+      !> From a pressure [p*] to its displacement u - ubar [Delta], in place.
+      generic :: displacement => displacement_dp, displacement_sp
+      !> From a displacement [Delta] to its pressure p - pbar [p*], in place.
+      generic :: pressure => pressure_dp, pressure_sp
+      procedure, private :: displacement_dp
+      procedure, private :: displacement_sp
+      procedure, private :: pressure_dp
+      procedure, private :: pressure_sp
    end type compliance_operator
 
 contains
 
    subroutine start(self, surface, points)
-      class(compliance_operator), intent(inout) :: self   !! not started before
+      class(compliance_operator), intent(out) :: self
       type(surface_type), intent(in) :: surface
-      integer, intent(in) :: points(2)                    !! M, N of the transform, on a quarter of an even surface
+      integer, intent(in) :: points(2)   !! M, N >= 1, of the whole cell, or of a quarter of an even surface's cell
 
-      call self%transform%start(points, surface%shape%is_even())
-      self%stiffness = surface%stiffness
-      self%square_x = surface%frequency(self%transform%wave_x, 0)**2
-      self%square_y = surface%frequency(0, self%transform%wave_y)**2
-   end subroutine start
+      real(dp) :: square_x(0:points(1) - 1), square_y(0:points(2) - 1)
+      integer :: i
+      logical :: even
 
-   !> From a pressure [p*] to its displacement u - ubar [Delta], in place.
-   subroutine displacement(self, field)
-      class(compliance_operator), intent(inout) :: self
-      real(dp), intent(inout), contiguous :: field(:, :)   !! shape (M, N)
-
-      call apply(self, field, stiff=.false.)
-   end subroutine displacement
-
-   !> From a displacement [Delta] to its pressure p - pbar [p*], in place.
-   subroutine pressure(self, field)
-      class(compliance_operator), intent(inout) :: self
-      real(dp), intent(inout), contiguous :: field(:, :)   !! shape (M, N)
-
-      call apply(self, field, stiff=.true.)
-   end subroutine pressure
-
-   subroutine apply(self, field, stiff)
-      type(compliance_operator), intent(inout) :: self
-      real(dp), intent(inout), contiguous :: field(:, :)
-      logical, intent(in) :: stiff
-
-      integer :: j
-
-      call self%transform%forward(field)
-      !$omp parallel do num_threads(threads_for(size(field))) schedule(static)
-      do j = 1, size(self%square_y)
-         call weigh(j)
-      end do
-      call self%transform%backward(field)
-      self%transform_pairs = self%transform_pairs + 1
+      even = surface%shape%is_even()
+      ! Stiffness over wavelength, squared: of the order of one in any unit of length.
+      square_x = (surface%stiffness*surface%frequency([(wave(i, points(1)), i=0, points(1) - 1)], 0))**2
+      square_y = (surface%stiffness*surface%frequency(0, [(wave(i, points(2)), i=0, points(2) - 1)]))**2
+      call self%in_double%start(even, square_x, square_y)
+      call self%in_single%start(even, square_x, square_y)
 
    contains
 
-      subroutine weigh(column)
-         integer, intent(in) :: column
+      !> The wave number of an index of the spectrum, without sign.
+      pure integer function wave(index, length)
+         integer, intent(in) :: index    !! from 0
+         integer, intent(in) :: length
 
-         real(dp) :: weight(size(self%square_x))
+         wave = merge(index, min(index, length - index), even)
+      end function wave
 
-         weight = sqrt(self%square_x + self%square_y(column))
-         if (column == 1) weight(1) = 1.0_dp
-         if (stiff) then
-            weight = weight*self%stiffness/self%transform%factor
-         else
-            weight = 1.0_dp/(weight*self%stiffness*self%transform%factor)
-         end if
-         ! The mean is left out of both fields.
-         if (column == 1) weight(1) = 0.0_dp
-         if (self%transform%even) then
-            self%transform%cosines(:, column) = weight*self%transform%cosines(:, column)
-         else
-            self%transform%waves(:, column) = weight*self%transform%waves(:, column)
-         end if
-      end subroutine weigh
+   end subroutine start
 
-   end subroutine apply
+   subroutine displacement_dp(self, field, nonzero, wanted)
+      class(compliance_operator), intent(inout) :: self
+      real(dp), intent(inout), contiguous :: field(:, :)   !! shape (M, N)
+      logical, intent(in), optional :: nonzero(:)   !! columns that may not be zero; default: all. Shape (N)
+      logical, intent(in), optional :: wanted(:)    !! columns of the result that are needed; the others are undefined
+
+      call self%in_double%apply(field, -1, threads_for(size(field)), nonzero, wanted)
+      self%transform_pairs = self%transform_pairs + 1
+   end subroutine displacement_dp
+
+   !> As `displacement_dp`.
+   subroutine displacement_sp(self, field, nonzero, wanted)
+      class(compliance_operator), intent(inout) :: self
+      real(sp), intent(inout), contiguous :: field(:, :)
+      logical, intent(in), optional :: nonzero(:), wanted(:)
+
+      call self%in_single%apply(field, -1, threads_for(size(field)), nonzero, wanted)
+      self%single_pairs = self%single_pairs + 1
+   end subroutine displacement_sp
+
+   !> As `displacement_dp`.
+   subroutine pressure_dp(self, field, nonzero, wanted)
+      class(compliance_operator), intent(inout) :: self
+      real(dp), intent(inout), contiguous :: field(:, :)
+      logical, intent(in), optional :: nonzero(:), wanted(:)
+
+      call self%in_double%apply(field, 1, threads_for(size(field)), nonzero, wanted)
+      self%transform_pairs = self%transform_pairs + 1
+   end subroutine pressure_dp
+
+   !> As `displacement_dp`.
+   subroutine pressure_sp(self, field, nonzero, wanted)
+      class(compliance_operator), intent(inout) :: self
+      real(sp), intent(inout), contiguous :: field(:, :)
+      logical, intent(in), optional :: nonzero(:), wanted(:)
+
+      call self%in_single%apply(field, 1, threads_for(size(field)), nonzero, wanted)
+      self%single_pairs = self%single_pairs + 1
+   end subroutine pressure_sp
 
 end module wavycon_compliance_operator

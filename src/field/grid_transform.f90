@@ -11,7 +11,6 @@ module wavycon_grid_transform
                            fftw_plan_r2r_2d, FFTW_REDFT01, FFTW_REDFT10
    use wavycon_fourier_series, only: fourier_series
    use wavycon_kinds, only: dp
-   use wavycon_threads, only: use_threads_for_transforms
    implicit none (type, external)
    private
 
@@ -48,7 +47,6 @@ contains
 
       self%points = points
       self%even = even
-      call use_threads_for_transforms(points(1)*points(2))
       ! FFTW_ESTIMATE plans from the sizes and the alignment of the arrays and leaves their contents as they are.
       associate (m => points(1), n => points(2), rows => int(points(2), c_int), columns => int(points(1), c_int))
          allocate (field(m, n))

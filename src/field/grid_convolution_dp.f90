@@ -1,0 +1,18 @@
+!> Convolutions on a grid in double precision.
+module wavycon_grid_convolution_dp
+   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr
+   use wavycon_constants, only: pi
+   use wavycon_fftw, only: execute_real_to_waves => fftw_execute_dft_r2c, execute_waves => fftw_execute_dft, &
+                           execute_waves_to_real => fftw_execute_dft_c2r
+   use wavycon_kinds, only: dp, wp => dp
+   use wavycon_line_plans, only: plan_of_line, real_to_waves, waves_backward, waves_forward, waves_to_real
+   implicit none (type, external)
+   private
+
+   public :: grid_convolution
+
+   integer, parameter :: block_rows = 8
+
+   include 'grid_convolution.inc'
+
+end module wavycon_grid_convolution_dp

@@ -1,0 +1,92 @@
+!> FFTW's plans of one-dimensional transforms, each made once and kept until the program ends.
+!>
+!> N.B. FFTW_ESTIMATE, not FFTW_MEASURE: which plan is measured to be the fastest, and with it the last digits of the
+!> results, differs from run to run.
+module wavycon_line_plans
+   use, intrinsic :: iso_c_binding, only: c_double, c_double_complex, c_float, c_float_complex, c_int, c_null_ptr, c_ptr
+   use wavycon_fftw, only: FFTW_BACKWARD, FFTW_DESTROY_INPUT, FFTW_ESTIMATE, FFTW_FORWARD, fftw_plan_dft_1d, &
+                           fftw_plan_dft_c2r_1d, fftw_plan_dft_r2c_1d, fftwf_plan_dft_1d, fftwf_plan_dft_c2r_1d, &
+                           fftwf_plan_dft_r2c_1d
+   use wavycon_kinds, only: dp
+   implicit none (type, external)
+   private
+
+   public :: plan_of_line
+
+   !> The transforms: of real numbers to complex waves and back, of complex numbers to complex waves and back.
+   integer, parameter, public :: real_to_waves = 1, waves_to_real = 2, waves_forward = 3, waves_backward = 4
+
+   type :: kept_plan
+      integer :: transform = 0, length = 0, precision = 0
+      type(c_ptr) :: plan = c_null_ptr
+   end type kept_plan
+
+   type(kept_plan), allocatable :: kept(:)
+
+contains
+
+   !> The plan of a transform from one array to another, both aligned as `allocate` does it. The input is overwritten.
+   !> It may be executed by several threads at a time, and is never destroyed.
+   type(c_ptr) function plan_of_line(transform, length, precision) result(plan)
+      integer, intent(in) :: transform   !! one of the four above
+      integer, intent(in) :: length      !! number of real values, or of complex ones, >= 1
+      integer, intent(in) :: precision   !! kind of the numbers: dp or sp
+
+      type(kept_plan), allocatable :: more(:)
+      integer :: i
+
+      ! FFTW's planner is not thread-safe.
+      !$omp critical (wavycon_fftw_planner)
+      if (.not. allocated(kept)) allocate (kept(0))
+      do i = 1, size(kept)
+         if (kept(i)%transform == transform .and. kept(i)%length == length .and. kept(i)%precision == precision) exit
+      end do
+      if (i > size(kept)) then
+         allocate (more(i))
+         more(:i - 1) = kept
+         more(i) = kept_plan(transform, length, precision, new_plan(transform, int(length, c_int), precision == dp))
+         call move_alloc(more, kept)
+      end if
+      plan = kept(i)%plan
+      !$omp end critical (wavycon_fftw_planner)
+   end function plan_of_line
+
+   type(c_ptr) function new_plan(transform, length, is_double) result(plan)
+      integer, intent(in) :: transform
+      integer(c_int), intent(in) :: length
+      logical, intent(in) :: is_double
+
+      integer(c_int), parameter :: flags = ior(FFTW_ESTIMATE, FFTW_DESTROY_INPUT)
+      complex(c_double_complex), allocatable :: waves(:), more_waves(:)
+      complex(c_float_complex), allocatable :: single_waves(:), more_single_waves(:)
+      real(c_double), allocatable :: values(:)
+      real(c_float), allocatable :: single_values(:)
+
+      if (is_double) then
+         allocate (values(length), waves(length), more_waves(length))
+         select case (transform)
+         case (real_to_waves)
+            plan = fftw_plan_dft_r2c_1d(length, values, waves, flags)
+         case (waves_to_real)
+            plan = fftw_plan_dft_c2r_1d(length, waves, values, flags)
+         case (waves_forward)
+            plan = fftw_plan_dft_1d(length, waves, more_waves, FFTW_FORWARD, flags)
+         case default
+            plan = fftw_plan_dft_1d(length, waves, more_waves, FFTW_BACKWARD, flags)
+         end select
+      else
+         allocate (single_values(length), single_waves(length), more_single_waves(length))
+         select case (transform)
+         case (real_to_waves)
+            plan = fftwf_plan_dft_r2c_1d(length, single_values, single_waves, flags)
+         case (waves_to_real)
+            plan = fftwf_plan_dft_c2r_1d(length, single_waves, single_values, flags)
+         case (waves_forward)
+            plan = fftwf_plan_dft_1d(length, single_waves, more_single_waves, FFTW_FORWARD, flags)
+         case default
+            plan = fftwf_plan_dft_1d(length, single_waves, more_single_waves, FFTW_BACKWARD, flags)
+         end select
+      end if
+   end function new_plan
+
+end module wavycon_line_plans
