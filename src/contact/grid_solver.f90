@@ -58,7 +58,7 @@ contains
          state%converged = state%residual <= allowed
          if (state%converged .or. state%iterations >= most_iterations) exit
          call find_region(state, inside)
-         call correction%start(inside, stencil, state%pressure, state%gap, state%residual)
+         call correction%start(inside, stencil%even, stencil, state%pressure, state%gap, state%residual)
          call correction%improve(half_space, max(correction_part, correction_margin*allowed/state%residual), &
                                  min(correction_limit, most_iterations - state%iterations))
          call correction%add_to(state%pressure)

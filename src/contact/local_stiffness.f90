@@ -19,7 +19,7 @@ module wavycon_local_stiffness
 
    type :: local_stiffness
       logical :: exists = .false.        !! whether the grid has one: its steps are nearly equal and it is large enough
-      logical, private :: even = .false.
+      logical :: even = .false.
       real(sp), private :: weights(-stencil_reach:stencil_reach, -stencil_reach:stencil_reach) = 0.0_sp
       real(sp), allocatable, private :: field(:, :)   !! with its neighbours beyond the grid
    contains

@@ -6,6 +6,7 @@
 !> this directory.
 module wavycon_pressure_correction
    use wavycon_compliance_operator, only: compliance_operator
+   use wavycon_contact_extension, only: contact_extension
    use wavycon_contact_region, only: contact_region
    use wavycon_contact_tuning, only: overlap_part, stencil_fraction
    use wavycon_kinds, only: dp, sp
@@ -25,41 +26,45 @@ module wavycon_pressure_correction
       integer :: iterations = 0
       integer :: local_iterations = 0           !! those whose preconditioner was the stencil
       real(dp) :: residual = huge(1.0_dp)       !! as `solve_on_grid`'s, times G
-      type(contact_region) :: region
-      integer :: grid(2) = 0           !! M, N
-      real(dp) :: scale = 1.0_dp       !! the residual at the start
-      integer :: contact_points = 0
-      real(dp) :: descent = 0.0_dp     !! (gap, z) of the last direction
-      real(sp), allocatable :: start_pressure(:)
-      real(sp), allocatable :: change(:)      !! of the pressure since the start
-      real(sp), allocatable :: gap(:)
-      real(sp), allocatable :: contact(:)     !! 1 in contact, 0 outside
-      real(sp), allocatable :: residuals(:)   !! r: the gap in contact, zero outside, of the last iteration
-      real(sp), allocatable :: direction(:)   !! d
-      real(sp), allocatable :: image(:)       !! in turn r, z, d, Sd
-      real(sp), allocatable :: field(:, :)    !! a vector on the grid, for transforms
-      type(local_stiffness) :: stencil
+      type(contact_region), private :: region
+      integer, private :: grid(2) = 0           !! M, N
+      logical, private :: even = .false.        !! whether they are the points of a quarter of an even surface's cell
+      real(dp), private :: scale = 1.0_dp       !! the residual at the start
+      integer, private :: contact_points = 0
+      real(dp), private :: descent = 0.0_dp     !! (gap, z) of the last direction
+      real(sp), allocatable, private :: start_pressure(:)
+      real(sp), allocatable, private :: change(:)      !! of the pressure since the start
+      real(sp), allocatable, private :: gap(:)
+      real(sp), allocatable, private :: contact(:)     !! 1 in contact, 0 outside
+      real(sp), allocatable, private :: residuals(:)   !! r: the gap in contact, zero outside, of the last iteration
+      real(sp), allocatable, private :: direction(:)   !! d
+      real(sp), allocatable, private :: image(:)       !! in turn r, z, d, Sd
+      real(sp), allocatable, private :: field(:, :)    !! a vector on the grid, for transforms
+      real(sp), allocatable, private :: contact_field(:, :)   !! `contact` on the grid, if the extension is used
+      type(local_stiffness), private :: stencil
+      type(contact_extension), private :: extension
    contains
       procedure :: start
       procedure :: improve
       procedure :: add_to
-      procedure :: shift_gap
-      procedure :: precondition
-      procedure :: update_direction
-      procedure :: find_step
-      procedure :: move
-      procedure :: restore_mean
-      procedure :: add_overlaps
-      procedure :: displace
-      procedure :: product_of
-      procedure :: subtract_mean
+      procedure, private :: shift_gap
+      procedure, private :: precondition
+      procedure, private :: update_direction
+      procedure, private :: find_step
+      procedure, private :: move
+      procedure, private :: restore_mean
+      procedure, private :: add_overlaps
+      procedure, private :: displace
+      procedure, private :: product_of
+      procedure, private :: subtract_mean
    end type pressure_correction
 
 contains
 
-   subroutine start(self, inside, stencil, pressure, gap, residual)
+   subroutine start(self, inside, even, stencil, pressure, gap, residual)
       class(pressure_correction), intent(out) :: self
       logical, intent(in) :: inside(:, :)         !! the points in and near the contact
+      logical, intent(in) :: even                 !! whether the points are those of a quarter of an even surface's cell
       type(local_stiffness), intent(in) :: stencil
       real(dp), intent(in) :: pressure(:, :)      !! p/p* >= 0, shape (M, N); zero outside the region
       real(dp), intent(in) :: gap(:, :)           !! its gap/Delta, whose mean in contact is zero
@@ -70,6 +75,7 @@ contains
       self%scale = residual
       self%grid = shape(inside)
       self%stencil = stencil
+      self%even = even
       call self%region%start(inside)
       associate (n => self%region%points)
          allocate (values(n), self%direction(n), self%image(n), self%residuals(n), self%change(n))
@@ -153,9 +159,17 @@ contains
          call self%stencil%apply(self%region, self%grid, self%image)
          self%local_iterations = self%local_iterations + 1
       else
-         call self%region%clear(self%field)
+         if (.not. allocated(self%contact_field)) then
+            allocate (self%contact_field(self%grid(1), self%grid(2)), source=0.0_sp)
+            call self%extension%start(self%grid, self%even)
+         end if
+         call self%region%scatter(self%contact, self%contact_field)
+         call self%extension%set_contact(self%contact_field)
+         self%field = 0.0_sp
          call self%region%scatter(self%image, self%field)
-         call half_space%pressure(self%field, self%region%columns, self%region%columns)
+         call self%extension%extend(self%contact_field, self%field)
+         call half_space%pressure(self%field)
+         call self%extension%collect(self%contact_field, self%field)
          call self%region%gather(self%field, self%image)
       end if
       call self%subtract_mean(self%image)
