@@ -4,6 +4,7 @@
 !> points: what is computed with vectors costs nothing where there is no contact. `gather` takes a vector from a field,
 !> `scatter` writes it back.
 module wavycon_contact_region
+   use, intrinsic :: iso_c_binding, only: c_bool
    use wavycon_kinds, only: dp, sp
    use wavycon_threads, only: threads_for
    implicit none (type, external)
@@ -33,7 +34,7 @@ contains
    !> Starts a region.
    subroutine start(self, inside)
       class(contact_region), intent(out) :: self
-      logical, intent(in) :: inside(:, :)   !! whether a point of the grid belongs to it, shape (M, N)
+      logical(c_bool), intent(in) :: inside(:, :)   !! whether a point of the grid belongs to it, shape (M, N)
 
       integer :: i, j, m, n, r, begin
       integer :: counts(size(inside, 2))

@@ -1,11 +1,12 @@
 !> Minimises the complementary energy 1/2 (p, Sp) + (p, h) over the pressures p >= 0 of given mean on a grid.
 !>
-!> Outer steps compute the gap of the pressure at all points in double precision, verify the conditions of contact there
-!> and find the points that may be in contact. Between them the pressure is corrected at these points in single precision
-!> (`pressure_correction`), which reduces the residual by some four digits.
+!> Each step computes the gap of the present pressure at all points, in double precision, and verifies the conditions of
+!> contact there. It then selects the points in and near the contact, and corrects the pressure at these points in single
+!> precision (`pressure_correction`). A step reduces the residual by some four digits.
 !>
 !> Numbers (C..) are the equations of README.md in this directory.
 module wavycon_grid_solver
+   use, intrinsic :: iso_c_binding, only: c_bool
    use wavycon_compliance_operator, only: compliance_operator
    use wavycon_contact_tuning, only: correction_limit, correction_margin, correction_part, edge_tolerance, halo
    use wavycon_kinds, only: dp
@@ -25,67 +26,74 @@ module wavycon_grid_solver
       real(dp), allocatable :: gap(:, :)        !! gap/Delta; in contact its deviation from zero, shape (m, n)
       real(dp) :: mean_gap = 1.0_dp             !! G
       real(dp) :: residual = huge(1.0_dp)       !! root mean square of the violated conditions on the gap, over G (C9)
-      integer :: iterations = 0
-      integer :: local_iterations = 0           !! those preconditioned by a stencil in place of transforms
-      integer :: corrections = 0
+      integer :: corrections = 0                !! steps
+      integer :: iterations = 0                 !! of all corrections
+      integer :: local_iterations = 0           !! those of them preconditioned by the stencil
       logical :: converged = .false.
    end type grid_state
 
 contains
 
-   !> Solves (C1) on a grid by the iteration (C3) to (C9). If it does not converge in most_iterations, state%converged
-   !> is false.
+   !> Solves (C1) on a grid. If it does not converge in most_iterations, state%converged is false.
    subroutine solve_on_grid(half_space, stencil, undeformed_gap, residual, most_iterations, state)
       type(compliance_operator), intent(inout) :: half_space   !! S, started on the grid
       type(local_stiffness), intent(in) :: stencil   !! likewise
       real(dp), intent(in) :: undeformed_gap(:, :)   !! h/Delta, shape (m, n)
-      real(dp), intent(in) :: residual               !! (C9) to which it is solved; 0: as the edge needs it (C10)
+      real(dp), intent(in) :: residual               !! the largest allowed (C9), > 0; 0: that of (C10)
       integer, intent(in) :: most_iterations
       type(grid_state), intent(inout) :: state       !! on entry `pressure` is the start, >= 0; its mean P in (0, 1) stays
 
       type(pressure_correction) :: correction
-      logical, allocatable :: inside(:, :)
+      logical(c_bool), allocatable :: inside(:, :)
+      logical :: touched(size(undeformed_gap, 2))
       real(dp) :: allowed
 
+      state%corrections = 0
       state%iterations = 0
       state%local_iterations = 0
-      state%corrections = 0
       do
-         call compute_gap(half_space, undeformed_gap, state)
+         touched = any(state%pressure > 0.0_dp, dim=1)
+         call compute_gap(half_space, undeformed_gap, touched, state)
          allowed = residual*abs(state%mean_gap)
-         if (residual <= 0.0_dp) allowed = edge_tolerance*gap_at_edge(state)
+         if (residual <= 0.0_dp) allowed = edge_tolerance*gap_at_edge(state, touched)
          allowed = max(allowed, rounding)
          state%converged = state%residual <= allowed
          if (state%converged .or. state%iterations >= most_iterations) exit
          call find_region(state, inside)
-         call correction%start(inside, stencil%even, stencil, state%pressure, state%gap, state%residual)
+         call correction%start(inside, stencil, state%pressure, state%gap, state%residual)
          call correction%improve(half_space, max(correction_part, correction_margin*allowed/state%residual), &
                                  min(correction_limit, most_iterations - state%iterations))
          call correction%add_to(state%pressure)
+         state%corrections = state%corrections + 1
          state%iterations = state%iterations + correction%iterations
          state%local_iterations = state%local_iterations + correction%local_iterations
-         state%corrections = state%corrections + 1
       end do
       state%residual = state%residual/max(abs(state%mean_gap), rounding)
    end subroutine solve_on_grid
 
-   !> The gap h + Sp - approach (C1), with a mean of zero in contact, and the residual times G.
-   subroutine compute_gap(half_space, undeformed_gap, state)
+   !> The gap h + Sp - approach (C1), whose mean in contact is zero (C3), and the residual times G.
+   subroutine compute_gap(half_space, undeformed_gap, touched, state)
       type(compliance_operator), intent(inout) :: half_space
       real(dp), intent(in) :: undeformed_gap(:, :)
+      logical, intent(in) :: touched(:)   !! whether a column of the grid has points in contact, shape (n)
       type(grid_state), intent(inout) :: state
 
-      real(dp) :: sums(size(undeformed_gap, 2)), approach
-      integer :: counts(size(undeformed_gap, 2)), j, threads
+      real(dp) :: approach, sums(size(touched))
+      integer :: counts(size(touched)), j, threads
 
       threads = threads_for(size(undeformed_gap))
       if (.not. allocated(state%gap)) allocate (state%gap, mold=undeformed_gap)
       associate (gap => state%gap, p => state%pressure, h => undeformed_gap)
-         gap = p
-         call half_space%displacement(gap)
+         do j = 1, size(gap, 2)
+            if (touched(j)) gap(:, j) = p(:, j)
+         end do
+         call half_space%displacement(gap, nonzero=touched)
          !$omp parallel do num_threads(threads)
          do j = 1, size(gap, 2)
             gap(:, j) = gap(:, j) + h(:, j)
+            sums(j) = 0.0_dp
+            counts(j) = 0
+            if (.not. touched(j)) cycle
             sums(j) = sum(gap(:, j), p(:, j) > 0.0_dp)
             counts(j) = count(p(:, j) > 0.0_dp)
          end do
@@ -93,51 +101,77 @@ contains
          !$omp parallel do num_threads(threads)
          do j = 1, size(gap, 2)
             gap(:, j) = gap(:, j) - approach
-            sums(j) = sum(merge(gap(:, j), min(gap(:, j), 0.0_dp), p(:, j) > 0.0_dp)**2)
+            if (touched(j)) then
+               sums(j) = sum(merge(gap(:, j), min(gap(:, j), 0.0_dp), p(:, j) > 0.0_dp)**2)
+            else
+               sums(j) = sum(min(gap(:, j), 0.0_dp)**2)
+            end if
          end do
          state%mean_gap = 1.0_dp - approach
          state%residual = sqrt(sum(sums)/size(gap))
       end associate
    end subroutine compute_gap
 
-   !> Root mean square of the gap at the points next to the contact, times the square root of the part of the points that
-   !> are in contact [Delta]; zero if all are.
-   pure real(dp) function gap_at_edge(state) result(gap)
+   !> Root mean square of the gap at the points next to the contact, times the square root of the part of all points that
+   !> are in contact [Delta], (C10); zero if all points are in contact.
+   pure real(dp) function gap_at_edge(state, touched) result(gap)
       type(grid_state), intent(in) :: state
+      logical, intent(in) :: touched(:)
 
+      logical(c_bool) :: beside(size(state%gap, 1))
       real(dp) :: squares
-      integer :: edge_points, i, j, m, n
+      integer :: contact_points, edge_points, j, m, n
 
       m = size(state%gap, 1)
       n = size(state%gap, 2)
       squares = 0.0_dp
       edge_points = 0
-      do j = 1, n
-         do i = 1, m
-            if (state%pressure(i, j) > 0.0_dp) cycle
-            if (.not. (any(state%pressure(max(i - 1, 1):min(i + 1, m), j) > 0.0_dp) .or. &
-               any(state%pressure(i, max(j - 1, 1):min(j + 1, n)) > 0.0_dp))) cycle
-            squares = squares + state%gap(i, j)**2
-            edge_points = edge_points + 1
+      contact_points = 0
+      associate (p => state%pressure)
+         do j = 1, n
+            if (.not. any(touched(max(j - 1, 1):min(j + 1, n)))) cycle
+            beside = p(:, max(j - 1, 1)) > 0.0_dp .or. p(:, min(j + 1, n)) > 0.0_dp
+            beside(2:) = beside(2:) .or. p(:m - 1, j) > 0.0_dp
+            beside(:m - 1) = beside(:m - 1) .or. p(2:, j) > 0.0_dp
+            beside = beside .and. .not. p(:, j) > 0.0_dp
+            squares = squares + sum(merge(state%gap(:, j)**2, 0.0_dp, beside))
+            edge_points = edge_points + count(beside)
+            contact_points = contact_points + count(p(:, j) > 0.0_dp)
          end do
-      end do
-      gap = sqrt(squares/max(edge_points, 1)*count(state%pressure > 0.0_dp)/(real(m, dp)*n))
+      end associate
+      gap = sqrt(squares/max(edge_points, 1)*contact_points/(real(m, dp)*n))
    end function gap_at_edge
 
-   !> The points that may be in contact after the next correction: those in contact or with a negative gap, and their
-   !> neighbours.
-   subroutine find_region(state, inside)
+   !> The points that may be in contact after the next correction: those in contact or with a negative gap, and those
+   !> within some steps of them.
+   pure subroutine find_region(state, inside)
       type(grid_state), intent(in) :: state
-      logical, allocatable, intent(inout) :: inside(:, :)   !! shape (m, n)
+      logical(c_bool), allocatable, intent(inout) :: inside(:, :)   !! shape (m, n)
 
-      integer :: k, m, n
+      logical(c_bool) :: near(size(state%gap, 1), size(state%gap, 2))
+      logical :: occupied(size(state%gap, 2))
+      integer :: j, k, m, n
 
-      inside = state%pressure > 0.0_dp .or. state%gap < 0.0_dp
-      m = size(inside, 1)
-      n = size(inside, 2)
-      do k = 1, halo
-         if (m > 1) inside = inside .or. cshift(inside, 1, 1) .or. cshift(inside, -1, 1)
-         if (n > 1) inside = inside .or. cshift(inside, 1, 2) .or. cshift(inside, -1, 2)
+      m = size(state%gap, 1)
+      n = size(state%gap, 2)
+      if (.not. allocated(inside)) allocate (inside(m, n))
+      do j = 1, n
+         near(:, j) = state%pressure(:, j) > 0.0_dp .or. state%gap(:, j) < 0.0_dp
+         occupied(j) = any(near(:, j))
+         if (.not. occupied(j)) cycle
+         inside(:, j) = near(:, j)
+         do k = 1, min(halo, m - 1)
+            near(:, j) = near(:, j) .or. cshift(inside(:, j), k) .or. cshift(inside(:, j), -k)
+         end do
+      end do
+      inside = .false.
+      do j = 1, n
+         if (.not. occupied(j)) cycle
+         do k = -min(halo, n - 1), min(halo, n - 1)
+            associate (other => modulo(j + k - 1, n) + 1)
+               inside(:, other) = inside(:, other) .or. near(:, j)
+            end associate
+         end do
       end do
    end subroutine find_region
 

@@ -5,6 +5,7 @@
 !> (1999) 206-219), with a preconditioner and Polak & Ribiere's factor. Numbers (C..) are the equations of README.md in
 !> this directory.
 module wavycon_pressure_correction
+   use, intrinsic :: iso_c_binding, only: c_bool
    use wavycon_compliance_operator, only: compliance_operator
    use wavycon_contact_extension, only: contact_extension
    use wavycon_contact_region, only: contact_region
@@ -28,7 +29,6 @@ module wavycon_pressure_correction
       real(dp) :: residual = huge(1.0_dp)       !! as `solve_on_grid`'s, times G
       type(contact_region), private :: region
       integer, private :: grid(2) = 0           !! M, N
-      logical, private :: even = .false.        !! whether they are the points of a quarter of an even surface's cell
       real(dp), private :: scale = 1.0_dp       !! the residual at the start
       integer, private :: contact_points = 0
       real(dp), private :: descent = 0.0_dp     !! (gap, z) of the last direction
@@ -61,10 +61,9 @@ module wavycon_pressure_correction
 
 contains
 
-   subroutine start(self, inside, even, stencil, pressure, gap, residual)
+   subroutine start(self, inside, stencil, pressure, gap, residual)
       class(pressure_correction), intent(out) :: self
-      logical, intent(in) :: inside(:, :)         !! the points in and near the contact
-      logical, intent(in) :: even                 !! whether the points are those of a quarter of an even surface's cell
+      logical(c_bool), intent(in) :: inside(:, :) !! the points in and near the contact
       type(local_stiffness), intent(in) :: stencil
       real(dp), intent(in) :: pressure(:, :)      !! p/p* >= 0, shape (M, N); zero outside the region
       real(dp), intent(in) :: gap(:, :)           !! its gap/Delta, whose mean in contact is zero
@@ -75,7 +74,6 @@ contains
       self%scale = residual
       self%grid = shape(inside)
       self%stencil = stencil
-      self%even = even
       call self%region%start(inside)
       associate (n => self%region%points)
          allocate (values(n), self%direction(n), self%image(n), self%residuals(n), self%change(n))
@@ -122,7 +120,7 @@ contains
       real(dp) :: total
       integer :: i
 
-      total = sum(pressure)
+      total = sum_of_field(pressure)
       allocate (values(self%region%points))
       call self%region%gather(pressure, values)
       do i = 1, size(values)
@@ -133,7 +131,7 @@ contains
          end if
       end do
       call self%region%scatter(values, pressure)
-      pressure = pressure*(total/sum(pressure))
+      pressure = pressure*(total/sum_of_field(pressure))
    end subroutine add_to
 
    !> Changes the approach so that the mean gap in contact is zero (C3), and computes the residual (C9) times G.
@@ -161,7 +159,7 @@ contains
       else
          if (.not. allocated(self%contact_field)) then
             allocate (self%contact_field(self%grid(1), self%grid(2)), source=0.0_sp)
-            call self%extension%start(self%grid, self%even)
+            call self%extension%start(self%grid, self%stencil%even)
          end if
          call self%region%scatter(self%contact, self%contact_field)
          call self%extension%set_contact(self%contact_field)
@@ -281,6 +279,15 @@ contains
 
       vector = self%contact*(vector - real(self%product_of(self%contact, vector)/self%contact_points, sp))
    end subroutine subtract_mean
+
+   !> Sum of a field, column by column.
+   pure real(dp) function sum_of_field(field) result(total)
+      real(dp), intent(in) :: field(:, :)
+
+      integer :: j
+
+      total = sum([(sum(field(:, j)), j=1, size(field, 2))])
+   end function sum_of_field
 
    !> Sum of a vector.
    pure real(dp) function sum_of(a)

@@ -40,7 +40,7 @@ module wavycon_contact_tuning
    !> Reach of the stencil that approximates S^-1, in steps.
    integer, parameter, public :: stencil_reach = 3
    !> Part of the points in contact below which the stencil replaces the transforms of S^-1.
-   real(dp), parameter, public :: stencil_fraction = 0.03_dp
+   real(dp), parameter, public :: stencil_fraction = 0.01_dp
 
    !> The preconditioner continues the gap from the contact to the points outside. For each doubling of the distance it
    !> falls by the factor decay_alone + decay_growth*(contact area fraction)^(1/2), at most 1: by about half beside a
