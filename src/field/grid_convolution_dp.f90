@@ -12,8 +12,6 @@ module wavycon_grid_convolution_dp
 
    public :: grid_convolution
 
-   integer, parameter :: block_rows = 8
-
    include 'grid_convolution.inc'
 
 end module wavycon_grid_convolution_dp
