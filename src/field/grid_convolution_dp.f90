@@ -1,6 +1,7 @@
 !> Convolutions on a grid in double precision.
 module wavycon_grid_convolution_dp
    use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr
+   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_constants, only: pi
    use wavycon_fftw, only: execute_real_to_waves => fftw_execute_dft_r2c, execute_waves => fftw_execute_dft, &
                            execute_waves_to_real => fftw_execute_dft_c2r
@@ -10,8 +11,6 @@ module wavycon_grid_convolution_dp
    private
 
    public :: grid_convolution
-
-   integer, parameter :: block_rows = 8
 
    include 'grid_convolution.inc'
 

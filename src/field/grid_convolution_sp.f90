@@ -1,6 +1,7 @@
 !> Convolutions on a grid in single precision.
 module wavycon_grid_convolution_sp
    use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr
+   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_constants, only: pi
    use wavycon_fftw, only: execute_real_to_waves => fftwf_execute_dft_r2c, execute_waves => fftwf_execute_dft, &
                            execute_waves_to_real => fftwf_execute_dft_c2r
@@ -10,8 +11,6 @@ module wavycon_grid_convolution_sp
    private
 
    public :: grid_convolution
-
-   integer, parameter :: block_rows = 8
 
    include 'grid_convolution.inc'
 

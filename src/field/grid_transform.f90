@@ -47,7 +47,8 @@ contains
 
       self%points = points
       self%even = even
-      ! FFTW_ESTIMATE plans from the sizes and the alignment of the arrays and leaves their contents as they are.
+      ! FFTW_ESTIMATE plans from the sizes and the alignment of the arrays and leaves their contents as they are. The
+      ! planner is not thread-safe.
       associate (m => points(1), n => points(2), rows => int(points(2), c_int), columns => int(points(1), c_int))
          allocate (field(m, n))
          if (even) then
@@ -55,17 +56,21 @@ contains
             self%wave_x = [(i, i=0, m - 1)]
             self%wave_y = [(i, i=0, n - 1)]
             allocate (self%cosines(m, n))
+            !$omp critical (wavycon_fftw_planner)
             self%forward_plan = fftw_plan_r2r_2d(rows, columns, field, self%cosines, FFTW_REDFT10, FFTW_REDFT10, &
                                                  FFTW_ESTIMATE)
             self%backward_plan = fftw_plan_r2r_2d(rows, columns, self%cosines, field, FFTW_REDFT01, FFTW_REDFT01, &
                                                   FFTW_ESTIMATE)
+            !$omp end critical (wavycon_fftw_planner)
          else
             self%factor = real(m, dp)*n
             self%wave_x = [(i, i=0, m/2)]
             self%wave_y = [(merge(i, i - n, 2*i <= n), i=0, n - 1)]
             allocate (self%waves(m/2 + 1, n))
+            !$omp critical (wavycon_fftw_planner)
             self%forward_plan = fftw_plan_dft_r2c_2d(rows, columns, field, self%waves, FFTW_ESTIMATE)
             self%backward_plan = fftw_plan_dft_c2r_2d(rows, columns, self%waves, field, FFTW_ESTIMATE)
+            !$omp end critical (wavycon_fftw_planner)
          end if
       end associate
    end subroutine start
@@ -231,8 +236,10 @@ contains
    subroutine finish(self)
       type(grid_transform), intent(inout) :: self
 
+      !$omp critical (wavycon_fftw_planner)
       if (c_associated(self%forward_plan)) call fftw_destroy_plan(self%forward_plan)
       if (c_associated(self%backward_plan)) call fftw_destroy_plan(self%backward_plan)
+      !$omp end critical (wavycon_fftw_planner)
       self%forward_plan = c_null_ptr
       self%backward_plan = c_null_ptr
    end subroutine finish
