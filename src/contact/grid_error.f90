@@ -6,8 +6,8 @@
 !> is a bound.
 module wavycon_grid_error
    use wavycon_constants, only: pi
-   use wavycon_contact_tuning, only: area_kept_change, area_safety, edge_bias, edge_scatter, edge_scatter_line, &
-      gap_safety, kept_change, least_of_area, opening_ratio, peak_safety, unresolved_width
+   use wavycon_contact_tuning, only: area_kept_change, area_safety, edge_bias, edge_scatter, gap_safety, &
+      kept_change, least_of_area, opening_ratio, peak_safety, unresolved_width
    use wavycon_grid_edge, only: grid_edge
    use wavycon_kinds, only: dp
    use wavycon_surface, only: surface_type
@@ -75,7 +75,7 @@ contains
       logical, intent(in) :: peak_resolved
       real(dp) :: errors(3)
 
-      real(dp) :: open_part, scatter
+      real(dp) :: open_part
       integer :: crossings
 
       associate (points => size(edge%pressure_or_gap))
@@ -86,8 +86,7 @@ contains
             errors = [open_part**2, open_part, open_part**2]
          else
             crossings = count_crossings(edge)
-            scatter = merge(edge_scatter_line, edge_scatter, surface%dimension == 1)
-            errors = [0.0_dp, max(scatter*sqrt(real(crossings, dp)), edge_bias*crossings)/points, 0.0_dp]
+            errors = [0.0_dp, max(edge_scatter*sqrt(real(crossings, dp)), edge_bias*crossings)/points, 0.0_dp]
             if (.not. peak_resolved) errors(3) = unresolved_peak(surface, edge)
          end if
       end associate
