@@ -7,7 +7,7 @@ module wavycon_grid_cascade
    use wavycon_compliance_operator, only: compliance_operator
    use wavycon_contact_measures, only: largest_errors
    use wavycon_contact_tuning, only: iteration_limit
-   use wavycon_grid_edge, only: grid_contact_area, grid_edge, start_grid_edge
+   use wavycon_grid_edge, only: grid_contact_area, grid_edge, pressure_per_gap, start_grid_edge
    use wavycon_grid_error, only: change_history, estimate_errors
    use wavycon_grid_peak, only: grid_peak_pressure
    use wavycon_grid_plan, only: finer_grid, fits_memory, grid_plan, plan_grids
@@ -121,7 +121,8 @@ contains
       type(grid_edge) :: edge
       logical :: peak_resolved
 
-      call start_grid_edge(edge, answer%state%pressure, answer%state%gap, surface%shape%is_even())
+      call start_grid_edge(edge, answer%state%pressure, answer%state%gap, surface%shape%is_even(), &
+                           pressure_per_gap(surface, shape(answer%state%gap)))
       answer%values(:2) = [answer%state%mean_gap, grid_contact_area(edge)]
       call grid_peak_pressure(edge, answer%values(3), peak_resolved)
       call history%push(answer%values)

@@ -12,14 +12,16 @@ module wavycon_grid_contact
    use wavycon_contact_solver, only: contact_solver
    use wavycon_contact_status, only: converged, no_memory, not_accurate
    use wavycon_contact_tuning, only: least_search_points, worst_search_accuracy
-   use wavycon_edge_curves, only: edge_curve, strip_ends, trace_edges, turn_curves, whole_strips
+   use wavycon_edge_curves, only: edge_curve, shift_curve, strip_ends, trace_edges, turn_curves, whole_strips
    use wavycon_grid_cascade, only: cascade_answer, solve_by_cascade
-   use wavycon_grid_edge, only: grid_edge, grid_strip_edges, start_grid_edge
+   use wavycon_grid_edge, only: grid_edge, grid_strip_edges, pressure_per_gap, &
+      start_grid_edge
    use wavycon_grid_fields, only: grid_fields, start_grid_fields
    use wavycon_grid_plan, only: grid_plan, plan_grids
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: key_type
    use wavycon_kinds, only: dp
+   use wavycon_measure_tuning, only: edge_offset
    use wavycon_plain_text, only: integer_text, short_number
    use wavycon_problems, only: problem_list_type
    use wavycon_qp_problem, only: qp_iteration_limit, qp_status_name
@@ -67,7 +69,7 @@ module wavycon_grid_contact
    end type grid_solution
 
    !> Numbers in the array of pack_kept between those of pack_common and the field.
-   integer, parameter :: own_values = 4
+   integer, parameter :: own_values = 6
 
 contains
 
@@ -196,7 +198,8 @@ contains
       end if
       if (self%keep_fields) then
          allocate (own%edge)
-         call start_grid_edge(own%edge, answer%state%pressure, answer%state%gap, self%solved%shape%is_even())
+         call start_grid_edge(own%edge, answer%state%pressure, answer%state%gap, self%solved%shape%is_even(), &
+                              pressure_per_gap(self%solved, shape(answer%state%gap)))
       end if
       call move_alloc(own, solution)
    end subroutine solve_partial_contact
@@ -220,11 +223,15 @@ contains
       type(edge_curve), allocatable, intent(out) :: curves(:)
 
       real(dp), allocatable :: edges(:)
+      integer :: i
 
       if (.not. allocated(self%edge)) then
          allocate (curves(0))
       else if (surface%dimension == 2) then
          call trace_edges(self%edge, curves)
+         do i = 1, size(curves)
+            call shift_curve(curves(i), self%edge%period, edge_offset)
+         end do
          if (self%turned) call fill_whole_cell(curves)
       else
          call grid_strip_edges(self%edge, edges)
@@ -252,22 +259,27 @@ contains
       allocate (grid_solution :: solution)
    end subroutine new_kept_solution
 
-   !> After the numbers of pack_common: the points along x and y (zeros if the fields were not kept), whether the cell
-   !> is turned, whether the grid covers a quarter of it, and the pressures and gaps.
+   !> After the numbers of pack_common: the stiffness of `edge`, the points along x and y (zeros if the fields were not
+   !> kept), whether the cell is turned, whether the grid covers a quarter of it, and the pressures and gaps.
    pure subroutine pack_kept(self, values)
       class(grid_solution), intent(in) :: self
       real(dp), allocatable, intent(out) :: values(:)
 
       real(dp), allocatable :: common(:)
+      real(dp) :: stiffness(2)
       integer :: first, j, points(2), status
 
       call pack_common(self, common)
       points = 0
-      if (allocated(self%edge)) points = shape(self%edge%pressure_or_gap)
+      stiffness = 1.0_dp
+      if (allocated(self%edge)) then
+         points = shape(self%edge%pressure_or_gap)
+         stiffness = self%edge%stiffness
+      end if
       first = packed_values + own_values
       allocate (values(first + product(points)), stat=status)
       if (status /= 0) return
-      values(:first) = [common, real(points, dp), 0.0_dp, 0.0_dp]
+      values(:first) = [common, stiffness, real(points, dp), 0.0_dp, 0.0_dp]
       if (self%turned) values(first - 1) = 1.0_dp
       if (.not. allocated(self%edge)) return
       if (self%edge%even) values(first) = 1.0_dp
@@ -295,7 +307,7 @@ contains
       if (product(points) == 0) return
       field = reshape(values(first + 1:), points)
       allocate (self%edge)
-      call start_grid_edge(self%edge, field, -field, values(first) > 0.0_dp)
+      call start_grid_edge(self%edge, field, -field, values(first) > 0.0_dp, values(first - 5:first - 4))
    end subroutine unpack_kept
 
    function finest_grid(self) result(points)

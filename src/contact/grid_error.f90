@@ -6,7 +6,7 @@
 !> is a bound.
 module wavycon_grid_error
    use wavycon_constants, only: pi
-   use wavycon_contact_tuning, only: area_safety, edge_bias_even, edge_bias_whole, edge_scatter, gap_safety, &
+   use wavycon_contact_tuning, only: area_kept_change, area_safety, edge_bias, edge_scatter, gap_safety, &
       kept_change, least_of_area, opening_ratio, peak_safety, unresolved_width
    use wavycon_grid_edge, only: grid_edge
    use wavycon_kinds, only: dp
@@ -54,15 +54,16 @@ contains
       self%values = values
    end subroutine push
 
-   !> Errors from the changes (C14): the last change, but at least half of the one before, because a single change may
+   !> Errors from the changes (C14): the last change, but at least a part of the one before, because a single change may
    !> be small by chance.
    pure function errors_of_changes(self) result(errors)
       class(change_history), intent(in) :: self
       real(dp) :: errors(3)
 
       real(dp), parameter :: safety(3) = [gap_safety, area_safety, peak_safety]
+      real(dp), parameter :: kept(3) = [kept_change, area_kept_change, kept_change]
 
-      errors = max(safety*self%change, kept_change*safety*self%change_before)
+      errors = safety*max(self%change, kept*self%change_before)
    end function errors_of_changes
 
    !> Errors that changes do not show (C15), (C16): of the area, because the position of the edge between points is
@@ -74,7 +75,7 @@ contains
       logical, intent(in) :: peak_resolved
       real(dp) :: errors(3)
 
-      real(dp) :: bias, open_part
+      real(dp) :: open_part
       integer :: crossings
 
       associate (points => size(edge%pressure_or_gap))
@@ -85,8 +86,7 @@ contains
             errors = [open_part**2, open_part, open_part**2]
          else
             crossings = count_crossings(edge)
-            bias = merge(edge_bias_even, edge_bias_whole, edge%even)
-            errors = [0.0_dp, max(edge_scatter*sqrt(real(crossings, dp)), bias*crossings)/points, 0.0_dp]
+            errors = [0.0_dp, max(edge_scatter*sqrt(real(crossings, dp)), edge_bias*crossings)/points, 0.0_dp]
             if (.not. peak_resolved) errors(3) = unresolved_peak(surface, edge)
          end if
       end associate

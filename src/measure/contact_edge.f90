@@ -25,6 +25,7 @@ module wavycon_contact_edge
       procedure(angles_of_point), deferred :: angles
       procedure(edge_on_side), deferred :: side
       procedure :: cell_area
+      procedure :: beside_chord
    end type contact_edge
 
    abstract interface
@@ -57,9 +58,8 @@ module wavycon_contact_edge
 
 contains
 
-   !> The area in contact of one cell [rad^2]. Between two points of the edge the edge is the cubic curve with the
-   !> directions there, or straight where they are not known. In a cell that the edge enters twice the two parts in
-   !> contact are taken as connected.
+   !> The area in contact of one cell [rad^2]: that of its corners in contact and the points of the edge on its sides, less
+   !> what `beside_chord` gives. In a cell that the edge enters twice the two parts in contact are taken as connected.
    pure real(dp) function cell_area(self, k, l) result(area)
       class(contact_edge), intent(in) :: self
       integer, intent(in) :: k, l
@@ -98,18 +98,21 @@ contains
       do i = 1, count
          next = mod(i, count) + 1
          area = area + 0.5_dp*(points(i)%phi*points(next)%theta - points(next)%phi*points(i)%theta)
-         if (leaves(i)) area = area - lens(points(i), points(next))
+         if (leaves(i)) area = area - self%beside_chord(points(i), points(next))
       end do
    end function cell_area
 
-   !> Area between the chord from one point of the edge to the next and the cubic curve, on the side of the contact,
-   !> which is on the left.
-   pure real(dp) function lens(from, to)
+   !> Area between the chord from one point of the edge to the next and the edge, on the side of the contact, which is
+   !> on the left [rad^2]. The edge is the cubic curve with the directions at its ends, or straight where they are not
+   !> known.
+   pure real(dp) function beside_chord(self, from, to) result(lens)
+      class(contact_edge), intent(in) :: self
       type(edge_point), intent(in) :: from, to
 
       real(dp), parameter :: steepest = 3.0_dp   ! a curve steeper than this against its chord is not resolved: straight
       real(dp) :: c_phi, c_theta, slopes(2)
 
+      associate (unused => self); end associate
       c_phi = to%phi - from%phi
       c_theta = to%theta - from%theta
       slopes(1) = slope(from)
@@ -131,6 +134,6 @@ contains
          if (along > 0.0_dp) slope = sideways/along
       end function slope
 
-   end function lens
+   end function beside_chord
 
 end module wavycon_contact_edge

@@ -6,7 +6,7 @@ module wavycon_edge_curves
    implicit none (type, external)
    private
 
-   public :: edge_curve, strip_ends, trace_edges, turn_curves, whole_strips
+   public :: edge_curve, shift_curve, strip_ends, trace_edges, turn_curves, whole_strips
 
    !> A curve with the contact on its left. Its last point is the first again; that of a curve through the whole plane
    !> is one period on.
@@ -93,6 +93,35 @@ contains
          allocate (curves(i)%theta(2), source=0.0_dp)
       end do
    end subroutine whole_strips
+
+   !> Moves a curve into the contact, at right angles to it where the steps of the grid are 1: by the given number of
+   !> steps, but at most by half of its mean radius, so that the curve of the smallest contact keeps its direction.
+   pure subroutine shift_curve(curve, period, shift)
+      type(edge_curve), intent(inout) :: curve
+      integer, intent(in) :: period(2)   !! points to a period of phi and theta
+      real(dp), intent(in) :: shift      !! >= 0
+
+      real(dp), dimension(size(curve%phi)) :: along_x, along_y, x, y
+      real(dp) :: distance, sides
+      integer :: n
+
+      n = size(x)
+      x = curve%phi*period(1)/(2*pi)
+      y = curve%theta*period(2)/(2*pi)
+      ! The last point is the first again, or one period on.
+      along_x(2:n - 1) = x(3:) - x(:n - 2)
+      along_y(2:n - 1) = y(3:) - y(:n - 2)
+      along_x([1, n]) = x(2) - x(1) + x(n) - x(n - 1)
+      along_y([1, n]) = y(2) - y(1) + y(n) - y(n - 1)
+      sides = sum(hypot(x(2:) - x(:n - 1), y(2:) - y(:n - 1)))
+      distance = shift
+      if (norm2([x(n) - x(1), y(n) - y(1)]) < 0.5_dp) distance = min(shift, &
+         abs(0.5_dp*sum(x(:n - 1)*y(2:) - x(2:)*y(:n - 1)))/max(sides, tiny(sides)))
+      associate (length => max(hypot(along_x, along_y), tiny(sides)))
+         curve%phi = curve%phi - distance*along_y/length*(2*pi/period(1))
+         curve%theta = curve%theta + distance*along_x/length*(2*pi/period(2))
+      end associate
+   end subroutine shift_curve
 
    !> Follows one curve from an edge of a cell back to it.
    subroutine trace(edge, first_k, first_l, first_number, seen, curve)

@@ -2,51 +2,82 @@
 !> src/contact/README.md.
 !>
 !> The points are those of wavycon_grid_transform: M x N on a quarter of the cell, whose mirror images fill the
-!> plane, or on the whole cell. Outside the contact the gap grows as the power 3/2 of the distance d from the edge, so
-!> gap^(2/3) is linear in d, and its values at two points outside give the place d = 0.
+!> plane, or on the whole cell. The pressure of the last point in contact and the gap of the first outside are both
+!> linear in the place of the edge between them, so that their ratio gives the place.
 module wavycon_grid_edge
    use wavycon_constants, only: pi
    use wavycon_contact_edge, only: contact_edge, corner_k, corner_l, edge_point
    use wavycon_grid_transform, only: point_angle
    use wavycon_kinds, only: dp
    use wavycon_line_zeros, only: length_inside
+   use wavycon_measure_tuning, only: aligned_slope, edge_offset, gap_weight, turn_area
+   use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
 
-   public :: grid_edge, grid_contact_area, grid_strip_edges, start_grid_edge
+   public :: grid_edge, grid_contact_area, grid_strip_edges, pressure_per_gap, start_grid_edge
 
    type, extends(contact_edge) :: grid_edge
       !> The pressure, > 0, in contact, minus the gap, <= 0, elsewhere, in any unit, shape (M, N); N = 1 in 1-D.
       real(dp), allocatable :: pressure_or_gap(:, :)
+      real(dp) :: stiffness(2) = 1.0_dp   !! E*/(2 h), h the steps along phi and theta, in these units
       logical :: even = .true.   !! whether the points are those of a quarter
    contains
       procedure :: in_contact
       procedure :: angles
       procedure :: side
+      procedure :: beside_chord
       procedure :: place
+      procedure, private :: at
    end type grid_edge
+
+   !> Of an edge that runs along a line of the grid, from the discrete half-space (C11): the ratio of the last pressure to
+   !> the first gap, times E*/(2 h), where the edge is midway between its extremes; and the distance in steps by which
+   !> its inner extreme lies inside the last point in contact.
+   real(dp), parameter :: aligned_weight = pi/exp(1.0_dp), aligned_offset = 0.19000928592905364_dp
 
 contains
 
-   pure subroutine start_grid_edge(edge, pressure, gap, even)
+   pure subroutine start_grid_edge(edge, pressure, gap, even, stiffness)
       type(grid_edge), intent(out) :: edge
       real(dp), intent(in) :: pressure(:, :)   !! positive in contact, zero elsewhere, in any unit, shape (M, N)
       real(dp), intent(in) :: gap(:, :)        !! in any unit, shape (M, N)
       logical, intent(in) :: even
+      !> From `pressure_per_gap`, in the units of pressure and gap. Only the place of the edge depends on it; absent: 1.
+      real(dp), intent(in), optional :: stiffness(2)
 
       allocate (edge%pressure_or_gap(size(gap, 1), size(gap, 2)))
       ! Overlaps by rounding are no pressures: the pressures of the lightest loads are as small.
       edge%pressure_or_gap = merge(pressure, -max(gap, 0.0_dp), pressure > 0.0_dp)
       edge%even = even
       edge%period = merge(2, 1, even)*shape(gap)
+      if (present(stiffness)) edge%stiffness = stiffness
    end subroutine start_grid_edge
+
+   !> E*/(2 h) of the steps h along phi and theta [p*/Delta].
+   pure function pressure_per_gap(surface, points) result(stiffness)
+      type(surface_type), intent(in) :: surface
+      integer, intent(in) :: points(2)   !! of the part of the cell that is solved
+      real(dp) :: stiffness(2)
+
+      ! sigma = pi E* by (C2) and eq. (22) of Johnson, Greenwood & Higginson (1985).
+      stiffness = surface%stiffness/(2*pi)*merge(2, 1, surface%shape%is_even())*points/surface%length
+   end function pressure_per_gap
 
    pure logical function in_contact(self, k, l)
       class(grid_edge), intent(in) :: self
       integer, intent(in) :: k, l
 
-      in_contact = self%pressure_or_gap(self%place(k, 1), self%place(l, 2)) > 0.0_dp
+      in_contact = self%at(k, l) > 0.0_dp
    end function in_contact
+
+   !> Pressure or minus the gap at any point of the plane.
+   pure real(dp) function at(self, k, l)
+      class(grid_edge), intent(in) :: self
+      integer, intent(in) :: k, l
+
+      at = self%pressure_or_gap(self%place(k, 1), self%place(l, 2))
+   end function at
 
    pure subroutine angles(self, k, l, phi, theta)
       class(grid_edge), intent(in) :: self
@@ -64,6 +95,14 @@ contains
       angle = point_angle(k, size(edge%pressure_or_gap, direction), edge%even)
    end function angle
 
+   !> The step of the grid along phi and theta [rad].
+   pure function angle_steps(edge) result(steps)
+      class(grid_edge), intent(in) :: edge
+      real(dp) :: steps(2)
+
+      steps = 2*pi/edge%period
+   end function angle_steps
+
    !> The index of the grid's point of which a point of the plane is the image.
    elemental integer function place(self, k, direction)
       class(grid_edge), intent(in) :: self
@@ -80,6 +119,7 @@ contains
       end associate
    end function place
 
+   !> Where pressure and weighted gap balance between two points: the edge is `edge_offset` steps further inside.
    pure type(edge_point) function side(self, k, l, number) result(point)
       class(grid_edge), intent(in) :: self
       integer, intent(in) :: k, l, number
@@ -97,49 +137,67 @@ contains
          call swap(k_in, k_out)
          call swap(l_in, l_out)
       end if
-      t = distance_to_edge(self, k_in, l_in, k_out - k_in, l_out - l_in)
+      t = balance(self, k_in, l_in, k_out, l_out, gap_weight)
       call self%angles(k_in, l_in, phi_in, theta_in)
       call self%angles(k_out, l_out, phi_out, theta_out)
       point%phi = phi_in + t*(phi_out - phi_in)
       point%theta = theta_in + t*(theta_out - theta_in)
    end function side
 
-   !> The distance of the edge from a point in contact towards its neighbour outside, in steps, 0 .. 1 (C11).
-   pure real(dp) function distance_to_edge(edge, k, l, dk, dl) result(distance)
-      class(grid_edge), intent(in) :: edge
-      integer, intent(in) :: k, l     !! the point in contact
-      integer, intent(in) :: dk, dl   !! the step to its neighbour
+   !> The distance of the place where pressure and weighted gap balance from a point in contact, in steps, 0 .. 1.
+   pure real(dp) function balance(edge, k_in, l_in, k_out, l_out, weight)
+      type(grid_edge), intent(in) :: edge
+      integer, intent(in) :: k_in, l_in     !! the point in contact
+      integer, intent(in) :: k_out, l_out   !! its neighbour outside
+      real(dp), intent(in) :: weight        !! of the gap
 
-      real(dp) :: first, second
+      real(dp) :: slope(2), stiffness
+      integer :: k, l
 
-      first = gap_root(1)
-      second = gap_root(2)
-      if (second >= 2*first) then
-         distance = 1.0_dp
-         if (first > 0.0_dp) distance = 1.0_dp - first/(second - first)
-      else
-         ! The gap is one or two points wide: linear from 0, where the line above ends, to half a step.
-         distance = 0.25_dp*(2.0_dp - second/first)
+      stiffness = edge%stiffness(1)
+      if (abs(edge%stiffness(2) - stiffness) > epsilon(stiffness)*stiffness) then
+         ! That of the step along the normal, whose direction follows from the differences along and across the step.
+         k = abs(l_out - l_in)
+         l = abs(k_out - k_in)
+         slope(1) = 4*(height(k_in, l_in) - height(k_out, l_out))
+         slope(2) = height(k_in + k, l_in + l) - height(k_in - k, l_in - l) &
+                    + height(k_out + k, l_out + l) - height(k_out - k, l_out - l)
+         stiffness = norm2(slope*edge%stiffness([1 + k, 1 + l]))/norm2(slope)
       end if
+      associate (pressure => edge%at(k_in, l_in), gap => -edge%at(k_out, l_out))
+         balance = pressure/(pressure + weight*stiffness*gap)
+      end associate
 
    contains
 
-      pure real(dp) function gap_root(steps)
-         integer, intent(in) :: steps
+      !> Pressure, or minus the weighted gap.
+      pure real(dp) function height(k, l)
+         integer, intent(in) :: k, l
 
-         gap_root = max(-edge%pressure_or_gap(edge%place(k + steps*dk, 1), edge%place(l + steps*dl, 2)), &
-                        0.0_dp)**(2.0_dp/3)
-      end function gap_root
+         height = edge%at(k, l)
+         if (height <= 0.0_dp) height = height*weight*edge%stiffness(1)
+      end function height
 
-   end function distance_to_edge
+   end function balance
 
-   !> The fraction of the surface in contact (C12).
+   !> The area of the strip between balance and edge [rad^2] (C12).
+   pure real(dp) function beside_chord(self, from, to)
+      class(grid_edge), intent(in) :: self
+      type(edge_point), intent(in) :: from, to
+
+      associate (steps => angle_steps(self))
+         beside_chord = edge_offset*product(steps)*norm2([to%phi - from%phi, to%theta - from%theta]/steps)
+      end associate
+   end function beside_chord
+
+   !> The fraction of the surface in contact: (C11) in 1-D, (C12) in 2-D.
    pure real(dp) function grid_contact_area(edge) result(fraction)
       type(grid_edge), intent(in) :: edge
 
+      logical :: high(0:size(edge%pressure_or_gap, 1) + 1), low(0:size(edge%pressure_or_gap, 1) + 1)
       real(dp), allocatable :: edges(:)
       real(dp) :: area, share
-      integer :: i, j, m, n
+      integer :: first, i, j, m, n
 
       m = size(edge%pressure_or_gap, 1)
       n = size(edge%pressure_or_gap, 2)
@@ -153,25 +211,74 @@ contains
          return
       end if
 
-      area = 0.0_dp
-      if (edge%even) then
-         ! The mirror lines divide the cells at the rim of the quarter: half of each counts.
-         do j = 0, n
-            do i = 0, m
+      first = merge(0, 1, edge%even)
+      area = 0.0_dp   ! in cells
+      low = [(edge%in_contact(i, first), i=0, m + 1)]
+      do j = first, n
+         high = [(edge%in_contact(i, j + 1), i=0, m + 1)]
+         do i = first, m
+            share = 1.0_dp
+            if (edge%even) then
+               ! The mirror lines divide the cells at the rim of the quarter: half of each counts.
                share = merge(0.5_dp, 1.0_dp, i == 0 .or. i == m)*merge(0.5_dp, 1.0_dp, j == 0 .or. j == n)
-               area = area + share*edge%cell_area(i, j)
-            end do
+            end if
+            if (all([low(i:i + 1), high(i:i + 1)])) then
+               area = area + share
+            else if (any([low(i:i + 1), high(i:i + 1)])) then
+               area = area + share*(edge%cell_area(i, j)/product(angle_steps(edge)) &
+                                    + turn_area*turns(low(i:i + 1), high(i:i + 1)) &
+                                    + aligned_part(edge, i, j, low(i:i + 1), high(i:i + 1)))
+            end if
          end do
-         fraction = area/pi**2
-      else
-         do j = 1, n
-            do i = 1, m
-               area = area + edge%cell_area(i, j)
-            end do
-         end do
-         fraction = area/(2*pi)**2
-      end if
+         low = high
+      end do
+      fraction = max(area, 0.0_dp)/size(edge%pressure_or_gap)
    end function grid_contact_area
+
+   !> Turns of the edge in one cell, positive where the contact is convex; their sum over a closed edge is 1 or -1. Parts
+   !> in contact that meet at a corner are taken as connected, as in cell_area.
+   pure real(dp) function turns(low, high)
+      logical, intent(in) :: low(2), high(2)   !! whether the corners are in contact
+
+      select case (count([low, high]))
+      case (1)
+         turns = 0.25_dp
+      case (2)
+         turns = merge(-0.5_dp, 0.0_dp, (low(1) .eqv. high(2)) .and. (low(1) .neqv. low(2)))
+      case default
+         turns = -0.25_dp
+      end select
+   end function turns
+
+   !> What (C11) adds to the area of a cell, in cells, where the edge runs along a line of the grid.
+   pure real(dp) function aligned_part(edge, k, l, low, high) result(change)
+      type(grid_edge), intent(in) :: edge
+      integer, intent(in) :: k, l              !! the cell
+      logical, intent(in) :: low(2), high(2)   !! whether its corners are in contact
+
+      real(dp) :: aligned(2), any_direction(2), slope
+      integer :: i, k_in(2), k_out(2), l_in(2), l_out(2)
+
+      change = 0.0_dp
+      if ((low(1) .eqv. low(2)) .and. (high(1) .eqv. high(2))) then
+         k_in = [k, k + 1]
+         k_out = k_in
+         l_in = merge(l, l + 1, low(1))
+         l_out = merge(l + 1, l, low(1))
+      else if ((low(1) .eqv. high(1)) .and. (low(2) .eqv. high(2))) then
+         k_in = merge(k, k + 1, low(1))
+         k_out = merge(k + 1, k, low(1))
+         l_in = [l, l + 1]
+         l_out = l_in
+      else
+         return
+      end if
+      any_direction = [(balance(edge, k_in(i), l_in(i), k_out(i), l_out(i), gap_weight), i=1, 2)]
+      slope = abs(any_direction(2) - any_direction(1))
+      if (slope >= aligned_slope) return
+      aligned = [(balance(edge, k_in(i), l_in(i), k_out(i), l_out(i), aligned_weight), i=1, 2)]
+      change = (1.0_dp - slope/aligned_slope)*(0.5_dp*sum(aligned - any_direction) - aligned_offset + edge_offset)
+   end function aligned_part
 
    !> The edges of contact in 1-D, ascending [rad]: between 0 and pi of an even surface, otherwise within a period from
    !> the first point.
@@ -179,23 +286,33 @@ contains
       type(grid_edge), intent(in) :: edge
       real(dp), allocatable, intent(out) :: edges(:)
 
-      real(dp) :: found(size(edge%pressure_or_gap, 1))
+      real(dp) :: found(size(edge%pressure_or_gap, 1)), step
       integer :: i, count
 
       count = 0
+      step = angle(edge, 2, 1) - angle(edge, 1, 1)
       do i = 1, size(found) - merge(1, 0, edge%even)
          if (edge%in_contact(i, 1) .eqv. edge%in_contact(i + 1, 1)) cycle
          count = count + 1
          if (edge%in_contact(i, 1)) then
-            found(count) = angle(edge, i, 1) &
-                           + distance_to_edge(edge, i, 1, 1, 0)*(angle(edge, 2, 1) - angle(edge, 1, 1))
+            found(count) = angle(edge, i, 1) + step*distance_to_edge(edge, i, 1)
          else
-            found(count) = angle(edge, i + 1, 1) &
-                           - distance_to_edge(edge, i + 1, 1, -1, 0)*(angle(edge, 2, 1) - angle(edge, 1, 1))
+            found(count) = angle(edge, i + 1, 1) - step*distance_to_edge(edge, i + 1, -1)
          end if
       end do
       allocate (edges, source=found(:count))
    end subroutine grid_strip_edges
+
+   !> The distance of the edge from a point in contact towards its neighbour outside in 1-D, in steps (C11).
+   pure real(dp) function distance_to_edge(edge, k, dk) result(distance)
+      type(grid_edge), intent(in) :: edge
+      integer, intent(in) :: k    !! the point in contact
+      integer, intent(in) :: dk   !! the step to its neighbour, 1 or -1
+
+      distance = balance(edge, k, 1, k + dk, 1, aligned_weight) - aligned_offset
+      ! A contact of one point has no negative width.
+      if (.not. edge%in_contact(k - dk, 1)) distance = max(distance, 0.0_dp)
+   end function distance_to_edge
 
    elemental subroutine swap(a, b)
       integer, intent(inout) :: a, b

@@ -89,7 +89,7 @@ contains
          points = 2*first_points(dimension)*2**(k - 1)
          do i = 1, many
             load = 0.1_dp*i
-            call solve_by_cascade(surface, load, 0.0_dp, [points, points], answer)
+            call solve_by_cascade(surface, load, 0.0_dp, [points, merge(1, points, dimension == 1)], answer)
             errors(:, k) = errors(:, k) + (answer%values - truth(:, i))**2/many
          end do
          errors(:, k) = sqrt(errors(:, k))

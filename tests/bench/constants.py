@@ -21,12 +21,12 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent/'regression'))
 from tables import Table  # noqa: E402
 
-ROOMS = 'fitted', 'contact'
+ROOMS = 'fitted', 'measure', 'contact'
 ROUNDING = 1e-13
 TIMEOUT = 60  # for a deck; the unchanged program takes less than a second [s]
 STATEMENT = re.compile(r'^( *(?:integer|real\(dp\)), parameter, public :: (\w+)(?:\([^)]*\))? = )([^!\n]*?)( *(?:!.*)?)$',
                        re.MULTILINE)
-USE = re.compile(r'^ *use wavycon_(?:fitted|contact)_tuning, only: ((?:[^\n]*&\n)*[^\n]*)\n', re.MULTILINE)
+USE = re.compile(r'^ *use wavycon_(?:fitted|measure|contact)_tuning, only: ((?:[^\n]*&\n)*[^\n]*)\n', re.MULTILINE)
 IMPLICIT = '   implicit none (type, external)\n'
 NUMBER = re.compile(r'(?<![\w.])(\d+\.?\d*(?:[ed][+-]?\d+)?)(_dp)?')
 
@@ -53,6 +53,12 @@ CASES = {
         (RHOMBIC, '0.02, 0.15, 0.4, 0.9', "solver = 'fitted', accuracy = 1e-6", DETAILS, TIGHT),
         (WAVE, '0.2', "solver = 'fitted', accuracy = 1e-7", MAP, TIGHT),
         (WAVE, '0.5', "solver = 'fitted', accuracy = 1e-7", MAP, TIGHT),
+    ],
+    'measure': [
+        (WAVE, '0.05, 0.2, 0.25, 0.5, 0.9', "solver = 'grid', accuracy = 1e-4", SUMMARY, 'wave_2d'),
+        (WAVE, '0.01, 0.1, 0.2, 0.5, 0.9', "solver = 'grid', grid_points = 128", SUMMARY, 'wave_2d'),
+        (HEXAGONAL, '0.05, 0.3, 0.6, 0.75, 0.9', "solver = 'grid', grid_points = 128", SUMMARY, 'hexagonal'),
+        (CROSSED, '0.02, 0.1, 0.9', "solver = 'grid', grid_points = 128", SUMMARY, TIGHT),
     ],
     'contact': [
         (WAVE, '0.01, 0.05, 0.2, 0.25, 0.5, 0.9', "solver = 'grid', accuracy = 1e-3", SUMMARY, 'wave_2d'),
