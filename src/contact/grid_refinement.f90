@@ -14,33 +14,52 @@ contains
       logical, intent(in) :: even                          !! whether the points are those of a quarter of the cell
       real(dp), allocatable, intent(out) :: fine(:, :)     !! shape (2M, 2N) or (2M, 1)
 
-      real(dp), allocatable :: half_way(:, :)
-      integer :: m, n, i
+      real(dp) :: half_way(size(coarse, 1)), part
+      integer :: columns, j, k, m, n
 
       m = size(coarse, 1)
       n = size(coarse, 2)
-      allocate (half_way(2*m, n))
-      if (even) then
-         ! Each coarse point lies midway between two fine ones. The neighbour of the first point is its own mirror
-         ! image, and so is that of the last point.
-         half_way(1::2, :) = 0.75_dp*coarse + 0.25_dp*coarse([(max(i - 1, 1), i=1, m)], :)
-         half_way(2::2, :) = 0.75_dp*coarse + 0.25_dp*coarse([(min(i + 1, m), i=1, m)], :)
-      else
-         half_way(1::2, :) = coarse
-         half_way(2::2, :) = 0.5_dp*(coarse + coarse([(mod(i, m) + 1, i=1, m)], :))
-      end if
-      if (n == 1) then
-         call move_alloc(half_way, fine)
-         return
-      end if
-      allocate (fine(2*m, 2*n))
-      if (even) then
-         fine(:, 1::2) = 0.75_dp*half_way + 0.25_dp*half_way(:, [(max(i - 1, 1), i=1, n)])
-         fine(:, 2::2) = 0.75_dp*half_way + 0.25_dp*half_way(:, [(min(i + 1, n), i=1, n)])
-      else
-         fine(:, 1::2) = half_way
-         fine(:, 2::2) = 0.5_dp*(half_way + half_way(:, [(mod(i, n) + 1, i=1, n)]))
-      end if
+      columns = merge(1, 2, n == 1)
+      allocate (fine(2*m, columns*n))
+      do j = 1, n
+         do k = 1, columns
+            part = parts(k, even)
+            half_way = coarse(:, j)
+            if (n > 1) half_way = part*coarse(:, j) + (1.0_dp - part)*coarse(:, neighbour(j, k, n, even))
+            associate (line => fine(:, columns*(j - 1) + k))
+               if (.not. any(half_way > 0.0_dp)) then
+                  line = 0.0_dp
+                  cycle
+               end if
+               line(1::2) = parts(1, even)*half_way
+               line(3::2) = line(3::2) + (1.0_dp - parts(1, even))*half_way(:m - 1)
+               line(1) = line(1) + (1.0_dp - parts(1, even))*half_way(neighbour(1, 1, m, even))
+               line(2::2) = parts(2, even)*half_way
+               line(2:2*m - 2:2) = line(2:2*m - 2:2) + (1.0_dp - parts(2, even))*half_way(2:)
+               line(2*m) = line(2*m) + (1.0_dp - parts(2, even))*half_way(neighbour(m, 2, m, even))
+            end associate
+         end do
+      end do
    end subroutine refine_pressure
+
+   !> The part of the nearest coarse point in the first or second of its fine points: on a quarter of the cell it lies
+   !> midway between both, on a whole cell at the first.
+   pure real(dp) function parts(k, even)
+      integer, intent(in) :: k
+      logical, intent(in) :: even
+
+      parts = 0.75_dp
+      if (.not. even) parts = merge(1.0_dp, 0.5_dp, k == 1)
+   end function parts
+
+   !> The second nearest coarse point, continued beyond the borders by mirrors or periodically.
+   pure integer function neighbour(j, k, points, even)
+      integer, intent(in) :: j, k      !! coarse point; 1 or 2, the first or the second of its fine points
+      integer, intent(in) :: points
+      logical, intent(in) :: even
+
+      neighbour = j + merge(-1, 1, k == 1)
+      if (neighbour < 1 .or. neighbour > points) neighbour = merge(j, points + 1 - j, even)
+   end function neighbour
 
 end module wavycon_grid_refinement
