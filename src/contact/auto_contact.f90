@@ -12,7 +12,8 @@ module wavycon_auto_contact
    use wavycon_key_table, only: key_type
    use wavycon_kinds, only: dp
    use wavycon_problems, only: problem_list_type
-   use wavycon_solver_keys, only: accuracy_key, check_grid_points, grid_points_key, points_of_grid, set_grid_defaults
+   use wavycon_solver_keys, only: accuracy_key, check_grid_points, grid_points_key, points_of_grid, residual_key, &
+                                  set_grid_defaults
    use wavycon_solver_progress, only: solver_progress
    use wavycon_surface, only: surface_type
    implicit none (type, external)
@@ -63,7 +64,7 @@ contains
    function keys() result(rows)
       type(key_type), allocatable :: rows(:)
 
-      rows = [accuracy_key(), grid_points_key()]
+      rows = [accuracy_key(), grid_points_key(), residual_key()]
    end function keys
 
    !> For every surface: as the last of the list it is the default if no other solver is.
@@ -80,8 +81,7 @@ contains
       type(surface_type), intent(in) :: surface
       type(problem_list_type), intent(inout) :: problems
 
-      associate (unused => surface); end associate
-      call check_grid_points(values, problems)
+      call check_grid_points(values, surface, problems)
    end subroutine check
 
    subroutine start_from_keys(self, surface, values, keep_fields)
@@ -90,16 +90,18 @@ contains
       type(group_values), intent(in) :: values
       logical, intent(in) :: keep_fields
 
-      call self%start(surface, values%real('accuracy'), keep_fields, points_of_grid(values, surface))
+      call self%start(surface, values%real('accuracy'), keep_fields, points_of_grid(values, surface), &
+                      values%real('residual'))
    end subroutine start_from_keys
 
    !> Selects and starts the solvers.
-   subroutine start(self, surface, accuracy, keep_fields, points)
+   subroutine start(self, surface, accuracy, keep_fields, points, residual)
       class(auto_contact), intent(out) :: self
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: accuracy                 !! of mean gap [Delta], contact area fraction, peak pressure [p*]
       logical, intent(in) :: keep_fields               !! whether solutions keep their fields and edges
       integer, intent(in), optional :: points(2)       !! of the one grid to solve; absent or zeros: to the accuracy
+      real(dp), intent(in), optional :: residual       !! of that grid (C9), as for grid_contact
 
       type(closed_form_contact), allocatable :: closed_form
       type(fitted_contact), allocatable :: fitted
@@ -124,7 +126,7 @@ contains
          self%reason = 'the surface has expansions; grids solve the loads for which these are not accurate enough'
       else
          allocate (grid)
-         call grid%start(surface, accuracy, keep_fields, points)
+         call grid%start(surface, accuracy, keep_fields, points, residual)
          call move_alloc(grid, self%first)
          self%reason = 'the surface has neither a closed form nor expansions'
          if (.not. by_accuracy) then

@@ -25,7 +25,8 @@ module wavycon_grid_contact
    use wavycon_plain_text, only: integer_text, short_number
    use wavycon_problems, only: problem_list_type
    use wavycon_qp_problem, only: qp_iteration_limit, qp_status_name
-   use wavycon_solver_keys, only: accuracy_key, check_grid_points, grid_points_key, points_of_grid, set_grid_defaults
+   use wavycon_solver_keys, only: accuracy_key, check_grid_points, grid_points_key, points_of_grid, residual_key, &
+                                  set_grid_defaults
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
@@ -37,6 +38,7 @@ module wavycon_grid_contact
    type, extends(contact_solver) :: grid_contact
       real(dp), private :: accuracy = 0.0_dp                 !! requested
       integer, private :: points(2) = 0                      !! requested
+      real(dp), private :: residual = 0.0_dp                 !! requested on these points
       integer, private :: level = 0                          !! of `use_level`
       logical, private :: keep_fields = .true.
       logical, private :: turned = .false.                   !! whether the smaller cell is solved
@@ -88,7 +90,7 @@ contains
    function keys() result(rows)
       type(key_type), allocatable :: rows(:)
 
-      rows = [accuracy_key(), grid_points_key()]
+      rows = [accuracy_key(), grid_points_key(), residual_key()]
    end function keys
 
    subroutine check(values, surface, problems)
@@ -96,8 +98,7 @@ contains
       type(surface_type), intent(in) :: surface
       type(problem_list_type), intent(inout) :: problems
 
-      associate (unused => surface); end associate
-      call check_grid_points(values, problems)
+      call check_grid_points(values, surface, problems)
    end subroutine check
 
    subroutine start_from_keys(self, surface, values, keep_fields)
@@ -106,11 +107,12 @@ contains
       type(group_values), intent(in) :: values
       logical, intent(in) :: keep_fields
 
-      call self%start(surface, values%real('accuracy'), keep_fields, points_of_grid(values, surface))
+      call self%start(surface, values%real('accuracy'), keep_fields, points_of_grid(values, surface), &
+                      values%real('residual'))
    end subroutine start_from_keys
 
    !> Starts the solver.
-   subroutine start(self, surface, accuracy, keep_fields, points)
+   subroutine start(self, surface, accuracy, keep_fields, points, residual)
       class(grid_contact), intent(out) :: self
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: accuracy      !! of mean gap [Delta], contact area fraction and peak pressure [p*]
@@ -118,8 +120,11 @@ contains
       !> Points of the whole cell along x and y of the one grid to solve, in place of the accuracy; absent or zeros:
       !> solve to the accuracy. Even numbers for an even surface; the second is ignored in 1-D.
       integer, intent(in), optional :: points(2)
+      !> Largest residual (C9) on the given points; absent or 0: that of (C10).
+      real(dp), intent(in), optional :: residual
 
       self%surface = surface
+      if (present(residual)) self%residual = residual
       self%accuracy = accuracy
       self%keep_fields = keep_fields
       if (present(points)) self%points = points
@@ -164,9 +169,9 @@ contains
 
       associate (accuracy => self%accuracy*10.0_dp**self%level, points => self%points/2**self%level)
          if (associated(self%progress)) then
-            call solve_by_cascade(self%solved, pbar_over_pstar, accuracy, points, answer, self%progress)
+            call solve_by_cascade(self%solved, pbar_over_pstar, accuracy, points, answer, self%progress, self%residual)
          else
-            call solve_by_cascade(self%solved, pbar_over_pstar, accuracy, points, answer)
+            call solve_by_cascade(self%solved, pbar_over_pstar, accuracy, points, answer, residual=self%residual)
          end if
       end associate
       if (.not. allocated(answer%state%gap)) then

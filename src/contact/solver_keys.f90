@@ -8,7 +8,8 @@ module wavycon_solver_keys
    implicit none (type, external)
    private
 
-   public :: accuracy_key, check_grid_points, grid_points_key, is_another_way, points_of_grid, set_grid_defaults
+   public :: accuracy_key, check_grid_points, grid_points_key, is_another_way, points_of_grid, residual_key, &
+             set_grid_defaults
 
 contains
 
@@ -25,6 +26,14 @@ contains
          'Even numbers. For a file the default is its own grid. Errors are estimated for multiples of 4 from 64 '// &
          'points a side; for others the summary shows the largest possible errors.', 8, 8192, most_values=2)
    end function grid_points_key
+
+   pure type(key_type) function residual_key() result(key)
+      key = real_key('residual', '', '-', &
+         'with grid_points or a height map on its own points: largest root mean square over the grid of gaps in '// &
+         'contact and of overlaps, over the mean gap, for comparisons with other programs. By default it is so '// &
+         'large that it changes the results by less than a tenth of their error estimates.', &
+         least=1.0e-13_dp, most=0.1_dp)
+   end function residual_key
 
    !> The grid in effect, along x and y: that of the deck or, without an accuracy, that which the surface was given
    !> on. Zeros if the accuracy decides.
@@ -58,12 +67,17 @@ contains
       call values%leave_out('accuracy')
    end subroutine set_grid_defaults
 
-   !> Reports grid_points beside accuracy, and odd numbers of points.
-   subroutine check_grid_points(values, problems)
+   !> Reports grid_points or residual beside accuracy, a residual without a given grid, and odd numbers of points.
+   subroutine check_grid_points(values, surface, problems)
       type(group_values), intent(in) :: values     !! of &method
+      type(surface_type), intent(in) :: surface
       type(problem_list_type), intent(inout) :: problems
 
       call values%forbid(problems, 'accuracy', 'grid_points', 'give the one or the other')
+      call values%forbid(problems, 'accuracy', 'residual', 'grids solved to an accuracy have the residual that it takes')
+      if (values%has('residual') .and. .not. values%has('accuracy') .and. all(points_of_grid(values, surface) == 0)) &
+         call values%complain(problems, 'residual', 'residual needs grid_points, or a height map on its own points: '// &
+                              'other grids have the residual that their accuracy takes')
       if (any(mod(values%integers('grid_points'), 2) /= 0)) call values%complain(problems, 'grid_points', &
          'grid_points must be even: of surfaces with mirror symmetry half of them are solved each way')
    end subroutine check_grid_points

@@ -20,7 +20,7 @@ module wavycon_contact_tuning
 
    !> A grid is solved until the gap in contact deviates from zero by this part of the gap at the points next to the
    !> contact, so that the iteration adds little to the error of the edge.
-   real(dp), parameter, public :: edge_tolerance = 0.005_dp
+   real(dp), parameter, public :: edge_tolerance = 5e-4_dp
    !> Iterations on one grid, after which the status is iteration_limit.
    integer, parameter, public :: iteration_limit = 500
    !> A point enters the contact when its overlap exceeds this part of the allowed residual. Smaller overlaps may be
