@@ -63,7 +63,7 @@ module wavycon_contact_tuning
    !> Likewise of the area: a quarter, as its changes fall. With it, this safety and the scatter below all of 2465 area
    !> estimates of 697 random scenes held, the largest error was 0.87 of its estimate; 1.09 without the factor 1.25.
    real(dp), parameter, public :: area_kept_change = 0.25_dp
-   !> Uncertainty of the edge's place at one point of it, in steps. It holds where the errors of three grids are alike by
+   !> Uncertainty of the edge's place at one point of it, in steps, for where the errors of three grids are alike by
    !> chance. The root mean square of the area's error that it stands for was, on the same scenes, 0.02 to 0.1 for
    !> waves at 128 to 512 points a side; 0.2 for sums of waves, where the changes are larger still.
    real(dp), parameter, public :: edge_scatter = 0.1_dp

@@ -58,8 +58,9 @@ module wavycon_contact_edge
 
 contains
 
-   !> The area in contact of one cell [rad^2]: that of its corners in contact and the points of the edge on its sides, less
-   !> what `beside_chord` gives. In a cell that the edge enters twice the two parts in contact are taken as connected.
+   !> The area in contact of one cell [rad^2]: that of the polygon of its corners in contact and the edge's points on
+   !> its sides, less what `beside_chord` gives. In a cell that the edge enters twice the two parts in contact are taken
+   !> as connected.
    pure real(dp) function cell_area(self, k, l) result(area)
       class(contact_edge), intent(in) :: self
       integer, intent(in) :: k, l

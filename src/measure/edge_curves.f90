@@ -95,7 +95,7 @@ contains
    end subroutine whole_strips
 
    !> Moves a curve into the contact, at right angles to it where the steps of the grid are 1: by the given number of
-   !> steps, but at most by half of its mean radius, so that the curve of the smallest contact keeps its direction.
+   !> steps, but at most by half of its mean radius, so that the curve of the smallest contact stays about it.
    pure subroutine shift_curve(curve, period, shift)
       type(edge_curve), intent(inout) :: curve
       integer, intent(in) :: period(2)   !! points to a period of phi and theta

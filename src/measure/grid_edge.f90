@@ -31,9 +31,8 @@ module wavycon_grid_edge
       procedure, private :: at
    end type grid_edge
 
-   !> Of an edge that runs along a line of the grid, from the discrete half-space (C11): the ratio of the last pressure to
-   !> the first gap, times E*/(2 h), where the edge is midway between its extremes; and the distance in steps by which
-   !> its inner extreme lies inside the last point in contact.
+   !> Of an edge that runs along a line of the grid (C11): the weight of the first gap, times E*/(2 h), against the last
+   !> pressure; and how far inside the last point in contact the edge lies when that pressure vanishes, in steps.
    real(dp), parameter :: aligned_weight = pi/exp(1.0_dp), aligned_offset = 0.19000928592905364_dp
 
 contains
@@ -235,8 +234,8 @@ contains
       fraction = max(area, 0.0_dp)/size(edge%pressure_or_gap)
    end function grid_contact_area
 
-   !> Turns of the edge in one cell, positive where the contact is convex; their sum over a closed edge is 1 or -1. Parts
-   !> in contact that meet at a corner are taken as connected, as in cell_area.
+   !> Turns of the edge in one cell, positive where the contact is convex; their sum over a closed edge is 1 or -1.
+   !> Parts in contact that meet at a corner are taken as connected, as in cell_area.
    pure real(dp) function turns(low, high)
       logical, intent(in) :: low(2), high(2)   !! whether the corners are in contact
 
