@@ -42,35 +42,21 @@ contains
       integer, intent(in) :: points(2)               !! M, N >= 1
       logical, intent(in) :: even
 
-      real(c_double), allocatable :: field(:, :)
       integer :: i
 
       self%points = points
       self%even = even
-      ! FFTW_ESTIMATE plans from the sizes and the alignment of the arrays and leaves their contents as they are. The
-      ! planner is not thread-safe.
-      associate (m => points(1), n => points(2), rows => int(points(2), c_int), columns => int(points(1), c_int))
-         allocate (field(m, n))
+      associate (m => points(1), n => points(2))
          if (even) then
             self%factor = 4.0_dp*m*n
             self%wave_x = [(i, i=0, m - 1)]
             self%wave_y = [(i, i=0, n - 1)]
             allocate (self%cosines(m, n))
-            !$omp critical (wavycon_fftw_planner)
-            self%forward_plan = fftw_plan_r2r_2d(rows, columns, field, self%cosines, FFTW_REDFT10, FFTW_REDFT10, &
-                                                 FFTW_ESTIMATE)
-            self%backward_plan = fftw_plan_r2r_2d(rows, columns, self%cosines, field, FFTW_REDFT01, FFTW_REDFT01, &
-                                                  FFTW_ESTIMATE)
-            !$omp end critical (wavycon_fftw_planner)
          else
             self%factor = real(m, dp)*n
             self%wave_x = [(i, i=0, m/2)]
             self%wave_y = [(merge(i, i - n, 2*i <= n), i=0, n - 1)]
             allocate (self%waves(m/2 + 1, n))
-            !$omp critical (wavycon_fftw_planner)
-            self%forward_plan = fftw_plan_dft_r2c_2d(rows, columns, field, self%waves, FFTW_ESTIMATE)
-            self%backward_plan = fftw_plan_dft_c2r_2d(rows, columns, self%waves, field, FFTW_ESTIMATE)
-            !$omp end critical (wavycon_fftw_planner)
          end if
       end associate
    end subroutine start
@@ -106,11 +92,35 @@ contains
       end if
    end subroutine backward
 
+   !> Transforms by a plan, which is made when it is first needed.
    subroutine execute(self, field, forwards)
       type(grid_transform), intent(inout) :: self
-      real(c_double), intent(inout), contiguous :: field(:, :)   !! aligned as the plan's arrays
+      real(c_double), intent(inout), contiguous :: field(:, :)   !! aligned as `allocate` does it
       logical, intent(in) :: forwards
 
+      integer(c_int) :: columns, rows
+
+      rows = int(self%points(2), c_int)
+      columns = int(self%points(1), c_int)
+      ! FFTW_ESTIMATE plans from the sizes and the alignment of the arrays and leaves their contents as they are. The
+      ! planner is not thread-safe.
+      !$omp critical (wavycon_fftw_planner)
+      if (forwards .and. .not. c_associated(self%forward_plan)) then
+         if (self%even) then
+            self%forward_plan = fftw_plan_r2r_2d(rows, columns, field, self%cosines, FFTW_REDFT10, FFTW_REDFT10, &
+                                                 FFTW_ESTIMATE)
+         else
+            self%forward_plan = fftw_plan_dft_r2c_2d(rows, columns, field, self%waves, FFTW_ESTIMATE)
+         end if
+      else if (.not. forwards .and. .not. c_associated(self%backward_plan)) then
+         if (self%even) then
+            self%backward_plan = fftw_plan_r2r_2d(rows, columns, self%cosines, field, FFTW_REDFT01, FFTW_REDFT01, &
+                                                  FFTW_ESTIMATE)
+         else
+            self%backward_plan = fftw_plan_dft_c2r_2d(rows, columns, self%waves, field, FFTW_ESTIMATE)
+         end if
+      end if
+      !$omp end critical (wavycon_fftw_planner)
       if (self%even .and. forwards) then
          call fftw_execute_r2r(self%forward_plan, field, self%cosines)
       else if (self%even) then
