@@ -65,24 +65,27 @@ contains
                                  min(correction_limit, most_iterations - state%iterations))
          call correction%add_to(state%pressure)
          state%corrections = state%corrections + 1
-         state%iterations = state%iterations + correction%iterations
+         ! A correction without iterations corrects the approach alone. It counts, so that the number of steps is limited.
+         state%iterations = state%iterations + max(1, correction%iterations)
          state%local_iterations = state%local_iterations + correction%local_iterations
       end do
       state%residual = state%residual/max(abs(state%mean_gap), rounding)
    end subroutine solve_on_grid
 
-   !> The gap h + Sp - approach (C1), whose mean in contact is zero (C3), and the residual times G.
+   !> The gap h + Sp - approach (C1), whose mean in contact is zero (C3), and the residual times G. The approach is that
+   !> of the present mean gap and a change: the change is a mean of small gaps and loses no digits.
    subroutine compute_gap(half_space, undeformed_gap, touched, state)
       type(compliance_operator), intent(inout) :: half_space
       real(dp), intent(in) :: undeformed_gap(:, :)
       logical, intent(in) :: touched(:)   !! whether a column of the grid has points in contact, shape (n)
       type(grid_state), intent(inout) :: state
 
-      real(dp) :: approach, sums(size(touched))
+      real(dp) :: approach, change, sums(size(touched))
       integer :: counts(size(touched)), j, threads
 
       threads = threads_for(size(undeformed_gap))
       if (.not. allocated(state%gap)) allocate (state%gap, mold=undeformed_gap)
+      approach = 1.0_dp - state%mean_gap
       associate (gap => state%gap, p => state%pressure, h => undeformed_gap)
          do j = 1, size(gap, 2)
             if (touched(j)) gap(:, j) = p(:, j)
@@ -90,24 +93,24 @@ contains
          call half_space%displacement(gap, nonzero=touched)
          !$omp parallel do num_threads(threads)
          do j = 1, size(gap, 2)
-            gap(:, j) = gap(:, j) + h(:, j)
+            gap(:, j) = gap(:, j) + (h(:, j) - approach)
             sums(j) = 0.0_dp
             counts(j) = 0
             if (.not. touched(j)) cycle
             sums(j) = sum(gap(:, j), p(:, j) > 0.0_dp)
             counts(j) = count(p(:, j) > 0.0_dp)
          end do
-         approach = sum(sums)/sum(counts)
+         change = sum(sums)/sum(counts)
          !$omp parallel do num_threads(threads)
          do j = 1, size(gap, 2)
-            gap(:, j) = gap(:, j) - approach
+            gap(:, j) = gap(:, j) - change
             if (touched(j)) then
                sums(j) = sum(merge(gap(:, j), min(gap(:, j), 0.0_dp), p(:, j) > 0.0_dp)**2)
             else
                sums(j) = sum(min(gap(:, j), 0.0_dp)**2)
             end if
          end do
-         state%mean_gap = 1.0_dp - approach
+         state%mean_gap = 1.0_dp - (approach + change)
          state%residual = sqrt(sum(sums)/size(gap))
       end associate
    end subroutine compute_gap
