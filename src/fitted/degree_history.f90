@@ -4,7 +4,7 @@ module wavycon_degree_history
    use wavycon_expansion, only: expansion
    use wavycon_fitted_answer, only: most_previous
    use wavycon_fitted_measures, only: all_measures, centre_measure, energy_measure, peak_measure
-   use wavycon_fitted_tuning, only: round_shape_ratio
+   use wavycon_fitted_tuning, only: fastest_decay
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
@@ -18,7 +18,8 @@ module wavycon_degree_history
       real(dp) :: best_error(all_measures) = huge(1.0_dp)          !! those of the best solution
       logical :: newest_is_best = .false.
       real(dp), private :: difference(all_measures) = huge(1.0_dp) !! of the newest two
-      real(dp), private :: decay(all_measures) = 1.0_dp            !! of it over the one before
+      real(dp) :: decay(2) = 1.0_dp                                !! of the misfit to the newest solution, and before
+      real(dp), private :: misfit = huge(1.0_dp)                   !! of the newest solution
       type(expansion), private :: newest(0:most_previous)          !! the newest first
    contains
       procedure :: push
@@ -28,8 +29,8 @@ module wavycon_degree_history
       procedure, private :: is_best
    end type degree_history
 
-   !> Solutions that it takes for an estimate to be used: a single difference may be small by chance.
-   integer, parameter :: least_solutions = 3
+   !> Solutions that it takes for an estimate.
+   integer, parameter :: least_solutions = 2
    !> Guard: lower limit of the relative errors, over the square of the last Newton step's relative change. A step that
    !> meets its tolerance keeps the limit below a tenth of the accuracy; it matters where the iteration ended at its
    !> limit of steps, with a change up to largest_change.
@@ -38,12 +39,12 @@ module wavycon_degree_history
 contains
 
    !> Adds the solution of the next degree. From the second one on its errors are estimated.
-   pure subroutine push(self, now, measures, change, merging_ratio)
+   pure subroutine push(self, now, measures, misfit, change)
       class(degree_history), intent(inout) :: self
       type(expansion), intent(in) :: now
       real(dp), intent(in) :: measures(all_measures)   !! > 0, of the solution
+      real(dp), intent(in) :: misfit                   !! >= 0, what the solution leaves of the equations, as a mean
       real(dp), intent(in) :: change                   !! relative, of the shape in the last Newton step
-      real(dp), intent(in) :: merging_ratio            !! of the shape
 
       real(dp) :: difference(all_measures)
       integer :: k
@@ -51,17 +52,14 @@ contains
       self%newest_is_best = .false.
       if (self%solutions > 0) then
          difference = abs(measures - self%measures)
+         self%decay = [min(max(misfit/max(self%misfit, tiny(misfit)), fastest_decay), 1.0_dp), self%decay(1)]
          call self%estimate(measures, difference, change)
          self%newest_is_best = self%is_best(measures)
          if (self%newest_is_best) self%best_error = self%error
-         self%decay = 1.0_dp
-         ! To round shapes some degrees add next to nothing, and the decay of the differences is a guide to the next
-         ! one. After the first difference it is 0.
-         if (merging_ratio < round_shape_ratio) &
-            self%decay = min(difference/max(self%difference, tiny(difference)), 1.0_dp)
          self%difference = difference
       end if
       self%measures = measures
+      self%misfit = misfit
       do k = most_previous, 1, -1
          self%newest(k) = self%newest(k - 1)
       end do
@@ -91,7 +89,7 @@ contains
          class(degree_history), intent(inout) :: history
          integer, intent(in) :: first, last
 
-         call error_estimate(difference(first:last), history%difference(first:last), history%decay(first:last), &
+         call error_estimate(difference(first:last), history%difference(first:last), history%decay, &
                              measures(first:last), history%error(first:last))
       end subroutine estimate_group
 

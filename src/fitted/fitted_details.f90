@@ -6,7 +6,7 @@ module wavycon_fitted_details
    use wavycon_error_estimate, only: error_estimate
    use wavycon_fitted_answer, only: fitted_answer, most_previous
    use wavycon_fitted_fields, only: fitted_separations
-   use wavycon_fitted_tuning, only: detail_refinement, round_shape_ratio
+   use wavycon_fitted_tuning, only: detail_refinement
    use wavycon_kinds, only: dp
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
@@ -34,7 +34,7 @@ contains
       !> Trough gap, saddle gap, saddle pressure.
       integer, parameter :: values = 3
       real(dp) :: at(values, 0:most_previous), by_finer_rules(values)
-      real(dp), dimension(values) :: decay, difference, error, previous_difference, scale
+      real(dp), dimension(values) :: difference, error, previous_difference, scale
       type(fitted_answer) :: older
       integer :: i, k
 
@@ -49,15 +49,12 @@ contains
       difference = abs(at(:, 0) - at(:, 1))
       previous_difference = huge(1.0_dp)
       if (size(answer%previous) > 1) previous_difference = abs(at(:, 1) - at(:, 2))
-      decay = 1.0_dp
-      if (size(answer%previous) > 2 .and. answer%merging_ratio < round_shape_ratio) &
-         decay = min(previous_difference/max(abs(at(:, 2) - at(:, 3)), tiny(1.0_dp)), 1.0_dp)
       ! All but the gap inside an island are differences of numbers of order 1: their rounding is absolute.
       scale = 1.0_dp
       if (answer%island) scale(1) = at(1, 0)
       ! One by one: the saddle may be about to close while the trough is wide open.
       do i = 1, values
-         call error_estimate(difference(i:i), previous_difference(i:i), decay(i:i), scale(i:i), error(i:i))
+         call error_estimate(difference(i:i), previous_difference(i:i), answer%misfit_decay, scale(i:i), error(i:i))
       end do
       error = error + abs(by_finer_rules - at(:, 0))
       details = fitted_details(at(1, 0), at(2, 0), at(3, 0), error(1), error(2), error(3))

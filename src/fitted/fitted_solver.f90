@@ -85,7 +85,7 @@ contains
       type(degree_history) :: history
       type(expansion) :: now
       type(lattice_images) :: images
-      real(dp) :: change, measures(all_measures), ratio, residual, tolerance
+      real(dp) :: change, measures(all_measures), misfit, ratio, residual, tolerance
       integer :: degree, failed, required
       logical :: merged, valid
 
@@ -111,7 +111,7 @@ contains
          call start_equations(equations, now, ratio, images)
          if (ratio > finest_change_ratio) tolerance = finest_change
          call solve_equations(equations, lattice, answer%pbar_over_pstar, now, tolerance, change, residual, &
-                              answer%iterations, valid)
+                              misfit, answer%iterations, valid)
          ratio = merging_ratio(lattice, now)
          merged = ratio >= 1.0_dp
          if (.not. valid .or. merged) exit
@@ -121,7 +121,7 @@ contains
             failed = 0
             call measure_expansion(equations, lattice, answer%pbar_over_pstar, now, measures)
             if (.not. all(measures(:peak_measure) > 0.0_dp)) exit
-            call history%push(now, measures, change, ratio)
+            call history%push(now, measures, misfit, change)
             if (history%newest_is_best) &
                call set_answer(answer, lattice, history, now, degree, residual, ratio, images%tolerance())
             if (history%best_meets(accuracy, required)) then
@@ -183,6 +183,7 @@ contains
       answer%peak_error = error(peak_measure)
       answer%energy_error = error(energy_measure)
       answer%perimeter_error = error(perimeter_measure)
+      answer%misfit_decay = history%decay
       call history%get_previous(answer%previous)
    end subroutine set_answer
 

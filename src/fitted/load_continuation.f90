@@ -65,13 +65,14 @@ contains
 
       type(contact_equations) :: equations
       type(lattice_images) :: images
-      real(dp) :: change, load, next, residual
+      real(dp) :: change, load, misfit, next, residual
 
       load = first_load
       do
          call images%prepare(lattice, now, start_series_growth, start_shape_change**2)
          call start_equations(equations, now, 0.0_dp, images)
-         call solve_equations(equations, lattice, load, now, start_shape_change, change, residual, iterations, found)
+         call solve_equations(equations, lattice, load, now, start_shape_change, change, residual, misfit, &
+                              iterations, found)
          if (.not. found .or. load_steps(lattice, load, last_load, now%island) == 0) exit
          next = last_load
          if (load_steps(lattice, load, last_load, now%island) > 1) then

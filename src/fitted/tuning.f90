@@ -189,15 +189,17 @@ module wavycon_fitted_tuning
 
    ! Estimates of errors.
 
-   real(dp), parameter, public :: fastest_decay = 0.5_dp
-      !! Differences of degrees are not taken to fall by more than this. Smaller: estimates that are too small where a
-      !! difference is so by chance. Larger: a degree more than needed.
-   real(dp), parameter, public :: previous_difference_share = 0.1_dp
-      !! Part of the difference before that an error is at least. Smaller: a difference that is small by chance is
-      !! believed. Larger: a degree more than needed.
-   real(dp), parameter, public :: error_safety = 3.0_dp
+   real(dp), parameter, public :: fastest_decay = 0.05_dp
+      !! The misfit is not taken to fall by more than this from degree to degree. Smaller: estimates that are too small
+      !! where it falls faster than the errors. Larger: a degree more than needed.
+   real(dp), parameter, public :: previous_difference_share = 0.5_dp
+      !! Part of the difference before, carried on by the decay of the misfit, that a difference counts as at least.
+      !! Smaller: a difference that is small by chance is believed. Larger: a degree more than needed.
+   real(dp), parameter, public :: error_safety = 5.0_dp
       !! Factor on all estimates. Smaller: estimates below the true error. Larger: a degree more than needed.
-   real(dp), parameter, public :: least_relative_share = 0.02_dp
+   real(dp), parameter, public :: first_error_factor = 3.0_dp
+      !! Further factor on the first estimate, which is from two solutions: they may be close by chance.
+   real(dp), parameter, public :: least_relative_share = 0.2_dp
       !! Least relative error of one measure over the largest of all. Smaller: a mean gap whose differences are small
       !! by chance is taken for the error. Larger: a degree more than needed.
 
