@@ -31,20 +31,19 @@ module wavycon_degree_history
 
    !> Solutions that it takes for an estimate.
    integer, parameter :: least_solutions = 2
-   !> Guard: lower limit of the relative errors, over the square of the last Newton step's relative change. A step that
-   !> meets its tolerance keeps the limit below a tenth of the accuracy; it matters where the iteration ended at its
-   !> limit of steps, with a change up to largest_change.
-   real(dp), parameter, public :: error_of_square = 10.0_dp
+   !> Least relative errors over what Newton's method leaves of the shape, relative to its size. It matters where the
+   !> iteration ended at its limit of steps; otherwise the remainder is a tenth of the accuracy or less.
+   real(dp), parameter, public :: error_per_remainder = 2.0_dp
 
 contains
 
    !> Adds the solution of the next degree. From the second one on its errors are estimated.
-   pure subroutine push(self, now, measures, misfit, change)
+   pure subroutine push(self, now, measures, misfit, remaining)
       class(degree_history), intent(inout) :: self
       type(expansion), intent(in) :: now
       real(dp), intent(in) :: measures(all_measures)   !! > 0, of the solution
       real(dp), intent(in) :: misfit                   !! >= 0, what the solution leaves of the equations, as a mean
-      real(dp), intent(in) :: change                   !! relative, of the shape in the last Newton step
+      real(dp), intent(in) :: remaining                !! that Newton's method leaves of the shape, relative to its size
 
       real(dp) :: difference(all_measures)
       integer :: k
@@ -53,7 +52,7 @@ contains
       if (self%solutions > 0) then
          difference = abs(measures - self%measures)
          self%decay = [min(max(misfit/max(self%misfit, tiny(misfit)), fastest_decay), 1.0_dp), self%decay(1)]
-         call self%estimate(measures, difference, change)
+         call self%estimate(measures, difference, remaining)
          self%newest_is_best = self%is_best(measures)
          if (self%newest_is_best) self%best_error = self%error
          self%difference = difference
@@ -70,18 +69,17 @@ contains
    !> Estimates the errors of a new solution. An island's gap at its trough converges as fields do, later than
    !> integrals of them, and energy and perimeter converge at rates of their own: they are estimated apart from the
    !> rest.
-   pure subroutine estimate(self, measures, difference, change)
+   pure subroutine estimate(self, measures, difference, remaining)
       class(degree_history), intent(inout) :: self
       real(dp), intent(in) :: measures(all_measures)
       real(dp), intent(in) :: difference(all_measures)   !! from the solution before
-      real(dp), intent(in) :: change
+      real(dp), intent(in) :: remaining                  !! as of push
 
       call estimate_group(self, 1, peak_measure)
       call estimate_group(self, centre_measure, centre_measure)
       call estimate_group(self, energy_measure, all_measures)
-      ! The last term of README.md (F44). Newton's method converges quadratically: what its last step leaves is of the
-      ! order of the step's square.
-      self%error = max(self%error, error_of_square*change**2*measures)
+      ! The last term of README.md (F44).
+      self%error = max(self%error, error_per_remainder*remaining*measures)
 
    contains
 

@@ -3,7 +3,7 @@ module wavycon_gauss_newton
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use wavycon_contact_equations, only: contact_equations
    use wavycon_expansion, only: expansion
-   use wavycon_fitted_tuning, only: longest_shape_change
+   use wavycon_fitted_tuning, only: change_per_square, longest_shape_change
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgels, dgglse
    use wavycon_wave_lattice, only: wave_lattice
@@ -22,25 +22,36 @@ module wavycon_gauss_newton
 
 contains
 
-   !> Steps until the shape changes by no more than a tolerance, or until there have been too many.
-   subroutine solve_equations(equations, lattice, load, now, tolerance, change, residual, misfit, iterations, valid)
+   !> Steps until what the next ones would change of the shape is within a tolerance, or until there have been too many.
+   !>
+   !> A step leaves about its own change times the contraction, the ratio of the changes of two successive steps. After
+   !> a first step the contraction is that of the last degree. It is at least what quadratic convergence has.
+   subroutine solve_equations(equations, lattice, load, now, tolerance, contraction, change, remaining, residual, misfit, &
+                              iterations, valid)
       type(contact_equations), intent(inout) :: equations  !! started for expansions like `now`
       type(wave_lattice), intent(in) :: lattice
       real(dp), intent(in) :: load                         !! P
       type(expansion), intent(inout) :: now
-      real(dp), intent(in) :: tolerance                    !! of the change, > 0
-      real(dp), intent(out) :: change                      !! of the last step; above the tolerance without convergence
+      real(dp), intent(in) :: tolerance                    !! of what remains, relative to the shape's size, > 0
+      real(dp), intent(inout) :: contraction               !! before, of the last degree; after, of this one
+      real(dp), intent(out) :: change                      !! of the last step, as of gauss_newton_step
+      real(dp), intent(out) :: remaining                   !! what it leaves; above the tolerance without convergence
       real(dp), intent(out) :: residual, misfit            !! as of gauss_newton_step
       integer, intent(inout) :: iterations                 !! the steps are added
       logical, intent(out) :: valid                        !! as of gauss_newton_step; if not, the steps end
 
+      real(dp) :: change_before
       integer :: i
 
+      change = huge(change)
       do i = 1, most_newton_steps
+         change_before = change
          call gauss_newton_step(equations, lattice, load, now, change, residual, misfit, valid)
          iterations = iterations + 1
+         if (i > 1) contraction = min(change/max(change_before, tiny(change)), 1.0_dp)
+         remaining = change*max(contraction, change*change_per_square)
          if (.not. valid) return
-         if (change <= tolerance) return
+         if (remaining <= tolerance) return
       end do
    end subroutine solve_equations
 

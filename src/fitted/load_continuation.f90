@@ -3,8 +3,8 @@ module wavycon_load_continuation
    use wavycon_contact_equations, only: contact_equations, start_equations
    use wavycon_expansion, only: expansion
    use wavycon_fitted_answer, only: fitted_answer, fitted_less_exact
-   use wavycon_fitted_tuning, only: degree_step, first_degree, heavy_load_start, light_load_start, load_step_ratio, &
-      restart_degree_steps, start_series_growth, start_shape_change
+   use wavycon_fitted_tuning, only: change_per_square, degree_step, first_degree, heavy_load_start, light_load_start, &
+      load_step_ratio, restart_degree_steps, start_series_growth, start_shape_change
    use wavycon_gauss_newton, only: solve_equations
    use wavycon_kinds, only: dp
    use wavycon_lattice_images, only: lattice_images
@@ -65,14 +65,15 @@ contains
 
       type(contact_equations) :: equations
       type(lattice_images) :: images
-      real(dp) :: change, load, misfit, next, residual
+      real(dp) :: change, contraction, load, misfit, next, remaining, residual
 
       load = first_load
       do
          call images%prepare(lattice, now, start_series_growth, start_shape_change**2)
          call start_equations(equations, now, 0.0_dp, images)
-         call solve_equations(equations, lattice, load, now, start_shape_change, change, residual, misfit, &
-                              iterations, found)
+         contraction = 0.0_dp
+         call solve_equations(equations, lattice, load, now, change_per_square*start_shape_change**2, contraction, &
+                              change, remaining, residual, misfit, iterations, found)
          if (.not. found .or. load_steps(lattice, load, last_load, now%island) == 0) exit
          next = last_load
          if (load_steps(lattice, load, last_load, now%island) > 1) then

@@ -74,18 +74,20 @@ module wavycon_fitted_tuning
 
    real(dp), parameter, public :: longest_shape_change = 0.3_dp
       !! Largest relative change of the shape in one step. Larger: the map folds. Smaller: more steps.
-   real(dp), parameter, public :: change_per_root_accuracy = 0.1_dp
-      !! Change at which Newton stops, over the root of the accuracy. Larger: the error left by the last step shows in
-      !! the result. Smaller: steps that change no digit asked for.
-   real(dp), parameter, public :: finest_change = 1e-7_dp
-      !! Least such change, and that close to merging. Smaller: steps into rounding. Larger: digits lost at the
-      !! tightest accuracy.
-   real(dp), parameter, public :: loosest_change = 1e-4_dp
-      !! Largest such change. Larger: differences of degrees show unfinished iterations. Smaller: steps that low
+   real(dp), parameter, public :: change_per_square = 10.0_dp
+      !! Change of a Newton step over the square of the one before, while convergence is quadratic. Smaller: the error
+      !! left by the last step shows in the result. Larger: steps that change no digit asked for.
+   real(dp), parameter, public :: remaining_of_accuracy = 0.1_dp
+      !! What Newton's method may leave of the shape, over the accuracy. Larger: it shows in the result. Smaller: steps
+      !! that change no digit asked for.
+   real(dp), parameter, public :: least_remaining = 1e-13_dp
+      !! Least such remainder. Smaller: steps into rounding. Larger: digits lost at the tightest accuracy.
+   real(dp), parameter, public :: largest_remaining = 1e-7_dp
+      !! Largest such remainder. Larger: differences of degrees show unfinished iterations. Smaller: steps that low
       !! accuracies do not need.
-   real(dp), parameter, public :: finest_change_ratio = 0.7_dp
-      !! Merging ratio from which the finest change is used. Convergence is less than quadratic there. Smaller: steps
-      !! without need. Larger: unfinished iterations near merging.
+   real(dp), parameter, public :: linear_convergence_ratio = 0.7_dp
+      !! Merging ratio from which the first degree takes a second step to measure the contraction: convergence is less
+      !! than quadratic there. Smaller: steps without need. Larger: unfinished iterations near merging.
    real(dp), parameter, public :: largest_change = 1e-4_dp
       !! Change beyond which a degree's solution is not used. Larger: errors are estimated from solutions that have not
       !! converged. Smaller: degrees are left out for nothing.
