@@ -3,7 +3,8 @@ module wavycon_degree_history
    use wavycon_error_estimate, only: error_estimate
    use wavycon_expansion, only: expansion
    use wavycon_fitted_answer, only: most_previous
-   use wavycon_fitted_measures, only: all_measures, centre_measure, energy_measure, peak_measure
+   use wavycon_fitted_measures, only: all_measures, centre_measure, energy_measure, peak_measure, &
+      perimeter_measure
    use wavycon_fitted_tuning, only: fastest_decay
    use wavycon_kinds, only: dp
    implicit none (type, external)
@@ -78,6 +79,9 @@ contains
       call estimate_group(self, 1, peak_measure)
       call estimate_group(self, centre_measure, centre_measure)
       call estimate_group(self, energy_measure, all_measures)
+      ! The perimeter converges no faster than the area, and its differences are small by chance more often.
+      self%error(perimeter_measure) = max(self%error(perimeter_measure), measures(perimeter_measure) &
+                                          *maxval(self%error(:peak_measure)/measures(:peak_measure)))
       ! The last term of README.md (F44).
       self%error = max(self%error, error_per_remainder*remaining*measures)
 

@@ -16,7 +16,7 @@ module wavycon_fitted_solver
    use wavycon_gauss_newton, only: solve_equations
    use wavycon_kinds, only: dp
    use wavycon_lattice_images, only: lattice_images
-   use wavycon_load_continuation, only: start_at_load
+   use wavycon_load_continuation, only: is_start, start_at_load
    use wavycon_merging_ratio, only: merging_ratio
    use wavycon_wave_lattice, only: hexagonal_lattice, rectangular_lattice, rhombic_lattice, square_lattice, &
       wave_lattice
@@ -66,8 +66,10 @@ contains
       end if
       call solve_regime(lattice, accuracy, first_is_island, answer, start, fields)
       ! A start with sharp tips may not lead to a much rounder shape.
-      if (answer%status >= fitted_merged .and. present(start)) &
-         call solve_regime(lattice, accuracy, first_is_island, answer, fields=fields)
+      if (answer%status >= fitted_merged .and. present(start)) then
+         if (is_start(lattice, start, pbar_over_pstar, first_is_island)) &
+            call solve_regime(lattice, accuracy, first_is_island, answer, fields=fields)
+      end if
       if (answer%status >= fitted_merged) &
          call solve_regime(lattice, accuracy, .not. first_is_island, answer, start, fields)
    end subroutine solve_fitted
@@ -95,9 +97,9 @@ contains
       required = peak_measure
       if (present(fields)) required = merge(centre_measure, peak_measure, fields .and. island)
       tolerance = min(max(remaining_of_accuracy*accuracy, least_remaining), largest_remaining)
-      call start_at_load(lattice, answer%pbar_over_pstar, island, now, degree, answer%iterations, valid, start)
+      call start_at_load(lattice, answer%pbar_over_pstar, island, now, degree, answer%iterations, valid, merged, start)
+      if (merged) answer%status = fitted_merged
       if (.not. valid) return
-      merged = .false.
       ratio = merging_ratio(lattice, now)
       ! A lower degree gives the estimates of round shapes one more difference; it cannot represent sharp ones.
       if (degree == first_degree .and. ratio < round_shape_ratio) degree = first_degree - degree_step/2
