@@ -5,7 +5,10 @@ module wavycon_error_estimate
    implicit none (type, external)
    private
 
-   public :: error_estimate
+   public :: error_estimate, no_decay
+
+   !> For values at a point: they converge later than the misfit, which is a mean.
+   real(dp), parameter :: no_decay(2) = 1.0_dp
 
 contains
 

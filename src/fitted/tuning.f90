@@ -199,8 +199,9 @@ module wavycon_fitted_tuning
       !! Smaller: a difference that is small by chance is believed. Larger: a degree more than needed.
    real(dp), parameter, public :: error_safety = 5.0_dp
       !! Factor on all estimates. Smaller: estimates below the true error. Larger: a degree more than needed.
-   real(dp), parameter, public :: first_error_factor = 3.0_dp
-      !! Further factor on the first estimate, which is from two solutions: they may be close by chance.
+   real(dp), parameter, public :: first_error_factor = 10.0_dp
+      !! Further factor on the first estimate, which is from two solutions: they may be close by chance. Smaller: such
+      !! estimates fail. Larger: a degree more than needed.
    real(dp), parameter, public :: least_relative_share = 0.2_dp
       !! Least relative error of one measure over the largest of all. Smaller: a mean gap whose differences are small
       !! by chance is taken for the error. Larger: a degree more than needed.
