@@ -1,6 +1,6 @@
 !> Solutions of rising degree: the estimates of their errors, and which of them is best.
 module wavycon_degree_history
-   use wavycon_error_estimate, only: error_estimate, no_decay
+   use wavycon_error_estimate, only: at_point, error_estimate
    use wavycon_expansion, only: expansion
    use wavycon_fitted_answer, only: most_previous
    use wavycon_fitted_measures, only: all_measures, centre_measure, energy_measure, peak_measure, &
@@ -19,7 +19,7 @@ module wavycon_degree_history
       real(dp) :: best_error(all_measures) = huge(1.0_dp)          !! those of the best solution
       logical :: newest_is_best = .false.
       real(dp), private :: difference(all_measures) = huge(1.0_dp) !! of the newest two
-      real(dp), private :: decay(2) = 1.0_dp                       !! of the misfit to the newest solution, and before
+      real(dp) :: decay(2) = 1.0_dp                                !! of the misfit to the newest solution, and before
       real(dp), private :: misfit = huge(1.0_dp)                   !! of the newest solution
       type(expansion), private :: newest(0:most_previous)          !! the newest first
    contains
@@ -77,7 +77,7 @@ contains
       real(dp), intent(in) :: remaining                  !! as of push
 
       call estimate_group(self, 1, peak_measure, self%decay)
-      call estimate_group(self, centre_measure, centre_measure, no_decay)
+      call estimate_group(self, centre_measure, centre_measure, at_point(self%decay))
       call estimate_group(self, energy_measure, all_measures, self%decay)
       ! The perimeter converges no faster than the area, and its differences are small by chance more often.
       self%error(perimeter_measure) = max(self%error(perimeter_measure), measures(perimeter_measure) &

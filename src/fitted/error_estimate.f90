@@ -1,14 +1,12 @@
 !> Estimates of the errors of values from expansions of rising degree.
 module wavycon_error_estimate
-   use wavycon_fitted_tuning, only: error_safety, first_error_factor, least_relative_share, previous_difference_share
+   use wavycon_fitted_tuning, only: error_safety, fastest_decay_at_point, first_error_factor, least_relative_share, &
+      previous_difference_share
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
 
-   public :: error_estimate, no_decay
-
-   !> For values at a point: they converge later than the misfit, which is a mean.
-   real(dp), parameter :: no_decay(2) = 1.0_dp
+   public :: at_point, error_estimate
 
 contains
 
@@ -39,5 +37,13 @@ contains
       error = max(error_safety*error, rounding*value)
       error = max(error, least_relative_share*value*maxval(error/value))
    end subroutine error_estimate
+
+   !> The decay of the misfit as it counts for the value of an expansion at a point, which converges later than integrals
+   !> of it do.
+   elemental real(dp) function at_point(decay)
+      real(dp), intent(in) :: decay   !! of the misfit, <= 1
+
+      at_point = max(decay, fastest_decay_at_point)
+   end function at_point
 
 end module wavycon_error_estimate

@@ -3,7 +3,7 @@
 !> The error of the expansion is estimated from the values that the lower degrees give at the same places, that of the
 !> integrals over near images from a second evaluation by finer rules.
 module wavycon_fitted_details
-   use wavycon_error_estimate, only: error_estimate, no_decay
+   use wavycon_error_estimate, only: at_point, error_estimate
    use wavycon_fitted_answer, only: fitted_answer, most_previous
    use wavycon_fitted_fields, only: fitted_separations
    use wavycon_fitted_tuning, only: detail_refinement
@@ -54,8 +54,16 @@ contains
       if (answer%island) scale(1) = at(1, 0)
       ! One by one: the saddle may be about to close while the trough is wide open.
       do i = 1, values
-         call error_estimate(difference(i:i), previous_difference(i:i), no_decay, scale(i:i), error(i:i))
+         call error_estimate(difference(i:i), previous_difference(i:i), answer%misfit_decay, scale(i:i), error(i:i))
       end do
+      if (answer%island) then
+         ! A value of the expansion, where the others are integrals of it.
+         call error_estimate(difference(1:1), previous_difference(1:1), at_point(answer%misfit_decay), scale(1:1), &
+                             error(1:1))
+      else
+         ! The approach is part of both gaps.
+         error(:2) = max(error(:2), answer%mean_gap_error)
+      end if
       error = error + abs(by_finer_rules - at(:, 0))
       details = fitted_details(at(1, 0), at(2, 0), at(3, 0), error(1), error(2), error(3))
       ! A gap in contact and a pressure outside of it are 0 by definition.

@@ -184,6 +184,7 @@ contains
       answer%peak_error = error(peak_measure)
       answer%energy_error = error(energy_measure)
       answer%perimeter_error = error(perimeter_measure)
+      answer%misfit_decay = history%decay
       call history%get_previous(answer%previous)
    end subroutine set_answer
 

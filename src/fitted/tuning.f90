@@ -194,6 +194,8 @@ module wavycon_fitted_tuning
    real(dp), parameter, public :: fastest_decay = 0.05_dp
       !! The misfit is not taken to fall by more than this from degree to degree. Smaller: estimates that are too small
       !! where it falls faster than the errors. Larger: a degree more than needed.
+   real(dp), parameter, public :: fastest_decay_at_point = 0.3_dp
+      !! The same of values at a point. With 0.2 the gap at an island's trough is as far off as its estimate allows.
    real(dp), parameter, public :: previous_difference_share = 0.5_dp
       !! Part of the difference before, carried on by the decay of the misfit, that a difference counts as at least.
       !! Smaller: a difference that is small by chance is believed. Larger: a degree more than needed.
