@@ -124,7 +124,7 @@ module wavycon_fitted_tuning
    real(dp), parameter, public :: sharp_chords_per_degree = 2.0_dp
       !! Chords for each degree of sharp shapes. Tips make the integrand vary faster from chord to chord.
    integer, parameter, public :: extra_sharp_chords = 20
-      !! Chords beyond that of sharp shapes.
+      !! Chords beyond that of sharp shapes, but no more than the degree: low degrees are not that accurate.
    integer, parameter, public :: extra_chord_points = 2
       !! Points on a chord beyond half the degree. Smaller: the quadrature's error shows. Larger: more expensive steps.
    integer, parameter, public :: extra_disc_radii = 2
@@ -138,6 +138,9 @@ module wavycon_fitted_tuning
    integer, parameter, public :: near_disc_extra = 6
       !! More radii and angles of that rule where images are near. Smaller: the near images' kernel is not resolved.
       !! Larger: more expensive images.
+   integer, parameter, public :: degree_per_near_disc_extra = 4
+      !! Degrees to one more of them up to that number: low degrees are not that accurate. As near_disc_extra, the other
+      !! way round.
 
    ! Series of the images.
 
