@@ -13,7 +13,7 @@ module wavycon_fitted_tuning
 
    ! Start, and continuation in the load.
 
-   real(dp), parameter, public :: light_load_start = 0.03_dp
+   real(dp), parameter, public :: light_load_start = 0.06_dp
       !! Largest P of a Hertzian start [p* of the lattice]. Larger: Newton's method starts from a shape too far off.
       !! Smaller: more steps of continuation.
    real(dp), parameter, public :: heavy_load_start = 0.7_dp
@@ -147,7 +147,7 @@ module wavycon_fitted_tuning
    real(dp), parameter, public :: series_error_of_accuracy = 1e-2_dp
       !! Error of the image series over the accuracy asked for. Larger: its error shows in the result. Smaller: longer
       !! series.
-   real(dp), parameter, public :: loosest_series_accuracy = 1e-6_dp
+   real(dp), parameter, public :: loosest_series_accuracy = 1e-4_dp
       !! Loosest accuracy that a series is made for. Larger: shorter series, which are hardly quicker, and differences
       !! that show their error. Smaller: longer series.
    real(dp), parameter, public :: series_growth = 1.03_dp
