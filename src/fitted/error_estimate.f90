@@ -23,7 +23,7 @@ contains
    pure subroutine error_estimate(difference, previous_difference, decay, value, error)
       real(dp), intent(in) :: difference(:)            !! d_n >= 0, of the last two degrees
       real(dp), intent(in) :: previous_difference(:)   !! d_(n-1), of the two before; huge if there is none
-      real(dp), intent(in) :: decay(2)                 !! s_n and s_(n-1) <= 1, of the misfit
+      real(dp), intent(in) :: decay(2)                 !! r_n and r_(n-1) <= 1, of the misfit
       real(dp), intent(in) :: value(:)                 !! > 0, at the last degree
       real(dp), intent(out) :: error(:)
 
