@@ -38,8 +38,8 @@ contains
       error = max(error, least_relative_share*value*maxval(error/value))
    end subroutine error_estimate
 
-   !> The decay of the misfit as it counts for the value of an expansion at a point, which converges later than integrals
-   !> of it do.
+   !> The decay of the misfit as it counts for the value of an expansion at a point, which converges later than
+   !> integrals of it do.
    elemental real(dp) function at_point(decay)
       real(dp), intent(in) :: decay   !! of the misfit, <= 1
 

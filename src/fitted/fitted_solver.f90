@@ -111,8 +111,8 @@ contains
                              series_error_of_accuracy*min(accuracy, loosest_series_accuracy))
          ratio = merging_ratio(lattice, now)
          call start_equations(equations, now, ratio, images)
-         call solve_equations(equations, lattice, answer%pbar_over_pstar, now, tolerance, contraction, change, remaining, &
-                              residual, misfit, answer%iterations, valid)
+         call solve_equations(equations, lattice, answer%pbar_over_pstar, now, tolerance, contraction, change, &
+                              remaining, residual, misfit, answer%iterations, valid)
          ratio = merging_ratio(lattice, now)
          merged = ratio >= 1.0_dp
          if (.not. valid .or. merged) exit

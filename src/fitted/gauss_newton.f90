@@ -26,8 +26,8 @@ contains
    !>
    !> A step leaves about its own change times the contraction, the ratio of the changes of two successive steps. After
    !> a first step the contraction is that of the last degree. It is at least what quadratic convergence has.
-   subroutine solve_equations(equations, lattice, load, now, tolerance, contraction, change, remaining, residual, misfit, &
-                              iterations, valid)
+   subroutine solve_equations(equations, lattice, load, now, tolerance, contraction, change, remaining, residual, &
+                              misfit, iterations, valid)
       type(contact_equations), intent(inout) :: equations  !! started for expansions like `now`
       type(wave_lattice), intent(in) :: lattice
       real(dp), intent(in) :: load                         !! P
