@@ -48,9 +48,10 @@ contains
          change_before = change
          call gauss_newton_step(equations, lattice, load, now, change, residual, misfit, valid)
          iterations = iterations + 1
-         if (i > 1) contraction = min(change/max(change_before, tiny(change)), 1.0_dp)
-         remaining = change*max(contraction, change*change_per_square)
+         remaining = huge(remaining)
          if (.not. valid) return
+         if (i > 1) contraction = min(change/max(change_before, tiny(change)), 1.0_dp)
+         remaining = change*max(contraction, min(change, 1.0_dp)*change_per_square)
          if (remaining <= tolerance) return
       end do
    end subroutine solve_equations
