@@ -61,17 +61,14 @@ contains
       complex(dp), intent(in) :: w(:)             !! points on chords through the target, shape (n)
       real(dp), intent(in), contiguous :: turn(:, :)   !! e^(2 i phi) of the chords, shape (n, 2)
 
-      integer :: i, k, terms
+      integer :: i, terms
 
       terms = ubound(shape%b, 1)
       do i = 1, self%points
          self%w(i, 1) = w(i)%re
          self%w(i, 2) = w(i)%im
       end do
-      call find_terms(self, shape, target)
-      do k = 1, terms
-         call multiply(self%points, self%b_terms(:, :, k), turn)
-      end do
+      call find_terms(self, shape, target, turn)
       self%q = shape%b(0)*self%b_0_term
       associate (rows => 2*self%points)
          call dgemv('N', rows, terms, 1.0_dp, self%b_terms, rows, shape%b(1:), 1, 1.0_dp, self%q, 1)
@@ -82,11 +79,12 @@ contains
       end do
    end subroutine evaluate
 
-   !> The terms' differences of powers, README.md (F27), without e^(2 i phi), and their slopes.
-   subroutine find_terms(self, shape, target)
+   !> The terms' differences of powers, README.md (F27), with e^(2 i phi), and their slopes.
+   subroutine find_terms(self, shape, target, turn)
       type(chord_quotient), intent(inout) :: self
       type(shape_map), intent(in) :: shape
       complex(dp), intent(in) :: target
+      real(dp), intent(in), contiguous :: turn(:, :)   !! as of evaluate
 
       complex(dp) :: target_power, target_step
       integer :: j, k, m, n
@@ -112,17 +110,40 @@ contains
          call multiply(n, last, w)
          call add(last, target_power)
          call find_analytic_part(self, shape, target_step)
+         ! The recurrence is linear in both differences: with e^(2 i phi) in them it is in all.
+         call multiply(n, difference(:, :, 1), turn)
+         call multiply(n, last, turn)
          do k = 2, ubound(shape%b, 1)
-            difference(:, :, k) = difference(:, :, k - 1)
-            call multiply(n, difference(:, :, k), step)
-            difference(:, 1, k) = difference(:, 1, k) + (target_power%re*last(:, 1) - target_power%im*last(:, 2))
-            difference(:, 2, k) = difference(:, 2, k) + (target_power%re*last(:, 2) + target_power%im*last(:, 1))
+            call next_terms(n, step, last, target_power, (m*k - 1.0_dp)/(m*(k - 1) - 1.0_dp), &
+                            difference(:, :, k - 1), power(:, :, k - 1), difference(:, :, k), power(:, :, k))
             target_power = target_power*target_step
-            power(:, :, k) = power(:, :, k - 1)*((m*k - 1.0_dp)/(m*(k - 1) - 1.0_dp))
-            call multiply(n, power(:, :, k), step)
          end do
       end associate
    end subroutine find_terms
+
+   !> w^m times the difference of a term, plus a target's power times that of w^m, and w^m times the term's slope.
+   pure subroutine next_terms(n, step, last, target_power, factor, difference, power, next_difference, next_power)
+      integer, intent(in) :: n
+      real(dp), intent(in) :: step(n, 2), last(n, 2)         !! w^m and its difference
+      complex(dp), intent(in) :: target_power                !! w_t^j, j that of the term
+      real(dp), intent(in) :: factor                         !! ratio of the powers of the next term and of this one
+      real(dp), intent(in) :: difference(n, 2), power(n, 2)
+      real(dp), intent(out) :: next_difference(n, 2), next_power(n, 2)
+
+      real(dp) :: im, re
+      integer :: i
+
+      re = target_power%re
+      im = target_power%im
+      do i = 1, n
+         next_difference(i, 1) = difference(i, 1)*step(i, 1) - difference(i, 2)*step(i, 2) &
+            + (re*last(i, 1) - im*last(i, 2))
+         next_difference(i, 2) = difference(i, 1)*step(i, 2) + difference(i, 2)*step(i, 1) &
+            + (re*last(i, 2) + im*last(i, 1))
+         next_power(i, 1) = factor*(power(i, 1)*step(i, 1) - power(i, 2)*step(i, 2))
+         next_power(i, 2) = factor*(power(i, 1)*step(i, 2) + power(i, 2)*step(i, 1))
+      end do
+   end subroutine next_terms
 
    !> The analytic part of the map over b_0: the conjugate of its divided difference, and the square of its slope.
    subroutine find_analytic_part(self, shape, target_step)

@@ -1,10 +1,11 @@
 !> Solutions of rising degree: the estimates of their errors, and which of them is best.
 module wavycon_degree_history
-   use wavycon_error_estimate, only: error_estimate
+   use wavycon_error_estimate, only: at_point, error_estimate
    use wavycon_expansion, only: expansion
    use wavycon_fitted_answer, only: most_previous
-   use wavycon_fitted_measures, only: all_measures, centre_measure, energy_measure, peak_measure
-   use wavycon_fitted_tuning, only: round_shape_ratio
+   use wavycon_fitted_measures, only: all_measures, centre_measure, energy_measure, peak_measure, &
+      perimeter_measure
+   use wavycon_fitted_tuning, only: fastest_decay
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
@@ -18,7 +19,8 @@ module wavycon_degree_history
       real(dp) :: best_error(all_measures) = huge(1.0_dp)          !! those of the best solution
       logical :: newest_is_best = .false.
       real(dp), private :: difference(all_measures) = huge(1.0_dp) !! of the newest two
-      real(dp), private :: decay(all_measures) = 1.0_dp            !! of it over the one before
+      real(dp) :: decay(2) = 1.0_dp                                !! of the misfit to the newest solution, and before
+      real(dp), private :: misfit = huge(1.0_dp)                   !! of the newest solution
       type(expansion), private :: newest(0:most_previous)          !! the newest first
    contains
       procedure :: push
@@ -28,22 +30,21 @@ module wavycon_degree_history
       procedure, private :: is_best
    end type degree_history
 
-   !> Solutions that it takes for an estimate to be used: a single difference may be small by chance.
-   integer, parameter :: least_solutions = 3
-   !> Guard: lower limit of the relative errors, over the square of the last Newton step's relative change. A step that
-   !> meets its tolerance keeps the limit below a tenth of the accuracy; it matters where the iteration ended at its
-   !> limit of steps, with a change up to largest_change.
-   real(dp), parameter, public :: error_of_square = 10.0_dp
+   !> Solutions that it takes for an estimate.
+   integer, parameter :: least_solutions = 2
+   !> Least relative errors over what Newton's method leaves of the shape, relative to its size. It matters where the
+   !> iteration ended at its limit of steps; otherwise the remainder is a tenth of the accuracy or less.
+   real(dp), parameter, public :: error_per_remainder = 2.0_dp
 
 contains
 
    !> Adds the solution of the next degree. From the second one on its errors are estimated.
-   pure subroutine push(self, now, measures, change, merging_ratio)
+   pure subroutine push(self, now, measures, misfit, remaining)
       class(degree_history), intent(inout) :: self
       type(expansion), intent(in) :: now
       real(dp), intent(in) :: measures(all_measures)   !! > 0, of the solution
-      real(dp), intent(in) :: change                   !! relative, of the shape in the last Newton step
-      real(dp), intent(in) :: merging_ratio            !! of the shape
+      real(dp), intent(in) :: misfit                   !! >= 0, what the solution leaves of the equations, as a mean
+      real(dp), intent(in) :: remaining                !! that Newton's method leaves of the shape, relative to its size
 
       real(dp) :: difference(all_measures)
       integer :: k
@@ -51,17 +52,14 @@ contains
       self%newest_is_best = .false.
       if (self%solutions > 0) then
          difference = abs(measures - self%measures)
-         call self%estimate(measures, difference, change)
+         self%decay = [min(max(misfit/max(self%misfit, tiny(misfit)), fastest_decay), 1.0_dp), self%decay(1)]
+         call self%estimate(measures, difference, remaining)
          self%newest_is_best = self%is_best(measures)
          if (self%newest_is_best) self%best_error = self%error
-         self%decay = 1.0_dp
-         ! To round shapes some degrees add next to nothing, and the decay of the differences is a guide to the next
-         ! one. After the first difference it is 0.
-         if (merging_ratio < round_shape_ratio) &
-            self%decay = min(difference/max(self%difference, tiny(difference)), 1.0_dp)
          self%difference = difference
       end if
       self%measures = measures
+      self%misfit = misfit
       do k = most_previous, 1, -1
          self%newest(k) = self%newest(k - 1)
       end do
@@ -72,27 +70,30 @@ contains
    !> Estimates the errors of a new solution. An island's gap at its trough converges as fields do, later than
    !> integrals of them, and energy and perimeter converge at rates of their own: they are estimated apart from the
    !> rest.
-   pure subroutine estimate(self, measures, difference, change)
+   pure subroutine estimate(self, measures, difference, remaining)
       class(degree_history), intent(inout) :: self
       real(dp), intent(in) :: measures(all_measures)
       real(dp), intent(in) :: difference(all_measures)   !! from the solution before
-      real(dp), intent(in) :: change
+      real(dp), intent(in) :: remaining                  !! as of push
 
-      call estimate_group(self, 1, peak_measure)
-      call estimate_group(self, centre_measure, centre_measure)
-      call estimate_group(self, energy_measure, all_measures)
-      ! The last term of README.md (F44). Newton's method converges quadratically: what its last step leaves is of the
-      ! order of the step's square.
-      self%error = max(self%error, error_of_square*change**2*measures)
+      call estimate_group(self, 1, peak_measure, self%decay)
+      call estimate_group(self, centre_measure, centre_measure, at_point(self%decay))
+      call estimate_group(self, energy_measure, all_measures, self%decay)
+      ! The perimeter converges no faster than the area, and its differences are small by chance more often.
+      self%error(perimeter_measure) = max(self%error(perimeter_measure), measures(perimeter_measure) &
+                                          *maxval(self%error(:peak_measure)/measures(:peak_measure)))
+      ! The last term of README.md (F44).
+      self%error = max(self%error, error_per_remainder*remaining*measures)
 
    contains
 
-      pure subroutine estimate_group(history, first, last)
+      pure subroutine estimate_group(history, first, last, decay)
          class(degree_history), intent(inout) :: history
          integer, intent(in) :: first, last
+         real(dp), intent(in) :: decay(2)
 
-         call error_estimate(difference(first:last), history%difference(first:last), history%decay(first:last), &
-                             measures(first:last), history%error(first:last))
+         call error_estimate(difference(first:last), history%difference(first:last), decay, measures(first:last), &
+                             history%error(first:last))
       end subroutine estimate_group
 
    end subroutine estimate

@@ -1,45 +1,49 @@
 !> Estimates of the errors of values from expansions of rising degree.
 module wavycon_error_estimate
-   use wavycon_fitted_tuning, only: error_safety, fastest_decay, least_relative_share, previous_difference_share
+   use wavycon_fitted_tuning, only: error_safety, fastest_decay_at_point, first_error_factor, least_relative_share, &
+      previous_difference_share
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
 
-   public :: error_estimate
+   public :: at_point, error_estimate
 
 contains
 
-   !> Errors of values from the differences of the last degrees.
+   !> Errors of values from the differences of the last degrees: README.md (F43) and, but for its last term, (F44).
    !>
-   !> README.md (F43) and, but for its last term, (F44). With the differences d of the last two degrees and d' of the
-   !> two before, the error is taken for the larger of
+   !> A difference of two degrees is about the error of the lower one. That of the higher one is smaller by the decay of
+   !> the misfit, which is measured at all points of collocation and is hardly ever small by chance, as differences of
+   !> single values are. The difference before, carried on by the decays since, is a lower limit for the same reason.
+   !> Other limits are rounding and a share of the values' largest relative error: integrals such as the mean gap
+   !> converge faster than the shape, but not by much.
    !>
-   !>     d times the root of d/d', not less than fastest_decay nor more than 1, and
-   !>     d' times the root of the decay from d'' to d', not more than previous_difference_share,
-   !>
-   !> and, if there is no d', for d; all that times error_safety. The second one holds where d is small by chance, as
-   !> happens at degrees whose new terms hardly matter. Rounding and the values' largest relative error, times
-   !> least_relative_share, are lower limits: integrals such as the mean gap converge faster, but not by more.
-   !>
-   !> N.B. These are estimates, no bounds. They hold for hundreds of loads; those of the perimeter of a rhombic
+   !> N.B. These are estimates, no bounds. They hold for thousands of loads; those of the perimeter of a rhombic
    !> lattice's spots are too small now and then.
-   pure subroutine error_estimate(difference, previous_difference, previous_decay, value, error)
-      real(dp), intent(in) :: difference(:)            !! d >= 0
-      real(dp), intent(in) :: previous_difference(:)   !! d' >= 0; huge if there is none
-      real(dp), intent(in) :: previous_decay(:)        !! d'/d'' <= 1; 1 if it is not to be used
+   pure subroutine error_estimate(difference, previous_difference, decay, value, error)
+      real(dp), intent(in) :: difference(:)            !! d_n >= 0, of the last two degrees
+      real(dp), intent(in) :: previous_difference(:)   !! d_(n-1), of the two before; huge if there is none
+      real(dp), intent(in) :: decay(2)                 !! r_n and r_(n-1) <= 1, of the misfit
       real(dp), intent(in) :: value(:)                 !! > 0, at the last degree
       real(dp), intent(out) :: error(:)
 
       real(dp), parameter :: rounding = 64*epsilon(1.0_dp)   !! relative
 
       where (previous_difference < huge(1.0_dp))
-         error = min(max(sqrt(difference/max(previous_difference, tiny(1.0_dp))), fastest_decay), 1.0_dp)*difference
-         error = max(error, min(previous_difference_share, sqrt(previous_decay))*previous_difference)
+         error = decay(1)*max(difference, previous_difference_share*decay(2)*previous_difference)
       elsewhere
-         error = difference
+         error = first_error_factor*decay(1)*difference
       end where
       error = max(error_safety*error, rounding*value)
       error = max(error, least_relative_share*value*maxval(error/value))
    end subroutine error_estimate
+
+   !> The decay of the misfit as it counts for the value of an expansion at a point, which converges later than
+   !> integrals of it do.
+   elemental real(dp) function at_point(decay)
+      real(dp), intent(in) :: decay   !! of the misfit, <= 1
+
+      at_point = max(decay, fastest_decay_at_point)
+   end function at_point
 
 end module wavycon_error_estimate

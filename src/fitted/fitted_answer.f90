@@ -37,6 +37,7 @@ module wavycon_fitted_answer
       real(dp) :: energy_error = huge(1.0_dp)
       real(dp) :: perimeter_error = huge(1.0_dp)
       real(dp) :: residual = huge(1.0_dp)             !! largest of the equations [Delta], an island's [p*]
+      real(dp) :: misfit_decay(2) = 1.0_dp            !! r_n and r_(n-1) of README.md (F43)
       real(dp) :: merging_ratio = 0.0_dp              !! of the shape: 0 for a point, 1 where neighbours touch
       integer :: degree = 0                           !! of the polynomials
       integer :: iterations = 0                       !! Gauss-Newton steps of all degrees

@@ -3,10 +3,10 @@
 !> The error of the expansion is estimated from the values that the lower degrees give at the same places, that of the
 !> integrals over near images from a second evaluation by finer rules.
 module wavycon_fitted_details
-   use wavycon_error_estimate, only: error_estimate
+   use wavycon_error_estimate, only: at_point, error_estimate
    use wavycon_fitted_answer, only: fitted_answer, most_previous
    use wavycon_fitted_fields, only: fitted_separations
-   use wavycon_fitted_tuning, only: detail_refinement, round_shape_ratio
+   use wavycon_fitted_tuning, only: detail_refinement
    use wavycon_kinds, only: dp
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
@@ -34,7 +34,7 @@ contains
       !> Trough gap, saddle gap, saddle pressure.
       integer, parameter :: values = 3
       real(dp) :: at(values, 0:most_previous), by_finer_rules(values)
-      real(dp), dimension(values) :: decay, difference, error, previous_difference, scale
+      real(dp), dimension(values) :: difference, error, previous_difference, scale
       type(fitted_answer) :: older
       integer :: i, k
 
@@ -49,16 +49,21 @@ contains
       difference = abs(at(:, 0) - at(:, 1))
       previous_difference = huge(1.0_dp)
       if (size(answer%previous) > 1) previous_difference = abs(at(:, 1) - at(:, 2))
-      decay = 1.0_dp
-      if (size(answer%previous) > 2 .and. answer%merging_ratio < round_shape_ratio) &
-         decay = min(previous_difference/max(abs(at(:, 2) - at(:, 3)), tiny(1.0_dp)), 1.0_dp)
       ! All but the gap inside an island are differences of numbers of order 1: their rounding is absolute.
       scale = 1.0_dp
       if (answer%island) scale(1) = at(1, 0)
       ! One by one: the saddle may be about to close while the trough is wide open.
       do i = 1, values
-         call error_estimate(difference(i:i), previous_difference(i:i), decay(i:i), scale(i:i), error(i:i))
+         call error_estimate(difference(i:i), previous_difference(i:i), answer%misfit_decay, scale(i:i), error(i:i))
       end do
+      if (answer%island) then
+         ! A value of the expansion, where the others are integrals of it.
+         call error_estimate(difference(1:1), previous_difference(1:1), at_point(answer%misfit_decay), scale(1:1), &
+                             error(1:1))
+      else
+         ! The approach is part of both gaps.
+         error(:2) = max(error(:2), answer%mean_gap_error)
+      end if
       error = error + abs(by_finer_rules - at(:, 0))
       details = fitted_details(at(1, 0), at(2, 0), at(3, 0), error(1), error(2), error(3))
       ! A gap in contact and a pressure outside of it are 0 by definition.

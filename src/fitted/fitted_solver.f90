@@ -10,13 +10,13 @@ module wavycon_fitted_solver
    use wavycon_fitted_fields, only: fitted_fields, fitted_separations, start_fitted_fields
    use wavycon_fitted_measures, only: all_measures, area_measure, centre_measure, energy_measure, gap_measure, &
       measure_expansion, peak_measure, perimeter_measure
-   use wavycon_fitted_tuning, only: change_per_root_accuracy, degree_step, finest_change, finest_change_ratio, &
-      first_degree, largest_change, last_degree, loosest_change, loosest_series_accuracy, round_shape_ratio, &
+   use wavycon_fitted_tuning, only: degree_step, first_degree, largest_change, largest_remaining, last_degree, &
+      least_remaining, linear_convergence_ratio, loosest_series_accuracy, remaining_of_accuracy, round_shape_ratio, &
       series_error_of_accuracy, series_growth
    use wavycon_gauss_newton, only: solve_equations
    use wavycon_kinds, only: dp
    use wavycon_lattice_images, only: lattice_images
-   use wavycon_load_continuation, only: start_at_load
+   use wavycon_load_continuation, only: is_start, start_at_load
    use wavycon_merging_ratio, only: merging_ratio
    use wavycon_wave_lattice, only: hexagonal_lattice, rectangular_lattice, rhombic_lattice, square_lattice, &
       wave_lattice
@@ -66,8 +66,10 @@ contains
       end if
       call solve_regime(lattice, accuracy, first_is_island, answer, start, fields)
       ! A start with sharp tips may not lead to a much rounder shape.
-      if (answer%status >= fitted_merged .and. present(start)) &
-         call solve_regime(lattice, accuracy, first_is_island, answer, fields=fields)
+      if (answer%status >= fitted_merged .and. present(start)) then
+         if (is_start(lattice, start, pbar_over_pstar, first_is_island)) &
+            call solve_regime(lattice, accuracy, first_is_island, answer, fields=fields)
+      end if
       if (answer%status >= fitted_merged) &
          call solve_regime(lattice, accuracy, .not. first_is_island, answer, start, fields)
    end subroutine solve_fitted
@@ -85,7 +87,7 @@ contains
       type(degree_history) :: history
       type(expansion) :: now
       type(lattice_images) :: images
-      real(dp) :: change, measures(all_measures), ratio, residual, tolerance
+      real(dp) :: change, contraction, measures(all_measures), misfit, ratio, remaining, residual, tolerance
       integer :: degree, failed, required
       logical :: merged, valid
 
@@ -94,34 +96,33 @@ contains
       answer%iterations = 0
       required = peak_measure
       if (present(fields)) required = merge(centre_measure, peak_measure, fields .and. island)
-      ! A Newton step leaves about its square, close to merging more.
-      tolerance = min(max(change_per_root_accuracy*sqrt(accuracy), finest_change), loosest_change)
-      call start_at_load(lattice, answer%pbar_over_pstar, island, now, degree, answer%iterations, valid, start)
+      tolerance = min(max(remaining_of_accuracy*accuracy, least_remaining), largest_remaining)
+      call start_at_load(lattice, answer%pbar_over_pstar, island, now, degree, answer%iterations, valid, merged, start)
+      if (merged) answer%status = fitted_merged
       if (.not. valid) return
-      merged = .false.
       ratio = merging_ratio(lattice, now)
       ! A lower degree gives the estimates of round shapes one more difference; it cannot represent sharp ones.
       if (degree == first_degree .and. ratio < round_shape_ratio) degree = first_degree - degree_step/2
       failed = 0
+      contraction = merge(1.0_dp, 0.0_dp, ratio > linear_convergence_ratio)
       do
          call resize(lattice, degree, now)
          call images%prepare(lattice, now, series_growth, &
                              series_error_of_accuracy*min(accuracy, loosest_series_accuracy))
          ratio = merging_ratio(lattice, now)
          call start_equations(equations, now, ratio, images)
-         if (ratio > finest_change_ratio) tolerance = finest_change
-         call solve_equations(equations, lattice, answer%pbar_over_pstar, now, tolerance, change, residual, &
-                              answer%iterations, valid)
+         call solve_equations(equations, lattice, answer%pbar_over_pstar, now, tolerance, contraction, change, &
+                              remaining, residual, misfit, answer%iterations, valid)
          ratio = merging_ratio(lattice, now)
          merged = ratio >= 1.0_dp
          if (.not. valid .or. merged) exit
          ! Without convergence there is nothing to compare, but the next degree may converge.
          failed = failed + 1
-         if (change <= largest_change) then
+         if (change <= largest_change .or. remaining <= tolerance) then
             failed = 0
             call measure_expansion(equations, lattice, answer%pbar_over_pstar, now, measures)
             if (.not. all(measures(:peak_measure) > 0.0_dp)) exit
-            call history%push(now, measures, change, ratio)
+            call history%push(now, measures, misfit, remaining)
             if (history%newest_is_best) &
                call set_answer(answer, lattice, history, now, degree, residual, ratio, images%tolerance())
             if (history%best_meets(accuracy, required)) then
@@ -183,6 +184,7 @@ contains
       answer%peak_error = error(peak_measure)
       answer%energy_error = error(energy_measure)
       answer%perimeter_error = error(perimeter_measure)
+      answer%misfit_decay = history%decay
       call history%get_previous(answer%previous)
    end subroutine set_answer
 

@@ -3,7 +3,7 @@ module wavycon_gauss_newton
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use wavycon_contact_equations, only: contact_equations
    use wavycon_expansion, only: expansion
-   use wavycon_fitted_tuning, only: longest_shape_change
+   use wavycon_fitted_tuning, only: change_per_square, longest_shape_change
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgels, dgglse
    use wavycon_wave_lattice, only: wave_lattice
@@ -22,25 +22,37 @@ module wavycon_gauss_newton
 
 contains
 
-   !> Steps until the shape changes by no more than a tolerance, or until there have been too many.
-   subroutine solve_equations(equations, lattice, load, now, tolerance, change, residual, iterations, valid)
+   !> Steps until what the next ones would change of the shape is within a tolerance, or until there have been too many.
+   !>
+   !> A step leaves about its own change times the contraction, the ratio of the changes of two successive steps. After
+   !> a first step the contraction is that of the last degree. It is at least what quadratic convergence has.
+   subroutine solve_equations(equations, lattice, load, now, tolerance, contraction, change, remaining, residual, &
+                              misfit, iterations, valid)
       type(contact_equations), intent(inout) :: equations  !! started for expansions like `now`
       type(wave_lattice), intent(in) :: lattice
       real(dp), intent(in) :: load                         !! P
       type(expansion), intent(inout) :: now
-      real(dp), intent(in) :: tolerance                    !! of the change, > 0
-      real(dp), intent(out) :: change                      !! of the last step; above the tolerance without convergence
-      real(dp), intent(out) :: residual                    !! as of gauss_newton_step
+      real(dp), intent(in) :: tolerance                    !! of what remains, relative to the shape's size, > 0
+      real(dp), intent(inout) :: contraction               !! before, of the last degree; after, of this one
+      real(dp), intent(out) :: change                      !! of the last step, as of gauss_newton_step
+      real(dp), intent(out) :: remaining                   !! what it leaves; above the tolerance without convergence
+      real(dp), intent(out) :: residual, misfit            !! as of gauss_newton_step
       integer, intent(inout) :: iterations                 !! the steps are added
       logical, intent(out) :: valid                        !! as of gauss_newton_step; if not, the steps end
 
+      real(dp) :: change_before
       integer :: i
 
+      change = huge(change)
       do i = 1, most_newton_steps
-         call gauss_newton_step(equations, lattice, load, now, change, residual, valid)
+         change_before = change
+         call gauss_newton_step(equations, lattice, load, now, change, residual, misfit, valid)
          iterations = iterations + 1
+         remaining = huge(remaining)
          if (.not. valid) return
-         if (change <= tolerance) return
+         if (i > 1) contraction = min(change/max(change_before, tiny(change)), 1.0_dp)
+         remaining = change*max(contraction, min(change, 1.0_dp)*change_per_square)
+         if (remaining <= tolerance) return
       end do
    end subroutine solve_equations
 
@@ -48,7 +60,7 @@ contains
    !> load.
    !>
    !> The step is shortened to a change of the shape of `longest_shape_change`.
-   subroutine gauss_newton_step(equations, lattice, load, now, change, residual, valid)
+   subroutine gauss_newton_step(equations, lattice, load, now, change, residual, misfit, valid)
       type(contact_equations), intent(inout) :: equations  !! started for expansions like `now`
       type(wave_lattice), intent(in) :: lattice
       real(dp), intent(in) :: load                         !! P
@@ -56,6 +68,7 @@ contains
       real(dp), intent(out) :: change
          !! largest change of a coefficient of the shape, before shortening, over the former size b_0
       real(dp), intent(out) :: residual                    !! largest of the equations before the step [Delta, p*]
+      real(dp), intent(out) :: misfit                      !! as of least_squares_step
       logical, intent(out) :: valid
          !! whether the step is finite and the new shape is not about to fold; where it is not finite `now` is as before
 
@@ -64,6 +77,7 @@ contains
 
       call equations%linearise(lattice, load, now)
       residual = huge(residual)
+      misfit = huge(misfit)
       change = huge(change)
       valid = .false.
       ! LAPACK may loop for ever on NaN or infinity.
@@ -71,7 +85,7 @@ contains
       residual = maxval(abs(equations%residual))
       missing_load = 0.0_dp
       if (.not. now%island) missing_load = load*lattice%area - equations%integral(now)
-      call least_squares_step(equations, .not. now%island, missing_load, step, finite)
+      call least_squares_step(equations, .not. now%island, missing_load, step, misfit, finite)
       if (.not. finite) return
       associate (terms => now%basis%terms, before_shape => equations%before_shape)
          change = maxval(abs(step(before_shape + 1:)))/now%shape%b(0)
@@ -85,22 +99,26 @@ contains
    end subroutine gauss_newton_step
 
    !> Solves the linear least-squares problem by LAPACK; overwrites the equations' matrix and residual.
-   subroutine least_squares_step(equations, with_load, missing_load, step, finite)
+   subroutine least_squares_step(equations, with_load, missing_load, step, misfit, finite)
       type(contact_equations), intent(inout) :: equations
       logical, intent(in) :: with_load           !! whether the load is a constraint
       real(dp), intent(in) :: missing_load       !! that the step must add, times the cell's area
       real(dp), intent(out) :: step(:)           !! shape (unknowns)
+      real(dp), intent(out) :: misfit
+         !! root of the sum of squares that the step leaves, over the equations beyond the unknowns [Delta, p*]
       logical, intent(out) :: finite             !! whether there is a solution; otherwise the step is of no use
 
       !> Columns that LAPACK treats at once; as many times the sizes is enough work space.
       integer, parameter :: block = 64
       real(dp) :: constraint(1, size(step)), right(1)
       real(dp) :: work(block*(size(equations%residual) + size(step) + 1))
-      integer :: info, m, n
+      integer :: beyond, info, m, n
 
       m = size(equations%residual)
       n = size(step)
+      beyond = m - n
       if (with_load) then
+         beyond = beyond + 1
          constraint(1, :) = equations%load_row
          right = missing_load
          call dgglse(m, n, 1, equations%matrix, m, constraint, 1, equations%residual, right, step, &
@@ -109,6 +127,8 @@ contains
          call dgels('N', m, n, 1, equations%matrix, m, equations%residual, m, work, size(work), info)
          step = equations%residual(:n)
       end if
+      ! LAPACK leaves the components that no step can remove at the end of the right side.
+      misfit = norm2(equations%residual(m - beyond + 1:))/sqrt(real(beyond, dp))
       finite = info == 0
       if (finite) finite = maxval(abs(step)) < huge(1.0_dp)
    end subroutine least_squares_step

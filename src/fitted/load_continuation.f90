@@ -3,25 +3,27 @@ module wavycon_load_continuation
    use wavycon_contact_equations, only: contact_equations, start_equations
    use wavycon_expansion, only: expansion
    use wavycon_fitted_answer, only: fitted_answer, fitted_less_exact
-   use wavycon_fitted_tuning, only: degree_step, first_degree, heavy_load_start, light_load_start, load_step_ratio, &
-      restart_degree_steps, start_series_growth, start_shape_change
+   use wavycon_fitted_tuning, only: change_per_square, degree_step, first_degree, heavy_load_start, light_load_start, &
+      load_step_ratio, restart_degree_steps, start_series_growth, start_shape_change
    use wavycon_gauss_newton, only: solve_equations
    use wavycon_kinds, only: dp
    use wavycon_lattice_images, only: lattice_images
+   use wavycon_merging_ratio, only: merging_ratio
    use wavycon_start_expansion, only: crack_island, hertz_spot, scaled_to_load
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
    private
 
-   public :: load_steps, start_at_load
+   public :: is_start, load_steps, start_at_load
 
 contains
 
    !> An approximation at a load, and the degree to go on with.
    !>
    !> A solution of a load that is within one step is scaled to the load. Otherwise an asymptote is followed in steps
-   !> of the load to the one wanted: Hertz's for a spot, a penny-shaped crack for an island.
-   subroutine start_at_load(lattice, load, island, now, degree, iterations, found, start)
+   !> of the load to the one wanted: Hertz's for a spot, a penny-shaped crack for an island. Where it touches its
+   !> neighbours on the way, the regime has ended.
+   subroutine start_at_load(lattice, load, island, now, degree, iterations, found, merged, start)
       type(wave_lattice), intent(in) :: lattice
       real(dp), intent(in) :: load                    !! P
       logical, intent(in) :: island                   !! the regime
@@ -29,20 +31,20 @@ contains
       integer, intent(out) :: degree
       integer, intent(inout) :: iterations            !! Gauss-Newton steps are added
       logical, intent(out) :: found
+      logical, intent(out) :: merged                  !! whether there is no start because the regime has ended
       type(fitted_answer), intent(in), optional :: start   !! a solution of another load
 
       real(dp) :: first_load
 
       degree = first_degree
+      merged = .false.
       if (present(start)) then
-         if (start%status <= fitted_less_exact .and. (start%island .eqv. island)) then
-            if (load_steps(lattice, start%pbar_over_pstar, load, island) <= 1) then
-               now = scaled_to_load(lattice, start%solution, start%pbar_over_pstar, load)
-               ! Degrees below the last load's, or a sweep would never come down to lower ones again.
-               degree = max(first_degree, start%degree - restart_degree_steps*degree_step)
-               found = .true.
-               return
-            end if
+         found = is_start(lattice, start, load, island)
+         if (found) then
+            now = scaled_to_load(lattice, start%solution, start%pbar_over_pstar, load)
+            ! Degrees below the last load's, or a sweep would never come down to lower ones again.
+            degree = max(first_degree, start%degree - restart_degree_steps*degree_step)
+            return
          end if
       end if
       if (island) then
@@ -52,27 +54,49 @@ contains
          first_load = min(load, light_load_start)
          now = hertz_spot(lattice, first_load)
       end if
-      call follow_load(lattice, first_load, load, now, iterations, found)
+      call follow_load(lattice, first_load, load, now, iterations, found, merged)
    end subroutine start_at_load
 
+   !> Whether a solution of another load is a start: in the same regime, within one step, and still apart from its
+   !> neighbours when it is scaled to the load.
+   logical function is_start(lattice, start, load, island)
+      type(wave_lattice), intent(in) :: lattice
+      type(fitted_answer), intent(in) :: start
+      real(dp), intent(in) :: load                    !! P
+      logical, intent(in) :: island                   !! the regime
+
+      is_start = start%status <= fitted_less_exact .and. (start%island .eqv. island)
+      if (is_start) is_start = load_steps(lattice, start%pbar_over_pstar, load, island) <= 1
+      if (is_start) is_start = &
+         merging_ratio(lattice, scaled_to_load(lattice, start%solution, start%pbar_over_pstar, load)) < 1.0_dp
+   end function is_start
+
    !> Solves at one load after the other, from a first approximation to the load wanted.
-   subroutine follow_load(lattice, first_load, last_load, now, iterations, found)
+   subroutine follow_load(lattice, first_load, last_load, now, iterations, found, merged)
       type(wave_lattice), intent(in) :: lattice
       real(dp), intent(in) :: first_load, last_load   !! P
       type(expansion), intent(inout) :: now           !! at the first load; at the last one
       integer, intent(inout) :: iterations
       logical, intent(out) :: found
+      logical, intent(out) :: merged                  !! as of start_at_load
 
       type(contact_equations) :: equations
       type(lattice_images) :: images
-      real(dp) :: change, load, next, residual
+      real(dp) :: change, contraction, load, misfit, next, remaining, residual
 
       load = first_load
+      merged = .false.
       do
          call images%prepare(lattice, now, start_series_growth, start_shape_change**2)
          call start_equations(equations, now, 0.0_dp, images)
-         call solve_equations(equations, lattice, load, now, start_shape_change, change, residual, iterations, found)
-         if (.not. found .or. load_steps(lattice, load, last_load, now%island) == 0) exit
+         contraction = 0.0_dp
+         call solve_equations(equations, lattice, load, now, change_per_square*start_shape_change**2, contraction, &
+                              change, remaining, residual, misfit, iterations, found)
+         if (.not. found) exit
+         ! The start of a load that was solved has come to a ratio of 0.92 at most, of many next to merging.
+         merged = merging_ratio(lattice, now) >= 1.0_dp
+         found = .not. merged
+         if (merged .or. load_steps(lattice, load, last_load, now%island) == 0) exit
          next = last_load
          if (load_steps(lattice, load, last_load, now%island) > 1) then
             next = load_step_ratio*load

@@ -13,7 +13,7 @@ module wavycon_fitted_tuning
 
    ! Start, and continuation in the load.
 
-   real(dp), parameter, public :: light_load_start = 0.03_dp
+   real(dp), parameter, public :: light_load_start = 0.06_dp
       !! Largest P of a Hertzian start [p* of the lattice]. Larger: Newton's method starts from a shape too far off.
       !! Smaller: more steps of continuation.
    real(dp), parameter, public :: heavy_load_start = 0.7_dp
@@ -74,18 +74,20 @@ module wavycon_fitted_tuning
 
    real(dp), parameter, public :: longest_shape_change = 0.3_dp
       !! Largest relative change of the shape in one step. Larger: the map folds. Smaller: more steps.
-   real(dp), parameter, public :: change_per_root_accuracy = 0.1_dp
-      !! Change at which Newton stops, over the root of the accuracy. Larger: the error left by the last step shows in
-      !! the result. Smaller: steps that change no digit asked for.
-   real(dp), parameter, public :: finest_change = 1e-7_dp
-      !! Least such change, and that close to merging. Smaller: steps into rounding. Larger: digits lost at the
-      !! tightest accuracy.
-   real(dp), parameter, public :: loosest_change = 1e-4_dp
-      !! Largest such change. Larger: differences of degrees show unfinished iterations. Smaller: steps that low
+   real(dp), parameter, public :: change_per_square = 10.0_dp
+      !! Change of a Newton step over the square of the one before, while convergence is quadratic. Smaller: the error
+      !! left by the last step shows in the result. Larger: steps that change no digit asked for.
+   real(dp), parameter, public :: remaining_of_accuracy = 0.1_dp
+      !! What Newton's method may leave of the shape, over the accuracy. Larger: it shows in the result. Smaller: steps
+      !! that change no digit asked for.
+   real(dp), parameter, public :: least_remaining = 1e-13_dp
+      !! Least such remainder. Smaller: steps into rounding. Larger: digits lost at the tightest accuracy.
+   real(dp), parameter, public :: largest_remaining = 1e-7_dp
+      !! Largest such remainder. Larger: differences of degrees show unfinished iterations. Smaller: steps that low
       !! accuracies do not need.
-   real(dp), parameter, public :: finest_change_ratio = 0.7_dp
-      !! Merging ratio from which the finest change is used. Convergence is less than quadratic there. Smaller: steps
-      !! without need. Larger: unfinished iterations near merging.
+   real(dp), parameter, public :: linear_convergence_ratio = 0.7_dp
+      !! Merging ratio from which the first degree takes a second step to measure the contraction: convergence is less
+      !! than quadratic there. Smaller: steps without need. Larger: unfinished iterations near merging.
    real(dp), parameter, public :: largest_change = 1e-4_dp
       !! Change beyond which a degree's solution is not used. Larger: errors are estimated from solutions that have not
       !! converged. Smaller: degrees are left out for nothing.
@@ -122,7 +124,7 @@ module wavycon_fitted_tuning
    real(dp), parameter, public :: sharp_chords_per_degree = 2.0_dp
       !! Chords for each degree of sharp shapes. Tips make the integrand vary faster from chord to chord.
    integer, parameter, public :: extra_sharp_chords = 20
-      !! Chords beyond that of sharp shapes.
+      !! Chords beyond that of sharp shapes, but no more than the degree: low degrees are not that accurate.
    integer, parameter, public :: extra_chord_points = 2
       !! Points on a chord beyond half the degree. Smaller: the quadrature's error shows. Larger: more expensive steps.
    integer, parameter, public :: extra_disc_radii = 2
@@ -136,13 +138,16 @@ module wavycon_fitted_tuning
    integer, parameter, public :: near_disc_extra = 6
       !! More radii and angles of that rule where images are near. Smaller: the near images' kernel is not resolved.
       !! Larger: more expensive images.
+   integer, parameter, public :: degree_per_near_disc_extra = 4
+      !! Degrees to one more of them up to that number: low degrees are not that accurate. As near_disc_extra, the other
+      !! way round.
 
    ! Series of the images.
 
    real(dp), parameter, public :: series_error_of_accuracy = 1e-2_dp
       !! Error of the image series over the accuracy asked for. Larger: its error shows in the result. Smaller: longer
       !! series.
-   real(dp), parameter, public :: loosest_series_accuracy = 1e-6_dp
+   real(dp), parameter, public :: loosest_series_accuracy = 1e-4_dp
       !! Loosest accuracy that a series is made for. Larger: shorter series, which are hardly quicker, and differences
       !! that show their error. Smaller: longer series.
    real(dp), parameter, public :: series_growth = 1.03_dp
@@ -189,15 +194,20 @@ module wavycon_fitted_tuning
 
    ! Estimates of errors.
 
-   real(dp), parameter, public :: fastest_decay = 0.5_dp
-      !! Differences of degrees are not taken to fall by more than this. Smaller: estimates that are too small where a
-      !! difference is so by chance. Larger: a degree more than needed.
-   real(dp), parameter, public :: previous_difference_share = 0.1_dp
-      !! Part of the difference before that an error is at least. Smaller: a difference that is small by chance is
-      !! believed. Larger: a degree more than needed.
-   real(dp), parameter, public :: error_safety = 3.0_dp
+   real(dp), parameter, public :: fastest_decay = 0.05_dp
+      !! The misfit is not taken to fall by more than this from degree to degree. Smaller: estimates that are too small
+      !! where it falls faster than the errors. Larger: a degree more than needed.
+   real(dp), parameter, public :: fastest_decay_at_point = 0.3_dp
+      !! The same of values at a point. With 0.2 the gap at an island's trough is as far off as its estimate allows.
+   real(dp), parameter, public :: previous_difference_share = 0.5_dp
+      !! Part of the difference before, carried on by the decay of the misfit, that a difference counts as at least.
+      !! Smaller: a difference that is small by chance is believed. Larger: a degree more than needed.
+   real(dp), parameter, public :: error_safety = 5.0_dp
       !! Factor on all estimates. Smaller: estimates below the true error. Larger: a degree more than needed.
-   real(dp), parameter, public :: least_relative_share = 0.02_dp
+   real(dp), parameter, public :: first_error_factor = 10.0_dp
+      !! Further factor on the first estimate, which is from two solutions: they may be close by chance. Smaller: such
+      !! estimates fail. Larger: a degree more than needed.
+   real(dp), parameter, public :: least_relative_share = 0.2_dp
       !! Least relative error of one measure over the largest of all. Smaller: a mean gap whose differences are small
       !! by chance is taken for the error. Larger: a degree more than needed.
 
