@@ -4,8 +4,8 @@ module wavycon_lapack
    implicit none (type, external)
    private
 
-   public :: dgemm, dgemv, dger, dsymv, dsyr, dtrsv                           ! BLAS
-   public :: dgels, dgeqp3, dgglse, dlarfg, dormqr, dpotrf, dtrtri            ! LAPACK
+   public :: dgemm, dgemv, dger, drot, dsymv, dsyr, dtrsm, dtrsv              ! BLAS
+   public :: dgels, dgeqp3, dgglse, dlarfg, dlartg, dormqr, dpotrf, dtrtri    ! LAPACK
 
    interface
       pure subroutine dgemv(trans, m, n, alpha, a, lda, x, incx, beta, y, incy)
@@ -46,6 +46,14 @@ module wavycon_lapack
          real(dp), intent(in) :: a(lda, *)
          real(dp), intent(inout) :: x(*)
       end subroutine dtrsv
+
+      pure subroutine dtrsm(side, uplo, transa, diag, m, n, alpha, a, lda, b, ldb)
+         import :: dp
+         character, intent(in) :: side, uplo, transa, diag
+         integer, intent(in) :: m, n, lda, ldb
+         real(dp), intent(in) :: alpha, a(lda, *)
+         real(dp), intent(inout) :: b(ldb, *)
+      end subroutine dtrsm
 
       pure subroutine dgemm(transa, transb, m, n, k, alpha, a, lda, b, ldb, beta, c, ldc)
          import :: dp
@@ -89,6 +97,19 @@ module wavycon_lapack
          real(dp), intent(out) :: work(*)
          integer, intent(out) :: info
       end subroutine dormqr
+
+      pure subroutine drot(n, x, incx, y, incy, c, s)
+         import :: dp
+         integer, intent(in) :: n, incx, incy
+         real(dp), intent(inout) :: x(*), y(*)
+         real(dp), intent(in) :: c, s
+      end subroutine drot
+
+      pure subroutine dlartg(f, g, c, s, r)
+         import :: dp
+         real(dp), intent(in) :: f, g
+         real(dp), intent(out) :: c, s, r
+      end subroutine dlartg
 
       pure subroutine dlarfg(n, alpha, x, incx, tau)
          import :: dp

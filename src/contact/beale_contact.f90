@@ -1,14 +1,13 @@
 !> solver = 'beale': the method of Johnson, Greenwood & Higginson (1985). The pressure is a truncated Fourier series
 !> whose coefficients minimise the complementary energy; Beale's quadratic programming finds the minimum.
 module wavycon_beale_contact
-   use wavycon_beale, only: beale_solver
+   use wavycon_dual_solver, only: dual_solver
    use wavycon_complementary_energy, only: energy_problem
    use wavycon_constraint_points, only: choose_points
    use wavycon_contact_measures, only: measure_series, measuring_intervals
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver
-   use wavycon_contact_tuning, only: starting_load
    use wavycon_edge_curves, only: edge_curve, strip_ends, trace_edges, turn_curves
    use wavycon_fourier_series, only: fourier_series
    use wavycon_fourier_terms, only: choose_terms, fourier_terms, symmetry_diagonal, symmetry_full, symmetry_none
@@ -48,8 +47,8 @@ module wavycon_beale_contact
    type, extends(contact_solver) :: beale_contact
       type(series_setup) :: setup
       type(qp_problem) :: problem                      !! at zero load
-      type(beale_solver), private :: solver
-      real(dp), private :: last_load = -1.0_dp         !! P of the minimum in `solver`; negative: none
+      type(dual_solver), private :: solver
+      logical, private :: has_solved = .false.         !! whether `solver` can pass to other loads
    contains
       procedure, nopass :: name
       procedure, nopass :: meaning
@@ -257,18 +256,15 @@ contains
       solution%setup = self%setup
       solution%pbar_over_pstar = pbar_over_pstar
       allocate (solution%x(self%setup%terms%count()), source=0.0_dp)
-      if (self%last_load < pbar_over_pstar) then
-         problem = self%problem
-         self%last_load = max(starting_load, pbar_over_pstar)
-         problem%bounds = -self%last_load
-         call self%solver%solve(problem, programme)
-         solution%iterations = programme%pivots
-      end if
-      if (pbar_over_pstar < self%last_load .or. .not. allocated(programme%x)) then
+      if (self%has_solved) then
          call self%solver%pass_to(self%problem%bounds - pbar_over_pstar, programme)
-         self%last_load = pbar_over_pstar
-         solution%iterations = solution%iterations + programme%pivots
+      else
+         problem = self%problem
+         problem%bounds = -pbar_over_pstar
+         call self%solver%solve(problem, programme)
+         self%has_solved = allocated(programme%x)
       end if
+      solution%iterations = programme%pivots
 
       solution%status = qp_status_name(programme%status)
       solution%solver = solver_name
