@@ -5,7 +5,7 @@ module wavycon_lapack
    private
 
    public :: dgemm, dgemv, dger, drot, dsymv, dsyr, dtrsm, dtrsv              ! BLAS
-   public :: dgels, dgeqp3, dgglse, dlarfg, dlartg, dormqr, dpotrf, dtrtri    ! LAPACK
+   public :: dgels, dgeqp3, dgglse, dlarfg, dlartg, dorgqr, dpotrf, dtrtri    ! LAPACK
 
    interface
       pure subroutine dgemv(trans, m, n, alpha, a, lda, x, incx, beta, y, incy)
@@ -88,15 +88,14 @@ module wavycon_lapack
          integer, intent(out) :: info
       end subroutine dgeqp3
 
-      pure subroutine dormqr(side, trans, m, n, k, a, lda, tau, c, ldc, work, lwork, info)
+      pure subroutine dorgqr(m, n, k, a, lda, tau, work, lwork, info)
          import :: dp
-         character, intent(in) :: side, trans
-         integer, intent(in) :: m, n, k, lda, ldc, lwork
-         real(dp), intent(in) :: a(lda, *), tau(*)
-         real(dp), intent(inout) :: c(ldc, *)
+         integer, intent(in) :: m, n, k, lda, lwork
+         real(dp), intent(inout) :: a(lda, *)
+         real(dp), intent(in) :: tau(*)
          real(dp), intent(out) :: work(*)
          integer, intent(out) :: info
-      end subroutine dormqr
+      end subroutine dorgqr
 
       pure subroutine drot(n, x, incx, y, incy, c, s)
          import :: dp

@@ -20,9 +20,9 @@ module wavycon_dual_pass
    !> So many constraints in a row with small violations suggest that these are rounding, which moves the active set in
    !> circles: n.
    real(dp), parameter :: small_slack = sqrt(epsilon(1.0_dp))
-   !> A component of U^-T C_i' that is smaller than this fraction of it, or of |U^-1||C_i|, is rounding. A constraint with
-   !> no larger ones in the columns of Q_2 depends on the active ones.
-   real(dp), parameter :: zero_component = 1e-13_dp
+   !> A constraint depends on the active ones if the rest of U^-T C_i' is less than this fraction of it, or of |U^-1||C_i|:
+   !> such a rest is rounding.
+   real(dp), parameter :: zero_rest = 1e-13_dp
 
    !> A constraint that the active ones seem to exclude.
    type :: dual_obstacle
@@ -101,18 +101,18 @@ contains
       integer, intent(out) :: status
       type(dual_obstacle), intent(inout) :: obstacle
 
-      real(dp) :: components(size(x)), direction(size(x)), rates(size(x))
+      real(dp) :: components(size(x)), rest(size(x)), move(size(x)), rates(size(x))
       real(dp) :: multiplier, slack, full_step, step, stiffness, zero, zero_rate
       integer :: released, i, k, n
 
-      ! With the multiplier mu the free unknowns move along U^-1 Q_2 Q_2'U^-T C_i', and the multipliers of the active constraints
-      ! fall by mu R^-1 Q_1'U^-T C_i'.
+      ! With the multiplier mu the point moves along U^-1 of the rest of the normal, and the multipliers of the active
+      ! constraints fall by mu R^-1 of its components.
       n = size(x)
       multiplier = 0.0_dp
       slack = first_slack
-      direction = set%scaled(problem%normals(:, constraint))
-      call dgemv('T', n, n, 1.0_dp, set%rotation, n, direction, 1, 0.0_dp, components, 1)
-      zero = zero_component*max(norm2(components), set%inverse_size*norm2(problem%normals(:, constraint)))
+      rest = set%scaled(problem%normals(:, constraint))
+      zero = zero_rest*max(norm2(rest), set%inverse_size*norm2(problem%normals(:, constraint)))
+      call set%split(rest, components(:set%count))
       do
          status = qp_iteration_limit
          if (pivots >= pivot_limit) return
@@ -120,13 +120,13 @@ contains
          k = set%count
          rates(:k) = components(:k)
          call dtrsv('U', 'N', 'N', k, set%triangle, n, rates, 1)
-         stiffness = dot_product(components(k + 1:), components(k + 1:))
+         stiffness = dot_product(rest, rest)
          full_step = huge(full_step)
          if (sqrt(stiffness) > zero) full_step = -slack/stiffness
 
          step = full_step
          released = 0
-         zero_rate = zero_component*maxval(abs(rates(:k)))
+         zero_rate = zero_rest*maxval(abs(rates(:k)))
          do i = 1, k
             if (rates(i) <= zero_rate) cycle
             if (multipliers(i)/rates(i) < step) then
@@ -147,16 +147,16 @@ contains
          multipliers(:k) = max(multipliers(:k) - step*rates(:k), 0.0_dp)
          if (full_step < huge(full_step)) then
             slack = slack + step*stiffness
-            call dgemv('N', n, n - k, step, set%rotation(:, k + 1:), n, components(k + 1:), 1, 0.0_dp, direction, 1)
-            call set%unscale(direction)
-            x = x + direction
+            move = step*rest
+            call set%unscale(move)
+            x = x + move
          end if
          status = qp_converged
          if (released == 0) exit
-         call set%remove(released, components)
+         call set%remove(released, components(:k), rest)
          multipliers(released:k - 1) = multipliers(released + 1:k)
       end do
-      call set%add(constraint, components)
+      call set%add(constraint, components(:set%count), rest)
       multipliers(set%count) = multiplier
    end subroutine make_active
 

@@ -1,18 +1,16 @@
 !> The minimum on a set of active constraints taken as equations, by factorisations of LAPACK.
 !>
-!> For the active rows C_W the factorisation is  D = U'U,  U^-T C_W' = Q (R; 0),  R upper triangular (Q4): the one of
-!> Goldfarb & Idnani, Math. Program. 27 (1983) 1-33, section 4, whose J is U^-1 Q. With x = U^-1 Q w the minimum on
-!> C_W x = b_W is (Q5)
+!> For the active rows C_W the factorisation is  D = U'U,  U^-T C_W' = QR,  Q'Q = I of k columns, R upper triangular (Q4).
+!> With x = U^-1 w the minimum on C_W x = b_W is (Q5)
 !>
-!>     w_1 = R^-T b_W,   w_2 = Q_2'U^-T c,   multipliers = R^-1 (w_1 - Q_1'U^-T c),
+!>     v = R^-T b_W - Q'U^-T c,   w = U^-T c + Qv,   multipliers = R^-1 v.
 !>
-!> where Q_1 is the first k columns of Q, k the number of active constraints. A constraint is added by a reflection and
-!> removed by rotations, without a new factorisation. Numbers (Q..) are the equations of README.md in this directory.
-!>
-!> N.B. J itself would lose the digits of D^-1 that the solution with U keeps.
+!> A constraint is added by Gram-Schmidt's method with reorthogonalisation and removed by rotations, without a new
+!> factorisation (Daniel, Gragg, Kaufman & Stewart, Math. Comp. 30 (1976) 772-795). Numbers (Q..) are the equations of
+!> README.md in this directory.
 module wavycon_working_set
    use wavycon_kinds, only: dp
-   use wavycon_lapack, only: dgemv, dgeqp3, dger, dlarfg, dlartg, dormqr, dpotrf, drot, dtrsm, dtrsv
+   use wavycon_lapack, only: dgemv, dgeqp3, dlartg, dorgqr, dpotrf, drot, dtrsm, dtrsv
    use wavycon_qp_problem, only: qp_problem
    implicit none (type, external)
    private
@@ -30,7 +28,7 @@ module wavycon_working_set
    type :: working_set
       integer :: count = 0                           !! k
       integer, allocatable :: active(:)              !! the active constraints, active(:k), shape (n)
-      real(dp), allocatable :: rotation(:, :)        !! Q, shape (n, n)
+      real(dp), allocatable :: span(:, :)            !! Q in span(:, :k), shape (n, n)
       real(dp), allocatable :: triangle(:, :)        !! R in the upper triangle of triangle(:k, :k), shape (n, n)
       real(dp), allocatable :: root(:, :)            !! U in the upper triangle, shape (n, n)
       logical :: diagonal = .false.                  !! whether U is
@@ -42,6 +40,7 @@ module wavycon_working_set
       procedure :: factorise_afresh
       procedure :: scaled
       procedure :: unscale
+      procedure :: split
       procedure :: add
       procedure :: remove
       procedure :: solve
@@ -58,30 +57,23 @@ contains
       integer :: i, n, info
 
       n = size(problem%linear)
+      allocate (self%active(n), self%triangle(n, n), self%span(n, n))
       self%root = problem%hessian
-      call dpotrf('U', n, self%root, n, info)
-      positive_definite = info == 0
-      if (.not. positive_definite) return
-      self%inverse_size = 1.0_dp/minval([(self%root(i, i), i=1, n)])
       self%diagonal = .true.
       do i = 2, n
          self%diagonal = self%diagonal .and. all(abs(self%root(:i - 1, i)) <= 0.0_dp)
       end do
-      allocate (self%active(n), self%triangle(n, n), self%rotation(n, n))
-      call rotate_nothing(self%rotation)
+      if (self%diagonal) then
+         info = count([(self%root(i, i) <= 0.0_dp, i=1, n)])
+         do i = 1, n
+            self%root(i, i) = sqrt(max(self%root(i, i), 0.0_dp))
+         end do
+      else
+         call dpotrf('U', n, self%root, n, info)
+      end if
+      positive_definite = info == 0
+      if (positive_definite) self%inverse_size = 1.0_dp/minval([(self%root(i, i), i=1, n)])
    end subroutine start
-
-   !> Sets Q = I.
-   pure subroutine rotate_nothing(rotation)
-      real(dp), intent(out) :: rotation(:, :)
-
-      integer :: i
-
-      rotation = 0.0_dp
-      do i = 1, size(rotation, 1)
-         rotation(i, i) = 1.0_dp
-      end do
-   end subroutine rotate_nothing
 
    !> Factorises a set of active constraints (Q4), without those that depend on the others. `start` comes first.
    subroutine assign_active(self, problem, list)
@@ -106,13 +98,13 @@ contains
          k = i
       end do
 
-      call rotate_nothing(self%rotation)
-      call dormqr('R', 'N', n, n, k, columns, n, tau, self%rotation, n, work, size(work), info)
       self%count = k
       self%active(:k) = list(order(:k))
       do i = 1, k
          self%triangle(:i, i) = columns(:i, i)
       end do
+      call dorgqr(n, k, k, columns, n, tau, work, size(work), info)
+      self%span(:, :k) = columns(:, :k)
    end subroutine assign_active
 
    !> Factorises the active constraints anew, without the rounding of past changes.
@@ -160,33 +152,51 @@ contains
       end if
    end subroutine unscale
 
-   !> Adds a constraint that does not depend on the active ones. A Householder reflection of Q_2 lets its
-   !> normal have a component in the first of its columns alone.
-   subroutine add(self, constraint, components)
+   !> Splits a vector w into Q components + rest, the rest orthogonal to Q. Done twice, so that it is to rounding even
+   !> where the rest is small.
+   subroutine split(self, w, components)
+      class(working_set), intent(in) :: self
+      real(dp), intent(inout), contiguous :: w(:)          !! on return the rest, shape (n)
+      real(dp), intent(out), contiguous :: components(:)   !! shape (k)
+
+      real(dp) :: again(self%count)
+      integer :: n, k
+
+      n = size(w)
+      k = self%count
+      if (k == 0) return
+      call dgemv('T', n, k, 1.0_dp, self%span, n, w, 1, 0.0_dp, components, 1)
+      call dgemv('N', n, k, -1.0_dp, self%span, n, components, 1, 1.0_dp, w, 1)
+      call dgemv('T', n, k, 1.0_dp, self%span, n, w, 1, 0.0_dp, again, 1)
+      call dgemv('N', n, k, -1.0_dp, self%span, n, again, 1, 1.0_dp, w, 1)
+      components = components + again
+   end subroutine split
+
+   !> Adds a constraint that does not depend on the active ones.
+   subroutine add(self, constraint, components, rest)
       class(working_set), intent(inout) :: self
       integer, intent(in) :: constraint
-      real(dp), intent(inout), contiguous :: components(:)   !! Q'U^-T C_i', shape (n); overwritten
+      real(dp), intent(in) :: components(:), rest(:)   !! U^-T C_i' split, shapes (k) and (n)
 
-      real(dp) :: product(size(components)), tau
-      integer :: n, k, free_count
+      integer :: k
+      real(dp) :: length
 
-      n = size(components)
       k = self%count
-      free_count = n - k
-      call dlarfg(free_count, components(k + 1), components(k + 2:), 1, tau)
-      self%triangle(:k + 1, k + 1) = components(:k + 1)
-      components(k + 1) = 1.0_dp
-      call dgemv('N', n, free_count, 1.0_dp, self%rotation(:, k + 1:), n, components(k + 1:), 1, 0.0_dp, product, 1)
-      call dger(n, free_count, -tau, product, 1, components(k + 1:), 1, self%rotation(:, k + 1:), n)
+      length = norm2(rest)
+      self%span(:, k + 1) = rest/length
+      self%triangle(:k, k + 1) = components
+      self%triangle(k + 1, k + 1) = length
       self%active(k + 1) = constraint
       self%count = k + 1
    end subroutine add
 
    !> Removes an active constraint. Rotations of neighbouring columns of Q restore the triangle.
-   subroutine remove(self, place, components)
+   subroutine remove(self, place, components, rest)
       class(working_set), intent(inout) :: self
       integer, intent(in) :: place                         !! in `active`
-      real(dp), intent(inout), optional, contiguous :: components(:)   !! Q'v of some v: rotated too, shape (n)
+      !> Some vector split, shapes (k) and (n). On return it is split with respect to the smaller set, in the first k - 1
+      !> components.
+      real(dp), intent(inout), optional, contiguous :: components(:), rest(:)
 
       real(dp) :: cosine, sine, radius
       integer :: i, k, n
@@ -201,11 +211,12 @@ contains
          call dlartg(self%triangle(i, i), self%triangle(i + 1, i), cosine, sine, radius)
          self%triangle(i, i) = radius
          if (i < k - 1) call drot(k - 1 - i, self%triangle(i, i + 1), n, self%triangle(i + 1, i + 1), n, cosine, sine)
-         call drot(n, self%rotation(1, i), 1, self%rotation(1, i + 1), 1, cosine, sine)
+         call drot(n, self%span(1, i), 1, self%span(1, i + 1), 1, cosine, sine)
          if (.not. present(components)) cycle
          components(i:i + 1) = [cosine*components(i) + sine*components(i + 1), &
                                 cosine*components(i + 1) - sine*components(i)]
       end do
+      if (present(rest)) rest = rest + components(k)*self%span(:, k)
       self%count = k - 1
    end subroutine remove
 
@@ -263,18 +274,20 @@ contains
       real(dp), intent(out), contiguous :: x(:)            !! shape (n)
       real(dp), intent(out), contiguous :: multipliers(:)  !! y, shape (k)
 
-      real(dp) :: y(size(x)), components(size(x))
+      real(dp) :: components(size(multipliers))
       integer :: n, k
 
       n = size(x)
       k = self%count
-      call dgemv('T', n, n, 1.0_dp, self%rotation, n, self%scaled(linear), 1, 0.0_dp, components, 1)
-      y = components
-      y(:k) = bounds
-      call dtrsv('U', 'T', 'N', k, self%triangle, n, y, 1)
-      multipliers = y(:k) - components(:k)
-      call dtrsv('U', 'N', 'N', k, self%triangle, n, multipliers, 1)
-      call dgemv('N', n, n, 1.0_dp, self%rotation, n, y, 1, 0.0_dp, x, 1)
+      x = self%scaled(linear)
+      if (k > 0) then
+         call dgemv('T', n, k, 1.0_dp, self%span, n, x, 1, 0.0_dp, components, 1)
+         multipliers = bounds
+         call dtrsv('U', 'T', 'N', k, self%triangle, n, multipliers, 1)
+         multipliers = multipliers - components
+         call dgemv('N', n, k, 1.0_dp, self%span, n, multipliers, 1, 1.0_dp, x, 1)
+         call dtrsv('U', 'N', 'N', k, self%triangle, n, multipliers, 1)
+      end if
       call self%unscale(x)
    end subroutine solve_equations
 
