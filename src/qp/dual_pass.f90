@@ -17,6 +17,7 @@ module wavycon_dual_pass
 
    !> A negative slack smaller than this fraction of its terms, or of the largest slack, is rounding.
    real(dp), parameter :: zero_slack = 32*epsilon(1.0_dp)
+   real(dp), parameter :: candidate_part = 0.3_dp
    !> So many constraints in a row with small violations suggest that these are rounding, which moves the active set in
    !> circles: n.
    real(dp), parameter :: small_slack = sqrt(epsilon(1.0_dp))
@@ -43,24 +44,51 @@ contains
       type(dual_obstacle), intent(out) :: obstacle  !! if the status is qp_infeasible
 
       real(dp) :: x(size(problem%linear)), multipliers(size(problem%linear)), slacks(size(problem%bounds))
-      real(dp) :: slack_terms
-      integer :: violated, small_steps
+      real(dp) :: slack, slack_terms, kept_slack
+      integer :: candidates(size(problem%bounds))
+      integer :: count, i, place, violated, small_steps
 
       small_steps = 0
+      count = 0
+      kept_slack = 0.0_dp
       call release_negative(problem, set, x, multipliers, pivots)
       do
+         ! The most violated constraint of the candidates, or of all if none of these is violated by much.
+         slack = 0.0_dp
+         place = 0
+         do i = 1, count
+            slacks(i) = dot_product(problem%normals(:, candidates(i)), x) - problem%bounds(candidates(i))
+            if (slacks(i) >= slack) cycle
+            slack = slacks(i)
+            place = i
+         end do
+         if (slack < kept_slack) then
+            violated = candidates(place)
+            candidates(place) = candidates(count)
+            count = count - 1
+         else
+            slacks = -problem%bounds
+            call dgemv('T', size(x), size(slacks), 1.0_dp, problem%normals, size(x), x, 1, 1.0_dp, slacks, 1)
+            slacks(set%active(:set%count)) = 0.0_dp
+            violated = minloc(slacks, dim=1)
+            status = qp_converged
+            if (violated == 0) return
+            slack = slacks(violated)
+            kept_slack = candidate_part*slack
+            count = 0
+            do i = 1, size(slacks)
+               if (slacks(i) > kept_slack .or. i == violated) cycle
+               count = count + 1
+               candidates(count) = i
+            end do
+         end if
          status = qp_converged
-         slacks = -problem%bounds
-         call dgemv('T', size(x), size(slacks), 1.0_dp, problem%normals, size(x), x, 1, 1.0_dp, slacks, 1)
-         slacks(set%active(:set%count)) = 0.0_dp
-         violated = minloc(slacks, dim=1)
-         if (violated == 0) return
          slack_terms = abs(problem%bounds(violated)) + maxval(abs(x))*maxval(abs(problem%normals(:, violated)))
-         if (slacks(violated) >= -zero_slack*max(slack_terms, maxval(abs(slacks)))) return
-         small_steps = merge(small_steps + 1, 0, -slacks(violated) < small_slack*slack_terms)
+         if (slack >= -zero_slack*slack_terms) return
+         small_steps = merge(small_steps + 1, 0, -slack < small_slack*slack_terms)
          status = qp_inaccurate
          if (small_steps > size(x) .and. .not. set%extended_residuals) return
-         call make_active(problem, set, violated, slacks(violated), x, multipliers, pivot_limit, pivots, status, obstacle)
+         call make_active(problem, set, violated, slack, x, multipliers, pivot_limit, pivots, status, obstacle)
          if (status /= qp_converged) return
          if (.not. set%extended_residuals) cycle
          call set%solve(problem, x, multipliers(:set%count))

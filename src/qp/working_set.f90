@@ -152,8 +152,8 @@ contains
       end if
    end subroutine unscale
 
-   !> Splits a vector w into Q components + rest, the rest orthogonal to Q. Done twice, so that it is to rounding even
-   !> where the rest is small.
+   !> Splits a vector w into Q components + rest, the rest orthogonal to Q: twice, so that it is orthogonal to
+   !> rounding even where it is short.
    subroutine split(self, w, components)
       class(working_set), intent(in) :: self
       real(dp), intent(inout), contiguous :: w(:)          !! on return the rest, shape (n)
