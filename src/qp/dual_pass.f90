@@ -7,7 +7,7 @@
 !> shrinks, so the method ends.
 module wavycon_dual_pass
    use wavycon_kinds, only: dp
-   use wavycon_lapack, only: dgemv, dtrsv
+   use wavycon_lapack, only: dtrsv
    use wavycon_qp_problem, only: qp_problem, qp_converged, qp_inaccurate, qp_infeasible, qp_iteration_limit
    use wavycon_working_set, only: working_set
    implicit none (type, external)
@@ -67,8 +67,7 @@ contains
             candidates(place) = candidates(count)
             count = count - 1
          else
-            slacks = -problem%bounds
-            call dgemv('T', size(x), size(slacks), 1.0_dp, problem%normals, size(x), x, 1, 1.0_dp, slacks, 1)
+            call problem%slacks(x, slacks)
             slacks(set%active(:set%count)) = 0.0_dp
             violated = minloc(slacks, dim=1)
             status = qp_converged

@@ -138,6 +138,7 @@ contains
       end do
       if (.not. any(largest > 0.0_dp)) return
       if (maxval(largest) <= scale(minval(largest, mask=largest > 0.0_dp), similar_powers)) return
+      if (allocated(problem%rows)) deallocate (problem%rows)
       where (largest > 0.0_dp) powers = min(most_power, -exponent(largest))
       do i = 1, size(largest)
          problem%normals(:, i) = scale(1.0_dp, powers(i))*problem%normals(:, i)
