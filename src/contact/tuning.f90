@@ -87,13 +87,6 @@ module wavycon_contact_tuning
    !> side, for the same reason.
    integer, parameter, public :: least_search_points = 64
 
-   ! Beale's method.
-
-   !> Beale's method starts at this load, or at the load itself if that is higher; the dual pass then goes down to the
-   !> load. Few constraints are active this close to full contact. From x = 0 at a light load Beale's method would make
-   !> nearly dependent constraints of neighbouring points near the troughs active, which takes about five times as long.
-   real(dp), parameter, public :: starting_load = 0.9_dp
-
    ! Expansions fitted to the edge.
 
    !> Largest ratio of the sides of a cell: longer spots need polynomials of higher degree.

@@ -22,7 +22,7 @@ module wavycon_dual_solver
 
    !> A solution by factors that were changed from exchange to exchange is kept if its KKT residual is at most this;
    !> otherwise fresh factors give a better one.
-   real(dp), parameter :: fresh_residual = 0.1_dp*kkt_tolerance
+   real(dp), parameter :: fresh_residual = 0.01_dp*kkt_tolerance
 
    !> Keeps its active constraints, so that a problem that differs in the bounds alone starts from the last solution.
    type :: dual_solver

@@ -10,7 +10,7 @@
 !> README.md in this directory.
 module wavycon_working_set
    use wavycon_kinds, only: dp
-   use wavycon_lapack, only: dgemv, dgeqp3, dlartg, dorgqr, dpotrf, drot, dtrsm, dtrsv
+   use wavycon_lapack, only: dgemv, dgeqp3, dlartg, dorgqr, dpotrf, drot, dsymv, dtrsm, dtrsv
    use wavycon_qp_problem, only: qp_problem
    implicit none (type, external)
    private
@@ -222,8 +222,6 @@ contains
 
    !> The minimum on the active constraints and their multipliers (Q5).
    !>
-   !> N.B. The factors contain D as its inverse square root, so errors grow as the square root of its condition number,
-   !> unless `extended_residuals` is set.
    subroutine solve(self, problem, x, multipliers)
       class(working_set), intent(in) :: self
       type(qp_problem), intent(in) :: problem
@@ -231,8 +229,35 @@ contains
       real(dp), intent(out), contiguous :: multipliers(:)  !! y of the active constraints in their order, shape (k)
 
       call solve_equations(self, problem%linear, problem%bounds(self%active(:self%count)), x, multipliers)
-      if (self%extended_residuals) call refine(self, problem, x, multipliers)
+      if (self%extended_residuals) then
+         call refine(self, problem, x, multipliers)
+      else
+         call correct(self, problem, x, multipliers)
+      end if
    end subroutine solve
+
+   !> One step of refinement with residuals in working precision: it removes what the factors have lost by past changes,
+   !> and what cancels in (Q5) where x is much smaller than the minimum without constraints.
+   subroutine correct(self, problem, x, multipliers)
+      class(working_set), intent(in) :: self
+      type(qp_problem), intent(in) :: problem
+      real(dp), intent(inout), contiguous :: x(:), multipliers(:)
+
+      real(dp) :: forces(size(x)), gap(size(multipliers)), x_change(size(x)), change(size(multipliers))
+      integer :: i
+
+      forces = problem%linear
+      call dsymv('U', size(x), -1.0_dp, problem%hessian, size(x), x, 1, 1.0_dp, forces, 1)
+      do i = 1, size(multipliers)
+         associate (normal => problem%normals(:, self%active(i)))
+            forces = forces + multipliers(i)*normal
+            gap(i) = problem%bounds(self%active(i)) - dot_product(x, normal)
+         end associate
+      end do
+      call solve_equations(self, forces, gap, x_change, change)
+      x = x + x_change
+      multipliers = multipliers + change
+   end subroutine correct
 
    !> Iterative refinement (Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., chapter 12): the residuals
    !> of the equations are computed from D, c, C and b with more digits, and solved for, while the steps get shorter.
