@@ -9,6 +9,7 @@ module wavycon_beale_contact
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver
+   use wavycon_contact_tuning, only: lightest_start
    use wavycon_dual_solver, only: dual_solver
    use wavycon_edge_curves, only: edge_curve, strip_ends, trace_edges, turn_curves
    use wavycon_fourier_series, only: fourier_series
@@ -260,25 +261,31 @@ contains
 
       type(qp_problem) :: problem
       type(qp_solution) :: programme
+      logical :: solved
 
       solution%setup = self%setup
       solution%pbar_over_pstar = pbar_over_pstar
       allocate (solution%x(self%setup%terms%count()), source=0.0_dp)
-      if (allocated(self%solver) .and. .not. self%by_beale) then
-         call self%solver%pass_to(self%problem%bounds - pbar_over_pstar, programme)
-      else
+      solved = .false.
+      if (self%by_beale .or. .not. allocated(self%solver)) then
          if (allocated(self%solver)) deallocate (self%solver)
+         problem = self%problem
          if (self%by_beale) then
             allocate (beale_solver :: self%solver)
+            problem%bounds = -pbar_over_pstar
          else
             allocate (dual_solver :: self%solver)
+            problem%bounds = -max(pbar_over_pstar, lightest_start)
          end if
-         problem = self%problem
-         problem%bounds = -pbar_over_pstar
          call self%solver%solve(problem, programme)
-         if (.not. allocated(programme%x)) deallocate (self%solver)
+         solution%iterations = programme%pivots
+         solved = self%by_beale .or. pbar_over_pstar >= lightest_start .or. .not. allocated(programme%x)
       end if
-      solution%iterations = programme%pivots
+      if (.not. solved) then
+         call self%solver%pass_to(self%problem%bounds - pbar_over_pstar, programme)
+         solution%iterations = solution%iterations + programme%pivots
+      end if
+      if (.not. allocated(programme%x)) deallocate (self%solver)
 
       solution%status = qp_status_name(programme%status)
       solution%solver = solver_name

@@ -87,6 +87,13 @@ module wavycon_contact_tuning
    !> side, for the same reason.
    integer, parameter, public :: least_search_points = 64
 
+   ! The paper's series.
+
+   !> The dual method starts at this load or a higher one and passes on to lighter ones. It begins with the pressure of full
+   !> contact, whose rounding of 1e-16 must be small beside the load; and at lighter loads the active constraints hardly
+   !> change, so that the pass takes few steps.
+   real(dp), parameter, public :: lightest_start = 1e-6_dp
+
    ! Expansions fitted to the edge.
 
    !> Largest ratio of the sides of a cell: longer spots need polynomials of higher degree.

@@ -309,8 +309,14 @@ contains
          call dgemv('T', n, k, 1.0_dp, self%span, n, x, 1, 0.0_dp, components, 1)
          multipliers = bounds
          call dtrsv('U', 'T', 'N', k, self%triangle, n, multipliers, 1)
-         multipliers = multipliers - components
-         call dgemv('N', n, k, 1.0_dp, self%span, n, multipliers, 1, 1.0_dp, x, 1)
+         if (k < n) then
+            multipliers = multipliers - components
+            call dgemv('N', n, k, 1.0_dp, self%span, n, multipliers, 1, 1.0_dp, x, 1)
+         else
+            ! The constraints alone determine x, which may be many orders smaller than U^-T c.
+            call dgemv('N', n, k, 1.0_dp, self%span, n, multipliers, 1, 0.0_dp, x, 1)
+            multipliers = multipliers - components
+         end if
          call dtrsv('U', 'N', 'N', k, self%triangle, n, multipliers, 1)
       end if
       call self%unscale(x)
