@@ -48,7 +48,7 @@ module wavycon_beale_table
 
 contains
 
-   !> The table at x = 0, (Q8) without active constraints: x = Jy, J'DJ = I.
+   !> The table at x = 0, (Q8): x = U^-1 y.
    subroutine start(table, problem, set)
       class(table_type), intent(out) :: table
       type(qp_problem), intent(in) :: problem
