@@ -56,8 +56,11 @@ contains
       limit = default_pivot_limit(problem)
       if (present(pivot_limit)) limit = pivot_limit
       call self%start(problem, solution%status)
-      if (solution%status == qp_converged .and. any(problem%bounds > 0.0_dp)) solution%status = qp_infeasible_start
       if (solution%status /= qp_converged) return
+      if (any(problem%bounds > 0.0_dp)) then
+         solution%status = qp_infeasible_start
+         return
+      end if
 
       call table%start(self%problem, self%set)
       call descend(table, min(limit, pivots_per_unknown*size(problem%linear)), solution%pivots)

@@ -99,7 +99,7 @@ contains
    subroutine release_negative(problem, set, x, multipliers, pivots)
       type(qp_problem), intent(in) :: problem
       type(working_set), intent(inout) :: set
-      real(dp), intent(out) :: x(:), multipliers(:)   !! shape (n)
+      real(dp), intent(out), contiguous :: x(:), multipliers(:)   !! shape (n)
       integer, intent(inout) :: pivots
 
       integer :: i, count_before
@@ -122,7 +122,7 @@ contains
       type(working_set), intent(inout) :: set
       integer, intent(in) :: constraint
       real(dp), intent(in) :: first_slack                !! its slack at x, < 0
-      real(dp), intent(inout) :: x(:), multipliers(:)    !! shape (n)
+      real(dp), intent(inout), contiguous :: x(:), multipliers(:)   !! shape (n)
       integer, intent(in) :: pivot_limit
       integer, intent(inout) :: pivots
       integer, intent(out) :: status
