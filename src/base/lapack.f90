@@ -5,7 +5,7 @@ module wavycon_lapack
    private
 
    public :: dgemm, dgemv, dger, drot, dsymv, dsyr, dtrsm, dtrsv              ! BLAS
-   public :: dgels, dgeqp3, dgglse, dlarfg, dlartg, dorgqr, dpotrf, dtrtri    ! LAPACK
+   public :: dgels, dgeqp3, dgglse, dlarfg, dlartg, dorgqr, dpotrf            ! LAPACK
 
    interface
       pure subroutine dgemv(trans, m, n, alpha, a, lda, x, incx, beta, y, incy)
@@ -70,14 +70,6 @@ module wavycon_lapack
          real(dp), intent(inout) :: a(lda, *)
          integer, intent(out) :: info
       end subroutine dpotrf
-
-      pure subroutine dtrtri(uplo, diag, n, a, lda, info)
-         import :: dp
-         character, intent(in) :: uplo, diag
-         integer, intent(in) :: n, lda
-         real(dp), intent(inout) :: a(lda, *)
-         integer, intent(out) :: info
-      end subroutine dtrtri
 
       pure subroutine dgeqp3(m, n, a, lda, jpvt, tau, work, lwork, info)
          import :: dp
