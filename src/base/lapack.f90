@@ -4,8 +4,8 @@ module wavycon_lapack
    implicit none (type, external)
    private
 
-   public :: dgemm, dgemv, dger, dsymv, dsyr, dtrsv, sdot                     ! BLAS
-   public :: dgels, dgeqp3, dgglse, dlarfg, dormqr, dpotrf, dtrtri            ! LAPACK
+   public :: dgemm, dgemv, dger, drot, dsymv, dsyr, dtrsm, dtrsv, sdot        ! BLAS
+   public :: dgels, dgeqp3, dgglse, dlarfg, dlartg, dorgqr, dpotrf            ! LAPACK
 
    interface
       pure subroutine dgemv(trans, m, n, alpha, a, lda, x, incx, beta, y, incy)
@@ -47,6 +47,14 @@ module wavycon_lapack
          real(dp), intent(inout) :: x(*)
       end subroutine dtrsv
 
+      pure subroutine dtrsm(side, uplo, transa, diag, m, n, alpha, a, lda, b, ldb)
+         import :: dp
+         character, intent(in) :: side, uplo, transa, diag
+         integer, intent(in) :: m, n, lda, ldb
+         real(dp), intent(in) :: alpha, a(lda, *)
+         real(dp), intent(inout) :: b(ldb, *)
+      end subroutine dtrsm
+
       pure subroutine dgemm(transa, transb, m, n, k, alpha, a, lda, b, ldb, beta, c, ldc)
          import :: dp
          character, intent(in) :: transa, transb
@@ -70,14 +78,6 @@ module wavycon_lapack
          real(sp) :: sdot
       end function sdot
 
-      pure subroutine dtrtri(uplo, diag, n, a, lda, info)
-         import :: dp
-         character, intent(in) :: uplo, diag
-         integer, intent(in) :: n, lda
-         real(dp), intent(inout) :: a(lda, *)
-         integer, intent(out) :: info
-      end subroutine dtrtri
-
       pure subroutine dgeqp3(m, n, a, lda, jpvt, tau, work, lwork, info)
          import :: dp
          integer, intent(in) :: m, n, lda, lwork
@@ -87,15 +87,27 @@ module wavycon_lapack
          integer, intent(out) :: info
       end subroutine dgeqp3
 
-      pure subroutine dormqr(side, trans, m, n, k, a, lda, tau, c, ldc, work, lwork, info)
+      pure subroutine dorgqr(m, n, k, a, lda, tau, work, lwork, info)
          import :: dp
-         character, intent(in) :: side, trans
-         integer, intent(in) :: m, n, k, lda, ldc, lwork
-         real(dp), intent(in) :: a(lda, *), tau(*)
-         real(dp), intent(inout) :: c(ldc, *)
+         integer, intent(in) :: m, n, k, lda, lwork
+         real(dp), intent(inout) :: a(lda, *)
+         real(dp), intent(in) :: tau(*)
          real(dp), intent(out) :: work(*)
          integer, intent(out) :: info
-      end subroutine dormqr
+      end subroutine dorgqr
+
+      pure subroutine drot(n, x, incx, y, incy, c, s)
+         import :: dp
+         integer, intent(in) :: n, incx, incy
+         real(dp), intent(inout) :: x(*), y(*)
+         real(dp), intent(in) :: c, s
+      end subroutine drot
+
+      pure subroutine dlartg(f, g, c, s, r)
+         import :: dp
+         real(dp), intent(in) :: f, g
+         real(dp), intent(out) :: c, s, r
+      end subroutine dlartg
 
       pure subroutine dlarfg(n, alpha, x, incx, tau)
          import :: dp

@@ -1,5 +1,6 @@
 !> solver = 'beale': the method of Johnson, Greenwood & Higginson (1985). The pressure is a truncated Fourier series
-!> whose coefficients minimise the complementary energy; Beale's quadratic programming finds the minimum.
+!> whose coefficients minimise the complementary energy, a quadratic programme. Its minimum is found by Goldfarb & Idnani's
+!> dual method or, as in the paper, by Beale's.
 module wavycon_beale_contact
    use wavycon_beale, only: beale_solver
    use wavycon_complementary_energy, only: energy_problem
@@ -8,7 +9,8 @@ module wavycon_beale_contact
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver
-   use wavycon_contact_tuning, only: starting_load
+   use wavycon_contact_tuning, only: lightest_start
+   use wavycon_dual_solver, only: dual_solver
    use wavycon_edge_curves, only: edge_curve, strip_ends, trace_edges, turn_curves
    use wavycon_fourier_series, only: fourier_series
    use wavycon_fourier_terms, only: choose_terms, fourier_terms, symmetry_diagonal, symmetry_full, symmetry_none
@@ -48,8 +50,8 @@ module wavycon_beale_contact
    type, extends(contact_solver) :: beale_contact
       type(series_setup) :: setup
       type(qp_problem) :: problem                      !! at zero load
-      type(beale_solver), private :: solver
-      real(dp), private :: last_load = -1.0_dp         !! P of the minimum in `solver`; negative: none
+      logical :: by_beale = .false.                    !! whether Beale's method solves each load
+      class(dual_solver), allocatable, private :: solver   !! after the first load
    contains
       procedure, nopass :: name
       procedure, nopass :: meaning
@@ -108,6 +110,10 @@ contains
             "in 2-D, symmetry of the pressure. 'full': alike in x and y and at both crests (29 unknowns, 196 "// &
             "points by default); 'diagonal': at both crests (49, 378); 'none' (99, 729).", &
             ['full    ', 'diagonal', 'none    ']), &
+         choice_key('minimiser', "'dual'", &
+            "how the minimum of the energy is found, which is one and the same. 'dual': Goldfarb and Idnani's method, "// &
+            "from the load before; 'beale': Beale's method as in the paper, each load from an even pressure.", &
+            ['dual ', 'beale']), &
          real_key('edge_level', '0.1', 'p*', 'the isobar that is taken as the edge of contact.', &
             above=0.0_dp, below=1.0_dp)]
    end function keys
@@ -213,19 +219,21 @@ contains
 
       associate (fields_are_always_kept => keep_fields); end associate
       call self%start(surface, values%integer('harmonics'), values%integer('constraint_points'), symmetry_of(values), &
-                      values%real('edge_level'))
+                      values%real('edge_level'), values%text('minimiser') == 'beale')
    end subroutine start_from_keys
 
    !> Chooses the terms of the series and the points of the constraints.
-   subroutine start(self, surface, harmonics, constraint_points, symmetry, edge_level)
+   subroutine start(self, surface, harmonics, constraint_points, symmetry, edge_level, by_beale)
       class(beale_contact), intent(out) :: self
       type(surface_type), intent(in) :: surface  !! a wave of the paper
       integer, intent(in) :: harmonics           !! n >= 1
       integer, intent(in) :: constraint_points   !! on [0, pi] in each direction, >= 2
       integer, intent(in) :: symmetry            !! one of the names of wavycon_fourier_terms
       real(dp), intent(in), optional :: edge_level   !! isobar taken as the edge of contact [p*]; 0.1 if absent
+      logical, intent(in), optional :: by_beale  !! by Beale's method; if absent by the dual method
 
       if (present(edge_level)) self%setup%edge_level = edge_level
+      if (present(by_beale)) self%by_beale = by_beale
       self%surface = surface
       self%setup%turned = surface%paper_wave() == turned_paper_wave
       self%setup%terms = choose_terms(surface%dimension, harmonics, symmetry)
@@ -253,22 +261,31 @@ contains
 
       type(qp_problem) :: problem
       type(qp_solution) :: programme
+      logical :: solved
 
       solution%setup = self%setup
       solution%pbar_over_pstar = pbar_over_pstar
       allocate (solution%x(self%setup%terms%count()), source=0.0_dp)
-      if (self%last_load < pbar_over_pstar) then
+      solved = .false.
+      if (self%by_beale .or. .not. allocated(self%solver)) then
+         if (allocated(self%solver)) deallocate (self%solver)
          problem = self%problem
-         self%last_load = max(starting_load, pbar_over_pstar)
-         problem%bounds = -self%last_load
+         if (self%by_beale) then
+            allocate (beale_solver :: self%solver)
+            problem%bounds = -pbar_over_pstar
+         else
+            allocate (dual_solver :: self%solver)
+            problem%bounds = -max(pbar_over_pstar, lightest_start)
+         end if
          call self%solver%solve(problem, programme)
          solution%iterations = programme%pivots
+         solved = self%by_beale .or. pbar_over_pstar >= lightest_start .or. .not. allocated(programme%x)
       end if
-      if (pbar_over_pstar < self%last_load .or. .not. allocated(programme%x)) then
+      if (.not. solved) then
          call self%solver%pass_to(self%problem%bounds - pbar_over_pstar, programme)
-         self%last_load = pbar_over_pstar
          solution%iterations = solution%iterations + programme%pivots
       end if
+      if (.not. allocated(programme%x)) deallocate (self%solver)
 
       solution%status = qp_status_name(programme%status)
       solution%solver = solver_name
@@ -303,8 +320,7 @@ contains
    pure logical function starts_from_last_load(self)
       class(beale_contact), intent(in) :: self
 
-      associate (unused => self); end associate
-      starts_from_last_load = .true.
+      starts_from_last_load = .not. self%by_beale
    end function starts_from_last_load
 
    !> p/p* as a series in phi and theta.

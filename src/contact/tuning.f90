@@ -107,12 +107,12 @@ module wavycon_contact_tuning
    !> side, for the same reason.
    integer, parameter, public :: least_search_points = 64
 
-   ! Beale's method.
+   ! The paper's series.
 
-   !> Beale's method starts at this load, or at the load itself if that is higher; the dual pass then goes down to the
-   !> load. Few constraints are active this close to full contact. From x = 0 at a light load Beale's method would make
-   !> nearly dependent constraints of neighbouring points near the troughs active, which takes about five times as long.
-   real(dp), parameter, public :: starting_load = 0.9_dp
+   !> The dual method starts at this load or a higher one and passes on to lighter ones. It begins with the pressure of full
+   !> contact, whose rounding of 1e-16 must be small beside the load; and at lighter loads the active constraints hardly
+   !> change, so that the pass takes few steps.
+   real(dp), parameter, public :: lightest_start = 1e-6_dp
 
    ! Expansions fitted to the edge.
 

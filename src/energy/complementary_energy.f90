@@ -9,6 +9,7 @@
 !> The unconstrained minimum x_1 = 1 is full contact. Numbers (E..) are the equations of README.md in this directory.
 module wavycon_complementary_energy
    use wavycon_constraint_points, only: choose_points, term_values
+   use wavycon_cosine_rows, only: cosine_rows
    use wavycon_fourier_terms, only: fourier_terms
    use wavycon_kinds, only: dp
    use wavycon_qp_problem, only: qp_problem
@@ -16,6 +17,9 @@ module wavycon_complementary_energy
    private
 
    public :: energy_problem
+
+   !> With more elements the products with the matrix of the constraints take longer than those by `cosine_rows`.
+   integer, parameter :: largest_matrix = 500000
 
 contains
 
@@ -38,6 +42,8 @@ contains
       call choose_points(terms%dimension, points_per_side, symmetry, k, l)
       problem%normals = term_values(terms, points_per_side, k, l)
       allocate (problem%bounds(size(k)), source=0.0_dp)
+      if (terms%dimension == 2 .and. size(problem%normals) > largest_matrix) &
+         allocate (problem%rows, source=cosine_rows(terms, points_per_side, k, l))
    end function energy_problem
 
 end module wavycon_complementary_energy

@@ -12,8 +12,8 @@
 !> variable that becomes basic never limits a step and is dropped, as in Beale's method.
 module wavycon_beale_table
    use wavycon_kinds, only: dp
-   use wavycon_lapack, only: dgemm, dgemv, dger, dlarfg, dsymv, dsyr, dtrtri
-   use wavycon_qp_problem, only: qp_problem, qp_solution
+   use wavycon_lapack, only: dgemv, dger, dlarfg, dsyr, dtrsm
+   use wavycon_qp_problem, only: qp_problem
    use wavycon_working_set, only: working_set
    implicit none (type, external)
    private
@@ -37,24 +37,18 @@ module wavycon_beale_table
       real(dp), allocatable :: values(:)      !! a, values(1:basic_count)
       real(dp), allocatable :: rows(:, :)     !! (A, B), shape (m, n): row i of basic slack i, columns as `gradient`
       real(dp) :: zero_descent = 0.0_dp       !! |dF/dz|/sqrt(d2F/dz2) below this is rounding
-      integer :: excluded = 0                 !! constraint that the active ones seem to exclude; 0 if there is none
-      real(dp), allocatable :: weights(:)     !! of the active normals, whose weighted sum is minus the excluded one's
-      logical :: drifted = .false.            !! an exchange was refused as it would lose digits: make the table afresh
-      logical :: accept_drift = .false.       !! allow such exchanges as long as H stays positive
+      logical :: drifted = .false.            !! an exchange was refused as it would lose digits
    contains
       procedure :: start
-      procedure :: rebuild
-      procedure :: move_bounds
       procedure :: steepest_slack
       procedure :: free_rates
-      procedure :: move_to_minimum
       procedure :: exchange_with_slack
       procedure :: exchange_with_derivative
    end type table_type
 
 contains
 
-   !> The table at x = 0, (Q8) without active constraints: x = Jy, J'DJ = I.
+   !> The table at x = 0, (Q8): x = U^-1 y.
    subroutine start(table, problem, set)
       class(table_type), intent(out) :: table
       type(qp_problem), intent(in) :: problem
@@ -64,31 +58,15 @@ contains
 
       n = size(problem%linear)
       m = size(problem%bounds)
-      allocate (table%active(n), table%gradient(n), table%hessian(n, n), table%rows(m, n))
+      allocate (table%active(n), table%hessian(n, n))
       table%basic = [(i, i=1, m)]
       table%basic_count = m
       table%values = -problem%bounds
-      call dgemm('T', 'N', m, n, n, 1.0_dp, problem%normals, n, set%directions, n, 0.0_dp, table%rows, max(1, m))
-      call dgemv('T', n, n, -1.0_dp, set%directions, n, problem%linear, 1, 0.0_dp, table%gradient, 1)
+      table%rows = transpose(problem%normals)
+      call dtrsm('R', 'U', 'N', 'N', m, n, 1.0_dp, set%root, n, table%rows, max(1, m))
+      table%gradient = -set%scaled(problem%linear)
       table%zero_descent = derivative_tolerance*norm2(table%gradient)
    end subroutine start
-
-   !> Changes the bounds (Q11). The active slacks stay zero: the table's point moves with their constraints.
-   subroutine move_bounds(table, change)
-      class(table_type), intent(inout) :: table
-      real(dp), intent(in) :: change(:)   !! of all bounds, shape (m)
-
-      real(dp) :: shift(table%active_count)
-      integer :: k, m, m_basic
-
-      k = table%active_count
-      m = max(1, size(table%rows, 1))
-      m_basic = table%basic_count
-      shift = change(table%active(:k))
-      call dsymv('U', k, 1.0_dp, table%hessian, size(table%hessian, 1), shift, 1, 1.0_dp, table%gradient, 1)
-      table%values(:m_basic) = table%values(:m_basic) - change(table%basic(:m_basic))
-      call dgemv('N', m_basic, k, 1.0_dp, table%rows, m, shift, 1, 1.0_dp, table%values, 1)
-   end subroutine move_bounds
 
    !> The active slack whose growth lowers the objective most, measured by |dF/dz|/sqrt(d2F/dz2), which has no unit of
    !> z; 0 if there is none.
@@ -134,19 +112,6 @@ contains
          call dgemv('N', table%basic_count, n - k, 1.0_dp, table%rows(:, k + 1:), m, direction, 1, 0.0_dp, rates, 1)
       end if
    end subroutine free_rates
-
-   !> Changes the free variables to the minimum on the active constraints. Basic slacks may become negative.
-   subroutine move_to_minimum(table)
-      class(table_type), intent(inout) :: table
-
-      real(dp) :: rates(table%basic_count)
-
-      associate (free_gradient => table%gradient(table%active_count + 1:))
-         call table%free_rates(-free_gradient, rates)
-         table%values(:table%basic_count) = table%values(:table%basic_count) + rates
-         free_gradient = 0.0_dp
-      end associate
-   end subroutine move_to_minimum
 
    !> Exchange (a), (Q9): a basic slack that has reached zero becomes active in the place of a free variable.
    subroutine exchange_with_slack(table, leaving)
@@ -210,7 +175,7 @@ contains
 
       table%drifted = table%drifted .or. curvature <= 0.0_dp
       do i = 1, k - 1
-         if (table%drifted .or. table%accept_drift) exit
+         if (table%drifted) exit
          table%drifted = table%hessian(i, i) - column(i)*(column(i)/curvature) < least_remainder*table%hessian(i, i)
       end do
       if (table%drifted) return
@@ -259,44 +224,5 @@ contains
          h(place, k) = h_last(k)
       end associate
    end subroutine move_to_last
-
-   !> Makes the table afresh at the minimum on a set of active constraints (Q8).
-   subroutine rebuild(table, problem, set, solution)
-      class(table_type), intent(inout) :: table
-      type(qp_problem), intent(in) :: problem
-      type(working_set), intent(in) :: set
-      type(qp_solution), intent(in) :: solution  !! the minimum on the set
-
-      real(dp) :: inverse(size(set%active), size(set%active))
-      real(dp) :: to_x(size(problem%linear), size(problem%linear))
-      logical :: is_active(size(problem%bounds))
-      integer :: i, n, m, k, info
-
-      n = size(problem%linear)
-      m = size(problem%bounds)
-      k = size(set%active)
-      is_active = .false.
-      is_active(solution%active) = .true.
-
-      ! x = x_0 + J_1 R^-T z + J_2 y, so that H = R^-1 R^-T.
-      inverse = set%triangle
-      call dtrtri('U', 'N', k, inverse, max(k, 1), info)
-      to_x = set%directions
-      call dgemm('N', 'T', n, k, k, 1.0_dp, set%directions, n, inverse, max(k, 1), 0.0_dp, to_x, n)
-      call dgemm('N', 'T', k, k, k, 1.0_dp, inverse, max(k, 1), inverse, max(k, 1), 0.0_dp, table%hessian, n)
-      table%gradient = 0.0_dp
-      table%gradient(:k) = solution%multipliers
-      table%active_count = k
-      table%active(:k) = solution%active
-      table%drifted = .false.
-
-      table%basic_count = m - k
-      table%basic(:m - k) = pack([(i, i=1, m)], .not. is_active)
-      associate (normals => problem%normals(:, table%basic(:m - k)))
-         table%values(:m - k) = -problem%bounds(table%basic(:m - k))
-         call dgemv('T', n, m - k, 1.0_dp, normals, n, solution%x, 1, 1.0_dp, table%values, 1)
-         call dgemm('T', 'N', m - k, n, n, 1.0_dp, normals, n, to_x, n, 0.0_dp, table%rows, max(1, m))
-      end associate
-   end subroutine rebuild
 
 end module wavycon_beale_table

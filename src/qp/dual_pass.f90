@@ -1,120 +1,190 @@
-!> From the solution of one quadratic programme to that of another that differs in its bounds alone.
+!> From the minimum on a set of active constraints to that of the programme.
 !>
-!> The solution is a piecewise linear function of the bounds. With the same active constraints some multipliers may
-!> become negative, and some slacks. The constraints of such multipliers are released. Then violated constraints are
-!> made active one by one, while no multiplier may change sign: the dual method of Goldfarb & Idnani (Math. Program.
-!> 27 (1983) 1-33) on Beale's table, with his two exchanges. Equations (Q11), (Q12) of README.md in this directory.
-!> Beale's method keeps the slacks >= 0 and lowers the objective; the dual method keeps the multipliers >= 0 and
-!> raises it. Each full step raises it strictly, and between two of them the active set shrinks, so the method ends.
+!> Constraints with negative multipliers are released. Then violated constraints are made active one by one, while no
+!> multiplier may change sign: the dual method of Goldfarb & Idnani (Math. Program. 27 (1983) 1-33), equations (Q11),
+!> (Q12) of README.md in this directory. Beale's method keeps the slacks >= 0 and lowers the objective; the dual method
+!> keeps the multipliers >= 0 and raises it. Each full step raises it strictly, and between two of them the active set
+!> shrinks, so the method ends.
 module wavycon_dual_pass
-   use wavycon_beale_table, only: table_type
    use wavycon_kinds, only: dp
-   use wavycon_qp_problem, only: qp_converged, qp_infeasible, qp_iteration_limit
+   use wavycon_lapack, only: dtrsv
+   use wavycon_qp_problem, only: qp_problem, qp_converged, qp_inaccurate, qp_infeasible, qp_iteration_limit
+   use wavycon_working_set, only: working_set
    implicit none (type, external)
    private
 
-   public :: restore_optimum
+   public :: dual_obstacle, restore_optimum
 
-   !> A negative slack smaller than this fraction of the largest slack is rounding.
+   !> A negative slack smaller than this fraction of its terms, or of the largest slack, is rounding.
    real(dp), parameter :: zero_slack = 32*epsilon(1.0_dp)
-   !> An element of a row that is smaller than this fraction of its norm is rounding. A constraint with no larger
-   !> elements in the free variables depends on the active ones.
-   real(dp), parameter :: zero_element = 1e-13_dp
+   real(dp), parameter :: candidate_part = 0.3_dp
+   !> So many constraints in a row with small violations suggest that these are rounding, which moves the active set in
+   !> circles: n.
+   real(dp), parameter :: small_slack = sqrt(epsilon(1.0_dp))
+   !> A constraint depends on the active ones if the rest of U^-T C_i' is less than this fraction of it, or of |U^-1||C_i|:
+   !> such a rest is rounding.
+   real(dp), parameter :: zero_rest = 1e-13_dp
+
+   !> A constraint that the active ones seem to exclude.
+   type :: dual_obstacle
+      integer :: constraint = 0               !! 0: there is none
+      integer, allocatable :: active(:)       !! the active constraints, shape (k)
+      real(dp), allocatable :: weights(:)     !! of their normals, whose weighted sum is minus its normal, shape (k)
+   end type dual_obstacle
 
 contains
 
-   !> Makes a table optimal whose free variables are at their minimum. Returns at once if the table drifts: it is then
-   !> to be made afresh from its active constraints.
-   subroutine restore_optimum(table, pivot_limit, pivots, status)
-      type(table_type), intent(inout) :: table
+   !> Changes the active constraints to those of the programme's minimum, but for rounding.
+   subroutine restore_optimum(problem, set, pivot_limit, pivots, status, obstacle)
+      type(qp_problem), intent(in) :: problem
+      type(working_set), intent(inout) :: set       !! any set of active constraints; on return that of the minimum
       integer, intent(in) :: pivot_limit
-      integer, intent(inout) :: pivots   !! exchanges, counted up
-      integer, intent(out) :: status     !! qp_converged, qp_infeasible, qp_iteration_limit
+      integer, intent(inout) :: pivots              !! constraints made active and released, counted up
+      integer, intent(out) :: status                !! qp_converged, qp_infeasible, qp_iteration_limit; qp_inaccurate: digits are lost
+      type(dual_obstacle), intent(out) :: obstacle  !! if the status is qp_infeasible
 
-      real(dp) :: zero
-      integer :: violated, released
+      real(dp) :: x(size(problem%linear)), multipliers(size(problem%linear)), slacks(size(problem%bounds))
+      real(dp) :: slack, slack_terms, kept_slack
+      integer :: candidates(size(problem%bounds))
+      integer :: count, i, place, violated, small_steps
 
-      status = qp_converged
+      small_steps = 0
+      count = 0
+      kept_slack = 0.0_dp
+      call release_negative(problem, set, x, multipliers, pivots)
       do
-         released = table%steepest_slack(.false.)
-         if (released == 0) exit
-         call table%exchange_with_derivative(released)
-         if (table%drifted) return
-         call table%move_to_minimum()
-         pivots = pivots + 1
-      end do
-      where (table%gradient(:table%active_count) < 0.0_dp) table%gradient(:table%active_count) = 0.0_dp
-
-      do
-         zero = zero_slack*maxval(abs(table%values(:table%basic_count)))
-         violated = minloc(table%values(:table%basic_count), dim=1)
+         ! The most violated constraint of the candidates, or of all if none of these is violated by much.
+         slack = 0.0_dp
+         place = 0
+         do i = 1, count
+            slacks(i) = dot_product(problem%normals(:, candidates(i)), x) - problem%bounds(candidates(i))
+            if (slacks(i) >= slack) cycle
+            slack = slacks(i)
+            place = i
+         end do
+         if (slack < kept_slack) then
+            violated = candidates(place)
+            candidates(place) = candidates(count)
+            count = count - 1
+         else
+            call problem%slacks(x, slacks)
+            slacks(set%active(:set%count)) = 0.0_dp
+            violated = minloc(slacks, dim=1)
+            status = qp_converged
+            if (violated == 0) return
+            slack = slacks(violated)
+            kept_slack = candidate_part*slack
+            count = 0
+            do i = 1, size(slacks)
+               if (slacks(i) > kept_slack .or. i == violated) cycle
+               count = count + 1
+               candidates(count) = i
+            end do
+         end if
          status = qp_converged
-         if (violated == 0) return
-         if (table%values(violated) >= -zero) return
-         call make_active(table, table%basic(violated), pivot_limit, pivots, status)
-         if (status /= qp_converged .or. table%drifted) return
+         slack_terms = abs(problem%bounds(violated)) + maxval(abs(x))*maxval(abs(problem%normals(:, violated)))
+         if (slack >= -zero_slack*slack_terms) return
+         small_steps = merge(small_steps + 1, 0, -slack < small_slack*slack_terms)
+         status = qp_inaccurate
+         if (small_steps > size(x) .and. .not. set%extended_residuals) return
+         call make_active(problem, set, violated, slack, x, multipliers, pivot_limit, pivots, status, obstacle)
+         if (status /= qp_converged) return
+         if (.not. set%extended_residuals) cycle
+         call set%solve(problem, x, multipliers(:set%count))
+         multipliers(:set%count) = max(multipliers(:set%count), 0.0_dp)
       end do
    end subroutine restore_optimum
 
+   !> Computes the minimum on the set, and releases the constraints with negative multipliers until there are none.
+   subroutine release_negative(problem, set, x, multipliers, pivots)
+      type(qp_problem), intent(in) :: problem
+      type(working_set), intent(inout) :: set
+      real(dp), intent(out), contiguous :: x(:), multipliers(:)   !! shape (n)
+      integer, intent(inout) :: pivots
+
+      integer :: i, count_before
+
+      do
+         call set%solve(problem, x, multipliers(:set%count))
+         count_before = set%count
+         do i = count_before, 1, -1
+            if (multipliers(i) < 0.0_dp) call set%remove(i)
+         end do
+         pivots = pivots + count_before - set%count
+         if (set%count == count_before) return
+      end do
+   end subroutine release_negative
+
    !> Raises the multiplier of a violated constraint until its slack is zero (Q12). Active constraints whose multipliers
    !> vanish before are released.
-   subroutine make_active(table, constraint, pivot_limit, pivots, status)
-      type(table_type), intent(inout) :: table
+   subroutine make_active(problem, set, constraint, first_slack, x, multipliers, pivot_limit, pivots, status, obstacle)
+      type(qp_problem), intent(in) :: problem
+      type(working_set), intent(inout) :: set
       integer, intent(in) :: constraint
+      real(dp), intent(in) :: first_slack                !! its slack at x, < 0
+      real(dp), intent(inout), contiguous :: x(:), multipliers(:)   !! shape (n)
       integer, intent(in) :: pivot_limit
       integer, intent(inout) :: pivots
       integer, intent(out) :: status
+      type(dual_obstacle), intent(inout) :: obstacle
 
-      real(dp) :: row(size(table%gradient)), rates(table%basic_count + size(table%gradient))
-      real(dp) :: multiplier, full_step, step, stiffness, zero
-      integer :: place, released, i, k
+      real(dp) :: components(size(x)), rest(size(x)), move(size(x)), rates(size(x))
+      real(dp) :: multiplier, slack, full_step, step, stiffness, zero, zero_rate
+      integer :: released, i, k, n
 
-      ! With the multiplier mu of s = a + A z + B y the free variables are at y = mu B', where their derivative is
-      ! mu B', and the multipliers of the active slacks are g - mu A'.
+      ! With the multiplier mu the point moves along U^-1 of the rest of the normal, and the multipliers of the active
+      ! constraints fall by mu R^-1 of its components.
+      n = size(x)
       multiplier = 0.0_dp
+      slack = first_slack
+      rest = set%scaled(problem%normals(:, constraint))
+      zero = zero_rest*max(norm2(rest), set%inverse_size*norm2(problem%normals(:, constraint)))
+      call set%split(rest, components(:set%count))
       do
          status = qp_iteration_limit
          if (pivots >= pivot_limit) return
 
-         k = table%active_count
-         place = findloc(table%basic(:table%basic_count), constraint, dim=1)
-         row = table%rows(place, :)
-         stiffness = dot_product(row(k + 1:), row(k + 1:))
-         zero = zero_element*norm2(row)
+         k = set%count
+         rates(:k) = components(:k)
+         call dtrsv('U', 'N', 'N', k, set%triangle, n, rates, 1)
+         stiffness = dot_product(rest, rest)
          full_step = huge(full_step)
-         if (sqrt(stiffness) > zero) full_step = -table%values(place)/stiffness
+         if (sqrt(stiffness) > zero) full_step = -slack/stiffness
 
          step = full_step
          released = 0
+         zero_rate = zero_rest*maxval(abs(rates(:k)))
          do i = 1, k
-            if (row(i) <= zero) cycle
-            if (table%gradient(i)/row(i) - multiplier < step) then
-               step = max(table%gradient(i)/row(i) - multiplier, 0.0_dp)
+            if (rates(i) <= zero_rate) cycle
+            if (multipliers(i)/rates(i) < step) then
+               step = multipliers(i)/rates(i)
                released = i
             end if
          end do
          status = qp_infeasible
          if (step >= huge(step)) then
-            table%excluded = constraint
-            table%weights = max(-row(:k), 0.0_dp)
+            obstacle%constraint = constraint
+            obstacle%active = set%active(:k)
+            obstacle%weights = max(-rates(:k), 0.0_dp)
             return
          end if
 
-         multiplier = multiplier + step
-         table%gradient(k + 1:) = table%gradient(k + 1:) + step*row(k + 1:)
-         associate (r => rates(:table%basic_count), values => table%values(:table%basic_count))
-            call table%free_rates(row(k + 1:), r)
-            values = values + step*r
-         end associate
          pivots = pivots + 1
-         if (released == 0) exit
-         call table%exchange_with_derivative(released)
+         multiplier = multiplier + step
+         multipliers(:k) = max(multipliers(:k) - step*rates(:k), 0.0_dp)
+         if (full_step < huge(full_step)) then
+            slack = slack + step*stiffness
+            move = step*rest
+            call set%unscale(move)
+            x = x + move
+         end if
          status = qp_converged
-         if (table%drifted) return
+         if (released == 0) exit
+         call set%remove(released, components(:k), rest)
+         multipliers(released:k - 1) = multipliers(released + 1:k)
       end do
-      table%values(place) = 0.0_dp
-      call table%exchange_with_slack(place)
-      status = qp_converged
+      call set%add(constraint, components(:set%count), rest)
+      multipliers(set%count) = multiplier
    end subroutine make_active
 
 end module wavycon_dual_pass

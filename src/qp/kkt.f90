@@ -7,29 +7,27 @@ module wavycon_kkt
    implicit none (type, external)
    private
 
-   public :: finish_on_active_set, kkt_residual
+   public :: check_on_active_set, kkt_residual
 
    !> A solution is accepted if its relative KKT residual (Q3) is at most this, some thousand roundings.
    real(dp), parameter, public :: kkt_tolerance = 1e-12_dp
 
 contains
 
-   !> Computes the minimum on a set of active constraints (Q5) and its KKT residual (Q3). The status is `qp_converged`
-   !> if the residual is within `kkt_tolerance`, otherwise `qp_inaccurate`.
-   subroutine finish_on_active_set(problem, set, list, solution)
+   !> Computes the minimum on the active constraints (Q5) and its KKT residual (Q3). The status is `qp_converged` if the
+   !> residual is within `kkt_tolerance`, otherwise `qp_inaccurate`.
+   subroutine check_on_active_set(problem, set, solution)
       type(qp_problem), intent(in) :: problem
-      type(working_set), intent(inout) :: set        !! started; on return of the active constraints
-      integer, intent(in) :: list(:)                 !! the active constraints; dependent ones are left out
+      type(working_set), intent(in) :: set
       type(qp_solution), intent(inout) :: solution   !! all but `pivots` is set
 
-      call set%assign_active(problem, list)
       if (allocated(solution%x)) deallocate (solution%x, solution%active, solution%multipliers)
-      allocate (solution%x(size(problem%linear)), solution%multipliers(size(set%active)))
-      allocate (solution%active, source=set%active)
+      allocate (solution%x(size(problem%linear)), solution%multipliers(set%count))
+      allocate (solution%active, source=set%active(:set%count))
       call set%solve(problem, solution%x, solution%multipliers)
       solution%kkt_residual = kkt_residual(problem, solution%x, solution%active, solution%multipliers)
       solution%status = merge(qp_converged, qp_inaccurate, solution%kkt_residual <= kkt_tolerance)
-   end subroutine finish_on_active_set
+   end subroutine check_on_active_set
 
    !> Largest relative violation (Q3) of the Karush-Kuhn-Tucker conditions (Q2)
    !>

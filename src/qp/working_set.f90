@@ -1,15 +1,16 @@
 !> The minimum on a set of active constraints taken as equations, by factorisations of LAPACK.
 !>
-!> For the active rows C_W the factorisation is  J'DJ = I,  J'C_W' = (R; 0),  R upper triangular (Q4)
-!> (Goldfarb & Idnani, Math. Program. 27 (1983) 1-33, section 4). With x = Jw the minimum on C_W x = b_W is (Q5)
+!> For the active rows C_W the factorisation is  D = U'U,  U^-T C_W' = QR,  Q'Q = I of k columns, R upper triangular (Q4).
+!> With x = U^-1 w the minimum on C_W x = b_W is (Q5)
 !>
-!>     w_1 = R^-T b_W,   w_2 = J_2'c,   multipliers = R^-1 (w_1 - J_1'c),
+!>     v = R^-T b_W - Q'U^-T c,   w = U^-T c + Qv,   multipliers = R^-1 v.
 !>
-!> where J_1 is the first k columns of J, k the number of active constraints. Numbers (Q..) are the equations of
+!> A constraint is added by Gram-Schmidt's method with reorthogonalisation and removed by rotations, without a new
+!> factorisation (Daniel, Gragg, Kaufman & Stewart, Math. Comp. 30 (1976) 772-795). Numbers (Q..) are the equations of
 !> README.md in this directory.
 module wavycon_working_set
    use wavycon_kinds, only: dp
-   use wavycon_lapack, only: dgemm, dgemv, dgeqp3, dormqr, dpotrf, dtrsv, dtrtri
+   use wavycon_lapack, only: dgemv, dgeqp3, dlartg, dorgqr, dpotrf, drot, dsymv, dtrsm, dtrsv
    use wavycon_qp_problem, only: qp_problem
    implicit none (type, external)
    private
@@ -25,14 +26,23 @@ module wavycon_working_set
    integer, parameter :: most_refinements = 10
 
    type :: working_set
-      integer, allocatable :: active(:)              !! the active constraints, shape (k)
-      real(dp), allocatable :: directions(:, :)      !! J, shape (n, n)
-      real(dp), allocatable :: triangle(:, :)        !! R, zero below its diagonal, shape (k, k)
-      real(dp), allocatable :: free_directions(:, :) !! J of the empty set, D^-1 = JJ'
+      integer :: count = 0                           !! k
+      integer, allocatable :: active(:)              !! the active constraints, active(:k), shape (n)
+      real(dp), allocatable :: span(:, :)            !! Q in span(:, :k), shape (n, n)
+      real(dp), allocatable :: triangle(:, :)        !! R in the upper triangle of triangle(:k, :k), shape (n, n)
+      real(dp), allocatable :: root(:, :)            !! U in the upper triangle, shape (n, n)
+      logical :: diagonal = .false.                  !! whether U is
+      real(dp) :: inverse_size = 0.0_dp              !! estimate of |U^-1|: one over the least diagonal element
       logical :: extended_residuals = .false.        !! whether `solve` refines with residuals of the kind `long`
    contains
       procedure :: start
       procedure :: assign_active
+      procedure :: factorise_afresh
+      procedure :: scaled
+      procedure :: unscale
+      procedure :: split
+      procedure :: add
+      procedure :: remove
       procedure :: solve
    end type working_set
 
@@ -47,15 +57,22 @@ contains
       integer :: i, n, info
 
       n = size(problem%linear)
-      self%free_directions = problem%hessian
-      call dpotrf('U', n, self%free_directions, n, info)
-      if (info == 0) call dtrtri('U', 'N', n, self%free_directions, n, info)
-      positive_definite = info == 0
-      do i = 1, n - 1
-         self%free_directions(i + 1:, i) = 0.0_dp
+      allocate (self%active(n), self%triangle(n, n), self%span(n, n))
+      self%root = problem%hessian
+      self%diagonal = .true.
+      do i = 2, n
+         self%diagonal = self%diagonal .and. all(abs(self%root(:i - 1, i)) <= 0.0_dp)
       end do
-      self%directions = self%free_directions
-      allocate (self%active(0), self%triangle(0, 0))
+      if (self%diagonal) then
+         info = count([(self%root(i, i) <= 0.0_dp, i=1, n)])
+         do i = 1, n
+            self%root(i, i) = sqrt(max(self%root(i, i), 0.0_dp))
+         end do
+      else
+         call dpotrf('U', n, self%root, n, info)
+      end if
+      positive_definite = info == 0
+      if (positive_definite) self%inverse_size = 1.0_dp/minval([(self%root(i, i), i=1, n)])
    end subroutine start
 
    !> Factorises a set of active constraints (Q4), without those that depend on the others. `start` comes first.
@@ -64,14 +81,14 @@ contains
       type(qp_problem), intent(in) :: problem
       integer, intent(in) :: list(:)  !! constraints, each once
 
-      real(dp) :: columns(size(problem%linear), size(list)), normals(size(problem%linear), size(list))
+      real(dp) :: columns(size(problem%linear), size(list))
       real(dp) :: tau(size(list)), size_of(size(list)), work(64*(size(problem%linear) + size(list) + 1))
       integer :: order(size(list))
       integer :: i, n, k, info
 
       n = size(problem%linear)
-      normals = problem%normals(:, list)
-      call dgemm('T', 'N', n, size(list), n, 1.0_dp, self%free_directions, n, normals, n, 0.0_dp, columns, n)
+      columns = problem%normals(:, list)
+      call dtrsm('L', 'U', 'T', 'N', n, size(list), 1.0_dp, self%root, n, columns, n)
       size_of = norm2(columns, dim=1)
       order = 0
       call dgeqp3(n, size(list), columns, n, order, tau, work, size(work), info)
@@ -81,35 +98,173 @@ contains
          k = i
       end do
 
-      self%directions = self%free_directions
-      call dormqr('R', 'N', n, n, k, columns, n, tau, self%directions, n, work, size(work), info)
-      self%active = list(order(:k))
-      self%triangle = columns(:k, :k)
-      do i = 1, k - 1
-         self%triangle(i + 1:, i) = 0.0_dp
+      self%count = k
+      self%active(:k) = list(order(:k))
+      do i = 1, k
+         self%triangle(:i, i) = columns(:i, i)
       end do
+      call dorgqr(n, k, k, columns, n, tau, work, size(work), info)
+      self%span(:, :k) = columns(:, :k)
    end subroutine assign_active
+
+   !> Factorises the active constraints anew, without the rounding of past changes.
+   subroutine factorise_afresh(self, problem)
+      class(working_set), intent(inout) :: self
+      type(qp_problem), intent(in) :: problem
+
+      integer :: list(self%count)
+
+      list = self%active(:self%count)
+      call self%assign_active(problem, list)
+   end subroutine factorise_afresh
+
+   !> U^-T v of a normal or another gradient v.
+   function scaled(self, v) result(w)
+      class(working_set), intent(in) :: self
+      real(dp), intent(in) :: v(:)   !! shape (n)
+      real(dp) :: w(size(v))
+
+      integer :: i
+
+      w = v
+      if (self%diagonal) then
+         do i = 1, size(v)
+            w(i) = w(i)/self%root(i, i)
+         end do
+      else
+         call dtrsv('U', 'T', 'N', size(v), self%root, size(v), w, 1)
+      end if
+   end function scaled
+
+   !> x = U^-1 w, in place.
+   subroutine unscale(self, x)
+      class(working_set), intent(in) :: self
+      real(dp), intent(inout), contiguous :: x(:)   !! w on entry, shape (n)
+
+      integer :: i
+
+      if (self%diagonal) then
+         do i = 1, size(x)
+            x(i) = x(i)/self%root(i, i)
+         end do
+      else
+         call dtrsv('U', 'N', 'N', size(x), self%root, size(x), x, 1)
+      end if
+   end subroutine unscale
+
+   !> Splits a vector w into Q components + rest, the rest orthogonal to Q: twice, so that it is orthogonal to
+   !> rounding even where it is short.
+   subroutine split(self, w, components)
+      class(working_set), intent(in) :: self
+      real(dp), intent(inout), contiguous :: w(:)          !! on return the rest, shape (n)
+      real(dp), intent(out), contiguous :: components(:)   !! shape (k)
+
+      real(dp) :: again(self%count)
+      integer :: n, k
+
+      n = size(w)
+      k = self%count
+      if (k == 0) return
+      call dgemv('T', n, k, 1.0_dp, self%span, n, w, 1, 0.0_dp, components, 1)
+      call dgemv('N', n, k, -1.0_dp, self%span, n, components, 1, 1.0_dp, w, 1)
+      call dgemv('T', n, k, 1.0_dp, self%span, n, w, 1, 0.0_dp, again, 1)
+      call dgemv('N', n, k, -1.0_dp, self%span, n, again, 1, 1.0_dp, w, 1)
+      components = components + again
+   end subroutine split
+
+   !> Adds a constraint that does not depend on the active ones.
+   subroutine add(self, constraint, components, rest)
+      class(working_set), intent(inout) :: self
+      integer, intent(in) :: constraint
+      real(dp), intent(in) :: components(:), rest(:)   !! U^-T C_i' split, shapes (k) and (n)
+
+      integer :: k
+      real(dp) :: length
+
+      k = self%count
+      length = norm2(rest)
+      self%span(:, k + 1) = rest/length
+      self%triangle(:k, k + 1) = components
+      self%triangle(k + 1, k + 1) = length
+      self%active(k + 1) = constraint
+      self%count = k + 1
+   end subroutine add
+
+   !> Removes an active constraint. Rotations of neighbouring columns of Q restore the triangle.
+   subroutine remove(self, place, components, rest)
+      class(working_set), intent(inout) :: self
+      integer, intent(in) :: place                         !! in `active`
+      !> Some vector split, shapes (k) and (n). On return it is split with respect to the smaller set, in the first k - 1
+      !> components.
+      real(dp), intent(inout), optional, contiguous :: components(:), rest(:)
+
+      real(dp) :: cosine, sine, radius
+      integer :: i, k, n
+
+      n = size(self%active)
+      k = self%count
+      do i = place, k - 1
+         self%active(i) = self%active(i + 1)
+         self%triangle(:i + 1, i) = self%triangle(:i + 1, i + 1)
+      end do
+      do i = place, k - 1
+         call dlartg(self%triangle(i, i), self%triangle(i + 1, i), cosine, sine, radius)
+         self%triangle(i, i) = radius
+         if (i < k - 1) call drot(k - 1 - i, self%triangle(i, i + 1), n, self%triangle(i + 1, i + 1), n, cosine, sine)
+         call drot(n, self%span(1, i), 1, self%span(1, i + 1), 1, cosine, sine)
+         if (.not. present(components)) cycle
+         components(i:i + 1) = [cosine*components(i) + sine*components(i + 1), &
+                                cosine*components(i + 1) - sine*components(i)]
+      end do
+      if (present(rest)) rest = rest + components(k)*self%span(:, k)
+      self%count = k - 1
+   end subroutine remove
 
    !> The minimum on the active constraints and their multipliers (Q5).
    !>
-   !> N.B. The factors contain D as its inverse square root, so errors grow as the square root of its condition number,
-   !> unless `extended_residuals` is set.
    subroutine solve(self, problem, x, multipliers)
       class(working_set), intent(in) :: self
       type(qp_problem), intent(in) :: problem
-      real(dp), intent(out) :: x(:)            !! shape (n)
-      real(dp), intent(out) :: multipliers(:)  !! of the active constraints in the order of `active`, shape (k)
+      real(dp), intent(out), contiguous :: x(:)            !! shape (n)
+      real(dp), intent(out), contiguous :: multipliers(:)  !! y of the active constraints in their order, shape (k)
 
-      call solve_equations(self, problem%linear, problem%bounds(self%active), x, multipliers)
-      if (self%extended_residuals) call refine(self, problem, x, multipliers)
+      call solve_equations(self, problem%linear, problem%bounds(self%active(:self%count)), x, multipliers)
+      if (self%extended_residuals) then
+         call refine(self, problem, x, multipliers)
+      else
+         call correct(self, problem, x, multipliers)
+      end if
    end subroutine solve
+
+   !> One step of refinement with residuals in working precision: it removes what the factors have lost by past changes,
+   !> and what cancels in (Q5) where x is much smaller than the minimum without constraints.
+   subroutine correct(self, problem, x, multipliers)
+      class(working_set), intent(in) :: self
+      type(qp_problem), intent(in) :: problem
+      real(dp), intent(inout), contiguous :: x(:), multipliers(:)
+
+      real(dp) :: forces(size(x)), gap(size(multipliers)), x_change(size(x)), change(size(multipliers))
+      integer :: i
+
+      forces = problem%linear
+      call dsymv('U', size(x), -1.0_dp, problem%hessian, size(x), x, 1, 1.0_dp, forces, 1)
+      do i = 1, size(multipliers)
+         associate (normal => problem%normals(:, self%active(i)))
+            forces = forces + multipliers(i)*normal
+            gap(i) = problem%bounds(self%active(i)) - dot_product(x, normal)
+         end associate
+      end do
+      call solve_equations(self, forces, gap, x_change, change)
+      x = x + x_change
+      multipliers = multipliers + change
+   end subroutine correct
 
    !> Iterative refinement (Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., chapter 12): the residuals
    !> of the equations are computed from D, c, C and b with more digits, and solved for, while the steps get shorter.
    subroutine refine(self, problem, x, multipliers)
       class(working_set), intent(in) :: self
       type(qp_problem), intent(in) :: problem
-      real(dp), intent(inout) :: x(:), multipliers(:)
+      real(dp), intent(inout), contiguous :: x(:), multipliers(:)
 
       real(long) :: forces(size(x)), gap(size(multipliers))
       real(dp) :: x_change(size(x)), change(size(multipliers)), step, step_before
@@ -141,21 +296,30 @@ contains
       type(working_set), intent(in) :: self
       real(dp), intent(in) :: linear(:)        !! c, shape (n)
       real(dp), intent(in) :: bounds(:)        !! b_W, shape (k)
-      real(dp), intent(out) :: x(:)            !! shape (n)
-      real(dp), intent(out) :: multipliers(:)  !! y, shape (k)
+      real(dp), intent(out), contiguous :: x(:)            !! shape (n)
+      real(dp), intent(out), contiguous :: multipliers(:)  !! y, shape (k)
 
-      real(dp) :: y(size(x)), image(size(x))
+      real(dp) :: components(size(multipliers))
       integer :: n, k
 
       n = size(x)
-      k = size(self%active)
-      call dgemv('T', n, n, 1.0_dp, self%directions, n, linear, 1, 0.0_dp, image, 1)
-      y = image
-      y(:k) = bounds
-      call dtrsv('U', 'T', 'N', k, self%triangle, max(k, 1), y, 1)
-      call dgemv('N', n, n, 1.0_dp, self%directions, n, y, 1, 0.0_dp, x, 1)
-      multipliers = y(:k) - image(:k)
-      call dtrsv('U', 'N', 'N', k, self%triangle, max(k, 1), multipliers, 1)
+      k = self%count
+      x = self%scaled(linear)
+      if (k > 0) then
+         call dgemv('T', n, k, 1.0_dp, self%span, n, x, 1, 0.0_dp, components, 1)
+         multipliers = bounds
+         call dtrsv('U', 'T', 'N', k, self%triangle, n, multipliers, 1)
+         if (k < n) then
+            multipliers = multipliers - components
+            call dgemv('N', n, k, 1.0_dp, self%span, n, multipliers, 1, 1.0_dp, x, 1)
+         else
+            ! The constraints alone determine x, which may be many orders smaller than U^-T c.
+            call dgemv('N', n, k, 1.0_dp, self%span, n, multipliers, 1, 0.0_dp, x, 1)
+            multipliers = multipliers - components
+         end if
+         call dtrsv('U', 'N', 'N', k, self%triangle, n, multipliers, 1)
+      end if
+      call self%unscale(x)
    end subroutine solve_equations
 
 end module wavycon_working_set

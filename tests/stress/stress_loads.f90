@@ -7,8 +7,8 @@ program stress_loads
    use command_words, only: number, word
    use stress_kkt_in_quad, only: check_in_quad, kkt_type
    use stress_problem_file, only: write_problem
-   use wavycon_beale, only: beale_solver
    use wavycon_complementary_energy, only: energy_problem
+   use wavycon_dual_solver, only: dual_solver
    use wavycon_fourier_terms, only: choose_terms, fourier_terms, symmetry_diagonal, symmetry_full, symmetry_none
    use wavycon_kinds, only: dp
    use wavycon_qp_problem, only: qp_problem, qp_solution, qp_converged, qp_status_name
@@ -21,7 +21,7 @@ program stress_loads
       1 - 1e-12_dp, 1 - 1e-9_dp, 1 - 1e-6_dp, 1 - 1e-3_dp, 0.99_dp, 0.9_dp, 0.7_dp, 0.5_dp, 0.3_dp, 0.2_dp, 0.1_dp, &
       1e-2_dp, 1e-3_dp, 1e-4_dp, 1e-6_dp, 1e-8_dp, 1e-10_dp, 1e-12_dp]
 
-   type(beale_solver) :: solver
+   type(dual_solver) :: solver
    type(fourier_terms) :: terms
    type(kkt_type) :: kkt
    type(qp_problem) :: problem

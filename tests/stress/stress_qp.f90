@@ -1,4 +1,5 @@
-!> Solves random quadratic programmes with known solutions and checks the results. Prints a line for each case.
+!> Solves random quadratic programmes with known solutions by Beale's method and by the dual method, and checks the
+!> results. Prints a line for each case, of the last method.
 !>
 !> usage: stress_qp SEED FIRST LAST LARGEST_N FOLDER   the cases FIRST to LAST; those that fail are saved in FOLDER
 !>        stress_qp FILE                               a case that was saved
@@ -11,6 +12,7 @@ program stress_qp
    use stress_problem_file, only: read_problem, write_problem
    use stress_random_numbers, only: random_stream
    use wavycon_beale, only: beale_solver
+   use wavycon_dual_solver, only: dual_solver
    use wavycon_kinds, only: dp
    use wavycon_qp_problem, only: qp_problem, qp_solution, qp_converged, qp_infeasible, qp_infeasible_start, &
                                  qp_status_name
@@ -37,13 +39,15 @@ contains
    subroutine run_case(seed, case, largest_n)
       integer, intent(in) :: seed, case, largest_n
 
+      integer, parameter :: by_beale = 1, by_dual = 2
+      type(dual_solver) :: dual
       type(kkt_type) :: kkt
       type(programme_type) :: programme
       type(qp_solution) :: solution
       type(random_stream) :: stream
       type(recipe_type) :: recipe
       character(12) :: name, verdict
-      integer :: wanted
+      integer :: method, wanted
       real(dp) :: error, seconds
 
       call stream%start(seed, case)
@@ -61,25 +65,33 @@ contains
       else if (.not. programme%feasible) then
          wanted = qp_infeasible
       end if
-      call solve(programme%problem, start_bounds(recipe%kind, programme%problem), solution, seconds)
-
-      error = 0.0_dp
-      if (solution%status == qp_converged) then
-         kkt = check_in_quad(programme%problem, solution)
-         if (kkt%well_formed .and. programme%feasible .and. recipe%kind /= bad_start) &
-            error = maxval(abs(solution%x - programme%x))/max(1.0_dp, maxval(abs(programme%x)))
-      else
-         kkt%stationarity = 0.0_dp
-         kkt%feasibility = 0.0_dp
-         kkt%sign = 0.0_dp
-         kkt%complementarity = 0.0_dp
-      end if
       verdict = 'passed'
-      if (solution%status /= wanted) verdict = 'refused'
-      if (solution%status == qp_converged .and. (wanted /= qp_converged .or. kkt%worst() > promised_residual)) &
-         verdict = 'wrong'
-      ! The status infeasible for a problem with a solution is wrong, not a refusal.
-      if (solution%status == qp_infeasible .and. wanted == qp_converged) verdict = 'wrong'
+      do method = by_beale, by_dual
+         ! The dual method needs no allowed start.
+         if (method == by_dual .and. recipe%kind == bad_start) exit
+         if (method == by_beale) then
+            call solve(programme%problem, start_bounds(recipe%kind, programme%problem), solution, seconds)
+         else
+            call dual%solve(programme%problem, solution)
+         end if
+         error = 0.0_dp
+         if (solution%status == qp_converged) then
+            kkt = check_in_quad(programme%problem, solution)
+            if (kkt%well_formed .and. programme%feasible .and. recipe%kind /= bad_start) &
+               error = maxval(abs(solution%x - programme%x))/max(1.0_dp, maxval(abs(programme%x)))
+         else
+            kkt%stationarity = 0.0_dp
+            kkt%feasibility = 0.0_dp
+            kkt%sign = 0.0_dp
+            kkt%complementarity = 0.0_dp
+         end if
+         if (solution%status /= wanted) verdict = 'refused'
+         if (solution%status == qp_converged .and. (wanted /= qp_converged .or. kkt%worst() > promised_residual)) &
+            verdict = 'wrong'
+         ! The status infeasible for a problem with a solution is wrong, not a refusal.
+         if (solution%status == qp_infeasible .and. wanted == qp_converged) verdict = 'wrong'
+         if (verdict /= 'passed') exit
+      end do
       if (verdict /= 'passed') then
          write (name, '(i0)') case
          call write_problem(word(5)//'/case-'//trim(name)//'.qp', programme%problem, &
