@@ -36,17 +36,19 @@ contains
 
    !> Solves one load, to an accuracy or up to a given grid. The sequence ends early if a grid does not fit into memory
    !> (`out_of_memory`) or the iteration on it does not converge (`state%converged` is false).
-   subroutine solve_by_cascade(surface, mean_pressure, accuracy, points, answer, progress)
+   subroutine solve_by_cascade(surface, mean_pressure, accuracy, points, answer, progress, residual)
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: mean_pressure           !! P in (0, 1)
       real(dp), intent(in) :: accuracy                !! largest error estimate allowed of the three values, >= 0
       integer, intent(in) :: points(2)                !! of the last grid, on the whole cell; zeros: to the accuracy
       type(cascade_answer), intent(out) :: answer
       class(solver_progress), intent(in), optional :: progress   !! is called after each grid
+      real(dp), intent(in), optional :: residual      !! tolerance (C9) of a last grid given by `points`, > 0
 
       real(dp), allocatable :: finer(:, :)
       type(change_history) :: history
       type(grid_plan) :: plan
+      real(dp) :: tolerance
       logical :: last
       integer :: grid(2)
 
@@ -57,7 +59,9 @@ contains
       allocate (answer%state%pressure(grid(1), grid(2)), source=mean_pressure)
       do
          last = all(grid == plan%last)
-         call solve_level(surface, mean_pressure, tolerance_of(grid, mean_pressure, last .and. all(points > 0)), answer)
+         tolerance = tolerance_of(grid, mean_pressure, last .and. all(points > 0))
+         if (present(residual) .and. last .and. all(points > 0)) tolerance = residual
+         call solve_level(surface, mean_pressure, tolerance, answer)
          call measure_level(surface, history, answer)
          answer%accurate = answer%state%converged .and. all(answer%errors <= accuracy) .and. &
             all(grid >= plan%trusted)

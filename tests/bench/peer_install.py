@@ -1,4 +1,5 @@
 """Installs the other programs from the Python package index, each into a virtual environment of its own."""
+import glob
 import os
 import pathlib
 import sys
@@ -12,8 +13,9 @@ PEERS = {
     'tamaas': ('tamaas==2.9.0', ['python3']),
     'contactmechanics': ('ContactMechanics==1.8.3', ['python3']),
     'slippy': ('slippy==0.5.0', ['python3', 'python3.10', 'python3.9', 'python3.8']),
+    'aspher': ('aspher==0.1.3.post1', ['python3']),
 }
-IMPORTS = {'tamaas': 'tamaas', 'contactmechanics': 'ContactMechanics', 'slippy': 'slippy.core'}
+IMPORTS = {'tamaas': 'tamaas', 'contactmechanics': 'ContactMechanics', 'slippy': 'slippy.core', 'aspher': 'aspher'}
 BINARIES = ['--only-binary', 'numpy,scipy,numba,llvmlite,matplotlib,h5py,muGrid,tamaas']
 
 
@@ -24,5 +26,22 @@ def python_with(peer, directory):
     """
     requirement, interpreters = PEERS[peer]
     more = [os.environ['WAVYCON_PEER_PYTHON']] if os.environ.get('WAVYCON_PEER_PYTHON') else []
+    if peer == 'aspher':
+        offer_eigen(directory)
     return virtual_environment.python_with(os.path.join(directory, peer), [requirement], [IMPORTS[peer]],
                                            interpreters + more, BINARIES)
+
+
+def offer_eigen(directory):
+    """Lets CMake find Eigen, from which aspher is compiled; without it aspher downloads it, which may be barred."""
+    home = os.path.join(directory, 'eigen')
+    if virtual_environment.python_with(home, ['cmeel-eigen==3.4.1'], ['cmeel']):
+        prefixes = glob.glob(os.path.join(home, 'lib', 'python*', 'site-packages', 'cmeel.prefix'))
+        os.environ['CMAKE_PREFIX_PATH'] = ':'.join(
+            prefixes + [path for path in [os.environ.get('CMAKE_PREFIX_PATH')] if path])
+
+
+def python_with_numpy(directory):
+    """A Python with numpy; None if that cannot be installed."""
+    return virtual_environment.python_with(os.path.join(directory, 'numpy'), ['numpy'], ['numpy'], ['python3'],
+                                           BINARIES)
