@@ -52,6 +52,7 @@ def options():
     parser.add_argument('--limit', type=float, default=120.0, help='processor time of a solution [s] (120)')
     parser.add_argument('--repeats', type=int, default=3, help='solutions behind a time (3)')
     parser.add_argument('--table', help='file to which the rows are added')
+    parser.add_argument('--head', default='', help='lines for the head of the table, of the machine')
     parser.add_argument('--missing', action='store_true', help='leave out what the table already has')
     return parser.parse_args()
 
@@ -78,7 +79,25 @@ def write_table(path, head, rows):
             out.write(f'\n\n# {points} {cutoff} {CODES[code]}\n{titles()}\n')
             for words in sorted(found, key=lambda words: float(words[COLUMNS.index('P')])):
                 out.write(row(words) + '\n')
+        out.write('\n\n' + '\n'.join(ratios(rows)) + '\n')
     os.replace(path + '.new', path)
+
+
+def ratios(rows):
+    """Lines: times of the other programs over wavycon's, lighter loads first."""
+    lines = ['# Time over that of wavycon; >: the residual was not reached in this time.',
+             '#' + ''.join(f'{name:>{width}}' for name, width in zip(COLUMNS, WIDTHS[:3]))[1:] + '     contact'
+             + ''.join(f'{code:>18}' for code in CODES[1:])]
+    status, time, pressure, contact = (COLUMNS.index(name) for name in ('status', 'time[s]', 'P', 'contact'))
+    own = {key[:3]: words for key, words in rows.items() if key[3] == CODES[0] and words[status] == 'reached'}
+    for case, mine in sorted(own.items(), key=lambda item: (int(item[0][0]), -int(item[0][1]), float(item[1][pressure]))):
+        line = ''.join(f'{word:>{width}}' for word, width in zip(case, WIDTHS)) + f'{mine[contact]:>12}'
+        for code in CODES[1:]:
+            other = rows.get((*case, code))
+            ratio = f'{float(other[time])/float(mine[time]):.3g}' if other else '-'
+            line += f"{ratio if not other or other[status] == 'reached' else '>' + ratio:>18}"
+        lines.append(line)
+    return lines
 
 
 def row(words):
@@ -165,7 +184,7 @@ def main():
                 notes.append(f'# {code}: SKIPPED, it could not be installed')
     head = ['# Rough surfaces: times of solutions to a residual of '
             f'{given.residual:g}, one thread each; limit {given.limit:g} s.',
-            '# load: fraction of points in contact (A) or P, the mean pressure over p*.', *notes]
+            '# load: fraction of points in contact (A) or P, the mean pressure over p*.', *given.head.splitlines(), *notes]
     rows = read_table(given.table)
     print('\n'.join(head) + '\n' + titles(), flush=True)
 
@@ -175,6 +194,7 @@ def main():
             write_table(given.table, head, rows)
 
     measure(given, pythons, rows, told)
+    print('\n\n' + '\n'.join(ratios(rows)))
 
 
 if __name__ == '__main__':

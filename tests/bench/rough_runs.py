@@ -61,12 +61,12 @@ class Case:
             _, status, usage = os.wait4(child.pid, 0)
             child.returncode = os.waitstatus_to_exitcode(status)
         if child.returncode == -signal.SIGXCPU:
-            return Run('limit', tolerance=tolerance)
+            return Run('limit', self.limit, tolerance=tolerance)
         if child.returncode or not words:
             return Run('failed', tolerance=tolerance)
         good, seconds, *effort = words[-1].split()
         if float(seconds) > self.limit:
-            return Run('limit', tolerance=tolerance)
+            return Run('limit', self.limit, tolerance=tolerance)
         scale = 1024**2 if sys.platform == 'darwin' else 1024
         pressures = numpy.fromfile(self.output).reshape(self.heights.shape)
         return Run('good' if good == 'T' else 'unconverged', float(seconds), float(effort[0]), float(effort[-1]),
@@ -79,10 +79,14 @@ def command_of(code, bench, pythons):
     return [pythons[code], os.path.join(HERE, 'rough_peer.py'), code]
 
 
+def attainable(run, residual):
+    """The residual wanted, or that of rounding where it is larger: near full contact the mean gap is small."""
+    return max(residual, ROUNDING/run.judgement.mean_gap)
+
+
 def reaches(run, residual):
     """Whether a solution is accurate enough."""
-    found = run.judgement
-    return found is not None and found.residual <= max(residual, ROUNDING/found.mean_gap)
+    return run.judgement is not None and run.judgement.residual <= attainable(run, residual)
 
 
 def solve_to(case, command, residual, tolerance, repeats=REPEATS):
@@ -97,12 +101,12 @@ def solve_to(case, command, residual, tolerance, repeats=REPEATS):
             return best or run
         if best is None or rank(run, residual) < rank(best, residual):
             best = run
-        now = run.judgement.residual
-        if run.status != 'good' or LOOSE*residual <= now <= residual:
+        now, aim = run.judgement.residual, attainable(run, residual)
+        if run.status != 'good' or LOOSE*aim <= now <= aim:
             break
-        if now < residual and reaches(best, residual) and best is not run:
+        if now < aim and best is not run:
             break   # between a tolerance too large and this one there is little to find
-        tolerance *= min(max(MARGIN*residual/now, 1e-4), 1e4)
+        tolerance *= min(max(MARGIN*aim/now, 1e-4), 1e4)
     if reaches(best, residual):
         times = [best.seconds]
         while len(times) < repeats and sum(times) < case.limit/3:
