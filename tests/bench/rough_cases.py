@@ -90,7 +90,12 @@ def ratios(rows):
              + ''.join(f'{code:>18}' for code in CODES[1:])]
     status, time, pressure, contact = (COLUMNS.index(name) for name in ('status', 'time[s]', 'P', 'contact'))
     own = {key[:3]: words for key, words in rows.items() if key[3] == CODES[0] and words[status] == 'reached'}
-    for case, mine in sorted(own.items(), key=lambda item: (int(item[0][0]), -int(item[0][1]), float(item[1][pressure]))):
+
+    def order(item):
+        case, words = item
+        return int(case[0]), -int(case[1]), float(words[pressure])
+
+    for case, mine in sorted(own.items(), key=order):
         line = ''.join(f'{word:>{width}}' for word, width in zip(case, WIDTHS)) + f'{mine[contact]:>12}'
         for code in CODES[1:]:
             other = rows.get((*case, code))
@@ -184,7 +189,8 @@ def main():
                 notes.append(f'# {code}: SKIPPED, it could not be installed')
     head = ['# Rough surfaces: times of solutions to a residual of '
             f'{given.residual:g}, one thread each; limit {given.limit:g} s.',
-            '# load: fraction of points in contact (A) or P, the mean pressure over p*.', *given.head.splitlines(), *notes]
+            '# load: fraction of points in contact (A) or P, the mean pressure over p*.',
+            *given.head.splitlines(), *notes]
     rows = read_table(given.table)
     print('\n'.join(head) + '\n' + titles(), flush=True)
 

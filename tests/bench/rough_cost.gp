@@ -32,7 +32,8 @@ set xrange [5e-5:1.5]
 set format x '10^{%T}'
 set format y '%g'
 plot runs index 'contact' using 3:4 with points ls 31 title sprintf('time, %d^2 points', grid_max), \
-   [7e-5:light] line(x, contact_intercept, contact_slope) with lines ls 31 title sprintf('contact^{%.2f}', contact_slope), \
+   [7e-5:light] line(x, contact_intercept, contact_slope) with lines ls 31 \
+   title sprintf('contact^{%.2f}', contact_slope), \
    runs index 'contact' using 3:6 with points ls 32 title 'transform pairs'
 set key left top
 set xlabel 'points along a side' offset 0, 0.3

@@ -52,7 +52,8 @@ class Case:
             most = math.ceil(self.limit + START_UP)
             resource.setrlimit(resource.RLIMIT_CPU, (most, most + 5))
 
-        arguments = [self.input, str(self.heights.shape[0]), repr(float(self.load)), repr(float(tolerance)), self.output]
+        numbers = [self.heights.shape[0], float(self.load), float(tolerance)]
+        arguments = [self.input, *[repr(number) for number in numbers], self.output]
         environment = dict(os.environ, OMP_NUM_THREADS='1', OPENBLAS_NUM_THREADS='1', MKL_NUM_THREADS='1',
                            NUMBA_NUM_THREADS='1')
         with subprocess.Popen([*command, *arguments], env=environment, stdin=subprocess.DEVNULL,
