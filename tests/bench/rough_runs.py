@@ -22,7 +22,7 @@ ATTEMPTS = 6      # most tolerances tried
 REPEATS = 3       # solutions at the tolerance found, whose median time is told
 MARGIN = 0.5      # of the residual wanted, aimed at by the next tolerance
 LOOSE = 0.15      # of the residual wanted, below which a larger tolerance is tried
-ROUNDING = 32*sys.float_info.epsilon  # over the mean gap, no residual is smaller: heights are of the order of 1
+ROUNDING = 64*sys.float_info.epsilon  # over the mean gap, no residual is smaller: heights are of the order of 1
 START = {OWN: 1.0, 'aspher': 1.0, 'tamaas': 1e-2, 'contactmechanics': 1.0, 'slippy': 1.0}  # tolerance over residual
 
 
