@@ -18,7 +18,7 @@ import rough_surface
 HERE = os.path.dirname(os.path.abspath(__file__))
 OWN = 'wavycon'
 START_UP = 15     # [s] of processor time that a program may take besides the solution
-ATTEMPTS = 6      # most tolerances tried
+ATTEMPTS = 8      # most tolerances tried
 REPEATS = 3       # solutions at the tolerance found, whose median time is told
 MARGIN = 0.5      # of the residual wanted, aimed at by the next tolerance
 LOOSE = 0.15      # of the residual wanted, below which a larger tolerance is tried
@@ -91,13 +91,24 @@ def reaches(run, residual):
 
 
 def solve_to(case, command, residual, tolerance, repeats=REPEATS):
-    """The fastest solution to a residual, over tolerances near a first one; the most accurate if none reaches it.
+    """The fastest solution of a program to a residual, over tolerances near a first one; see `search`.
 
     Its time is the median of repeated solutions, unless they take long.
     """
-    best = None
+    best = search(lambda now: case.run(command, now), residual, tolerance)
+    if reaches(best, residual):
+        times = [best.seconds]
+        while len(times) < repeats and sum(times) < case.limit/3:
+            times.append(case.run(command, best.tolerance).seconds)
+        best.seconds = statistics.median(times)
+    return best
+
+
+def search(solution, residual, tolerance):
+    """The fastest run of solution(tolerance) to a residual; the most accurate if none reaches it."""
+    best, misses = None, 0
     for _ in range(ATTEMPTS):
-        run = case.run(command, tolerance)
+        run = solution(tolerance)
         if run.judgement is None or math.isnan(run.judgement.residual):
             return best or run
         if best is None or rank(run, residual) < rank(best, residual):
@@ -107,12 +118,9 @@ def solve_to(case, command, residual, tolerance, repeats=REPEATS):
             break
         if now < aim and best is not run:
             break   # between a tolerance too large and this one there is little to find
-        tolerance *= min(max(MARGIN*aim/now, 1e-4), 1e4)
-    if reaches(best, residual):
-        times = [best.seconds]
-        while len(times) < repeats and sum(times) < case.limit/3:
-            times.append(case.run(command, best.tolerance).seconds)
-        best.seconds = statistics.median(times)
+        # The residual may stay the same over a range of tolerances: longer and longer steps.
+        misses += now > aim
+        tolerance *= min(max((MARGIN*aim/now)**max(misses, 1), 1e-4), 1e4)
     return best
 
 
