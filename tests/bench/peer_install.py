@@ -1,4 +1,10 @@
-"""Installs the other programs from the Python package index, each into a virtual environment of its own."""
+#!/usr/bin/env python3
+"""Installs the other programs from the Python package index, each into a virtual environment of its own.
+
+usage: peer_install.py DIRECTORY
+
+Prints the name of a Python with numpy, which is installed into DIRECTORY if necessary.
+"""
 import glob
 import os
 import pathlib
@@ -41,7 +47,15 @@ def offer_eigen(directory):
             prefixes + [path for path in [os.environ.get('CMAKE_PREFIX_PATH')] if path])
 
 
-def python_with_numpy(directory):
-    """A Python with numpy; None if that cannot be installed."""
-    return virtual_environment.python_with(os.path.join(directory, 'numpy'), ['numpy'], ['numpy'], ['python3'],
-                                           BINARIES)
+def main():
+    if len(sys.argv) != 2:
+        sys.exit(__doc__.split('\n\n')[1])
+    python = virtual_environment.python_with(os.path.join(sys.argv[1], 'numpy'), ['numpy'], ['numpy'], ['python3'],
+                                             BINARIES)
+    if not python:
+        sys.exit('peer_install: numpy could not be installed')
+    print(python)
+
+
+if __name__ == '__main__':
+    main()

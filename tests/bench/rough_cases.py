@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Times of wavycon and of other programs on rough surfaces, to equal residuals, on one thread each.
 
-usage: rough_cases.py --build DIRECTORY [option ...]
+usage: rough_cases.py --build DIRECTORY [option ...], by the Python that peer_install.py names
 
 Surfaces are self-affine with the Hurst exponent 0.8, on a square cell of N x N points; their longest wave is 1/8 of the
 cell, their shortest has so many points. A load is given by the fraction of the points in contact, to 1 %, or by P, the
@@ -20,13 +20,10 @@ import tempfile
 
 sys.dont_write_bytecode = True
 import peer_install  # noqa: E402
+import rough_runs  # noqa: E402
+import rough_surface  # noqa: E402
 
-try:
-    import numpy  # noqa: F401
-except ImportError:
-    numpy = None
-
-CODES = ['wavycon', 'aspher', 'tamaas', 'contactmechanics', 'slippy']
+CODES = [rough_runs.OWN, 'aspher', 'tamaas', 'contactmechanics', 'slippy']
 COLUMNS = ['points', 'shortest_wave', 'load', 'code', 'status', 'P', 'contact', 'time[s]', 'iterations',
            'transform_pairs', 'residual', 'complementarity', 'load_error', 'mean_gap', 'tolerance']
 KEY = 4       # columns that name a row
@@ -115,7 +112,6 @@ def titles():
 
 def words_of(key, full, load, run, residual):
     """The row of a solution."""
-    import rough_runs
     found, nan = run.judgement, math.nan
     status = run.status
     if status in ('good', 'unconverged') and rough_runs.reaches(run, residual):
@@ -129,63 +125,63 @@ def words_of(key, full, load, run, residual):
             f'{run.tolerance:.1e}']
 
 
-def measure(given, pythons, rows, told):
-    """Adds the rows of all cases to `rows`; `told` is called with each."""
-    import rough_runs
-    import rough_surface
-    bench = os.path.join(given.build, 'tests', 'bench')
-    commands = {code: rough_runs.command_of(code, bench, pythons) for code in CODES
-                if code == rough_runs.OWN or code in pythons}
-    ratios = dict(rough_runs.START)
-    loads = [(f'A={value:g}', value) for value in given.contact] + [(f'P={value:g}', value) for value in given.pressure]
-    with tempfile.TemporaryDirectory() as directory:
-        for points in given.points:
-            for cutoff in given.cutoff:
-                heights = rough_surface.rough_surface(points, points/cutoff)
-                full = rough_surface.full_contact_pressure(heights)
-                case = rough_runs.Case(heights, 0.0, directory, given.limit)
-                heights.tofile(case.input)
-                for name, value in loads:
-                    wanted = [(str(points), str(cutoff), name, code) for code in given.codes if code in commands]
-                    if given.missing:
-                        wanted = [key for key in wanted if key not in rows]
-                    if not wanted:
-                        continue
-                    known = [words for key, words in rows.items() if key[:3] == wanted[0][:3]]
-                    if name.startswith('P'):
-                        case.load = value*full
-                    elif known:
-                        case.load = float(known[0][COLUMNS.index('P')])*full
-                    else:
-                        case.load = rough_surface.pressure_for_contact(heights, value)
-                        case.load = rough_runs.load_for_contact(case, commands[rough_runs.OWN], value)
-                    for key in wanted:
-                        code = key[3]
-                        run = rough_runs.solve_to(case, commands[code], given.residual, ratios[code]*given.residual,
-                                                  given.repeats)
-                        if rough_runs.reaches(run, given.residual) and code != rough_runs.OWN:
-                            ratios[code] = run.tolerance/given.residual
-                        rows[key] = words_of(key, full, case.load, run, given.residual)
-                        told(rows[key])
+class Measurement:
+    """Solves cases and adds their rows to `rows`; `told` is called with each."""
+
+    def __init__(self, given, pythons, rows, told):
+        self.given, self.rows, self.told = given, rows, told
+        bench = os.path.join(given.build, 'tests', 'bench')
+        self.commands = {code: rough_runs.command_of(code, bench, pythons) for code in given.codes
+                         if code == rough_runs.OWN or code in pythons}
+        self.own = rough_runs.command_of(rough_runs.OWN, bench, pythons)
+        self.ratios = dict(rough_runs.START)   # of tolerance and residual, the last ones
+
+    def surface(self, points, cutoff, directory):
+        """All loads of a surface."""
+        heights = rough_surface.rough_surface(points, points/cutoff)
+        full = rough_surface.full_contact_pressure(heights)
+        case = rough_runs.Case(heights, 0.0, directory, self.given.limit)
+        heights.tofile(case.input)
+        loads = [(f'A={value:g}', value) for value in self.given.contact]
+        loads += [(f'P={value:g}', value) for value in self.given.pressure]
+        for name, value in loads:
+            keys = [(str(points), str(cutoff), name, code) for code in self.commands]
+            keys = [key for key in keys if not (self.given.missing and key in self.rows)]
+            if keys:
+                case.load = value*full if name.startswith('P') else self.contact_load(case, keys[0][:3], value, full)
+                for key in keys:
+                    self.solve(case, key, full)
+
+    def contact_load(self, case, key, fraction, full):
+        """The mean pressure for a contact fraction: that of the other rows of the case, if there are any."""
+        for other, words in self.rows.items():
+            if other[:3] == key:
+                return float(words[COLUMNS.index('P')])*full
+        case.load = rough_surface.pressure_for_contact(case.heights, fraction)
+        return rough_runs.load_for_contact(case, self.own, fraction)
+
+    def solve(self, case, key, full):
+        """One program."""
+        code, aim = key[-1], self.given.residual
+        run = rough_runs.solve_to(case, self.commands[code], aim, self.ratios[code]*aim, self.given.repeats)
+        if rough_runs.reaches(run, aim) and code != rough_runs.OWN:
+            self.ratios[code] = run.tolerance/aim
+        self.rows[key] = words_of(key, full, case.load, run, aim)
+        self.told(self.rows[key])
 
 
 def main():
     given = options()
     directory = given.peers or os.path.join(given.build, 'peers')
-    if numpy is None:
-        python = peer_install.python_with_numpy(directory)
-        if not python:
-            sys.exit('rough_cases: numpy could not be installed')
-        os.execv(python, [python, *sys.argv])
+    pythons, notes = {}, []
     for code in given.codes:
         if code not in CODES:
             sys.exit(f"rough_cases: no program '{code}': {', '.join(CODES)}")
-    pythons, notes = {}, []
-    for code in given.codes:
-        if code in peer_install.PEERS:
-            pythons[code] = peer_install.python_with(code, directory)
-            if not pythons[code]:
-                del pythons[code]
+        if code != rough_runs.OWN:
+            python = peer_install.python_with(code, directory)
+            if python:
+                pythons[code] = python
+            else:
                 notes.append(f'# {code}: SKIPPED, it could not be installed')
     head = ['# Rough surfaces: times of solutions to a residual of '
             f'{given.residual:g}, one thread each; limit {given.limit:g} s.',
@@ -199,7 +195,11 @@ def main():
         if given.table:
             write_table(given.table, head, rows)
 
-    measure(given, pythons, rows, told)
+    measurement = Measurement(given, pythons, rows, told)
+    with tempfile.TemporaryDirectory() as scratch:
+        for points in given.points:
+            for cutoff in given.cutoff:
+                measurement.surface(points, cutoff, scratch)
     print('\n\n' + '\n'.join(ratios(rows)))
 
 

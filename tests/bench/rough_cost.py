@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """What wavycon costs on rough surfaces: against the contact fraction, and against the number of points.
 
-usage: rough_cost.py BUILD ENVIRONMENTS TABLE LARGEST HEAD
+usage: rough_cost.py BUILD TABLE LARGEST HEAD, by the Python that peer_install.py names
 
-BUILD: where wavycon is built, its target bench too. ENVIRONMENTS: for a Python with numpy. LARGEST: points along a side
-of the largest grid; the contact fraction varies on a grid of a quarter as many. HEAD: lines for the head of the table.
+BUILD: where wavycon is built, its target bench too. LARGEST: points along a side of the largest grid; the contact
+fraction varies on a grid of a quarter as many. HEAD: lines for the head of the table.
 
 The surfaces are those of rough_cases.py. Their shortest wave has 16 points where the contact varies, and is 1/32 of the
 cell where the grid does. Times are processor times to a residual of 1e-8, medians of three. The memory is the most of
@@ -14,8 +14,11 @@ import os
 import sys
 import tempfile
 
+import numpy
+
 sys.dont_write_bytecode = True
-import peer_install  # noqa: E402
+import rough_runs  # noqa: E402
+import rough_surface  # noqa: E402
 
 RESIDUAL = 1e-8
 LIMIT = 600.0       # [s] of a solution
@@ -30,7 +33,6 @@ COLUMNS = ['points', 'P', 'contact', 'time[s]', 'iterations', 'transform_pairs',
 
 def measured(case, command, full):
     """The numbers of COLUMNS for a load."""
-    import rough_runs
     run = rough_runs.solve_to(case, command, RESIDUAL, RESIDUAL)
     if not rough_runs.reaches(run, RESIDUAL):
         sys.exit(f'rough_cost: P = {case.load/full} on {case.heights.shape} points is not solved: {run.status}')
@@ -40,7 +42,6 @@ def measured(case, command, full):
 
 
 def exponent(x, y):
-    import numpy
     return numpy.polyfit(numpy.log(x), numpy.log(y), 1)[0]
 
 
@@ -53,68 +54,72 @@ def block(name, rows):
                                            for row in rows]
 
 
+def start(points, shortest, directory):
+    """A case without load, and p*."""
+    case = rough_runs.Case(rough_surface.rough_surface(points, shortest), 0.0, directory, LIMIT)
+    case.heights.tofile(case.input)
+    return case, rough_surface.full_contact_pressure(case.heights)
+
+
+def find_load(case, command, fraction):
+    case.load = rough_surface.pressure_for_contact(case.heights, fraction)
+    case.load = rough_runs.load_for_contact(case, command, fraction)
+
+
+def against_contact(command, points, directory):
+    """Rows for each contact fraction."""
+    case, full = start(points, points/CUTOFF, directory)
+    rows = []
+    for fraction in FRACTIONS:
+        find_load(case, command, fraction)
+        rows.append(measured(case, command, full))
+        print(f'bench: contact {fraction:g} done', file=sys.stderr)
+    return rows
+
+
+def against_points(command, largest, directory):
+    """Rows for each grid, by contact fraction. The load is that of the coarsest grid."""
+    loads, series = {}, {fraction: [] for fraction in SERIES}
+    points = LEAST
+    while points <= largest:
+        case, full = start(points, WAVES, directory)
+        for fraction, rows in series.items():
+            if fraction not in loads:
+                find_load(case, command, fraction)
+                loads[fraction] = case.load
+            case.load = loads[fraction]
+            rows.append(measured(case, command, full))
+        print(f'bench: {points} points done', file=sys.stderr)
+        points *= 2
+    return series
+
+
+def exponents(points, rows, series):
+    """Lines on how the cost grows."""
+    contact, time, pairs = (numpy.array([row[i] for row in rows if row[2] <= LIGHT]) for i in (2, 3, 5))
+    lines = ['# Exponents of least squares:',
+             f'# {points} x {points} points, contact {contact.min():.2g} to {contact.max():.2g}: '
+             f'time ~ contact^{exponent(contact, time):.3f}, transform pairs ~ contact^{exponent(contact, pairs):.3f}']
+    for fraction, found in series.items():
+        sides, _, _, time, _, pairs, _, memory = numpy.array(found).T
+        lines.append(f'# contact {fraction:g}, N = {sides[0]:.0f} to {sides[-1]:.0f} points a side: '
+                     f'time ~ N^{exponent(sides, time):.2f}, transform pairs ~ N^{exponent(sides, pairs):.2f}, '
+                     f'{memory[-1]:.0f} bytes a point on the last grid')
+    return lines
+
+
 def main():
-    if len(sys.argv) != 6:
+    if len(sys.argv) != 5:
         sys.exit(__doc__.split('\n\n')[1])
-    build, environments, table, largest = sys.argv[1], sys.argv[2], sys.argv[3], int(sys.argv[4])
-    try:
-        import numpy
-    except ImportError:
-        python = peer_install.python_with_numpy(environments)
-        if not python:
-            sys.exit('rough_cost: numpy could not be installed')
-        os.execv(python, [python, *sys.argv])
-    import rough_runs
-    import rough_surface
+    build, table, largest, head = sys.argv[1], sys.argv[2], int(sys.argv[3]), sys.argv[4]
     command = rough_runs.command_of(rough_runs.OWN, os.path.join(build, 'tests', 'bench'), {})
-
-    def prepared(points, shortest, directory):
-        heights = rough_surface.rough_surface(points, shortest)
-        case = rough_runs.Case(heights, 0.0, directory, LIMIT)
-        heights.tofile(case.input)
-        return case, rough_surface.full_contact_pressure(heights)
-
-    series = {}
     with tempfile.TemporaryDirectory() as directory:
-        points = largest//4
-        case, full = prepared(points, points/CUTOFF, directory)
-        against_contact = []
-        for fraction in FRACTIONS:
-            case.load = rough_surface.pressure_for_contact(case.heights, fraction)
-            case.load = rough_runs.load_for_contact(case, command, fraction)
-            against_contact.append(measured(case, command, full))
-            print(f'bench: contact {fraction:g} done', file=sys.stderr)
-        loads = {}
-        points = LEAST
-        while points <= largest:
-            case, full = prepared(points, WAVES, directory)
-            for fraction in SERIES:
-                if fraction not in loads:
-                    case.load = rough_surface.pressure_for_contact(case.heights, fraction)
-                    loads[fraction] = rough_runs.load_for_contact(case, command, fraction)
-                case.load = loads[fraction]
-                series.setdefault(fraction, []).append(measured(case, command, full))
-            print(f'bench: {points} points done', file=sys.stderr)
-            points *= 2
-
-    contact, time, pairs = (numpy.array([row[i] for row in against_contact]) for i in (2, 3, 5))
-    light = contact <= LIGHT
-    low, high = contact[light].min(), contact[light].max()
-    head = ['# wavycon on rough surfaces, to a residual of 1e-8, one thread.', *sys.argv[5].splitlines(),
-            '# Exponents of least squares:',
-            f'# {largest//4} x {largest//4} points, contact {low:.2g} to {high:.2g}: time ~ contact^'
-            f'{exponent(contact[light], time[light]):.3f}, transform pairs ~ contact^'
-            f'{exponent(contact[light], pairs[light]):.3f}']
-    for fraction, rows in series.items():
-        values = numpy.array(rows)
-        head.append(f'# contact {fraction:g}, {LEAST} to {largest} points a side: time ~ N^'
-                    f'{exponent(values[:, 0], values[:, 3]):.2f}, transform pairs ~ N^'
-                    f'{exponent(values[:, 0], values[:, 5]):.2f}, N points a side')
-    head.append('# most memory of the process on the largest grid: '
-                f'{max(rows[-1][-1] for rows in series.values()):.0f} bytes a point')
-    lines = head + block('contact', against_contact)
-    for fraction, rows in series.items():
-        lines += block(f'points {fraction:g}', rows)
+        rows = against_contact(command, largest//4, directory)
+        series = against_points(command, largest, directory)
+    lines = ['# wavycon on rough surfaces, to a residual of 1e-8, one thread.', *head.splitlines(),
+             *exponents(largest//4, rows, series), *block('contact', rows)]
+    for fraction, found in series.items():
+        lines += block(f'points {fraction:g}', found)
     with open(table + '.new', 'w', encoding='utf-8') as out:
         out.write('\n'.join(lines) + '\n')
     os.replace(table + '.new', table)
