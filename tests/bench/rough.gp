@@ -17,7 +17,7 @@ columns = words(grids)
 left = 0.085
 right = 0.985
 bottom = 0.1
-top = 0.86
+top = 0.88
 gap = 0.014
 
 # The logit, which shows light loads and loads near full contact alike. NaN leaves out what did not reach the residual.
