@@ -1,6 +1,5 @@
 !> Times of repeated runs: median, smallest and largest.
 module samples
-   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
@@ -22,12 +21,10 @@ module samples
 
 contains
 
-   !> The time since some moment in the past [ms].
+   !> The processor time since the program began [ms]: on one thread it does not depend on what else the machine does.
    real(dp) function clock_ms()
-      integer(int64) :: ticks, rate
-
-      call system_clock(ticks, rate)
-      clock_ms = 1000*(real(ticks, dp)/real(rate, dp))
+      call cpu_time(clock_ms)
+      clock_ms = 1000*clock_ms
    end function clock_ms
 
    subroutine add(self, time)

@@ -5,7 +5,8 @@
 array load_text[4] = ['0.05', '0.2', '0.5', '0.9']
 array quantity[3] = ['mean gap', 'contact area', 'peak pressure']
 small = ',11'
-array solver[6] = ['wavycon, grids', 'wavycon, fitted', 'wavycon, paper''s series', 'tamaas', 'ContactMechanics', 'slippy']
+array solver[7] = ['wavycon, grids', 'wavycon, fitted', 'wavycon, paper''s series', 'tamaas', 'ContactMechanics', \
+   'slippy', 'ASPHER']
 
 set style line 21 lc rgb blue lw 2.2 dt solid pt 7 ps 0.8*mark
 set style line 22 lc rgb '#0b7a3b' lw 2.2 dt solid pt 9 ps 0.9*mark
@@ -13,6 +14,7 @@ set style line 23 lc rgb blue lw 1.2 dt (5, 3) pt 6 ps 0.8*mark
 set style line 24 lc rgb red lw 1.4 dt solid pt 5 ps 0.7*mark
 set style line 25 lc rgb black lw 1.2 dt (7, 4) pt 8 ps 0.9*mark
 set style line 26 lc rgb grey lw 1.6 dt solid pt 13 ps 0.9*mark
+set style line 27 lc rgb violet lw 1.4 dt solid pt 10 ps 0.9*mark
 
 left = 0.095
 right = 0.99
@@ -20,7 +22,7 @@ bottom = 0.085
 top = 0.9
 gap = 0.012
 
-block(i, j) = 6*(i - 1) + j - 1
+block(i, j) = 7*(i - 1) + j - 1
 
 # Read before there are ranges, which would leave out values.
 array floors[12]
@@ -63,7 +65,7 @@ do for [row = 1:3] {
       # Below the floor the true value has no digits.
       set object 1 rectangle from graph 0, graph 0 to graph 1, first floors[3*panel + row - 3] \
          fc rgb '#efefef' fs noborder behind
-      plot for [j = 1:6] runs index block(panel, j) using 2:(column(5 + row)) with linespoints ls 20 + j
+      plot for [j = 1:7] runs index block(panel, j) using 2:(column(5 + row)) with linespoints ls 20 + j
    }
 }
 
@@ -80,5 +82,5 @@ unset ylabel
 unset label
 unset object
 set key at screen 0.5, 0.975 center center horizontal maxrows 2 samplen 2.6 font small
-plot for [j = 1:6] NaN with linespoints ls 20 + j title solver[j]
+plot for [j = 1:7] NaN with linespoints ls 20 + j title solver[j]
 unset multiplot

@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
 """Time against error of wavycon and other programs, in one run on one thread each.
 
-usage: time_error.py BENCH_DIRECTORY ENVIRONMENTS REFERENCE TABLE SECONDS ROUGH_POINTS
+usage: time_error.py BENCH_DIRECTORY ENVIRONMENTS REFERENCE TABLE SECONDS
 
-SECONDS: approximate time of a solver for a load. BENCH_DIRECTORY has the built programs time_error_wave and
-time_error_rough; the other programs are installed in ENVIRONMENTS. The table goes to TABLE, as blocks for gnuplot
-(one for each load and solver), a summary to standard output. ROUGH_POINTS: along a side of the rough surface, 0 for
-none.
+SECONDS: approximate time of a solver for a load. BENCH_DIRECTORY has the built program time_error_wave;
+the other programs are installed in ENVIRONMENTS. The table goes to TABLE, as blocks for gnuplot (one for each load and
+solver), a summary to standard output.
 
 Errors are relative to the values of the boundary-fitted expansions, accurate to some 1e-13, which must agree with all
 digits of REFERENCE, values of other programs. The effective error of a run is the largest of its own error and those
@@ -19,9 +18,8 @@ import os
 import pathlib
 import subprocess
 import sys
-import tempfile
 
-from time_error_install import PEERS, python_with
+from peer_install import PEERS, python_with
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / 'regression'))
@@ -33,7 +31,6 @@ TARGETS = [10.0**-k for k in range(2, 9)]
 RATIO_TARGETS = 1e-5, 1e-3, 1e-3  # of the three quantities, for the ratios
 OWN = 'wavycon-grid', 'wavycon-fitted', 'wavycon-beale'
 RATED = 'wavycon-grid', 'wavycon-fitted'  # for the ratios
-ROUGH = 10  # time for the rough surface over that for a load of the wave
 HANG = 5  # a solver is ended after so many times its time
 
 
@@ -160,49 +157,11 @@ def write_ratios(results, floors):
             print(f'{peer:>18}{own:>16}{load:6.2f}' + ''.join(f'{cell:>10}' for cell in cells))
 
 
-def write_rough_ratios(runs):
-    """Of the rough surface, by solver: residuals and times."""
-    for residual, milliseconds in runs.get(OWN[0], []):
-        for peer in PEERS:
-            if peer in runs:
-                times = [time for other, time in runs[peer] if other <= residual]
-                longest = max(time for _, time in runs[peer])
-                ratio = f'{min(times)/milliseconds:.3g}' if times else f'>{longest/milliseconds:.3g}'
-                print(f'# {peer} over {OWN[0]}, to a residual of {residual:.1e}: {ratio}')
-
-
-def measure_rough(bench, pythons, points, seconds):
-    here = os.path.dirname(os.path.abspath(__file__))
-    with tempfile.TemporaryDirectory() as directory:
-        path = os.path.join(directory, 'rough.dat')
-        maker = next(iter(pythons.values()))
-        pressure = subprocess.run([maker, os.path.join(here, 'rough_surface.py'), str(points), path],
-                                  stdout=subprocess.PIPE, check=True).stdout.decode().strip()
-        print(f'\n\n# A rough surface, {points} x {points} points, self-affine, Hurst exponent 0.8, '
-              f'at p/E* = {pressure}, to ever smaller tolerances')
-        print(f'#{"solver":>17}{"tolerance":>11}{"time[ms]":>12}{"solves":>7}{"residual":>11}{"mean_gap":>14}'
-              f'{"area":>12}')
-        commands = [('wavycon-grid', [os.path.join(bench, 'time_error_rough'), path, pressure])]
-        commands += [(name, [python, os.path.join(here, 'time_error_peer.py'), name, 'rough', path, pressure,
-                             f'{seconds:g}']) for name, python in pythons.items()]
-        runs = {}
-        for name, command in commands:
-            for line in run(command, seconds + 120):
-                if line.startswith('#'):
-                    print(f'# {name}: {line[2:]}')
-                    continue
-                solver, tolerance, milliseconds, solves, residual, gap, area = line.split()
-                print(f'{solver:>18}{float(tolerance):11.0e}{float(milliseconds):12.4g}{solves:>7}'
-                      f'{float(residual):11.1e}{float(gap):14.8f}{float(area):12.6f}', flush=True)
-                runs.setdefault(solver, []).append((float(residual), float(milliseconds)))
-    write_rough_ratios(runs)
-
-
 def main():
-    if len(sys.argv) != 7:
+    if len(sys.argv) != 6:
         sys.exit(__doc__.split('\n\n')[1])
     bench, environments, reference, table = sys.argv[1:5]
-    seconds, points = float(sys.argv[5]), int(sys.argv[6])
+    seconds = float(sys.argv[5])
     here = os.path.dirname(os.path.abspath(__file__))
     known = references(reference)
 
@@ -218,7 +177,7 @@ def main():
             print(f'bench: {requirement} could not be installed and is SKIPPED', file=sys.stderr)
 
     commands = [('wavycon', [os.path.join(bench, 'time_error_wave')])]
-    commands += [(name, [python, os.path.join(here, 'time_error_peer.py'), name, 'wave'])
+    commands += [(name, [python, os.path.join(here, 'time_error_peer.py'), name])
                  for name, python in pythons.items()]
     found, exact, remarks = measure_wave(commands, seconds)
     if not exact:
@@ -234,8 +193,6 @@ def main():
     print('\n'.join(head + remarks))
     write_times(results, floors)
     write_ratios(results, floors)
-    if points and pythons:
-        measure_rough(bench, pythons, points, ROUGH*seconds)
 
 
 if __name__ == '__main__':

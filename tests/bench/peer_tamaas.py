@@ -3,10 +3,14 @@
 Of its two formulations that in pressures is taken. That in gaps needs some hundred times longer for a load
 that is given, and counts the points of the open gap that hold a rounding of pressure as contact.
 """
+import math
+import os
+import tempfile
+
 import numpy
 import tamaas
 
-tamaas.set_log_level(tamaas.LogLevel.error)
+tamaas.set_log_level(tamaas.LogLevel.info)
 tamaas.initialize(1)
 
 
@@ -24,6 +28,8 @@ class Contact:
         self.solver = tamaas.PolonskyKeerRey(
             self.model, self.heights, tolerance, primal_type=in_pressures, constraint_type=in_pressures)
         self.solver.max_iter = iteration_limit
+        self.solver.dump_freq = iteration_limit + 1
+        self.iterations = math.nan
 
     def forget(self):
         """Removes the solution, from which the solver would start."""
@@ -32,8 +38,24 @@ class Contact:
 
     def solve(self):
         """Whether it converged."""
-        return self.solver.solve(self.pressure) <= self.tolerance
+        # It tells its iterations on the standard error only: at the beginning of the last line.
+        with tempfile.TemporaryFile() as log:
+            kept = os.dup(2)
+            os.dup2(log.fileno(), 2)
+            try:
+                error = self.solver.solve(self.pressure)
+            finally:
+                os.dup2(kept, 2)
+                os.close(kept)
+            log.seek(0)
+            words = log.read().split(b'\n')[-2].split()
+        self.iterations = int(words[0]) if words and words[0].isdigit() else math.nan
+        return error <= self.tolerance
 
     def answer(self):
         """Pressures and gaps."""
         return numpy.array(self.model.traction), numpy.array(self.model['gap'])
+
+    def effort(self):
+        """Iterations, and transforms there and back, which it does not tell."""
+        return self.iterations, math.nan

@@ -16,10 +16,17 @@ class Contact:
         self.system = NonSmoothContactSystem(
             half_space, Topography(heights, (1.0, 1.0), periodic=True))
         half_space.evaluate_disp(numpy.zeros(heights.shape))  # makes the plans of the transforms
+        self.pairs = 0
+        self.displacements, half_space.evaluate_disp = half_space.evaluate_disp, self.counted
         # The tolerance is a length; the program has other tolerances too.
         self.arguments = {'external_force': pressure, 'maxiter': iteration_limit,
                           'pentol': tolerance*heights.max()}
         self.result = None
+
+    def counted(self, forces):
+        """The displacements of forces."""
+        self.pairs += 1
+        return self.displacements(forces)
 
     def forget(self):
         """Does nothing: each solution starts from zero."""
@@ -33,3 +40,7 @@ class Contact:
         """Pressures and gaps."""
         gaps = self.system.compute_gap(self.result.x, self.result.offset)
         return self.result.jac*self.result.jac.size, gaps
+
+    def effort(self):
+        """Iterations, and transforms there and back."""
+        return self.result.nit, self.pairs
