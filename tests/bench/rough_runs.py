@@ -106,7 +106,7 @@ def solve_to(case, command, residual, tolerance, repeats=REPEATS):
 
 def search(solution, residual, tolerance):
     """The fastest run of solution(tolerance) to a residual; the most accurate if none reaches it."""
-    best, misses = None, 0
+    best, misses, reached, missed = None, 0, 0.0, math.inf   # the largest and least such tolerances
     for _ in range(ATTEMPTS):
         run = solution(tolerance)
         if run.judgement is None or math.isnan(run.judgement.residual):
@@ -116,11 +116,17 @@ def search(solution, residual, tolerance):
         now, aim = run.judgement.residual, attainable(run, residual)
         if run.status != 'good' or LOOSE*aim <= now <= aim:
             break
-        if now < aim and best is not run:
-            break   # between a tolerance too large and this one there is little to find
-        # The residual may stay the same over a range of tolerances: longer and longer steps.
-        misses += now > aim
-        tolerance *= min(max((MARGIN*aim/now)**max(misses, 1), 1e-4), 1e4)
+        # The residual may stay the same over a range of tolerances: longer and longer steps, then between the two.
+        if now > aim:
+            misses, missed = misses + 1, min(missed, tolerance)
+        else:
+            reached = max(reached, tolerance)
+        if reached > 0 and missed < math.inf:
+            if missed < 3*reached:
+                break
+            tolerance = math.sqrt(reached*missed)
+        else:
+            tolerance *= min(max((MARGIN*aim/now)**max(misses, 1), 1e-4), 1e4)
     return best
 
 
