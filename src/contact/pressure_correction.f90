@@ -9,7 +9,7 @@ module wavycon_pressure_correction
    use wavycon_compliance_operator, only: compliance_operator
    use wavycon_contact_extension, only: contact_extension
    use wavycon_contact_region, only: contact_region
-   use wavycon_contact_tuning, only: overlap_part, stencil_fraction
+   use wavycon_contact_tuning, only: largest_growth, overlap_part, settled_part, stencil_fraction
    use wavycon_kinds, only: dp, sp
    use wavycon_lapack, only: sdot
    use wavycon_local_stiffness, only: local_stiffness
@@ -31,6 +31,8 @@ module wavycon_pressure_correction
       integer, private :: grid(2) = 0           !! M, N
       real(dp), private :: scale = 1.0_dp       !! the residual at the start
       integer, private :: contact_points = 0
+      integer, private :: changed_points = 0    !! that left or entered the contact in the last iteration
+      logical, private :: extends = .true.      !! whether the preconditioner continues the gap outside the contact
       real(dp), private :: descent = 0.0_dp     !! (gap, z) of the last direction
       real(sp), allocatable, private :: start_pressure(:)
       real(sp), allocatable, private :: change(:)      !! of the pressure since the start
@@ -48,7 +50,9 @@ module wavycon_pressure_correction
       procedure :: improve
       procedure :: add_to
       procedure, private :: shift_gap
+      procedure, private :: select_extension
       procedure, private :: precondition
+      procedure, private :: set_extension
       procedure, private :: update_direction
       procedure, private :: find_step
       procedure, private :: move
@@ -95,11 +99,15 @@ contains
       real(dp), intent(in) :: part                !! of the residual at the start
       integer, intent(in) :: most_iterations
 
+      real(dp) :: last_residual
       real(sp) :: step
 
       allocate (self%field(self%grid(1), self%grid(2)))
+      last_residual = huge(1.0_dp)
       do
          call self%shift_gap()
+         call self%select_extension(last_residual)
+         last_residual = self%residual
          if (self%residual <= part*self%scale .or. self%iterations >= most_iterations) exit
          self%iterations = self%iterations + 1
          call self%precondition(half_space)
@@ -147,6 +155,23 @@ contains
       self%residual = self%scale*sqrt(self%product_of(self%image, self%image)/product(real(self%grid, dp)))
    end subroutine shift_gap
 
+   !> Pauses the extension while the contact changes so much that the residual grows: on grids that hardly resolve the
+   !> surface its directions reach so far that the points which then leave the contact undo the step. The search
+   !> restarts when the preconditioner changes.
+   subroutine select_extension(self, last_residual)
+      class(pressure_correction), intent(inout) :: self
+      real(dp), intent(in) :: last_residual
+
+      if (self%extends .and. self%residual > largest_growth*last_residual) then
+         self%extends = .false.
+      else if (.not. self%extends .and. self%changed_points <= settled_part*self%contact_points) then
+         self%extends = .true.
+      else
+         return
+      end if
+      self%descent = 0.0_dp
+   end subroutine select_extension
+
    !> Computes z (C4) of the residual r, in `image`.
    subroutine precondition(self, half_space)
       class(pressure_correction), intent(inout) :: self
@@ -157,21 +182,32 @@ contains
          call self%stencil%apply(self%region, self%grid, self%image)
          self%local_iterations = self%local_iterations + 1
       else
-         if (.not. allocated(self%contact_field)) then
-            allocate (self%contact_field(self%grid(1), self%grid(2)), source=0.0_sp)
-            call self%extension%start(self%grid, self%stencil%even)
-         end if
-         call self%region%scatter(self%contact, self%contact_field)
-         call self%extension%set_contact(self%contact_field)
          self%field = 0.0_sp
          call self%region%scatter(self%image, self%field)
-         call self%extension%extend(self%contact_field, self%field)
-         call half_space%pressure(self%field)
-         call self%extension%collect(self%contact_field, self%field)
+         if (self%extends) then
+            call self%set_extension()
+            call self%extension%extend(self%contact_field, self%field)
+            call half_space%pressure(self%field)
+            call self%extension%collect(self%contact_field, self%field)
+         else
+            call half_space%pressure(self%field, self%region%columns, self%region%columns)
+         end if
          call self%region%gather(self%field, self%image)
       end if
       call self%subtract_mean(self%image)
    end subroutine precondition
+
+   !> Starts the extension when it is first needed, and sets the points in contact.
+   subroutine set_extension(self)
+      class(pressure_correction), intent(inout) :: self
+
+      if (.not. allocated(self%contact_field)) then
+         allocate (self%contact_field(self%grid(1), self%grid(2)), source=0.0_sp)
+         call self%extension%start(self%grid, self%stencil%even)
+      end if
+      call self%region%scatter(self%contact, self%contact_field)
+      call self%extension%set_contact(self%contact_field)
+   end subroutine set_extension
 
    !> Computes the next direction by Polak & Ribiere's factor (C5).
    subroutine update_direction(self)
@@ -229,6 +265,7 @@ contains
             left = left + 1
          end if
       end do
+      self%changed_points = left
       if (left == 0) return
       call self%restore_mean()
       call self%displace(half_space)
@@ -256,9 +293,18 @@ contains
       real(sp), intent(in) :: allowance   !! over `scale`
 
       real(sp) :: least
+      integer :: entered, i
 
       least = real(self%product_of(self%contact, self%gap)/self%product_of(self%contact, self%contact), sp) - allowance
-      where (self%gap < least) self%contact = 1.0_sp
+      entered = 0
+      !$omp parallel do num_threads(self%region%threads) reduction(+:entered)
+      do i = 1, self%region%points
+         if (self%gap(i) < least .and. self%contact(i) <= 0.0_sp) then
+            self%contact(i) = 1.0_sp
+            entered = entered + 1
+         end if
+      end do
+      self%changed_points = self%changed_points + entered
    end subroutine add_overlaps
 
    !> Replaces the pressure in `image` by its displacement.

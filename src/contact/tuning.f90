@@ -48,6 +48,12 @@ module wavycon_contact_tuning
    real(dp), parameter, public :: decay_alone = 0.65_dp
    real(dp), parameter, public :: decay_growth = 1.2_dp
 
+   !> The extension pauses when the residual grows by more than this factor from one iteration to the next: it falls to
+   !> a tenth where the extension does well.
+   real(dp), parameter, public :: largest_growth = 1.5_dp
+   !> It goes on when at most this part of the contact's points have changed in an iteration.
+   real(dp), parameter, public :: settled_part = 0.01_dp
+
    ! Error estimates of the grids.
 
    !> Factor on the change of the mean gap from grid to grid, whose errors fall to a fifth. Above 1, as their fall is
