@@ -113,7 +113,7 @@ class PythonReaders(unittest.TestCase):
             with contextlib.redirect_stdout(printed):
                 exec(example, {})
             # The contact area, or the peak pressure, at P = 0.5.
-            self.assertRegex(printed.getvalue(), "6.56167" if "fine" in example else "0.704", example)
+            self.assertRegex(printed.getvalue(), r"6\.5616\d" if "fine" in example else "0.704", example)
 
     def test_a_map_in_the_format_of_numpy(self):
         found = numpy.load("outputs/fine/fine.map.npy")
