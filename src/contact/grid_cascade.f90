@@ -31,7 +31,7 @@ module wavycon_grid_cascade
       logical :: out_of_memory = .false.   !! whether a grid was needed that does not fit into memory
       integer :: grids = 0
       integer :: iterations = 0            !! on all grids
-      real(dp) :: transform_pairs = 0.0_dp !! in units of one on the finest grid
+      real(dp) :: transform_pairs = 0.0_dp !! in both precisions, in units of one on the finest grid
    end type cascade_answer
 
 contains
@@ -108,7 +108,8 @@ contains
       call solve_on_grid(half_space, stencil, h, residual, iteration_limit, answer%state)
       answer%grids = answer%grids + 1
       answer%iterations = answer%iterations + answer%state%iterations
-      answer%transform_pairs = answer%transform_pairs/2**surface%dimension + half_space%transform_pairs
+      answer%transform_pairs = answer%transform_pairs/2**surface%dimension &
+                               + half_space%transform_pairs + half_space%single_pairs
    end subroutine solve_level
 
    !> Mean gap, contact area (C11), (C12) and peak pressure (C13) on the present grid, and their error estimates (C14)
