@@ -22,11 +22,12 @@ module wavycon_contact_region
       integer, allocatable, private :: run(:)  !! first run of each column, and one more than the last of all, shape (N+1)
    contains
       procedure :: start
-      generic :: gather => gather_single, gather_double
-      generic :: scatter => scatter_single, scatter_double
+      procedure :: gather
+      procedure :: gather_scaled
+      procedure :: scatter
+      procedure :: correct
       procedure :: clear
       procedure :: convolve
-      procedure, private :: gather_single, gather_double, scatter_single, scatter_double
    end type contact_region
 
 contains
@@ -73,24 +74,7 @@ contains
    end subroutine start
 
    !> The values of a field at the points of the region.
-   pure subroutine gather_double(self, field, vector)
-      class(contact_region), intent(in) :: self
-      real(dp), intent(in) :: field(:, :)     !! shape (M, N)
-      real(dp), intent(out) :: vector(:)      !! shape (points)
-
-      integer :: j, r
-
-      do j = 1, size(field, 2)
-         do r = self%run(j), self%run(j + 1) - 1
-            associate (a => self%first(r), b => self%last(r), o => self%offset(r))
-               vector(a + o:b + o) = field(a:b, j)
-            end associate
-         end do
-      end do
-   end subroutine gather_double
-
-   !> Likewise in single precision.
-   subroutine gather_single(self, field, vector)
+   subroutine gather(self, field, vector)
       class(contact_region), intent(in) :: self
       real(sp), intent(in) :: field(:, :)     !! shape (M, N)
       real(sp), intent(out) :: vector(:)      !! shape (points)
@@ -105,27 +89,29 @@ contains
             end associate
          end do
       end do
-   end subroutine gather_single
+   end subroutine gather
 
-   !> Writes values to the points of the region. Other points keep theirs.
-   pure subroutine scatter_double(self, vector, field)
+   !> Likewise of a field in double precision, over a scale.
+   subroutine gather_scaled(self, field, scale, vector)
       class(contact_region), intent(in) :: self
-      real(dp), intent(in) :: vector(:)       !! shape (points)
-      real(dp), intent(inout) :: field(:, :)  !! shape (M, N)
+      real(dp), intent(in) :: field(:, :)     !! shape (M, N)
+      real(dp), intent(in) :: scale           !! > 0
+      real(sp), intent(out) :: vector(:)      !! shape (points)
 
       integer :: j, r
 
+      !$omp parallel do num_threads(self%threads) private(r)
       do j = 1, size(field, 2)
          do r = self%run(j), self%run(j + 1) - 1
             associate (a => self%first(r), b => self%last(r), o => self%offset(r))
-               field(a:b, j) = vector(a + o:b + o)
+               vector(a + o:b + o) = real(field(a:b, j)/scale, sp)
             end associate
          end do
       end do
-   end subroutine scatter_double
+   end subroutine gather_scaled
 
-   !> Likewise in single precision.
-   subroutine scatter_single(self, vector, field)
+   !> Writes values to the points of the region. Other points keep theirs.
+   subroutine scatter(self, vector, field)
       class(contact_region), intent(in) :: self
       real(sp), intent(in) :: vector(:)       !! shape (points)
       real(sp), intent(inout) :: field(:, :)  !! shape (M, N)
@@ -140,7 +126,30 @@ contains
             end associate
          end do
       end do
-   end subroutine scatter_single
+   end subroutine scatter
+
+   !> Adds changes times a scale to a pressure at the points in contact, but makes none negative. At the other points of
+   !> the region it becomes zero.
+   subroutine correct(self, change, contact, scale, pressure)
+      class(contact_region), intent(in) :: self
+      real(sp), intent(in) :: change(:)            !! shape (points)
+      real(sp), intent(in) :: contact(:)           !! 1 in contact, 0 outside, shape (points)
+      real(dp), intent(in) :: scale
+      real(dp), intent(inout) :: pressure(:, :)    !! shape (M, N)
+
+      integer :: i, j, r
+
+      !$omp parallel do num_threads(self%threads) private(i, r)
+      do j = 1, size(pressure, 2)
+         do r = self%run(j), self%run(j + 1) - 1
+            do i = self%first(r), self%last(r)
+               associate (k => i + self%offset(r))
+                  pressure(i, j) = merge(max(0.0_dp, pressure(i, j) + scale*change(k)), 0.0_dp, contact(k) > 0.0_sp)
+               end associate
+            end do
+         end do
+      end do
+   end subroutine correct
 
    !> Sets the columns that have points of the region to zero.
    subroutine clear(self, field)

@@ -70,7 +70,8 @@ contains
             all(grid >= plan%trusted)
          if (present(progress)) &
             call progress%grid_solved(grid*merge(2, 1, surface%shape%is_even() .and. grid > 1), &
-                                      answer%state%iterations, answer%state%residual)
+                                      answer%state%iterations, answer%state%local_iterations, &
+                                      answer%state%plain_iterations, answer%state%residual)
          ! A solution that has not converged is no start for a finer grid.
          if (answer%accurate .or. last .or. .not. answer%state%converged) exit
          grid = finer_grid(grid)
@@ -93,16 +94,13 @@ contains
 
       type(compliance_operator) :: half_space
       type(local_stiffness) :: stencil
-      type(grid_transform) :: transform
       real(dp), allocatable :: h(:, :)
       integer :: points(2)
 
       points = shape(answer%state%pressure)
       allocate (h(points(1), points(2)))
+      call sample_undeformed_gap(surface, h)
       call half_space%start(surface, points)
-      call transform%start(points, surface%shape%is_even())
-      call transform%sample(surface%shape, h)
-      h = 1.0_dp - h
       answer%state%pressure = answer%state%pressure*(mean_pressure*size(h)/sum(answer%state%pressure))
       call stencil%start(surface, points)
       call solve_on_grid(half_space, stencil, h, residual, iteration_limit, answer%state)
@@ -111,6 +109,18 @@ contains
       answer%transform_pairs = answer%transform_pairs/2**surface%dimension &
                                + half_space%transform_pairs + half_space%single_pairs
    end subroutine solve_level
+
+   !> h/Delta at the points of a grid.
+   subroutine sample_undeformed_gap(surface, h)
+      type(surface_type), intent(in) :: surface
+      real(dp), intent(out), contiguous :: h(:, :)
+
+      type(grid_transform) :: transform
+
+      call transform%start(shape(h), surface%shape%is_even())
+      call transform%sample(surface%shape, h)
+      h = 1.0_dp - h
+   end subroutine sample_undeformed_gap
 
    !> Mean gap, contact area (C11), (C12) and peak pressure (C13) on the present grid, and their error estimates (C14)
    !> to (C17).

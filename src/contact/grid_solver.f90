@@ -29,6 +29,7 @@ module wavycon_grid_solver
       integer :: corrections = 0                !! steps
       integer :: iterations = 0                 !! of all corrections
       integer :: local_iterations = 0           !! those of them preconditioned by the stencil
+      integer :: plain_iterations = 0           !! those while the extension of the gap paused
       logical :: converged = .false.
    end type grid_state
 
@@ -51,6 +52,7 @@ contains
       state%corrections = 0
       state%iterations = 0
       state%local_iterations = 0
+      state%plain_iterations = 0
       do
          touched = any(state%pressure > 0.0_dp, dim=1)
          call compute_gap(half_space, undeformed_gap, touched, state)
@@ -61,6 +63,8 @@ contains
          if (state%converged .or. state%iterations >= most_iterations) exit
          call find_region(state, inside)
          call correction%start(inside, stencil, state%pressure, state%gap, state%residual)
+         ! The correction needs its memory; the next step computes it anew.
+         deallocate (state%gap)
          call correction%improve(half_space, max(correction_part, correction_margin*allowed/state%residual), &
                                  min(correction_limit, most_iterations - state%iterations))
          call correction%add_to(state%pressure)
@@ -68,6 +72,7 @@ contains
          ! A correction without iterations corrects the approach alone. It counts, so that the number of steps is limited.
          state%iterations = state%iterations + max(1, correction%iterations)
          state%local_iterations = state%local_iterations + correction%local_iterations
+         state%plain_iterations = state%plain_iterations + correction%plain_iterations
       end do
       state%residual = state%residual/max(abs(state%mean_gap), rounding)
    end subroutine solve_on_grid

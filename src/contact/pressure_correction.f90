@@ -26,6 +26,7 @@ module wavycon_pressure_correction
    type :: pressure_correction
       integer :: iterations = 0
       integer :: local_iterations = 0           !! those whose preconditioner was the stencil
+      integer :: plain_iterations = 0           !! those while the extension paused
       real(dp) :: residual = huge(1.0_dp)       !! as `solve_on_grid`'s, times G
       type(contact_region), private :: region
       integer, private :: grid(2) = 0           !! M, N
@@ -73,20 +74,17 @@ contains
       real(dp), intent(in) :: gap(:, :)           !! its gap/Delta, whose mean in contact is zero
       real(dp), intent(in) :: residual            !! root mean square of the violated conditions [Delta]
 
-      real(dp), allocatable :: values(:)
-
       self%scale = residual
       self%grid = shape(inside)
       self%stencil = stencil
       call self%region%start(inside)
       associate (n => self%region%points)
-         allocate (values(n), self%direction(n), self%image(n), self%residuals(n), self%change(n))
-         call self%region%gather(pressure, values)
-         self%start_pressure = real(values/residual, sp)
-         self%contact = merge(1.0_sp, 0.0_sp, values > 0.0_dp)
-         call self%region%gather(gap, values)
-         self%gap = real(values/residual, sp)
+         allocate (self%start_pressure(n), self%gap(n), self%contact(n), self%direction(n), self%image(n), &
+                   self%residuals(n), self%change(n))
       end associate
+      call self%region%gather_scaled(pressure, residual, self%start_pressure)
+      call self%region%gather_scaled(gap, residual, self%gap)
+      self%contact = merge(1.0_sp, 0.0_sp, self%start_pressure > 0.0_sp)
       self%direction = 0.0_sp
       self%residuals = 0.0_sp
       self%change = 0.0_sp
@@ -124,21 +122,10 @@ contains
       class(pressure_correction), intent(in) :: self
       real(dp), intent(inout) :: pressure(:, :)   !! the pressure of `start`; its mean stays
 
-      real(dp), allocatable :: values(:)
       real(dp) :: total
-      integer :: i
 
       total = sum_of_field(pressure)
-      allocate (values(self%region%points))
-      call self%region%gather(pressure, values)
-      do i = 1, size(values)
-         if (self%contact(i) > 0.0_sp) then
-            values(i) = max(0.0_dp, values(i) + self%scale*self%change(i))
-         else
-            values(i) = 0.0_dp
-         end if
-      end do
-      call self%region%scatter(values, pressure)
+      call self%region%correct(self%change, self%contact, self%scale, pressure)
       pressure = pressure*(total/sum_of_field(pressure))
    end subroutine add_to
 
@@ -162,7 +149,7 @@ contains
       class(pressure_correction), intent(inout) :: self
       real(dp), intent(in) :: last_residual
 
-      if (self%extends .and. self%residual > largest_growth*last_residual) then
+      if (self%extends .and. self%residual/largest_growth > last_residual) then
          self%extends = .false.
       else if (.not. self%extends .and. self%changed_points <= settled_part*self%contact_points) then
          self%extends = .true.
@@ -191,6 +178,7 @@ contains
             call self%extension%collect(self%contact_field, self%field)
          else
             call half_space%pressure(self%field, self%region%columns, self%region%columns)
+            self%plain_iterations = self%plain_iterations + 1
          end if
          call self%region%gather(self%field, self%image)
       end if

@@ -50,7 +50,7 @@ module wavycon_contact_tuning
 
    !> The extension pauses when the residual grows by more than this factor from one iteration to the next: it falls to
    !> a tenth where the extension does well.
-   real(dp), parameter, public :: largest_growth = 1.5_dp
+   real(dp), parameter, public :: largest_growth = 2.0_dp
    !> It goes on when at most this part of the contact's points have changed in an iteration.
    real(dp), parameter, public :: settled_part = 0.01_dp
 
