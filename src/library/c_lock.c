@@ -1,5 +1,5 @@
-/* The lock that lets one thread at a time into the library. FFTW's planner needs it, and so does gfortran 12, which
-   keeps the lengths of texts that functions return in static memory. */
+/* The lock that lets one thread at a time into the library: gfortran 12 keeps the lengths of texts that functions return
+   in static memory. */
 #include <pthread.h>
 
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
