@@ -348,6 +348,7 @@ contains
          words = 'a grid of '//integer_text(self%points(1))
          if (self%solved%dimension == 2) words = words//' x '//integer_text(self%points(2))
          words = words//' points'
+         if (self%residual > 0.0_dp) words = words//' to a residual of '//short_number(self%residual)
       else
          words = 'grids refined until mean gap, area and peak pressure are within '//short_number(self%accuracy)
       end if
