@@ -93,14 +93,15 @@ contains
       call transform%sample(waves, values)
       best = maxloc(values)
       surface%crest = [transform%x_angle(best(1)), transform%y_angle(best(2))]
-      surface%amplitude = maxval(values)
+      surface%amplitude = values(best(1), best(2))
       surface%shape = divided(waves, surface%amplitude)
       if (surface%amplitude <= 0.0_dp) return
-      waves = weighted(surface, surface%shape, 1)
+      waves = surface%shape
+      call weigh(surface, waves, 1)
       call transform%sample(waves, values)
       surface%stiffness = -1.0_dp/minval(values)
       surface%full_contact_peak = maxval(values)*surface%stiffness
-      waves = weighted(surface, surface%shape, 2)
+      call weigh(surface, waves, 1)
       call transform%sample(waves, values)
       surface%crest_curvature = maxval(values)
    end function surface_of_points
@@ -185,22 +186,31 @@ contains
       type(fourier_series), intent(in) :: series
       integer, intent(in) :: power
 
-      real(dp) :: weight
+      weighted = series
+      call weigh(surface, weighted, power)
+   end function weighted
+
+   !> Multiplies each term of a series by a power of its frequency; the mean becomes 0.
+   subroutine weigh(surface, series, power)
+      class(surface_type), intent(in) :: surface
+      type(fourier_series), intent(inout) :: series
+      integer, intent(in) :: power
+
+      real(dp) :: weight(0:ubound(series%c, 1))
       integer :: i, j
 
-      weighted = series
       do j = 0, ubound(series%c, 2)
-         do i = 0, ubound(series%c, 1)
-            weight = 0.0_dp
-            if (i + j > 0) weight = surface%frequency(i, j)**power
-            weighted%c(i, j) = weight*weighted%c(i, j)
-            if (series%is_even()) cycle
-            weighted%cs(i, j) = weight*weighted%cs(i, j)
-            weighted%sc(i, j) = weight*weighted%sc(i, j)
-            weighted%ss(i, j) = weight*weighted%ss(i, j)
-         end do
+         weight = surface%frequency([(i, i=0, ubound(series%c, 1))], j)
+         if (j == 0) weight(0) = 1.0_dp
+         weight = weight**power
+         if (j == 0) weight(0) = 0.0_dp
+         series%c(:, j) = weight*series%c(:, j)
+         if (series%is_even()) cycle
+         series%cs(:, j) = weight*series%cs(:, j)
+         series%sc(:, j) = weight*series%sc(:, j)
+         series%ss(:, j) = weight*series%ss(:, j)
       end do
-   end function weighted
+   end subroutine weigh
 
    !> A series divided by a number; unchanged if that is 0.
    type(fourier_series) function divided(series, unit)
