@@ -24,6 +24,9 @@ module stress_kkt_of_grid
       real(dp) :: residual = huge(1.0_dp)      !! root mean square of gaps in contact and overlaps elsewhere [Delta]
       real(dp) :: complementarity = huge(1.0_dp)   !! mean of |pressure times gap| [p* Delta]
       real(dp) :: gap = huge(1.0_dp)           !! largest error of the gaps reported, out of contact [Delta]
+      !> Root mean square of the gap at the points beside the contact, times the square root of the part of all points
+      !> in contact [Delta]: the default tolerance is a part of it.
+      real(dp) :: edge_gap = huge(1.0_dp)
    end type grid_kkt
 
 contains
@@ -34,7 +37,7 @@ contains
       type(grid_solution), intent(in) :: solution   !! with its edge, of a grid that carries all waves of the surface
 
       real(qp), allocatable :: pressure(:, :), gap(:, :)
-      logical, allocatable :: contact(:, :)
+      logical, allocatable :: beside(:, :), contact(:, :)
       real(qp) :: told
       integer :: i, j, m, n
 
@@ -64,6 +67,9 @@ contains
          end do
          kkt%residual = real(sqrt(sum(merge(gap, min(gap, 0.0_qp), contact)**2)/size(gap)), dp)
          kkt%complementarity = real(sum(abs(pressure*gap))/size(gap), dp)
+         beside = .not. contact .and. (cshift(contact, 1, 1) .or. cshift(contact, -1, 1) &
+                                       .or. cshift(contact, 1, 2) .or. cshift(contact, -1, 2))
+         kkt%edge_gap = real(sqrt(sum(gap**2, beside)/max(count(beside), 1)*count(contact)/size(gap)), dp)
          kkt%gap = 0.0_dp
          do j = 1, n
             do i = 1, m
