@@ -24,6 +24,7 @@ module stress_kkt_of_grid
       real(dp) :: residual = huge(1.0_dp)      !! root mean square of gaps in contact and overlaps elsewhere [Delta]
       real(dp) :: complementarity = huge(1.0_dp)   !! mean of |pressure times gap| [p* Delta]
       real(dp) :: gap = huge(1.0_dp)           !! largest error of the gaps reported, out of contact [Delta]
+      real(dp) :: depth = huge(1.0_dp)         !! of the surface's lowest point below its highest [Delta]
       !> Root mean square of the gap at the points beside the contact, times the square root of the part of all points
       !> in contact [Delta]: the default tolerance is a part of it.
       real(dp) :: edge_gap = huge(1.0_dp)
@@ -38,7 +39,7 @@ contains
 
       real(qp), allocatable :: pressure(:, :), gap(:, :)
       logical, allocatable :: beside(:, :), contact(:, :)
-      real(qp) :: told
+      real(qp) :: told, undeformed
       integer :: i, j, m, n
 
       if (.not. allocated(solution%edge)) return
@@ -59,10 +60,12 @@ contains
          kkt%load = relative(sum(pressure)/size(pressure), solution%pbar_over_pstar)
 
          call displace(surface, pressure, gap)
+         kkt%depth = 0.0_dp
          do j = 1, n
             do i = 1, m
-               gap(i, j) = gap(i, j) + undeformed_gap(surface, solution%edge, i, j) &
-                           - (1.0_qp - solution%measures%mean_gap_over_amplitude)
+               undeformed = undeformed_gap(surface, solution%edge, i, j)
+               kkt%depth = max(kkt%depth, real(abs(undeformed), dp))
+               gap(i, j) = gap(i, j) + undeformed - (1.0_qp - solution%measures%mean_gap_over_amplitude)
             end do
          end do
          kkt%residual = real(sqrt(sum(merge(gap, min(gap, 0.0_qp), contact)**2)/size(gap)), dp)

@@ -48,9 +48,9 @@ program stress_scenes
          end associate
       type is (grid_solution)
          of_grid = check_grid(scene%surface, solution)
-         write (*, '(a, "|", es24.16, "|", a, 7("|", es23.15e3), "|", i0)') 'grid', scene%target(i), trim(solution%status), &
-            of_grid%load, of_grid%residual, of_grid%complementarity, of_grid%gap, solution%residual, &
-            solution%measures%mean_gap_over_amplitude, of_grid%edge_gap, solution%iterations
+         write (*, '(a, "|", es24.16, "|", a, 8("|", es23.15e3), "|", i0)') 'grid', scene%target(i), &
+            trim(solution%status), of_grid%load, of_grid%residual, of_grid%complementarity, of_grid%gap, solution%residual, &
+            solution%measures%mean_gap_over_amplitude, of_grid%edge_gap, of_grid%depth, solution%iterations
       class default
          write (*, '(a, "|", es24.16, "|", a)') 'none', scene%target(i), trim(solution%status)
       end select
