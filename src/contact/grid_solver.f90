@@ -18,8 +18,9 @@ module wavycon_grid_solver
 
    public :: grid_state, solve_on_grid
 
-   !> Residuals below this, over Delta, are rounding: gaps are differences of numbers of the order of Delta.
-   real(dp), parameter :: rounding = 32*epsilon(1.0_dp)
+   !> Residuals below the first, over Delta, are rounding. Those below the second are if a step does not halve them: how
+   !> far gaps are rounded depends on the depth of the surface and on its longest wave.
+   real(dp), parameter :: rounding = 32*epsilon(1.0_dp), most_rounding = 1e-12_dp
 
    type :: grid_state
       real(dp), allocatable :: pressure(:, :)   !! p/p*, >= 0, shape (m, n)
@@ -29,7 +30,7 @@ module wavycon_grid_solver
       integer :: corrections = 0                !! steps
       integer :: iterations = 0                 !! of all corrections
       integer :: local_iterations = 0           !! those of them preconditioned by the stencil
-      integer :: plain_iterations = 0           !! those while the extension of the gap paused
+      integer :: plain_iterations = 0           !! those without extension of the gap
       logical :: converged = .false.
    end type grid_state
 
@@ -47,8 +48,9 @@ contains
       type(pressure_correction) :: correction
       logical(c_bool), allocatable :: inside(:, :)
       logical :: touched(size(undeformed_gap, 2))
-      real(dp) :: allowed
+      real(dp) :: allowed, last_residual
 
+      last_residual = huge(1.0_dp)
       state%corrections = 0
       state%iterations = 0
       state%local_iterations = 0
@@ -59,7 +61,9 @@ contains
          allowed = residual*abs(state%mean_gap)
          if (residual <= 0.0_dp) allowed = edge_tolerance*gap_at_edge(state, touched)
          allowed = max(allowed, rounding)
-         state%converged = state%residual <= allowed
+         state%converged = state%residual <= allowed .or. &
+                           (state%residual <= most_rounding .and. 2*state%residual > last_residual)
+         last_residual = state%residual
          if (state%converged .or. state%iterations >= most_iterations) exit
          call find_region(state, inside)
          call correction%start(inside, stencil, state%pressure, state%gap, state%residual)

@@ -22,18 +22,22 @@ module wavycon_pressure_correction
    !> the number of threads.
    integer, parameter :: chunk = 4096
 
+   !> Preconditioners: S^-1 of the gap continued to all points, S^-1 restricted to the contact, none.
+   integer, parameter :: extended = 1, restricted = 2, none = 3
+
    !> All vectors have the shape (region%points) and are over `scale`; pressures are in p*, gaps in Delta.
    type :: pressure_correction
       integer :: iterations = 0
       integer :: local_iterations = 0           !! those whose preconditioner was the stencil
-      integer :: plain_iterations = 0           !! those while the extension paused
+      integer :: plain_iterations = 0           !! those without extension
       real(dp) :: residual = huge(1.0_dp)       !! as `solve_on_grid`'s, times G
       type(contact_region), private :: region
       integer, private :: grid(2) = 0           !! M, N
       real(dp), private :: scale = 1.0_dp       !! the residual at the start
       integer, private :: contact_points = 0
       integer, private :: changed_points = 0    !! that left or entered the contact in the last iteration
-      logical, private :: extends = .true.      !! whether the preconditioner continues the gap outside the contact
+      integer, private :: preconditioner = extended
+      logical, private :: has_resumed = .false. !! whether the preconditioner was `restricted` and is `extended` again
       real(dp), private :: descent = 0.0_dp     !! (gap, z) of the last direction
       real(sp), allocatable, private :: start_pressure(:)
       real(sp), allocatable, private :: change(:)      !! of the pressure since the start
@@ -51,7 +55,7 @@ module wavycon_pressure_correction
       procedure :: improve
       procedure :: add_to
       procedure, private :: shift_gap
-      procedure, private :: select_extension
+      procedure, private :: select_preconditioner
       procedure, private :: precondition
       procedure, private :: set_extension
       procedure, private :: update_direction
@@ -104,7 +108,7 @@ contains
       last_residual = huge(1.0_dp)
       do
          call self%shift_gap()
-         call self%select_extension(last_residual)
+         call self%select_preconditioner(last_residual)
          last_residual = self%residual
          if (self%residual <= part*self%scale .or. self%iterations >= most_iterations) exit
          self%iterations = self%iterations + 1
@@ -142,22 +146,24 @@ contains
       self%residual = self%scale*sqrt(self%product_of(self%image, self%image)/product(real(self%grid, dp)))
    end subroutine shift_gap
 
-   !> Pauses the extension while the contact changes so much that the residual grows: on grids that hardly resolve the
-   !> surface its directions reach so far that the points which then leave the contact undo the step. The search
-   !> restarts when the preconditioner changes.
-   subroutine select_extension(self, last_residual)
+   !> Selects a weaker preconditioner when the residual grows: on grids that hardly resolve the surface the extension
+   !> reaches so far that the points which then leave the contact undo the step. Once in a correction the extension
+   !> resumes when the contact has settled. The search restarts when the preconditioner changes.
+   subroutine select_preconditioner(self, last_residual)
       class(pressure_correction), intent(inout) :: self
       real(dp), intent(in) :: last_residual
 
-      if (self%extends .and. self%residual/largest_growth > last_residual) then
-         self%extends = .false.
-      else if (.not. self%extends .and. self%changed_points <= settled_part*self%contact_points) then
-         self%extends = .true.
+      if (self%preconditioner /= none .and. self%residual/largest_growth > last_residual) then
+         self%preconditioner = merge(restricted, none, self%preconditioner == extended .and. .not. self%has_resumed)
+      else if (self%preconditioner /= extended .and. .not. self%has_resumed .and. &
+               self%changed_points <= settled_part*self%contact_points) then
+         self%preconditioner = extended
+         self%has_resumed = .true.
       else
          return
       end if
       self%descent = 0.0_dp
-   end subroutine select_extension
+   end subroutine select_preconditioner
 
    !> Computes z (C4) of the residual r, in `image`.
    subroutine precondition(self, half_space)
@@ -168,19 +174,22 @@ contains
       if (self%stencil%exists .and. self%contact_points < stencil_fraction*product(real(self%grid, dp))) then
          call self%stencil%apply(self%region, self%grid, self%image)
          self%local_iterations = self%local_iterations + 1
-      else
+      else if (self%preconditioner == extended) then
+         call self%set_extension()
          self%field = 0.0_sp
          call self%region%scatter(self%image, self%field)
-         if (self%extends) then
-            call self%set_extension()
-            call self%extension%extend(self%contact_field, self%field)
-            call half_space%pressure(self%field)
-            call self%extension%collect(self%contact_field, self%field)
-         else
-            call half_space%pressure(self%field, self%region%columns, self%region%columns)
-            self%plain_iterations = self%plain_iterations + 1
-         end if
+         call self%extension%extend(self%contact_field, self%field)
+         call half_space%pressure(self%field)
+         call self%extension%collect(self%contact_field, self%field)
          call self%region%gather(self%field, self%image)
+      else
+         self%plain_iterations = self%plain_iterations + 1
+         if (self%preconditioner == restricted) then
+            call self%region%clear(self%field)
+            call self%region%scatter(self%image, self%field)
+            call half_space%pressure(self%field, self%region%columns, self%region%columns)
+            call self%region%gather(self%field, self%image)
+         end if
       end if
       call self%subtract_mean(self%image)
    end subroutine precondition

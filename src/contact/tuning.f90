@@ -48,10 +48,10 @@ module wavycon_contact_tuning
    real(dp), parameter, public :: decay_alone = 0.65_dp
    real(dp), parameter, public :: decay_growth = 1.2_dp
 
-   !> The extension pauses when the residual grows by more than this factor from one iteration to the next: it falls to
-   !> a tenth where the extension does well.
+   !> A weaker preconditioner follows when the residual grows by more than this factor in an iteration: it falls to a
+   !> tenth where the extension does well.
    real(dp), parameter, public :: largest_growth = 2.0_dp
-   !> It goes on when at most this part of the contact's points have changed in an iteration.
+   !> The extension resumes when at most this part of the contact's points have changed in an iteration.
    real(dp), parameter, public :: settled_part = 0.01_dp
 
    ! Error estimates of the grids.
