@@ -66,7 +66,7 @@ CASES = {
         (LINE, '0.001, 0.01, 0.2, 0.5, 0.9', "solver = 'grid', accuracy = 1e-4", SUMMARY, "solver = 'auto'"),
         (CROSSED, '0.02, 0.1, 0.9', "solver = 'grid', accuracy = 1e-3", SUMMARY, TIGHT),
         (ROUGH, '0.02, 0.2, 0.6', "solver = 'grid', accuracy = 1e-2", SUMMARY, "solver = 'grid', accuracy = 1e-3"),
-        (ROUGH, '0.02, 0.2, 0.6', "solver = 'grid'", SUMMARY, "solver = 'grid', grid_points = 64"),
+        (ROUGH, '0.02, 0.2, 0.6', "solver = 'grid'", SUMMARY, "solver = 'grid', residual = 1e-12"),
         (WAVE, '0.05, 0.5', "solver = 'grid', grid_points = 128", SUMMARY, 'wave_2d'),
     ],
 }
