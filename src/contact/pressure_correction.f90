@@ -318,7 +318,7 @@ contains
    !> Subtracts from a vector its mean in contact, and sets it to zero outside.
    subroutine subtract_mean(self, vector)
       class(pressure_correction), intent(in) :: self
-      real(sp), intent(inout) :: vector(:)
+      real(sp), intent(inout), contiguous :: vector(:)
 
       vector = self%contact*(vector - real(self%product_of(self%contact, vector)/self%contact_points, sp))
    end subroutine subtract_mean
