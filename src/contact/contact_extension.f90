@@ -5,6 +5,7 @@
 !> where they become odd the sequence ends.
 module wavycon_contact_extension
    use wavycon_contact_tuning, only: decay_alone, decay_growth
+   use wavycon_grid_transform, only: image_of_point
    use wavycon_kinds, only: dp, sp
    use wavycon_threads, only: threads_for
    implicit none (type, external)
@@ -179,13 +180,13 @@ contains
          !$omp parallel do num_threads(threads_for(size(fine))) private(column, i, other)
          do j = 1, size(fine, 2)
             if (n < size(fine, 2)) then
-               other = neighbour(self, (j + 1)/2, merge(-1, 1, mod(j, 2) == 1), n)
+               other = image_of_point((j + 1)/2 + merge(-1, 1, mod(j, 2) == 1), n, self%even)
                column(1:m) = a*coarse(:, (j + 1)/2) + b*coarse(:, other)
             else
                column(1:m) = self%decay*coarse(:, j)
             end if
-            column(0) = column(neighbour(self, 1, -1, m))
-            column(m + 1) = column(neighbour(self, m, 1, m))
+            column(0) = column(image_of_point(0, m, self%even))
+            column(m + 1) = column(image_of_point(m + 1, m, self%even))
             do i = 1, m
                fine(2*i - 1, j) = fine(2*i - 1, j) + (1.0_sp - contact(2*i - 1, j)) &
                   *(0.75_sp*column(i) + 0.25_sp*column(i - 1))
@@ -212,7 +213,8 @@ contains
          !$omp parallel do num_threads(threads_for(size(fine))) private(open_part, i, k, columns, parts)
          do j = 1, n
             if (n < size(fine, 2)) then
-               columns = [2*j - 1, 2*j, fine_neighbour(self, j, -1, n), fine_neighbour(self, j, 1, n)]
+               columns = [2*j - 1, 2*j, image_of_point(2*j - 2, 2*n, self%even), &
+                          image_of_point(2*j + 1, 2*n, self%even)]
                parts = [near, near, far, far]
             else
                columns = j
@@ -224,8 +226,8 @@ contains
                   open_part(i) = open_part(i) + parts(k)*(1.0_sp - contact(i, columns(k)))*fine(i, columns(k))
                end do
             end do
-            open_part(0) = open_part(fine_neighbour(self, 1, -1, m))
-            open_part(2*m + 1) = open_part(fine_neighbour(self, m, 1, m))
+            open_part(0) = open_part(image_of_point(0, 2*m, self%even))
+            open_part(2*m + 1) = open_part(image_of_point(2*m + 1, 2*m, self%even))
             do i = 1, m
                coarse(i, j) = 0.75_sp*(open_part(2*i - 1) + open_part(2*i)) &
                   + 0.25_sp*(open_part(2*i - 2) + open_part(2*i + 1))
@@ -233,30 +235,5 @@ contains
          end do
       end associate
    end subroutine adjoint_fill
-
-   !> The neighbour of a point of a coarse grid, continued beyond the borders.
-   pure integer function neighbour(self, i, step, points)
-      type(contact_extension), intent(in) :: self
-      integer, intent(in) :: i        !! 1..points
-      integer, intent(in) :: step     !! -1 or 1
-      integer, intent(in) :: points
-
-      neighbour = i + step
-      if (neighbour >= 1 .and. neighbour <= points) return
-      neighbour = merge(i, points + 1 - i, self%even)
-   end function neighbour
-
-   !> The fine point next to the two of a coarse point. At a mirror it is the nearer of them itself.
-   pure integer function fine_neighbour(self, i, step, points)
-      type(contact_extension), intent(in) :: self
-      integer, intent(in) :: i        !! coarse point, 1..points
-      integer, intent(in) :: step     !! -1 or 1
-      integer, intent(in) :: points   !! coarse points
-
-      fine_neighbour = merge(2*i - 2, 2*i + 1, step < 0)
-      if (fine_neighbour >= 1 .and. fine_neighbour <= 2*points) return
-      if (step < 0) fine_neighbour = merge(1, 2*points, self%even)
-      if (step > 0) fine_neighbour = merge(2*points, 1, self%even)
-   end function fine_neighbour
 
 end module wavycon_contact_extension

@@ -1,5 +1,6 @@
 !> Interpolates a pressure to a grid of half the step, linearly between the points of the coarser grid.
 module wavycon_grid_refinement
+   use wavycon_grid_transform, only: image_of_point
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
@@ -25,7 +26,7 @@ contains
          do k = 1, columns
             part = parts(k, even)
             half_way = coarse(:, j)
-            if (n > 1) half_way = part*coarse(:, j) + (1.0_dp - part)*coarse(:, neighbour(j, k, n, even))
+            if (n > 1) half_way = part*coarse(:, j) + (1.0_dp - part)*coarse(:, image_of_point(j + merge(-1, 1, k == 1), n, even))
             associate (line => fine(:, columns*(j - 1) + k))
                if (.not. any(half_way > 0.0_dp)) then
                   line = 0.0_dp
@@ -33,10 +34,10 @@ contains
                end if
                line(1::2) = parts(1, even)*half_way
                line(3::2) = line(3::2) + (1.0_dp - parts(1, even))*half_way(:m - 1)
-               line(1) = line(1) + (1.0_dp - parts(1, even))*half_way(neighbour(1, 1, m, even))
+               line(1) = line(1) + (1.0_dp - parts(1, even))*half_way(image_of_point(0, m, even))
                line(2::2) = parts(2, even)*half_way
                line(2:2*m - 2:2) = line(2:2*m - 2:2) + (1.0_dp - parts(2, even))*half_way(2:)
-               line(2*m) = line(2*m) + (1.0_dp - parts(2, even))*half_way(neighbour(m, 2, m, even))
+               line(2*m) = line(2*m) + (1.0_dp - parts(2, even))*half_way(image_of_point(m + 1, m, even))
             end associate
          end do
       end do
@@ -51,15 +52,5 @@ contains
       parts = 0.75_dp
       if (.not. even) parts = merge(1.0_dp, 0.5_dp, k == 1)
    end function parts
-
-   !> The second nearest coarse point, continued beyond the borders by mirrors or periodically.
-   pure integer function neighbour(j, k, points, even)
-      integer, intent(in) :: j, k      !! coarse point; 1 or 2, the first or the second of its fine points
-      integer, intent(in) :: points
-      logical, intent(in) :: even
-
-      neighbour = j + merge(-1, 1, k == 1)
-      if (neighbour < 1 .or. neighbour > points) neighbour = merge(j, points + 1 - j, even)
-   end function neighbour
 
 end module wavycon_grid_refinement

@@ -5,6 +5,7 @@ module wavycon_local_stiffness
    use wavycon_constants, only: pi
    use wavycon_contact_region, only: contact_region
    use wavycon_contact_tuning, only: stencil_reach
+   use wavycon_grid_transform, only: image_of_point
    use wavycon_kinds, only: dp, sp
    use wavycon_surface, only: surface_type
    implicit none (type, external)
@@ -78,13 +79,13 @@ contains
          if (.not. allocated(self%field)) allocate (self%field(1 - r:m + r, 1 - r:n + r), source=0.0_sp)
          call region%scatter(vector, self%field(1:m, 1:n))
          do k = 1, r
-            self%field(1 - k, 1:n) = self%field(merge(k, m + 1 - k, self%even), 1:n)
-            self%field(m + k, 1:n) = self%field(merge(m + 1 - k, k, self%even), 1:n)
+            self%field(1 - k, 1:n) = self%field(image_of_point(1 - k, m, self%even), 1:n)
+            self%field(m + k, 1:n) = self%field(image_of_point(m + k, m, self%even), 1:n)
          end do
          if (n > 1) then
             do k = 1, r
-               self%field(:, 1 - k) = self%field(:, merge(k, n + 1 - k, self%even))
-               self%field(:, n + k) = self%field(:, merge(n + 1 - k, k, self%even))
+               self%field(:, 1 - k) = self%field(:, image_of_point(1 - k, n, self%even))
+               self%field(:, n + k) = self%field(:, image_of_point(n + k, n, self%even))
             end do
          end if
          call region%convolve(self%weights, r, self%field, vector)

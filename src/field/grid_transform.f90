@@ -14,7 +14,7 @@ module wavycon_grid_transform
    implicit none (type, external)
    private
 
-   public :: grid_transform, point_angle
+   public :: grid_transform, image_of_point, point_angle
 
    type :: grid_transform
       integer :: points(2) = 0                     !! M, N
@@ -242,6 +242,21 @@ contains
 
       point_angle = merge(pi*(i - 0.5_dp), 2*pi*(i - 1), even)/points
    end function point_angle
+
+   !> The index of the grid's point of which a point of its continuation is the image: by mirrors at the borders of a
+   !> quarter, periodically beyond those of a whole cell.
+   elemental integer function image_of_point(i, points, even) result(image)
+      integer, intent(in) :: i         !! any
+      integer, intent(in) :: points    !! M or N, >= 1
+      logical, intent(in) :: even      !! whether the points are those of a quarter of the cell
+
+      if (even) then
+         image = modulo(i - 1, 2*points)
+         image = min(image, 2*points - 1 - image) + 1
+      else
+         image = modulo(i - 1, points) + 1
+      end if
+   end function image_of_point
 
    subroutine finish(self)
       type(grid_transform), intent(inout) :: self

@@ -7,7 +7,7 @@
 module wavycon_grid_edge
    use wavycon_constants, only: pi
    use wavycon_contact_edge, only: contact_edge, corner_k, corner_l, edge_point
-   use wavycon_grid_transform, only: point_angle
+   use wavycon_grid_transform, only: image_of_point, point_angle
    use wavycon_kinds, only: dp
    use wavycon_line_zeros, only: length_inside
    use wavycon_measure_tuning, only: aligned_slope, edge_offset, gap_weight, turn_area
@@ -108,14 +108,7 @@ contains
       integer, intent(in) :: k           !! any
       integer, intent(in) :: direction   !! 1 or 2
 
-      associate (n => size(self%pressure_or_gap, direction))
-         if (self%even) then
-            place = modulo(k - 1, 2*n)
-            place = min(place, 2*n - 1 - place) + 1
-         else
-            place = modulo(k - 1, n) + 1
-         end if
-      end associate
+      place = image_of_point(k, size(self%pressure_or_gap, direction), self%even)
    end function place
 
    !> Where pressure and weighted gap balance between two points: the edge is `edge_offset` steps further inside.
