@@ -5,7 +5,7 @@ module wavycon_lapack
    private
 
    public :: dgemm, dgemv, dger, drot, dsymv, dsyr, dtrsm, dtrsv, sdot        ! BLAS
-   public :: dgels, dgeqp3, dgglse, dlarfg, dlartg, dorgqr, dpotrf            ! LAPACK
+   public :: dgels, dgeqp3, dgglse, dlarfg, dlartg, dorgqr, dpotrf, dsyev     ! LAPACK
 
    interface
       pure subroutine dgemv(trans, m, n, alpha, a, lda, x, incx, beta, y, incy)
@@ -124,6 +124,15 @@ module wavycon_lapack
          real(dp), intent(out) :: work(*)
          integer, intent(out) :: info
       end subroutine dgels
+
+      pure subroutine dsyev(jobz, uplo, n, a, lda, w, work, lwork, info)
+         import :: dp
+         character, intent(in) :: jobz, uplo
+         integer, intent(in) :: n, lda, lwork
+         real(dp), intent(inout) :: a(lda, *)
+         real(dp), intent(out) :: w(*), work(*)
+         integer, intent(out) :: info
+      end subroutine dsyev
 
       pure subroutine dgglse(m, n, p, a, lda, b, ldb, c, d, x, work, lwork, info)
          import :: dp

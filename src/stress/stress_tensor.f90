@@ -1,0 +1,90 @@
+!> The stress at a point: its components, and the measures of it that decide on yield.
+!>
+!> Stresses are positive in tension. The six components stand in the order xx, yy, zz, xy, xz, yz. They may be in any
+!> unit, and all results are in the same unit. A stress with a component that is not finite has NaN for its
+!> principal stresses and its largest shear.
+module wavycon_stress_tensor
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
+   use wavycon_kinds, only: dp
+   use wavycon_lapack, only: dsyev
+   implicit none (type, external)
+   private
+
+   public :: combined, largest_shear, principal_stresses, stress_pressure, von_mises
+
+   !> Places of the components.
+   integer, parameter, public :: xx = 1, yy = 2, zz = 3, xy = 4, xz = 5, yz = 6
+
+contains
+
+   !> Stress for Poisson's ratio nu, in which the stresses below a given pressure are linear.
+   pure function combined(parts, nu) result(s)
+      real(dp), intent(in) :: parts(6, 2)  !! for nu = 0, and their derivative with respect to nu
+      real(dp), intent(in) :: nu           !! Poisson's ratio [-]
+      real(dp) :: s(6)
+
+      s = parts(:, 1) + nu*parts(:, 2)
+   end function combined
+
+   !> Von Mises stress [(d1^2 + d2^2 + d3^2)/2 + 3 (xy^2 + xz^2 + yz^2)]^(1/2) with the differences d1 = xx - yy,
+   !> d2 = yy - zz, d3 = zz - xx: the yield stress in uniaxial tension.
+   pure real(dp) function von_mises(s)
+      real(dp), intent(in) :: s(6)  !! stress
+
+      von_mises = sqrt(((s(xx) - s(yy))**2 + (s(yy) - s(zz))**2 + (s(zz) - s(xx))**2)/2 &
+         + 3*(s(xy)**2 + s(xz)**2 + s(yz)**2))
+   end function von_mises
+
+   !> Principal stresses s1 >= s2 >= s3, each to rounding of the largest, also where two are equal.
+   pure function principal_stresses(s) result(principal)
+      real(dp), intent(in) :: s(6)  !! stress
+      real(dp) :: principal(3)
+
+      principal = eigenvalues(s)
+   end function principal_stresses
+
+   !> Largest shear stress of all planes, (s1 - s3)/2; Tresca's criterion is that it reaches half of the yield stress.
+   !>
+   !> From the deviator, which is formed of differences: a large pressure does not cost digits.
+   pure real(dp) function largest_shear(s)
+      real(dp), intent(in) :: s(6)  !! stress
+
+      real(dp) :: deviator(6), principal(3)
+
+      deviator(xx) = ((s(xx) - s(yy)) + (s(xx) - s(zz)))/3
+      deviator(yy) = ((s(yy) - s(zz)) + (s(yy) - s(xx)))/3
+      deviator(zz) = ((s(zz) - s(xx)) + (s(zz) - s(yy)))/3
+      deviator(xy:) = s(xy:)
+      principal = eigenvalues(deviator)
+      largest_shear = (principal(1) - principal(3))/2
+   end function largest_shear
+
+   !> Hydrostatic pressure, -(xx + yy + zz)/3.
+   pure real(dp) function stress_pressure(s)
+      real(dp), intent(in) :: s(6)  !! stress
+
+      stress_pressure = -(s(xx) + s(yy) + s(zz))/3
+   end function stress_pressure
+
+   !> Eigenvalues of a symmetric tensor, in descending order; NaN if a component is not finite.
+   !>
+   !> N.B. The formula with arccos loses half of the digits where two eigenvalues are equal, as on every axis of symmetry.
+   pure function eigenvalues(s) result(values)
+      real(dp), intent(in) :: s(6)
+      real(dp) :: values(3)
+
+      real(dp) :: ascending(3), matrix(3, 3), work(8)
+      integer :: info
+
+      values = ieee_value(values, ieee_quiet_nan)
+      if (.not. all(ieee_is_finite(s))) return
+      ! The lower triangle.
+      matrix = 0
+      matrix(:, 1) = s([xx, xy, xz])
+      matrix(2:, 2) = s([yy, yz])
+      matrix(3, 3) = s(zz)
+      call dsyev('N', 'L', 3, matrix, 3, ascending, work, size(work), info)
+      if (info == 0) values = ascending(3:1:-1)
+   end function eigenvalues
+
+end module wavycon_stress_tensor
