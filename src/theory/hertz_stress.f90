@@ -1,0 +1,157 @@
+!> Stresses below a Hertzian contact: on the axis and on the surface of a circular point contact, everywhere below a
+!> line contact, and the largest shear of both.
+!>
+!> K. L. Johnson, Contact Mechanics, Cambridge University Press (1985), sections 3.4 and 4.2. The pressure is
+!> p0 (1 - r^2/a^2)^(1/2), in a line contact p0 (1 - x^2/a^2)^(1/2). Lengths are in a, stresses in p0, positive in
+!> tension; z points into the solid. A stress has the components xx, yy, zz, xy, xz, yz, and is given in two parts:
+!> for nu = 0, and the derivative with respect to Poisson's ratio nu.
+module wavycon_hertz_stress
+   use wavycon_kinds, only: dp
+   implicit none (type, external)
+   private
+
+   public :: hertz_point_axis_stress, hertz_point_surface_stress, hertz_point_largest_shear
+   public :: hertz_line_stress, hertz_line_largest_shear
+
+   !> Places of the components that are not zero.
+   integer, parameter :: xx = 1, yy = 2, zz = 3, xz = 5
+
+contains
+
+   !> On the axis of a point contact, Johnson (3.45): s_zz = -1/(1 + z^2) and
+   !> s_xx = s_yy = -(1 + nu) (1 - z arctan(1/z)) + 1/(2 (1 + z^2)).
+   pure subroutine hertz_point_axis_stress(z, parts)
+      real(dp), intent(in) :: z             !! depth, >= 0 [a]
+      real(dp), intent(out) :: parts(6, 2)  !! stress in two parts [p0]
+
+      real(dp) :: lateral
+
+      lateral = one_less_z_arccot(z)
+      parts = 0
+      parts(xx:yy, 1) = 1/(2*(1 + z**2)) - lateral
+      parts(zz, 1) = -1/(1 + z**2)
+      parts(xx:yy, 2) = -lateral
+   end subroutine hertz_point_axis_stress
+
+   !> On the surface of a point contact, at x = r, y = 0: Johnson (3.42) for r < 1, (3.43) for r >= 1.
+   !>
+   !> With q = (1 - r^2)^(1/2), 0 outside, and g = (1 - q^3)/r^2: s_xx = (1 - 2 nu) g/3 - q,
+   !> s_yy = -(1 - 2 nu) g/3 - 2 nu q, s_zz = -q.
+   pure subroutine hertz_point_surface_stress(r, parts)
+      real(dp), intent(in) :: r             !! distance from the axis, >= 0 [a]
+      real(dp), intent(out) :: parts(6, 2)  !! stress in two parts [p0]
+
+      real(dp) :: g, q
+
+      if (r < 1) then
+         q = sqrt((1 - r)*(1 + r))
+         ! (1 - q^3)/(1 - q^2), without 0/0 on the axis.
+         g = (1 + q + q**2)/(1 + q)
+      else
+         q = 0
+         g = 1/r**2
+      end if
+      parts = 0
+      parts(xx, :) = [g/3 - q, -2*g/3]
+      parts(yy, :) = [-g/3, 2*g/3 - 2*q]
+      parts(zz, 1) = -q
+   end subroutine hertz_point_surface_stress
+
+   !> Largest shear on the axis of a point contact, (s_xx - s_zz)/2, and its depth; 0.31 p0 at 0.48 a for nu = 0.3.
+   !>
+   !> As s_xx = s_yy, the von Mises stress is twice as large and is largest at the same depth. The depth is where the
+   !> slope of s_xx - s_zz is zero. That slope is positive on the surface, and falls and is convex down to the zero:
+   !> Newton's method from the surface approaches it from one side.
+   pure subroutine hertz_point_largest_shear(nu, shear, depth)
+      real(dp), intent(in) :: nu      !! Poisson's ratio, -1 <= nu <= 1/2
+      real(dp), intent(out) :: shear  !! [p0]
+      real(dp), intent(out) :: depth  !! [a]
+
+      real(dp) :: curvature, last, parts(6, 2), slope
+
+      depth = 0
+      do
+         last = depth
+         slope = (1 + nu)*(atan2(1.0_dp, depth) - depth/(1 + depth**2)) - 3*depth/(1 + depth**2)**2
+         curvature = (12*depth**2/(1 + depth**2) - 5 - 2*nu)/(1 + depth**2)**2
+         depth = depth - slope/curvature
+         ! Rounding ends the approach from one side.
+         if (.not. depth > last) exit
+      end do
+      depth = last
+      call hertz_point_axis_stress(depth, parts)
+      shear = (parts(xx, 1) - parts(zz, 1) + nu*parts(xx, 2))/2
+   end subroutine hertz_point_largest_shear
+
+   !> Everywhere below a line contact along y in plane strain, Johnson (4.49).
+   !>
+   !> With (1 - (x + i z)^2)^(1/2) = m - i n, where m >= 0 and n has the sign of x,
+   !>
+   !>     s_zz = -m d,   s_xz = -n d,   d = (m^2 - z^2)/(m^2 + n^2),
+   !>     s_xx = -2 (m - z) - s_zz,   s_yy = -2 nu (m - z).
+   !>
+   !> N.B. m - z is a small difference at depth; it equals (m + z)/[(m + z)^2 + (n + x)^2].
+   pure subroutine hertz_line_stress(x, z, parts)
+      real(dp), intent(in) :: x             !! distance from the plane of symmetry [a]
+      real(dp), intent(in) :: z             !! depth, >= 0 [a]
+      real(dp), intent(out) :: parts(6, 2)  !! stress in two parts [p0]
+
+      real(dp) :: d, m, n
+      real(dp) :: half_trace  !! m - z
+      complex(dp) :: root
+
+      root = sqrt(cmplx((1 - x)*(1 + x) + z**2, -2*x*z, dp))
+      m = root%re
+      n = sign(root%im, x)
+      half_trace = (m + z)/((m + z)**2 + (n + x)**2)
+      ! At the edge of contact m and n are 0, and so are the stresses.
+      d = 0
+      if (abs(root) > 0) d = half_trace*(m + z)/(m**2 + n**2)
+      parts = 0
+      parts(xx, 1) = -2*half_trace + m*d
+      parts(zz, 1) = -m*d
+      parts(xz, 1) = -n*d
+      parts(yy, 2) = -2*half_trace
+   end subroutine hertz_line_stress
+
+   !> Largest shear below a line contact, on the axis at x = 0: 0.30 p0 at 0.78 a.
+   !>
+   !> On the axis (s_xx - s_zz)/2 = z (1 - c) with c = z/(1 + z^2)^(1/2), Johnson (4.46). Its slope is
+   !> 1 - 2 c + c^3 = (c - 1) (c^2 + c - 1): it is zero at the golden ratio, c = (sqrt(5) - 1)/2, where z^2 = c.
+   pure subroutine hertz_line_largest_shear(shear, depth)
+      real(dp), intent(out) :: shear  !! [p0]
+      real(dp), intent(out) :: depth  !! [a]
+
+      real(dp), parameter :: golden_ratio = (sqrt(5.0_dp) - 1)/2
+
+      depth = sqrt(golden_ratio)
+      shear = depth*(1 - golden_ratio)
+   end subroutine hertz_line_largest_shear
+
+   !> 1 - z arctan(1/z) for z >= 0.
+   !>
+   !> Its two terms cancel at depth, where it is about 1/(3 z^2). From z = 1 on by Euler's series of arctan in powers of
+   !> y = 1/(1 + z^2) <= 1/2: the sum of c_(k-1) y^k/(2 k + 1), c_0 = 1, c_k = c_(k-1) 2 k/(2 k + 1).
+   elemental real(dp) function one_less_z_arccot(z) result(total)
+      real(dp), intent(in) :: z
+
+      real(dp) :: power  !! c_(k-1) y^k
+      real(dp) :: term, y
+      integer :: k
+
+      if (z < 1) then
+         total = 1 - z*atan2(1.0_dp, z)
+      else
+         y = 1/(1 + z**2)
+         total = 0
+         power = y
+         do k = 1, digits(y)
+            term = power/(2*k + 1)
+            total = total + term
+            if (term < epsilon(total)*total) exit
+            power = power*y*2*k/(2*k + 1)
+         end do
+      end if
+   end function one_less_z_arccot
+
+end module wavycon_hertz_stress

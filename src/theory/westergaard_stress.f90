@@ -1,0 +1,102 @@
+!> Stresses below the one-dimensional wave in plane strain, in closed form.
+!>
+!> The stress function of Westergaard's pressure, equation (4) of Johnson, Greenwood & Higginson (1985). With
+!> w = (X + i Z)/2, X = 2 pi x/lambda from a crest, Z = 2 pi z/lambda into the solid, and P = pbar/p*,
+!>
+!>     F(w) = 2 P cos w/(R - i sin w),   R = (P - sin^2 w)^(1/2),   Re R >= 0,
+!>
+!> is analytic for Z > 0, tends to P at depth, and its real part on Z = 0 is the pressure (4): H = Re F is the harmonic
+!> continuation of the pressure. Without friction the stresses are (H. M. Westergaard, J. Appl. Mech. 6 (1939) A49-A53)
+!>
+!>     s_zz = -H + z dH/dz,   s_xx = -H - z dH/dz,   s_xz = z dH/dx,   s_yy = nu (s_xx + s_zz) = -2 nu H.
+!>
+!> In full contact F = P + exp(i X - Z). Stresses are in p* = pi E* Delta/lambda, positive in tension.
+module wavycon_westergaard_stress
+   use wavycon_kinds, only: dp
+   implicit none (type, external)
+   private
+
+   public :: westergaard_stress
+
+   !> Places of the components that are not zero.
+   integer, parameter :: xx = 1, yy = 2, zz = 3, xz = 5
+
+contains
+
+   !> Stresses of the pressure less its mean: those of F - P. Without load they are zero.
+   !>
+   !> To them belongs, for the mean, s_zz = -P and the lateral stress that the boundaries of the solid impose.
+   !>
+   !> Errors are of the order of rounding of X, Z and the load, at all loads and depths: F - P and its derivative are
+   !> written so that only terms of one sign are added, each in its real and its imaginary part,
+   !>
+   !>     F - P = P [exp(i w) + (1 - P)/(cos w + R)]/(R - i sin w),
+   !>     dF/d(X + i Z) = i P [R - i (1 - P) sin w]/[R (R - i sin w)^2],
+   !>
+   !> with R^2 = P - sin^2(X/2) + cos X sinh^2(Z/2) - (i/2) sin X sinh Z. Each of the functions of w is multiplied by
+   !> exp(-Z/2), so none overflows.
+   pure subroutine westergaard_stress(x, z, pbar_over_pstar, parts)
+      real(dp), intent(in) :: x                !! 2 pi x/lambda, from a crest [rad]
+      real(dp), intent(in) :: z                !! 2 pi z/lambda, depth, >= 0 [rad]
+      real(dp), intent(in) :: pbar_over_pstar  !! mean pressure [p*]
+      real(dp), intent(out) :: parts(6, 2)
+         !! stresses xx, yy, zz, xy, xz, yz for nu = 0, and their derivatives with respect to nu [p*]
+
+      complex(dp) :: change  !! F - P
+      complex(dp) :: slope   !! Z times the derivative of F with respect to X + i Z
+
+      if (pbar_over_pstar >= 1) then
+         change = exp(-z)*cmplx(cos(x), sin(x), dp)
+         slope = z*(0.0_dp, 1.0_dp)*change
+      else if (pbar_over_pstar > 0) then
+         call partial_contact(x, z, pbar_over_pstar, change, slope)
+      else
+         change = 0
+         slope = 0
+      end if
+
+      parts = 0
+      parts(xx, 1) = -change%re + slope%im
+      parts(zz, 1) = -change%re - slope%im
+      parts(xz, 1) = slope%re
+      parts(yy, 2) = -2*change%re
+   end subroutine westergaard_stress
+
+   !> F - P and Z dF/d(X + i Z) of partial contact, 0 < P < 1.
+   pure subroutine partial_contact(x, z, load, change, slope)
+      real(dp), intent(in) :: x, z, load
+      complex(dp), intent(out) :: change, slope
+
+      real(dp) :: c, s         !! cos and sin of X/2 for the nearest crest
+      real(dp) :: decay        !! exp(-Z)
+      real(dp) :: cosh_z, sinh_z, inside
+      complex(dp) :: cos_w, minus_i_sin_w, root, total
+
+      c = cos(x/2)
+      s = sign(1.0_dp, c)*sin(x/2)
+      c = abs(c)
+      decay = exp(-z)
+      ! exp(-Z/2) times sinh and cosh of Z/2.
+      sinh_z = tanh(z/2)/(1 + tanh(z/2))
+      cosh_z = (1 + decay)/2
+      cos_w = cmplx(c*cosh_z, -s*sinh_z, dp)
+      minus_i_sin_w = cmplx(c*sinh_z, -s*cosh_z, dp)
+
+      ! P - sin^2(X/2), from the smaller numbers.
+      if (load < 0.5_dp) then
+         inside = load - s**2
+      else
+         inside = c**2 - (1 - load)
+      end if
+      root = sqrt(cmplx(decay*inside + (c - s)*(c + s)*sinh_z**2, -2*s*c*cosh_z*sinh_z, dp))
+      ! On the surface the side from which the branch cut is approached is lost: the imaginary part is opposite to s.
+      root = cmplx(root%re, -sign(root%im, s), dp)
+      total = root + minus_i_sin_w
+
+      change = load*decay*(cmplx(c, s, dp) + (1 - load)/(cos_w + root))/total
+      ! At the edge of contact the root is 0; the product tends to 0 there.
+      slope = 0
+      if (abs(root) > 0) slope = (0.0_dp, 1.0_dp)*load*decay*z*((root + (1 - load)*minus_i_sin_w)/root)/total**2
+   end subroutine partial_contact
+
+end module wavycon_westergaard_stress
