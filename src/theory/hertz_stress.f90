@@ -88,30 +88,30 @@ contains
    !> With (1 - (x + i z)^2)^(1/2) = m - i n, where m >= 0 and n has the sign of x,
    !>
    !>     s_zz = -m d,   s_xz = -n d,   d = (m^2 - z^2)/(m^2 + n^2),
-   !>     s_xx = -2 (m - z) - s_zz,   s_yy = -2 nu (m - z).
+   !>     s_xx = -2 h - s_zz,   s_yy = -2 nu h,   h = m - z.
    !>
-   !> N.B. m - z is a small difference at depth; it equals (m + z)/[(m + z)^2 + (n + x)^2].
+   !> N.B. m - z is a small difference at depth. It equals (m + z)/[(m + z)^2 + (n + x)^2].
    pure subroutine hertz_line_stress(x, z, parts)
       real(dp), intent(in) :: x             !! distance from the plane of symmetry [a]
       real(dp), intent(in) :: z             !! depth, >= 0 [a]
       real(dp), intent(out) :: parts(6, 2)  !! stress in two parts [p0]
 
       real(dp) :: d, m, n
-      real(dp) :: half_trace  !! m - z
+      real(dp) :: h  !! m - z, the harmonic continuation of the pressure
       complex(dp) :: root
 
       root = sqrt(cmplx((1 - x)*(1 + x) + z**2, -2*x*z, dp))
       m = root%re
       n = sign(root%im, x)
-      half_trace = (m + z)/((m + z)**2 + (n + x)**2)
+      h = (m + z)/((m + z)**2 + (n + x)**2)
       ! At the edge of contact m and n are 0, and so are the stresses.
       d = 0
-      if (abs(root) > 0) d = half_trace*(m + z)/(m**2 + n**2)
+      if (abs(root) > 0) d = h*(m + z)/(m**2 + n**2)
       parts = 0
-      parts(xx, 1) = -2*half_trace + m*d
+      parts(xx, 1) = -2*h + m*d
       parts(zz, 1) = -m*d
       parts(xz, 1) = -n*d
-      parts(yy, 2) = -2*half_trace
+      parts(yy, 2) = -2*h
    end subroutine hertz_line_stress
 
    !> Largest shear below a line contact, on the axis at x = 0: 0.30 p0 at 0.78 a.
