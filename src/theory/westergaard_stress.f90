@@ -88,9 +88,8 @@ contains
       else
          inside = c**2 - (1 - load)
       end if
+      ! On the surface the imaginary part is a zero with the sign of -s, by which sqrt takes the right side of its cut.
       root = sqrt(cmplx(decay*inside + (c - s)*(c + s)*sinh_z**2, -2*s*c*cosh_z*sinh_z, dp))
-      ! On the surface the side from which the branch cut is approached is lost: the imaginary part is opposite to s.
-      root = cmplx(root%re, -sign(root%im, s), dp)
       total = root + minus_i_sin_w
 
       change = load*decay*(cmplx(c, s, dp) + (1 - load)/(cos_w + root))/total
