@@ -2,6 +2,7 @@
 !> whose coefficients minimise the complementary energy, a quadratic programme. Its minimum is found by Goldfarb & Idnani's
 !> dual method or, as in the paper, by Beale's.
 module wavycon_beale_contact
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use wavycon_beale, only: beale_solver
    use wavycon_complementary_energy, only: energy_problem
    use wavycon_constraint_points, only: choose_points
@@ -23,6 +24,8 @@ module wavycon_beale_contact
    use wavycon_problems, only: problem_list_type
    use wavycon_qp_problem, only: qp_problem, qp_solution, qp_status_name
    use wavycon_series_fields, only: series_fields
+   use wavycon_series_stress, only: series_stress, start_series_stress
+   use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type, turned_paper_wave
    use wavycon_surface_kinds, only: is_paper_kind, paper_waves
    use wavycon_turned_series, only: to_sum_angles
@@ -78,6 +81,7 @@ module wavycon_beale_contact
    contains
       procedure :: fields
       procedure :: edge_curves
+      procedure :: stresses
       procedure :: coefficients
    end type beale_solution
 
@@ -356,6 +360,22 @@ contains
       own%mean_gap = 1.0_dp - self%measures%approach_over_amplitude
       call move_alloc(own, answer)
    end subroutine fields
+
+   !> The error of a truncated series is not estimated.
+   subroutine stresses(self, surface, answer)
+      class(beale_solution), intent(in) :: self
+      type(surface_type), intent(in) :: surface
+      class(stress_fields), allocatable, intent(out) :: answer
+
+      type(fourier_series) :: pressure
+      type(series_stress), allocatable :: own
+
+      call self%coefficients(surface, pressure)
+      allocate (own)
+      call start_series_stress(own, surface, pressure, self%pbar_over_pstar, &
+                               pressure_error=ieee_value(1.0_dp, ieee_quiet_nan), is_sampled=.false.)
+      call move_alloc(own, answer)
+   end subroutine stresses
 
    subroutine coefficients(self, surface, series)
       class(beale_solution), intent(in) :: self

@@ -1,6 +1,7 @@
 !> solver = 'closed_form': Westergaard's solution of the 1-D wave.
 module wavycon_closed_form_contact
    use wavycon_constants, only: pi
+   use wavycon_closed_form_stress, only: closed_form_stress
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_measures, only: contact_measures
    use wavycon_contact_solution, only: contact_solution
@@ -11,6 +12,7 @@ module wavycon_closed_form_contact
    use wavycon_key_table, only: key_type
    use wavycon_kinds, only: dp
    use wavycon_kuznetsov, only: kuznetsov_mean_gap_over_amplitude
+   use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type
    use wavycon_westergaard, only: westergaard_contact_area_fraction, westergaard_displacement_over_amplitude, &
                                   westergaard_gap_over_amplitude, westergaard_peak_pressure_over_pstar, &
@@ -38,6 +40,7 @@ module wavycon_closed_form_contact
    contains
       procedure :: fields
       procedure :: edge_curves
+      procedure :: stresses
    end type closed_form_solution
 
    type, extends(contact_fields) :: closed_form_fields
@@ -166,6 +169,17 @@ contains
       associate (unused => surface); end associate
       call strip_ends([pi*self%measures%contact_area_fraction], .true., curves)
    end subroutine edge_curves
+
+   subroutine stresses(self, surface, answer)
+      class(closed_form_solution), intent(in) :: self
+      type(surface_type), intent(in) :: surface
+      class(stress_fields), allocatable, intent(out) :: answer
+
+      associate (unused => surface); end associate
+      allocate (closed_form_stress :: answer)
+      answer%pbar_over_pstar = self%pbar_over_pstar
+      answer%dimension = 1
+   end subroutine stresses
 
    pure function describe(self) result(words)
       class(closed_form_contact), intent(in) :: self

@@ -3,6 +3,7 @@
 !> Every solver extends `contact_solution`; callers use a solution without regard to its solver. Positions of fields and
 !> edges are the angles X, Y of the surface's cell.
 module wavycon_contact_solution
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use wavycon_contact_details, only: contact_details
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_measures, only: contact_measures, unmeasured
@@ -11,6 +12,8 @@ module wavycon_contact_solution
    use wavycon_edgeless_fields, only: edgeless_fields, start_edgeless_fields
    use wavycon_fourier_series, only: fourier_series
    use wavycon_kinds, only: dp
+   use wavycon_series_stress, only: series_stress, start_series_stress
+   use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
@@ -20,6 +23,9 @@ module wavycon_contact_solution
 
    !> Size of the array that pack_common makes.
    integer, parameter, public :: packed_values = 12
+
+   !> Error of the stresses under a series that is known exactly, over the peak pressure.
+   real(dp), parameter :: rounding = 1e-14_dp
 
    type, abstract :: contact_solution
       real(dp) :: pbar_over_pstar = 0.0_dp    !! P >= 0, the mean pressure over p*
@@ -34,6 +40,7 @@ module wavycon_contact_solution
       procedure :: largest_error
       procedure(fields_of_solution), deferred :: fields
       procedure(edge_of_solution), deferred :: edge_curves
+      procedure(stresses_of_solution), deferred :: stresses
       procedure :: coefficients
       procedure :: details
       procedure :: is_kept
@@ -58,6 +65,14 @@ module wavycon_contact_solution
          type(surface_type), intent(in) :: surface             !! that was solved
          type(edge_curve), allocatable, intent(out) :: curves(:)
       end subroutine edge_of_solution
+
+      !> The stresses below the surface. Not allocated if the solver was started without keep_fields.
+      subroutine stresses_of_solution(self, surface, answer)
+         import :: contact_solution, stress_fields, surface_type
+         class(contact_solution), intent(in) :: self
+         type(surface_type), intent(in) :: surface             !! that was solved
+         class(stress_fields), allocatable, intent(out) :: answer
+      end subroutine stresses_of_solution
    end interface
 
    !> An element of an array of solutions.
@@ -70,6 +85,7 @@ module wavycon_contact_solution
    contains
       procedure :: fields => fields_without_edge
       procedure :: edge_curves => no_curves
+      procedure :: stresses => stresses_of_coefficients
       procedure :: coefficients => uniform_coefficients
    end type solution_without_contact_edge
 
@@ -176,6 +192,24 @@ contains
       call start_edgeless_fields(own, surface, self%pbar_over_pstar, self%status)
       call move_alloc(own, answer)
    end subroutine fields_without_edge
+
+   !> Of full contact to rounding, zero without load, NaN without a solution.
+   subroutine stresses_of_coefficients(self, surface, answer)
+      class(solution_without_contact_edge), intent(in) :: self
+      type(surface_type), intent(in) :: surface
+      class(stress_fields), allocatable, intent(out) :: answer
+
+      type(fourier_series) :: pressure
+      type(series_stress), allocatable :: own
+
+      call self%coefficients(surface, pressure)
+      if (.not. self%is_good()) pressure%c = ieee_value(1.0_dp, ieee_quiet_nan)
+      allocate (own)
+      call start_series_stress(own, surface, pressure, self%pbar_over_pstar, &
+                               pressure_error=rounding*self%measures%peak_pressure_over_pstar, is_sampled=.false.)
+      own%exist = self%is_good()
+      call move_alloc(own, answer)
+   end subroutine stresses_of_coefficients
 
    subroutine uniform_coefficients(self, surface, series)
       class(solution_without_contact_edge), intent(in) :: self

@@ -10,7 +10,9 @@ module wavycon_fitted_solution
    use wavycon_fitted_fields, only: fitted_fields, start_fitted_fields
    use wavycon_fitted_frame, only: fitted_frame
    use wavycon_fitted_map, only: fitted_map, start_fitted_map
+   use wavycon_fitted_stress_fields, only: fitted_stress_fields, start_fitted_stress_fields
    use wavycon_kinds, only: dp
+   use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
@@ -26,6 +28,7 @@ module wavycon_fitted_solution
    contains
       procedure :: fields
       procedure :: edge_curves
+      procedure :: stresses
       procedure :: details
    end type fitted_solution
 
@@ -62,6 +65,20 @@ contains
       call start_fitted_fields(own%fitted, self%lattice, self%answer)
       call move_alloc(own, answer)
    end subroutine fields
+
+   subroutine stresses(self, surface, answer)
+      class(fitted_solution), intent(in) :: self
+      type(surface_type), intent(in) :: surface
+      class(stress_fields), allocatable, intent(out) :: answer
+
+      type(fitted_stress_fields), allocatable :: own
+
+      if (.not. allocated(self%lattice)) return
+      allocate (own)
+      call start_fitted_stress_fields(own, surface, self%frame, self%lattice, self%answer, self%accuracy, &
+                                      self%pbar_over_pstar)
+      call move_alloc(own, answer)
+   end subroutine stresses
 
    subroutine at(self, x, y, pressure, displacement, gap)
       class(fitted_solution_fields), intent(inout) :: self

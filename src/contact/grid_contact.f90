@@ -18,6 +18,8 @@ module wavycon_grid_contact
       start_grid_edge
    use wavycon_grid_fields, only: grid_fields, start_grid_fields
    use wavycon_grid_plan, only: grid_plan, plan_grids
+   use wavycon_fourier_series, only: fourier_series
+   use wavycon_grid_transform, only: grid_transform
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: key_type
    use wavycon_kinds, only: dp
@@ -27,7 +29,10 @@ module wavycon_grid_contact
    use wavycon_qp_problem, only: qp_iteration_limit, qp_status_name
    use wavycon_solver_keys, only: accuracy_key, check_grid_points, grid_points_key, points_of_grid, residual_key, &
                                   set_grid_defaults
+   use wavycon_series_stress, only: series_stress, start_series_stress
+   use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type
+   use wavycon_turned_series, only: to_difference_angles
    implicit none (type, external)
    private
 
@@ -65,6 +70,7 @@ module wavycon_grid_contact
    contains
       procedure :: fields
       procedure :: edge_curves
+      procedure :: stresses
       procedure :: is_kept
       procedure :: pack_kept
       procedure :: unpack_kept
@@ -247,6 +253,30 @@ contains
          end if
       end if
    end subroutine edge_curves
+
+   !> Of the series that interpolates the pressures at the points. Its error is that of the peak pressure and the part of
+   !> the series' last octave.
+   subroutine stresses(self, surface, answer)
+      class(grid_solution), intent(in) :: self
+      type(surface_type), intent(in) :: surface
+      class(stress_fields), allocatable, intent(out) :: answer
+
+      type(fourier_series) :: pressure
+      type(grid_transform) :: transform
+      type(series_stress), allocatable :: own
+      real(dp), allocatable :: values(:, :)
+
+      if (.not. allocated(self%edge)) return
+      values = max(self%edge%pressure_or_gap, 0.0_dp)
+      call transform%start(shape(values), self%edge%even)
+      call transform%series(values, pressure)
+      deallocate (values)
+      if (self%turned) pressure = to_difference_angles(pressure)
+      allocate (own)
+      call start_series_stress(own, surface, pressure, self%pbar_over_pstar, &
+                               pressure_error=self%measures%peak_pressure_error, is_sampled=.true.)
+      call move_alloc(own, answer)
+   end subroutine stresses
 
    !> Solutions on grids are written to checkpoints: they may take minutes, those of other solvers take seconds.
    pure logical function is_kept(self)

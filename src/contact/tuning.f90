@@ -106,6 +106,8 @@ module wavycon_contact_tuning
    real(dp), parameter, public :: flattest = 0.2_dp
    !> Largest slope, likewise. The margin over 5/2 is wide: too steep a secant makes short steps, not wrong ones.
    real(dp), parameter, public :: steepest = 20.0_dp
+   !> Longest step of ln P upwards in the search for first yield: a longer one may pass the first root.
+   real(dp), parameter, public :: longest_rise = 0.7_dp
    !> Grids refined to an accuracy search first with ten times, then a hundred times lower accuracies, down to this.
    !> Less accurate solutions do not help the search: their areas differ too much from the final ones.
    real(dp), parameter, public :: worst_search_accuracy = 1e-2_dp

@@ -8,6 +8,7 @@ module wavycon_deck
    use wavycon_method_group, only: method_table
    use wavycon_output_group, only: output_table
    use wavycon_scene_group, only: scene_table
+   use wavycon_stress_group, only: stress_table
    use wavycon_surface, only: surface_type
    use wavycon_surface_group, only: surface_table
    implicit none (type, external)
@@ -17,11 +18,11 @@ module wavycon_deck
 
    !> The groups of a deck, in the order in which they are documented and written.
    integer, parameter, public :: scene_number = 1, material_number = 2, surface_number = 3, load_number = 4, &
-      method_number = 5, output_number = 6, number_of_groups = 6
+      stress_number = 5, method_number = 6, output_number = 7, number_of_groups = 7
 
    type :: deck_type
       character(:), allocatable :: path            !! the deck's file, as the caller named it
-      type(group_values) :: scene, material, surface_values, load, method, output
+      type(group_values) :: scene, material, surface_values, load, stress, method, output
       type(surface_type), allocatable :: surface   !! `make_scene` moves it into the scene
       type(map_statistics), allocatable :: map     !! allocated for a height map; `make_scene` moves it too
    end type deck_type
@@ -36,6 +37,7 @@ contains
       tables(material_number) = material_table()
       tables(surface_number) = surface_table()
       tables(load_number) = load_table()
+      tables(stress_number) = stress_table()
       tables(method_number) = method_table()
       tables(output_number) = output_table()
    end function deck_tables

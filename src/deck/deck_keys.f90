@@ -21,7 +21,7 @@ module wavycon_deck_keys
 
 contains
 
-   !> Lists the keys of &material, &surface, &load and &method that have an effect. Left out are lists of loads: a table
+   !> Lists the keys of &material, &surface, &load, &stress and &method that have an effect. Left out are lists of loads: a table
    !> has a row for each.
    subroutine list_keys(deck, keys)
       type(deck_type), intent(in) :: deck   !! without problems
@@ -31,11 +31,13 @@ contains
       integer :: i, number
 
       allocate (room(size(deck%material%table%keys) + size(deck%surface_values%table%keys) + &
-                     size(deck%load%table%keys) + size(deck%method%table%keys)))
+                     size(deck%load%table%keys) + size(deck%stress%table%keys) + &
+                     size(deck%method%table%keys)))
       number = 0
       call add_group(deck%material)
       call add_group(deck%surface_values)
       call add_group(deck%load)
+      if (deck%stress%place > 0) call add_group(deck%stress)
       call add_group(deck%method)
       allocate (keys(number))
       do i = 1, number

@@ -1,11 +1,11 @@
-!> The &load group: the loads to solve for, by mean pressure, mean gap or contact area.
+!> The &load group: the loads to solve for, by mean pressure, mean gap, contact area or stress.
 module wavycon_load_group
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: integer_key, key_group, key_group_type, real_key
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: short_number
    use wavycon_problems, only: problem_list_type
-   use wavycon_scene, only: by_contact_area, by_mean_gap, by_pressure
+   use wavycon_scene, only: by_contact_area, by_mean_gap, by_pressure, by_yield
    implicit none (type, external)
    private
 
@@ -18,11 +18,11 @@ module wavycon_load_group
 
    character(11), parameter :: sweep_keys(*) = ['sweep_from ', 'sweep_to   ', 'sweep_steps']
    character(*), parameter :: forms = &
-      'pbar_over_pstar, mean_pressure, mean_gap_over_amplitude, mean_gap or contact_area_fraction, or '// &
+      'pbar_over_pstar, mean_pressure, mean_gap_over_amplitude, mean_gap, contact_area_fraction or yield, or '// &
       'sweep_from, sweep_to and sweep_steps'
    character(23), parameter :: lists(*) = [character(23) :: 'pbar_over_pstar', 'mean_pressure', &
-                                           'mean_gap_over_amplitude', 'mean_gap', 'contact_area_fraction']
-   integer, parameter :: list_is(*) = [by_pressure, by_pressure, by_mean_gap, by_mean_gap, by_contact_area]
+                                           'mean_gap_over_amplitude', 'mean_gap', 'contact_area_fraction', 'yield']
+   integer, parameter :: list_is(*) = [by_pressure, by_pressure, by_mean_gap, by_mean_gap, by_contact_area, by_yield]
 
 contains
 
@@ -45,6 +45,10 @@ contains
          real_key('contact_area_fraction', '', '-', &
             'Fractions of the nominal area in contact; the program finds their loads.', &
             least=0.0_dp, most=1.0_dp, most_values=most_loads), &
+         real_key('yield', '', '-', &
+            'Largest equivalent stresses in the bodies over the yield stress of &stress; the program finds the least '// &
+            'loads that reach them. 1 is first yield.', &
+            above=0.0_dp, most_values=most_loads), &
          real_key('sweep_from', '', '-', 'First mean pressure over p* of a sweep in equal steps.', &
             least=0.0_dp, most=largest_pbar_over_pstar), &
          real_key('sweep_to', '', '-', 'Last mean pressure over p* of the sweep, above or below the first.', &
@@ -95,7 +99,7 @@ contains
       worst = maxval(loads)
       if (p_star <= 0.0_dp) then
          if (loads_by /= by_pressure) call values%complain(problems, key, &
-            'the surface is flat: give its loads by pressure, not by gap or area')
+            'the surface is flat: give its loads by pressure')
       else if (key == 'mean_pressure' .and. worst > largest_pbar_over_pstar*p_star) then
          call values%complain(problems, key, 'mean_pressure = '//short_number(worst)//' is more than '// &
             short_number(largest_pbar_over_pstar)//' times p* = '//short_number(p_star)// &
@@ -122,7 +126,7 @@ contains
    pure subroutine given_loads(values, key, loads_by, loads)
       type(group_values), intent(in) :: values              !! of a &load group without problems
       character(:), allocatable, intent(out) :: key         !! the key that gives them; pbar_over_pstar for a sweep
-      integer, intent(out) :: loads_by                      !! by_pressure, by_mean_gap or by_contact_area
+      integer, intent(out) :: loads_by                      !! a name of wavycon_scene
       real(dp), allocatable, intent(out) :: loads(:)        !! [unit of the key]
 
       integer :: k

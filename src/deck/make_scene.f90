@@ -8,6 +8,7 @@ module wavycon_make_scene
    use wavycon_material_group, only: plane_strain_modulus
    use wavycon_resolved_deck, only: resolved_deck_text
    use wavycon_scene, only: scene_type
+   use wavycon_stress_group, only: make_stress_setting
    implicit none (type, external)
    private
 
@@ -30,6 +31,8 @@ contains
       scene%p_star = scene%surface%full_contact_pressure(scene%e_star)
       call take_loads(deck%load, scene%surface%amplitude, scene%p_star, scene%loads_by, scene%target, &
                       scene%mean_pressure)
+      call make_stress_setting(deck%stress, deck%material, scene%p_star, scene%stress_setting)
+      scene%stress = deck%stress
       scene%deck_path = deck%path
       scene%title = deck%scene%text('title')
       scene%case = deck%scene%text('case')
@@ -54,8 +57,8 @@ contains
       type(group_values), intent(in) :: values                   !! after check_loads_of_surface, no problems
       real(dp), intent(in) :: amplitude                          !! Delta [length]
       real(dp), intent(in) :: p_star                             !! p* [pressure]; 0: the surface is flat
-      integer, intent(out) :: loads_by                           !! by_pressure, by_mean_gap or by_contact_area
-      real(dp), allocatable, intent(out) :: target(:)            !! P, G or the contact area fraction
+      integer, intent(out) :: loads_by                           !! a name of wavycon_scene
+      real(dp), allocatable, intent(out) :: target(:)            !! as of scene_type
       real(dp), allocatable, intent(out) :: mean_pressure(:)     !! [pressure]; allocated for by_pressure
 
       character(:), allocatable :: key

@@ -36,7 +36,7 @@ contains
       call all_tables(tables)
       allocate (rows(0))
       do i = 1, size(tables)
-         if (tables(i)%table%key() == '') cycle
+         if (tables(i)%table%key() == '' .or. tables(i)%table%group() /= 'output') cycle
          rows = [rows, logical_key(tables(i)%table%key(), '.false.', tables(i)%table%meaning())]
       end do
       table = key_group('output', 'which files are written, and where', [ &
@@ -80,7 +80,7 @@ contains
          if (solvers(k)%solver%name() /= method%text('solver')) cycle
          do i = 1, size(tables)
             key = tables(i)%table%key()
-            if (key == '') cycle
+            if (key == '' .or. tables(i)%table%group() /= 'output') cycle
             if (.not. values%logical(key)) cycle
             refusal = tables(i)%table%refusal(solvers(k)%solver, surface)
             if (refusal /= '') call values%complain(problems, key, key//' cannot be written: '//refusal)

@@ -5,7 +5,7 @@
 !> NAMELIST.
 module wavycon_read_deck
    use wavycon_deck, only: deck_tables, deck_type, load_number, material_number, method_number, &
-      number_of_groups, output_number, scene_number, surface_number
+      number_of_groups, output_number, scene_number, stress_number, surface_number
    use wavycon_deck_groups, only: take_groups
    use wavycon_deck_scanner, only: scan_deck, scan_type
    use wavycon_deck_text, only: deck_text_type, read_deck_text
@@ -20,6 +20,7 @@ module wavycon_read_deck
    use wavycon_problems, only: problem_list_type
    use wavycon_scene_group, only: check_scene_group
    use wavycon_settings, only: add_settings, name_case, setting_type
+   use wavycon_stress_group, only: check_stress_group
    use wavycon_surface_group, only: check_surface_group, make_surface
    implicit none (type, external)
    private
@@ -70,6 +71,7 @@ contains
       deck%material = groups(material_number)
       deck%surface_values = groups(surface_number)
       deck%load = groups(load_number)
+      deck%stress = groups(stress_number)
       deck%method = groups(method_number)
       deck%output = groups(output_number)
 
@@ -77,6 +79,7 @@ contains
       if (present(settings)) call name_case(deck%scene, settings, problems)
       call read_surface(deck, problems, error)
       call check_material_and_loads(deck, problems)
+      call check_stress_group(deck%stress, deck%material, deck%load, problems)
       call check_method_group(deck%method, deck%surface_values%text('kind'), deck%surface, problems)
       call check_output_group(deck%output, deck%scene%text('case'), deck%method, deck%surface, problems)
       ! Problems of the deck are reported rather than an error of its height map: the path of the map may be one of

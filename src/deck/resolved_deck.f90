@@ -19,7 +19,10 @@ contains
 
       text = '! '//escaped(deck%path)//' with the value in effect of every key that applies.'
       text = text//group_text(deck%scene)//group_text(deck%material)//group_text(deck%surface_values)// &
-         group_text(deck%load)//group_text(deck%method)//group_text(deck%output)
+         group_text(deck%load)
+      ! The group itself asks for stresses.
+      if (deck%stress%place > 0) text = text//group_text(deck%stress)
+      text = text//group_text(deck%method)//group_text(deck%output)
    end function resolved_deck_text
 
    !> A group, each line with a newline before it.

@@ -14,6 +14,7 @@ module wavycon_settings
    use wavycon_scene_group, only: longest_name, name_letters
    use wavycon_solver_keys, only: is_another_grid => is_another_way
    use wavycon_solver_list, only: get_solvers, keys_of_solvers, solver_item
+   use wavycon_stress_group, only: is_another_depth => is_another_way
    use wavycon_surface_kinds, only: get_surface_kinds, keys_of_kinds, surface_kind_item
    implicit none (type, external)
    private
@@ -136,8 +137,8 @@ contains
       if (scan(value, quotes) /= 1) value = quoted(value)
    end function deck_value
 
-   !> Whether a setting takes the place of a key of the same group: of itself; of other ways to give the loads or the
-   !> stiffness; of accuracy or grid_points; of the keys that another kind of surface or another solver has.
+   !> Whether a setting takes the place of a key of the same group: of itself; of other ways to give the loads, the
+   !> stiffness or the depths; of accuracy or grid_points; of the keys that another kind of surface or another solver has.
    logical function replaces(setting, key)
       type(setting_type), intent(in) :: setting
       character(*), intent(in) :: key
@@ -163,6 +164,8 @@ contains
             replaces = is_another_load(setting%key, key)
          case ('material')
             replaces = is_another_stiffness(setting%key, key)
+         case ('stress')
+            replaces = is_another_depth(setting%key, key)
          case ('method')
             replaces = is_another_grid(setting%key, key)
          end select

@@ -8,7 +8,7 @@ module wavycon_turned_series
    implicit none (type, external)
    private
 
-   public :: to_sum_angles
+   public :: to_difference_angles, to_sum_angles
 
 contains
 
@@ -31,5 +31,22 @@ contains
          end do
       end do
    end function to_sum_angles
+
+   !> The inverse: from X and Y to phi and theta. The terms (i, j) and (j, i) become terms (i + j, |i - j|) and
+   !> (|i - j|, i + j).
+   pure type(fourier_series) function to_difference_angles(series) result(turned)
+      type(fourier_series), intent(in) :: series   !! in X and Y; does not change when these are exchanged
+
+      integer :: i, j, last
+
+      last = sum(ubound(series%c))
+      allocate (turned%c(0:last, 0:last), source=0.0_dp)
+      do j = 0, ubound(series%c, 2)
+         do i = 0, ubound(series%c, 1)
+            turned%c(i + j, abs(i - j)) = turned%c(i + j, abs(i - j)) + 0.5_dp*series%c(i, j)
+            turned%c(abs(i - j), i + j) = turned%c(abs(i - j), i + j) + 0.5_dp*series%c(i, j)
+         end do
+      end do
+   end function to_difference_angles
 
 end module wavycon_turned_series

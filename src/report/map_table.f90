@@ -16,7 +16,7 @@ module wavycon_map_table
    implicit none (type, external)
    private
 
-   public :: map_table
+   public :: is_text, map_offset, map_points, map_table
 
    !> A map of more points than the square of this is written in numpy's format, unless the deck says otherwise.
    integer, parameter, public :: text_side = 257
@@ -149,7 +149,7 @@ contains
             end do
             if (as_text) then
                if (l > 1) call file%put('')
-               call file%put_rows(load, rows)
+               call file%put_rows([load], rows)
             else
                call file%put_raw(rows)
             end if

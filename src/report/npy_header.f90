@@ -1,6 +1,6 @@
 !> The header of numpy's file format, version 1.0, for arrays of records of double precision numbers.
 !>
-!> The format is defined in numpy's documentation, numpy.lib.format. The header always has the same length, so that
+!> The format is defined in numpy's documentation, numpy.lib.format. The header has the same length for all maps of a kind, so that
 !> readers that do not know the format skip it.
 module wavycon_npy_header
    use, intrinsic :: iso_fortran_env, only: int8
@@ -10,8 +10,8 @@ module wavycon_npy_header
 
    public :: npy_header
 
-   !> Bytes of the header, a multiple of 64.
-   integer, parameter, public :: npy_header_length = 256
+   !> The header is a multiple of so many bytes. Readers that do not know the format skip it.
+   integer, parameter, public :: npy_header_step = 256
 
 contains
 
@@ -19,12 +19,13 @@ contains
    pure function npy_header(names, numbers) result(header)
       character(*), intent(in) :: names(:)   !! of the fields of a record; short enough for the header
       integer, intent(in) :: numbers(:)      !! of records along each index
-      character(npy_header_length) :: header
+      character(:), allocatable :: header
 
-      !> Two bytes for the version and two for the length of the rest, below 256, the lower one first.
-      character(*), parameter :: magic = char(147)//'NUMPY'//char(1)//char(0)//char(npy_header_length - 10)//char(0)
+      !> Followed by two bytes for the length of the rest, the lower one first.
+      character(*), parameter :: magic = char(147)//'NUMPY'//char(1)//char(0)
+      integer, parameter :: before_words = len(magic) + 2
       character(:), allocatable :: words
-      integer :: i
+      integer :: i, length
 
       words = "{'descr': ["
       do i = 1, size(names)
@@ -34,8 +35,10 @@ contains
       do i = 1, size(numbers)
          words = words//integer_text(numbers(i))//', '
       end do
-      header = magic//words//'), }'
-      header(npy_header_length:) = newline
+      words = words//'), }'
+      length = npy_header_step*((before_words + len(words) + npy_header_step)/npy_header_step)
+      header = magic//char(modulo(length - before_words, 256))//char((length - before_words)/256)//words
+      header = header//repeat(' ', length - len(header) - 1)//newline
    end function npy_header
 
    !> '<' where the lowest byte of a number is the first, '>' elsewhere.

@@ -234,22 +234,27 @@ contains
       self%columns_filled = 0
    end subroutine end_row
 
-   !> Writes many rows of one integer and of numbers: the same as `add` and `end_row` for each, in a third of the time.
-   subroutine put_rows(self, number, values)
+   !> Writes many rows of integers and of numbers: the same as `add` and `end_row` for each, in a third of the time.
+   subroutine put_rows(self, integers, values)
       class(output_file), intent(inout) :: self
-      integer, intent(in) :: number          !! of the first column
-      real(dp), intent(in) :: values(:, :)   !! of the others, shape (columns - 1, rows)
+      integer, intent(in) :: integers(:)     !! of the first columns, the same in each row
+      real(dp), intent(in) :: values(:, :)   !! of the others, shape (other columns, rows)
 
       character(200) :: message
-      character(:), allocatable :: row_format
+      character(:), allocatable :: row_format, width
       integer :: i, status
 
       if (allocated(self%trouble)) return
       row_format = '(i'//integer_text(self%column_end(1))
       do i = 2, size(self%column_end)
-         row_format = row_format//', es'//integer_text(self%column_end(i) - self%column_end(i - 1))//real_digits
+         width = integer_text(self%column_end(i) - self%column_end(i - 1))
+         if (i <= size(integers)) then
+            row_format = row_format//', i'//width
+         else
+            row_format = row_format//', es'//width//real_digits
+         end if
       end do
-      write (self%unit, row_format//')', iostat=status, iomsg=message) (number, values(:, i), i=1, size(values, 2))
+      write (self%unit, row_format//')', iostat=status, iomsg=message) (integers, values(:, i), i=1, size(values, 2))
       if (status /= 0) call self%note_trouble(message)
    end subroutine put_rows
 

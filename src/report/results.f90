@@ -5,6 +5,7 @@ module wavycon_results
    use wavycon_contact_solution, only: contact_solution_item
    use wavycon_contact_solver, only: contact_solver
    use wavycon_kinds, only: dp
+   use wavycon_largest_stress, only: largest_stress
    use wavycon_output_file, only: output_file
    use wavycon_plain_text, only: escaped, exact_number, integer_text
    use wavycon_scene, only: scene_type
@@ -21,6 +22,8 @@ module wavycon_results
       type(scene_type), allocatable :: scene
       class(contact_solver), allocatable :: solver
       type(contact_solution_item), allocatable :: loads(:)   !! in the deck's order
+      !> The largest von Mises and shear stresses, shape (bodies, loads); not allocated unless the deck asks for them.
+      type(largest_stress), allocatable :: von_mises(:, :), shear(:, :)
    contains
       procedure :: open_table
       procedure :: begin_block

@@ -7,6 +7,7 @@ module wavycon_run_log
    use wavycon_plain_text, only: escaped, integer_text, short_number
    use wavycon_results, only: results_type
    use wavycon_scene, only: target_words
+   use wavycon_stress_lines, only: heading_of_stresses, line_of_stress
    use wavycon_surface, only: surface_type
    use wavycon_solver_progress, only: solver_progress
    use wavycon_system, only: stdout_is_terminal
@@ -33,6 +34,8 @@ module wavycon_run_log
       procedure :: show_scene
       procedure :: show_progress
       procedure :: show_loads
+      procedure :: show_stress_progress
+      procedure :: show_stresses
    end type run_log
 
    !> Shows the grids of a load as progress lines.
@@ -206,6 +209,30 @@ contains
          call self%say(line_of_load(results, i))
       end do
    end subroutine show_loads
+
+   !> Shows of how many loads the stresses are found.
+   subroutine show_stress_progress(self, done, all)
+      class(run_log), intent(inout) :: self
+      integer, intent(in) :: done, all   !! number of loads done; number of all loads
+
+      call put_progress(self, 'stresses of '//integer_text(done)//' of '//integer_text(all)//' loads')
+   end subroutine show_stress_progress
+
+   !> Writes the largest stresses, with a line for each load and body.
+   subroutine show_stresses(self, results)
+      class(run_log), intent(inout) :: self
+      type(results_type), intent(in) :: results   !! with the largest stresses
+
+      integer :: body, load
+
+      if (self%quiet) return
+      call self%say(heading_of_stresses(results))
+      do load = 1, size(results%loads)
+         do body = 1, size(results%von_mises, 1)
+            call self%say(line_of_stress(results, load, body))
+         end do
+      end do
+   end subroutine show_stresses
 
    !> Overwrites the progress line with blanks.
    subroutine clear_progress(self)

@@ -1,6 +1,7 @@
 !> The lines along which the tables of lines show the fields.
 !>
-!> Line 1 runs from a crest along x; in 2-D line 2 runs from the same crest along the diagonal of the cell. Lines end
+!> Line 1 runs from a crest along x; in 2-D line 2 runs from the same crest along the diagonal of the cell, and line 3,
+!> which only sections of stresses use, along y. Lines end
 !> after half a cell if the surface has a mirror line there, otherwise after a whole cell.
 module wavycon_surface_lines
    use wavycon_constants, only: pi
@@ -12,6 +13,7 @@ module wavycon_surface_lines
    public :: surface_line, start_surface_line
 
    type :: surface_line
+      integer :: direction(2) = 0             !! of the line in X, Y
       real(dp), allocatable :: angle(:, :)    !! X, Y of each point, shape (2, n) [rad]
       real(dp), allocatable :: place(:, :)    !! x, y of each point, shape (2, n) [length]
       real(dp), allocatable :: distance(:)    !! from the first point, shape (n) [length]
@@ -22,13 +24,14 @@ contains
    subroutine start_surface_line(line, results, number)
       type(surface_line), intent(out) :: line
       type(results_type), intent(in) :: results
-      integer, intent(in) :: number             !! of the line: 1, or 2 in 2-D
+      integer, intent(in) :: number             !! of the line: 1, or in 2-D 2 or 3
 
       real(dp) :: way(2)
       integer :: intervals, k
 
       intervals = results%scene%output%integer('line_points')
-      way = 2*pi*[1, merge(1, 0, number == 2)]/intervals
+      line%direction = [merge(0, 1, number == 3), merge(0, 1, number == 1)]
+      way = 2*pi*line%direction/intervals
       associate (surface => results%scene%surface)
          if (surface%shape%is_even() .and. all(abs(surface%crest) <= 0.0_dp)) intervals = intervals/2
          allocate (line%angle(2, 0:intervals), line%place(2, 0:intervals), line%distance(0:intervals))

@@ -2,8 +2,8 @@
 module wavycon_table
    use wavycon_contact_solver, only: contact_solver
    use wavycon_error, only: error_type
-   use wavycon_group_values, only: group_values
    use wavycon_results, only: results_type
+   use wavycon_scene, only: scene_type
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
@@ -15,6 +15,7 @@ module wavycon_table
    contains
       procedure(words_of_table), deferred, nopass :: key
       procedure(words_of_table), deferred, nopass :: meaning
+      procedure, nopass :: group => output_group
       procedure :: is_requested
       procedure :: refusal
       procedure :: needs_fields
@@ -23,7 +24,7 @@ module wavycon_table
    end type table_type
 
    abstract interface
-      !> `key`: the logical key of &output that requests the table; empty if it has none.
+      !> `key`: the logical key of its group that requests the table; empty if it has none.
       !> `meaning`: one sentence for the key reference.
       pure function words_of_table() result(words)
          character(:), allocatable :: words
@@ -39,13 +40,26 @@ module wavycon_table
 
 contains
 
-   !> Whether the table is written. Here it is if its key is .true. and, without a key, always.
-   logical function is_requested(self, output)
-      class(table_type), intent(in) :: self
-      type(group_values), intent(in) :: output   !! of &output
+   !> The group that has the key: 'output' or 'stress'. Here it is 'output'.
+   pure function output_group() result(words)
+      character(:), allocatable :: words
 
-      is_requested = self%key() == ''
-      if (.not. is_requested) is_requested = output%logical(self%key())
+      words = 'output'
+   end function output_group
+
+   !> Whether the table is written. Here it is if its key is .true. and, without a key, always; never if the deck does not
+   !> have its group &stress.
+   logical function is_requested(self, scene)
+      class(table_type), intent(in) :: self
+      type(scene_type), intent(in) :: scene
+
+      if (self%group() == 'stress') then
+         is_requested = allocated(scene%stress_setting)
+         if (is_requested) is_requested = scene%stress%logical(self%key())
+      else
+         is_requested = self%key() == ''
+         if (.not. is_requested) is_requested = scene%output%logical(self%key())
+      end if
    end function is_requested
 
    !> `refusal`: why the table cannot be written for a solver and a surface, as a sentence for a message; empty if it

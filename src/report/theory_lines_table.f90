@@ -7,13 +7,13 @@ module wavycon_theory_lines_table
    use wavycon_constants, only: pi
    use wavycon_dundurs, only: dundurs_coefficients, dundurs_pressure_over_pstar
    use wavycon_error, only: error_type
-   use wavycon_group_values, only: group_values
    use wavycon_hertz_point, only: hertz_point_pressure_over_pstar
    use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
    use wavycon_penny_crack, only: penny_crack_opening_over_amplitude, penny_crack_pressure_over_pstar, &
                                   penny_crack_radius_over_wavelength
    use wavycon_results, only: not_a_number, results_type
+   use wavycon_scene, only: scene_type
    use wavycon_surface_lines, only: start_surface_line, surface_line
    use wavycon_table, only: table_type
    use wavycon_westergaard, only: westergaard_displacement_over_amplitude, westergaard_gap_over_amplitude, &
@@ -54,12 +54,12 @@ contains
       words = 'Closed forms along lines.'
    end function meaning
 
-   logical function is_requested(self, output)
+   logical function is_requested(self, scene)
       class(theory_lines_table), intent(in) :: self
-      type(group_values), intent(in) :: output
+      type(scene_type), intent(in) :: scene
 
       associate (unused => self); end associate
-      is_requested = output%logical('lines') .and. output%logical('theory')
+      is_requested = scene%output%logical('lines') .and. scene%output%logical('theory')
    end function is_requested
 
    !> Errors: exit_file_trouble.

@@ -3,12 +3,13 @@ module wavycon_run_scene
    use wavycon_checkpoint, only: checkpoint_file, checkpoint_name, read_checkpoint
    use wavycon_contact_status, only: converged
    use wavycon_error, only: error_type, exit_file_trouble, exit_fine, exit_not_converged, fatal_error
+   use wavycon_find_stresses, only: find_stresses
    use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
    use wavycon_plain_text, only: escaped, integer_text
    use wavycon_results, only: results_type
    use wavycon_run_log, only: run_log
-   use wavycon_scene, only: scene_type
+   use wavycon_scene, only: by_yield, scene_type
    use wavycon_solve_loads, only: solve_loads
    use wavycon_solver_list, only: start_solver
    use wavycon_system, only: make_directories
@@ -49,12 +50,25 @@ contains
                                                        escaped(checkpoint_name(results))//', to resume from')
       call log%say_timed('solved and measured')
       call log%show_loads(results)
+      if (asks_for_largest(results%scene)) then
+         call find_stresses(results, log)
+         call log%say_timed('largest stresses found')
+         call log%show_stresses(results)
+      end if
       call write_tables(results, tables, error)
       if (allocated(error)) return
       call checkpoint%remove()
       call log%say_timed('tables written')
       call sum_up(results, log, status)
    end subroutine run_scene
+
+   !> Whether the deck asks for the largest stresses.
+   logical function asks_for_largest(scene)
+      type(scene_type), intent(in) :: scene
+
+      asks_for_largest = allocated(scene%stress_setting) .and. scene%p_star > 0.0_dp
+      if (asks_for_largest) asks_for_largest = scene%stress%logical('largest')
+   end function asks_for_largest
 
    !> Starts the solver of a scene and finds its tables.
    subroutine start_results(scene, results, tables)
@@ -64,7 +78,10 @@ contains
 
       call move_alloc(scene, results%scene)
       call requested_tables(results%scene, tables)
-      call start_solver(results%scene%surface, results%scene%method, need_fields(tables), results%solver)
+      associate (scene => results%scene)
+         call start_solver(scene%surface, scene%method, need_fields(tables) .or. scene%loads_by == by_yield, &
+                           results%solver)
+      end associate
    end subroutine start_results
 
    !> The tables that a deck requests; for a flat surface, whose p* and Delta are zero, only those that allow it.
@@ -79,7 +96,7 @@ contains
       call all_tables(every)
       allocate (requested(size(every)))
       do i = 1, size(every)
-         requested(i) = every(i)%table%is_requested(scene%output)
+         requested(i) = every(i)%table%is_requested(scene)
          if (scene%p_star <= 0.0_dp) requested(i) = requested(i) .and. every(i)%table%is_for_flat_surfaces()
       end do
       allocate (tables(count(requested)))

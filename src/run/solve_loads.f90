@@ -43,7 +43,8 @@ contains
             if (known) then
                call solver%skip_load(target(load))
             else
-               call solve_target(solver, loads_by, target(load), results%loads(load)%solution)
+               call solve_target(solver, loads_by, target(load), results%loads(load)%solution, &
+                                 results%scene%stress_setting)
                call checkpoint%add(load, results%loads(load)%solution)
             end if
             call log%show_progress(i, size(order))

@@ -3,6 +3,7 @@ module wavycon_scene
    use wavycon_group_values, only: group_values
    use wavycon_kinds, only: dp
    use wavycon_map_statistics, only: map_statistics
+   use wavycon_stress_setting, only: stress_setting
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
@@ -10,7 +11,7 @@ module wavycon_scene
    public :: scene_type, target_words
 
    !> The quantity by which a deck gives its loads.
-   integer, parameter, public :: by_pressure = 1, by_mean_gap = 2, by_contact_area = 3
+   integer, parameter, public :: by_pressure = 1, by_mean_gap = 2, by_contact_area = 3, by_yield = 4
 
    type :: scene_type
       character(:), allocatable :: deck_path        !! the deck's file, as the caller named it
@@ -28,17 +29,19 @@ module wavycon_scene
       logical :: gives_modulus = .false.            !! whether the deck gives it
       logical :: has_units = .false.                !! whether it gives a modulus or labels of units: not normalised
       real(dp) :: p_star = 0.0_dp                   !! p*, mean pressure that just closes the gap [pressure]
-      integer :: loads_by = by_pressure             !! by_pressure, by_mean_gap or by_contact_area
-      real(dp), allocatable :: target(:)            !! P, G or the contact area fraction, in the deck's order
+      integer :: loads_by = by_pressure             !! one of the names above
+      !> P, G, the contact area fraction or the largest equivalent stress over the yield stress, in the deck's order.
+      real(dp), allocatable :: target(:)
       real(dp), allocatable :: mean_pressure(:)     !! [pressure]; allocated where loads are given by pressure
-      type(group_values) :: method, output          !! the groups &method and &output
+      type(group_values) :: stress, method, output  !! the groups &stress, &method and &output
+      type(stress_setting), allocatable :: stress_setting   !! allocated if the deck has &stress
    end type scene_type
 
 contains
 
    !> The quantity by which the loads are given, as a heading.
    pure function target_words(loads_by) result(words)
-      integer, intent(in) :: loads_by   !! by_pressure, by_mean_gap or by_contact_area
+      integer, intent(in) :: loads_by   !! one of the names above
       character(:), allocatable :: words
 
       select case (loads_by)
@@ -46,6 +49,8 @@ contains
          words = 'gap/Delta'
       case (by_contact_area)
          words = 'area/A0'
+      case (by_yield)
+         words = 'stress/yield stress'
       case default
          words = 'pbar/p*'
       end select

@@ -1,10 +1,12 @@
-!> Solves the load of a given mean pressure, mean gap or contact area.
+!> Solves the load of a given mean pressure, mean gap, contact area or equivalent stress.
 module wavycon_solve_target
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver
    use wavycon_find_load, only: solve_for_contact_area, solve_for_mean_gap
+   use wavycon_find_yield, only: solve_for_yield
    use wavycon_kinds, only: dp
-   use wavycon_scene, only: by_contact_area, by_mean_gap
+   use wavycon_scene, only: by_contact_area, by_mean_gap, by_yield
+   use wavycon_stress_setting, only: stress_setting
    implicit none (type, external)
    private
 
@@ -12,18 +14,21 @@ module wavycon_solve_target
 
 contains
 
-   !> Solves one load, or finds the load of a given mean gap or area.
-   subroutine solve_target(solver, loads_by, target, solution)
+   !> Solves one load, or finds the load of a given mean gap, area or stress.
+   subroutine solve_target(solver, loads_by, target, solution, setting)
       class(contact_solver), intent(inout) :: solver
       integer, intent(in) :: loads_by     !! a name of wavycon_scene
-      real(dp), intent(in) :: target      !! P, G or the contact area fraction
+      real(dp), intent(in) :: target      !! as of scene_type
       class(contact_solution), allocatable, intent(inout) :: solution
+      type(stress_setting), intent(in), optional :: setting   !! needed by_yield, with yield stresses
 
       select case (loads_by)
       case (by_mean_gap)
          call solve_for_mean_gap(solver, target, solution)
       case (by_contact_area)
          call solve_for_contact_area(solver, target, solution)
+      case (by_yield)
+         call solve_for_yield(solver, setting, target, solution)
       case default
          call solver%solve(target, solution)
       end select

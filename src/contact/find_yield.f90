@@ -1,0 +1,105 @@
+!> Finds the least load at which a body reaches its yield stress, or a given part of it.
+!>
+!> Equation (C24) of README.md in this directory: the secant method for ln r(P) = ln r, r the largest equivalent stress over
+!> the yield stress. It begins at a light load, where r is a power of P, and approaches the root from below: beyond the
+!> first one r may fall again.
+module wavycon_find_yield
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use wavycon_contact_solution, only: contact_solution, no_solution
+   use wavycon_contact_solver, only: contact_solver
+   use wavycon_contact_status, only: not_accurate, not_found
+   use wavycon_contact_tuning, only: fraction_of_error, largest_fraction, least_fraction, longest_rise, most_solves
+   use wavycon_kinds, only: dp
+   use wavycon_stress_fields, only: stress_fields
+   use wavycon_stress_setting, only: stress_setting
+   implicit none (type, external)
+   private
+
+   public :: solve_for_yield
+
+   !> Loads at which the search begins, and above which no contact is looked for.
+   real(dp), parameter :: first_load = 0.01_dp, last_load = 1e6_dp
+
+contains
+
+   !> Solves for the load at which the largest equivalent stress is a given part of the yield stress. The solution has the
+   !> status not_found if no load has it.
+   subroutine solve_for_yield(solver, setting, target, solution)
+      class(contact_solver), intent(inout) :: solver        !! started with keep_fields
+      type(stress_setting), intent(in) :: setting           !! with yield stresses
+      real(dp), intent(in) :: target                        !! r > 0, equivalent stress over yield stress; 1: first yield
+      class(contact_solution), allocatable, intent(out) :: solution   !! of the load found
+
+      real(dp) :: log_p
+      integer :: level
+
+      log_p = log(first_load)
+      do level = solver%coarser_levels(), 0, -1
+         call solver%use_level(level)
+         call find_root(solver, setting, log(target), log_p, solution)
+         if (solution%status == not_found) log_p = log(first_load)
+      end do
+   end subroutine solve_for_yield
+
+   !> The secant method. A step that would leave the bracket of the root is replaced by bisection.
+   subroutine find_root(solver, setting, log_target, log_p, solution)
+      class(contact_solver), intent(inout) :: solver
+      type(stress_setting), intent(in) :: setting
+      real(dp), intent(in) :: log_target
+      real(dp), intent(inout) :: log_p               !! ln P of the first load; on return of the last one
+      class(contact_solution), allocatable, intent(out) :: solution
+
+      real(dp) :: error, high, last_log_p, last_miss, low, miss, next, slope
+      integer :: i
+
+      low = -huge(low)
+      high = huge(high)
+      ! Of a line contact and of a point contact at light load.
+      slope = merge(0.5_dp, 1.0_dp/3, solver%surface%dimension == 1)
+      last_log_p = log_p
+      last_miss = 0.0_dp
+      do i = 1, most_solves
+         call solver%solve(exp(log_p), solution)
+         call find_miss(solver, setting, log_target, solution, miss, error)
+         if (.not. ieee_is_finite(miss)) exit
+         if (abs(miss) <= min(max(fraction_of_error*error, least_fraction), largest_fraction)) return
+         if (i > 1 .and. abs(log_p - last_log_p) > 0.0_dp) slope = (miss - last_miss)/(log_p - last_log_p)
+         last_log_p = log_p
+         last_miss = miss
+         if (miss > 0.0_dp) high = min(high, log_p)
+         if (miss < 0.0_dp) low = max(low, log_p)
+         next = huge(next)
+         if (slope > 0.0_dp) next = log_p - miss/slope
+         next = min(next, log_p + longest_rise)
+         if (next <= low .or. next >= high) next = 0.5_dp*(low + high)
+         if (next > log(last_load)) exit
+         if (abs(next - log_p) <= epsilon(next)*max(1.0_dp, abs(next))) then
+            if (solution%is_good()) solution%status = not_accurate
+            return
+         end if
+         log_p = next
+      end do
+      call no_solution(exp(log_p), solver%surface, solver%name(), not_found, solution)
+   end subroutine find_root
+
+   !> ln of the largest stress over the target, and its error estimate. NaN if the load has no solution.
+   subroutine find_miss(solver, setting, log_target, solution, miss, error)
+      class(contact_solver), intent(in) :: solver
+      type(stress_setting), intent(in) :: setting
+      real(dp), intent(in) :: log_target
+      class(contact_solution), intent(in) :: solution
+      real(dp), intent(out) :: miss, error
+
+      class(stress_fields), allocatable :: fields
+      real(dp) :: ratio
+
+      call solution%stresses(solver%surface, fields)
+      call setting%find_over_yield_stress(fields, ratio, error)
+      miss = ratio
+      if (.not. ieee_is_finite(ratio)) return
+      miss = log(ratio) - log_target
+      error = error/ratio
+      if (.not. ieee_is_finite(error)) error = 0.0_dp
+   end subroutine find_miss
+
+end module wavycon_find_yield

@@ -1,0 +1,132 @@
+!> The stresses under the pressure of an expansion, on the axes and in the units of the surface.
+module wavycon_fitted_stress_fields
+   use wavycon_constants, only: pi
+   use wavycon_elastic_body, only: elastic_body
+   use wavycon_fitted_answer, only: fitted_answer
+   use wavycon_fitted_frame, only: fitted_frame
+   use wavycon_fitted_stress, only: fitted_stress, start_fitted_stress
+   use wavycon_kinds, only: dp
+   use wavycon_stress_fields, only: stress_fields
+   use wavycon_stress_tensor, only: xx, xy, xz, yy, yz, zz
+   use wavycon_stress_tuning, only: depths_of_spot, depths_of_cell, edge_ratios
+   use wavycon_surface, only: surface_type
+   use wavycon_wave_lattice, only: wave_lattice
+   implicit none (type, external)
+   private
+
+   public :: fitted_stress_fields, start_fitted_stress_fields
+
+   type, extends(stress_fields) :: fitted_stress_fields
+      private
+      type(fitted_frame) :: frame
+      type(wave_lattice) :: lattice
+      type(fitted_answer) :: answer
+      type(fitted_stress) :: fitted
+      real(dp) :: length(2) = 1.0_dp      !! sides of the surface's cell [length]
+   contains
+      procedure :: at
+      procedure :: start_places
+   end type fitted_stress_fields
+
+contains
+
+   subroutine start_fitted_stress_fields(fields, surface, frame, lattice, answer, accuracy, pbar_over_pstar)
+      type(fitted_stress_fields), intent(out) :: fields
+      type(surface_type), intent(in) :: surface
+      type(fitted_frame), intent(in) :: frame       !! of the surface
+      type(wave_lattice), intent(in) :: lattice     !! of the frame
+      type(fitted_answer), intent(in) :: answer     !! with a solution
+      real(dp), intent(in) :: accuracy              !! that the solution was asked for
+      real(dp), intent(in) :: pbar_over_pstar       !! P
+
+      fields%pbar_over_pstar = pbar_over_pstar
+      fields%side_ratio = surface%length(2)/surface%length(1)
+      fields%length = surface%length
+      fields%frame = frame
+      fields%lattice = lattice
+      fields%answer = answer
+      call start_fitted_stress(fields%fitted, lattice, answer, accuracy)
+   end subroutine start_fitted_stress_fields
+
+   subroutine at(self, x, y, depth, parts, error)
+      class(fitted_stress_fields), intent(inout) :: self
+      real(dp), intent(in) :: x, y
+      real(dp), intent(in) :: depth
+      real(dp), intent(out) :: parts(6, 2)
+      real(dp), intent(out), optional :: error
+
+      integer :: i
+
+      associate (place => self%frame%place(self%length(1)*x/(2*pi), self%length(2)*y/(2*pi)), &
+                 z => self%length(1)*depth/(2*pi*self%frame%side))
+         call self%fitted%at(place, z, parts, error)
+      end associate
+      do i = 1, 2
+         parts(:, i) = self%frame%pressure_unit*turned(parts(:, i), conjg(self%frame%turn))
+      end do
+      if (present(error)) error = self%frame%pressure_unit*error
+   end subroutine at
+
+   !> A stress after a rotation about the z axis.
+   pure function turned(stress, turn)
+      real(dp), intent(in) :: stress(6)
+      complex(dp), intent(in) :: turn     !! of modulus 1
+      real(dp) :: turned(6)
+
+      complex(dp) :: deviator, shear
+      real(dp) :: mean
+
+      ! (xx - yy)/2 + i xy turns by twice the angle, xz + i yz by the angle.
+      mean = 0.5_dp*(stress(xx) + stress(yy))
+      deviator = cmplx(0.5_dp*(stress(xx) - stress(yy)), stress(xy), dp)*turn**2
+      shear = cmplx(stress(xz), stress(yz), dp)*turn
+      turned = [mean + deviator%re, mean - deviator%re, stress(zz), deviator%im, shear%re, shear%im]
+   end function turned
+
+   !> Places below the spot or, above merging, below the crest and about the island, on the lines of symmetry of the
+   !> lattice.
+   subroutine start_places(self, body, places, widths)
+      class(fitted_stress_fields), intent(inout) :: self
+      type(elastic_body), intent(in) :: body
+      real(dp), allocatable, intent(out) :: places(:, :)
+      real(dp), allocatable, intent(out) :: widths(:)
+
+      complex(dp) :: centre
+      complex(dp), allocatable :: at_surface(:), edge(:)
+      real(dp), allocatable :: below(:), size_at(:)
+      real(dp) :: radius
+      integer :: directions, i, k, n
+
+      associate (unused => body); end associate
+      associate (shape => self%answer%solution%shape)
+         centre = (0.0_dp, 0.0_dp)
+         if (self%answer%island) centre = self%lattice%trough
+         directions = 2*shape%fold
+         allocate (edge(directions/2 + 1))
+         edge(:) = [(shape%place(exp(cmplx(0.0_dp, 2*pi*i/directions, dp))), i=0, directions/2)]
+         radius = maxval(abs(edge))
+      end associate
+      allocate (at_surface, source=[(centre + edge_ratios(i)*edge, i=1, size(edge_ratios))])
+      if (self%answer%island) then
+         at_surface = [at_surface, (0.0_dp, 0.0_dp), self%lattice%saddle, 0.5_dp*self%lattice%saddle, &
+                       0.5_dp*self%lattice%trough, 0.25_dp*self%lattice%trough]
+         below = [radius*depths_of_spot, depths_of_cell]
+      else
+         at_surface = [at_surface, (0.0_dp, 0.0_dp), self%lattice%saddle]
+         below = radius*depths_of_spot
+      end if
+      n = size(at_surface)
+      allocate (places(3, n*size(below)), widths(n*size(below)), size_at(size(below)))
+      size_at = max(below, 0.25_dp*radius)
+      do k = 1, size(below)
+         do i = 1, n
+            associate (z => at_surface(i)*self%frame%side/self%frame%turn)
+               places(:, (k - 1)*n + i) = 2*pi*[z%re/self%length(1), z%im/self%length(2), &
+                                                below(k)*self%frame%side/self%length(1)]
+            end associate
+            widths((k - 1)*n + i) = 2*pi*size_at(k)*self%frame%side/self%length(1)
+         end do
+      end do
+   end subroutine start_places
+
+end module wavycon_fitted_stress_fields

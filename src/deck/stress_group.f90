@@ -1,0 +1,165 @@
+!> The &stress group: stresses below the surface. Without it nothing of this is computed.
+module wavycon_stress_group
+   use wavycon_elastic_body, only: elastic_body, hydrostatic, laterally_constrained, laterally_free
+   use wavycon_group_values, only: group_values
+   use wavycon_key_table, only: choice_key, integer_key, key_group, key_group_type, logical_key, real_key
+   use wavycon_kinds, only: dp
+   use wavycon_problems, only: problem_list_type
+   use wavycon_stress_setting, only: stress_setting
+   implicit none (type, external)
+   private
+
+   public :: stress_table, check_stress_group, is_another_way, make_stress_setting
+
+   !> Most depths of a list or a range.
+   integer, parameter :: most_depths = 10000
+
+   !> The keys that give the depths, in one of three ways.
+   character(18), parameter :: range_keys(*) = [character(18) :: 'depth_from', 'depth_to', 'depth_steps']
+   character(18), parameter :: lists(*) = [character(18) :: 'depths', 'depths_over_cell_x']
+
+contains
+
+   !> The table of keys of &stress.
+   function stress_table() result(table)
+      type(key_group_type) :: table
+
+      table = key_group('stress', 'stresses below the surface, and when it yields', [ &
+         logical_key('largest', '.true.', 'A table of the largest von Mises stress and the largest shear stress of '// &
+            'each load, and where they are.'), &
+         logical_key('line', '.false.', 'A table of the stresses on the line below the crest.'), &
+         choice_key('section', "'none'", "a table of the stresses on a vertical section through the crest, along 'x', "// &
+            "'y' or the 'diagonal' of the cell.", [character(8) :: 'none', 'x', 'y', 'diagonal']), &
+         logical_key('planes', '.false.', 'A table of the stresses on the planes at the given depths, with the points '// &
+            'and in the format of maps.'), &
+         real_key('depths', '', 'length', 'Depths of planes, and of the points of line and section.', least=0.0_dp, &
+            most_values=most_depths), &
+         real_key('depths_over_cell_x', '', '-', 'The same over the side of the cell along x, which is the wavelength '// &
+            'of a wave.', least=0.0_dp, most_values=most_depths), &
+         real_key('depth_from', '0.0', '-', 'First depth of a range in equal steps, over the side of the cell along x.', &
+            least=0.0_dp), &
+         real_key('depth_to', '1.0', '-', 'Last depth of the range.', least=0.0_dp), &
+         integer_key('depth_steps', '65', 'Number of depths of the range, both ends included.', 1, most_depths), &
+         real_key('nu', 'nu1, nu2', '-', "Poisson's ratios of the first and the second body; one number: of both. The "// &
+            'default is that of &material. Where they differ the stresses of both bodies are computed.', &
+            above=-1.0_dp, most=0.5_dp, most_values=2), &
+         choice_key('lateral', "'constrained'", "the lateral stresses of the mean pressure pbar. 'constrained': no "// &
+            "lateral strain, -nu pbar/(1 - nu); 'free': 0; 'hydrostatic': -pbar.", &
+            [character(11) :: 'constrained', 'free', 'hydrostatic']), &
+         real_key('yield_stress', '', 'unit of e_star', 'Yield stresses of the first and the second body in uniaxial '// &
+            'tension; one number: of both.', above=0.0_dp, most_values=2), &
+         choice_key('yield_criterion', "'von_mises'", "which stress reaches the yield stress: 'von_mises', the von "// &
+            "Mises stress; 'tresca', twice the largest shear stress.", [character(9) :: 'von_mises', 'tresca'])])
+   end function stress_table
+
+   !> Sets the defaults that depend on &material and reports what is missing or contradicts.
+   subroutine check_stress_group(values, material, load, problems)
+      type(group_values), intent(inout) :: values
+      type(group_values), intent(in) :: material, load
+      type(problem_list_type), intent(inout) :: problems
+
+      logical :: has_range
+      integer :: k
+
+      if (load%has('yield') .and. values%place == 0) then
+         call load%complain(problems, 'yield', 'yield needs yield_stress in a group &stress')
+      else if (load%has('yield') .and. .not. values%has('yield_stress')) then
+         call load%complain(problems, 'yield', 'yield needs yield_stress in &stress')
+      end if
+      if (values%place == 0) return
+      has_range = any([(values%has(trim(range_keys(k))), k=1, size(range_keys))])
+      if (count([has_range, (values%has(trim(lists(k))), k=1, size(lists))]) > 1) call problems%add(values%place, &
+         'depths are given in more than one way: give depths, depths_over_cell_x, or depth_from, depth_to and depth_steps')
+      if (.not. has_range .and. any([(values%has(trim(lists(k))), k=1, size(lists))])) then
+         do k = 1, size(range_keys)
+            call values%leave_out(trim(range_keys(k)))
+         end do
+      else if (values%logical('planes') .and. .not. has_range) then
+         call values%complain(problems, 'planes', 'planes needs depths, depths_over_cell_x or a range of depths')
+      end if
+      if (.not. material%any_bad() .and. .not. values%is_bad('nu')) call take_ratios(values, material, problems)
+      if (values%has('yield_criterion') .and. .not. values%has('yield_stress')) call values%complain(problems, &
+         'yield_criterion', 'yield_criterion needs yield_stress beside it')
+      if (.not. values%has('yield_stress')) call values%leave_out('yield_criterion')
+   end subroutine check_stress_group
+
+   !> Sets Poisson's ratios to those of &material, or reports that there are none or that they contradict each other.
+   subroutine take_ratios(values, material, problems)
+      type(group_values), intent(inout) :: values
+      type(group_values), intent(in) :: material
+      type(problem_list_type), intent(inout) :: problems
+
+      if (.not. material%has('nu1')) then
+         if (.not. values%has('nu')) call problems%add(values%place, &
+            "&stress needs nu, Poisson's ratio: &material does not give nu1")
+      else if (values%has('nu')) then
+         call values%complain(problems, 'nu', 'nu contradicts nu1 of &material: leave it out')
+      else if (material%has('nu2')) then
+         call values%set_default('nu', [material%real('nu1'), material%real('nu2')])
+      else
+         call values%set_default('nu', material%real('nu1'))
+      end if
+   end subroutine take_ratios
+
+   !> Whether two keys of &stress give the depths in different ways.
+   pure logical function is_another_way(key, other)
+      character(*), intent(in) :: key, other
+
+      if (any(lists == key)) then
+         is_another_way = key /= other .and. (any(lists == other) .or. any(range_keys == other))
+      else
+         is_another_way = any(range_keys == key) .and. any(lists == other)
+      end if
+   end function is_another_way
+
+   !> What the group asks for. A rigid body has no stresses, and a body that is like the other is left out.
+   subroutine make_stress_setting(values, material, p_star, setting)
+      type(group_values), intent(in) :: values      !! of a &stress group without problems
+      type(group_values), intent(in) :: material
+      real(dp), intent(in) :: p_star                !! p* [pressure]; 0 if the surface is flat
+      type(stress_setting), allocatable, intent(out) :: setting   !! not allocated if the deck has no group &stress
+
+      real(dp) :: nu(2)
+      integer :: lateral
+
+      if (values%place == 0) return
+      allocate (setting)
+      associate (given => values%reals('nu'))
+         nu = given([1, size(given)])
+      end associate
+      select case (values%text('lateral'))
+      case ('free')
+         lateral = laterally_free
+      case ('hydrostatic')
+         lateral = hydrostatic
+      case default
+         lateral = laterally_constrained
+      end select
+      allocate (setting%body, source=[elastic_body(nu(1), lateral), elastic_body(nu(2), lateral)])
+      setting%by_shear = values%text('yield_criterion') == 'tresca'
+      if (values%has('yield_stress') .and. p_star > 0.0_dp) then
+         associate (given => values%reals('yield_stress'))
+            allocate (setting%yield_stress, source=given([1, size(given)])/p_star)
+         end associate
+      end if
+      if (is_rigid() .or. is_like_the_first()) then
+         setting%body = setting%body(:1)
+         if (allocated(setting%yield_stress)) setting%yield_stress = setting%yield_stress(:1)
+      end if
+
+   contains
+
+      !> Whether the second body is rigid.
+      logical function is_rigid()
+         is_rigid = material%has('e1') .and. .not. material%has('e2')
+      end function is_rigid
+
+      logical function is_like_the_first()
+         is_like_the_first = abs(nu(2) - nu(1)) <= 0.0_dp
+         if (allocated(setting%yield_stress)) is_like_the_first = is_like_the_first .and. &
+            abs(setting%yield_stress(2) - setting%yield_stress(1)) <= 0.0_dp
+      end function is_like_the_first
+
+   end subroutine make_stress_setting
+
+end module wavycon_stress_group

@@ -1,0 +1,73 @@
+!> What all tables of stresses at points share: their columns, the numbers of a point, and the depths.
+module wavycon_stress_rows
+   use wavycon_constants, only: pi
+   use wavycon_kinds, only: dp
+   use wavycon_results, only: results_type
+   use wavycon_scene, only: scene_type
+   use wavycon_stress_tensor, only: principal_stresses, stress_pressure, von_mises
+   implicit none (type, external)
+   private
+
+   public :: angle_of_depth, number_of_bodies, stress_depths, stress_numbers
+
+   !> Tension is positive, and principal stress 1 is the largest. The error is an estimate for the six components.
+   character(32), parameter, public :: stress_columns(*) = [character(32) :: &
+      'stress_xx[pressure]', 'stress_yy[pressure]', 'stress_zz[pressure]', 'stress_xy[pressure]', &
+      'stress_xz[pressure]', 'stress_yz[pressure]', 'principal_1[pressure]', 'principal_2[pressure]', &
+      'principal_3[pressure]', 'von_mises[pressure]', 'largest_shear[pressure]', 'stress_pressure[pressure]', &
+      'stress_error[pressure]']
+
+contains
+
+   !> The numbers of these columns at a point.
+   pure function stress_numbers(stress, error, p_star) result(numbers)
+      real(dp), intent(in) :: stress(6)   !! xx, yy, zz, xy, xz, yz [p*]
+      real(dp), intent(in) :: error       !! [p*]
+      real(dp), intent(in) :: p_star      !! [pressure]
+      real(dp) :: numbers(size(stress_columns))
+
+      real(dp) :: principal(3)
+
+      principal = principal_stresses(stress)
+      numbers = p_star*[stress, principal, von_mises(stress), 0.5_dp*(principal(1) - principal(3)), &
+                        stress_pressure(stress), error]
+   end function stress_numbers
+
+   !> The depths that a deck gives [length].
+   subroutine stress_depths(scene, depths)
+      type(scene_type), intent(in) :: scene   !! with a group &stress
+      real(dp), allocatable, intent(out) :: depths(:)
+
+      integer :: i, intervals, steps
+
+      associate (stress => scene%stress)
+         if (stress%has('depths')) then
+            depths = stress%reals('depths')
+         else if (stress%has('depths_over_cell_x')) then
+            depths = scene%surface%length(1)*stress%reals('depths_over_cell_x')
+         else
+            steps = stress%integer('depth_steps')
+            intervals = max(1, steps - 1)
+            depths = [(scene%surface%length(1)*(stress%real('depth_from')*(intervals - i) + &
+                                                stress%real('depth_to')*i)/intervals, i=0, steps - 1)]
+         end if
+      end associate
+   end subroutine stress_depths
+
+   !> Z of a depth [rad].
+   elemental real(dp) function angle_of_depth(scene, depth)
+      type(scene_type), intent(in) :: scene
+      real(dp), intent(in) :: depth   !! [length]
+
+      angle_of_depth = 2*pi*depth/scene%surface%length(1)
+   end function angle_of_depth
+
+   !> The number of bodies whose stresses differ.
+   pure integer function number_of_bodies(results)
+      type(results_type), intent(in) :: results
+
+      number_of_bodies = 0
+      if (allocated(results%scene%stress_setting)) number_of_bodies = size(results%scene%stress_setting%body)
+   end function number_of_bodies
+
+end module wavycon_stress_rows

@@ -1,0 +1,38 @@
+!> Finds the largest stresses of all loads of a scene.
+module wavycon_find_stresses
+   use wavycon_largest_stress, only: by_shear, by_von_mises, find_largest_stress
+   use wavycon_results, only: results_type
+   use wavycon_run_log, only: run_log
+   use wavycon_stress_fields, only: stress_fields
+   implicit none (type, external)
+   private
+
+   public :: find_stresses
+
+contains
+
+   !> Finds the largest von Mises stress and the largest shear stress of each load and body.
+   subroutine find_stresses(results, log)
+      type(results_type), intent(inout) :: results   !! with a group &stress and all loads solved with their fields
+      type(run_log), intent(inout) :: log            !! shows the progress
+
+      class(stress_fields), allocatable :: fields
+      integer :: body, load
+
+      associate (setting => results%scene%stress_setting)
+         allocate (results%von_mises(size(setting%body), size(results%loads)))
+         allocate (results%shear(size(setting%body), size(results%loads)))
+         do load = 1, size(results%loads)
+            call results%loads(load)%solution%stresses(results%scene%surface, fields)
+            do body = 1, size(setting%body)
+               associate (yielding => results%von_mises(body, load), shear => results%shear(body, load))
+                  call find_largest_stress(fields, setting%body(body), by_von_mises, yielding)
+                  call find_largest_stress(fields, setting%body(body), by_shear, shear)
+               end associate
+            end do
+            call log%show_stress_progress(load, size(results%loads))
+         end do
+      end associate
+   end subroutine find_stresses
+
+end module wavycon_find_stresses

@@ -1,0 +1,45 @@
+!> One of the two bodies: how its stresses follow from those of the waves of pressure and from the mean pressure.
+module wavycon_elastic_body
+   use wavycon_kinds, only: dp
+   use wavycon_stress_tensor, only: combined, xx, yy, zz
+   implicit none (type, external)
+   private
+
+   public :: elastic_body
+
+   !> The lateral stresses of the mean pressure pbar: no lateral strain, -nu pbar/(1 - nu); none; -pbar.
+   integer, parameter, public :: laterally_constrained = 1, laterally_free = 2, hydrostatic = 3
+
+   type :: elastic_body
+      real(dp) :: nu = 0.3_dp                        !! Poisson's ratio, -1 < nu <= 1/2
+      integer :: lateral = laterally_constrained     !! one of the names above
+   contains
+      procedure :: stress
+   end type elastic_body
+
+contains
+
+   !> The stress, tension positive: that of the waves (S1) and that of the mean pressure (S2).
+   pure function stress(self, parts, pbar)
+      class(elastic_body), intent(in) :: self
+      real(dp), intent(in) :: parts(6, 2)   !! as of wavycon_stress_fields
+      real(dp), intent(in) :: pbar          !! mean pressure, in the unit of the parts
+      real(dp) :: stress(6)                 !! xx, yy, zz, xy, xz, yz
+
+      real(dp) :: lateral
+
+      select case (self%lateral)
+      case (laterally_free)
+         lateral = 0.0_dp
+      case (hydrostatic)
+         lateral = -pbar
+      case default
+         lateral = -self%nu/(1.0_dp - self%nu)*pbar
+      end select
+      stress = combined(parts, self%nu)
+      stress(xx) = stress(xx) + lateral
+      stress(yy) = stress(yy) + lateral
+      stress(zz) = stress(zz) - pbar
+   end function stress
+
+end module wavycon_elastic_body

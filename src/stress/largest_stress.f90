@@ -1,0 +1,193 @@
+!> The largest von Mises stress and the largest shear stress in a body, and where they are.
+!>
+!> The search starts from the best of the places that the stress fields propose. A quadratic function through the points
+!> about a place predicts the next, better one, while the distance of the points falls: (S6), (S7) of README.md in this
+!> directory. Depths are mirrored at the surface, so that the search may end on it.
+module wavycon_largest_stress
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use wavycon_elastic_body, only: elastic_body
+   use wavycon_kinds, only: dp
+   use wavycon_lapack, only: dposv
+   use wavycon_stress_fields, only: stress_fields
+   use wavycon_stress_tensor, only: largest_shear, von_mises
+   use wavycon_stress_tuning, only: error_of_invariant, first_reach, most_models, reach_factor, refined_places
+   implicit none (type, external)
+   private
+
+   public :: largest_stress, find_largest_stress
+
+   !> The quantities that can be searched for.
+   integer, parameter, public :: by_von_mises = 1, by_shear = 2
+
+   type :: largest_stress
+      real(dp) :: value = 0.0_dp        !! [p*]
+      real(dp) :: error = 0.0_dp        !! estimate of its error [p*]; NaN if there is none
+      real(dp) :: place(3) = 0.0_dp     !! X, Y, Z [rad]
+   end type largest_stress
+
+contains
+
+   !> Finds the largest value of a quantity in a body. NaN if there is no solution.
+   subroutine find_largest_stress(fields, body, quantity, answer)
+      class(stress_fields), intent(inout) :: fields
+      type(elastic_body), intent(in) :: body
+      integer, intent(in) :: quantity                   !! by_von_mises or by_shear
+      type(largest_stress), intent(out) :: answer
+
+      real(dp), allocatable :: places(:, :), values(:), widths(:)
+      real(dp) :: gain, least_gain, parts(6, 2)
+      type(largest_stress) :: other
+      integer :: best, i
+
+      if (.not. fields%exist) then
+         answer%value = ieee_value(answer%value, ieee_quiet_nan)
+         answer%error = answer%value
+         answer%place = answer%value
+         return
+      end if
+      call fields%start_places(body, places, widths)
+      allocate (values(size(widths)))
+      do i = 1, size(widths)
+         values(i) = value_at(fields, body, quantity, places(:, i))
+      end do
+      least_gain = 0.0_dp
+      gain = 0.0_dp
+      do i = 1, min(refined_places, size(widths))
+         best = maxloc(values, dim=1)
+         other%value = values(best)
+         other%place = places(:, best)
+         call refine(fields, body, quantity, widths(best), other, gain)
+         if (i == 1 .or. other%value > answer%value) then
+            answer = other
+            least_gain = gain
+         end if
+         values(best) = -1.0_dp
+      end do
+      if (fields%dimension == 1) answer%place(2) = 0.0_dp
+      call fields%at(answer%place(1), answer%place(2), answer%place(3), parts, answer%error)
+      answer%error = error_of_invariant*answer%error + least_gain
+   end subroutine find_largest_stress
+
+   !> Improves a place by quadratic models.
+   subroutine refine(fields, body, quantity, width, best, gain)
+      class(stress_fields), intent(inout) :: fields
+      type(elastic_body), intent(in) :: body
+      integer, intent(in) :: quantity
+      real(dp), intent(in) :: width                  !! of the maximum [rad]
+      type(largest_stress), intent(inout) :: best    !! value and place
+      real(dp), intent(out) :: gain                  !! by the last model [p*]
+
+      !> Relative gains below this are rounding.
+      real(dp), parameter :: rounding = 1e-14_dp
+      integer, allocatable :: axes(:)
+      real(dp) :: before, reach, step
+      integer :: i
+
+      allocate (axes, source=pack([1, 2, 3], [.true., fields%dimension > 1, .true.]))
+      reach = first_reach*width
+      do i = 1, most_models
+         before = best%value
+         call improve(fields, body, quantity, axes, reach, best, step)
+         gain = best%value - before
+         if (gain <= rounding*best%value .and. i > 1) exit
+         ! A place at the border of the model may be far from the maximum: the next model is as large.
+         if (step < 0.9_dp*reach) reach = max(reach_factor*reach, min(step, reach))
+      end do
+   end subroutine refine
+
+   !> Moves a place to the maximum of a quadratic function within a distance along each axis, or to the best of the points
+   !> that the function is made from.
+   subroutine improve(fields, body, quantity, axes, reach, best, step)
+      class(stress_fields), intent(inout) :: fields
+      type(elastic_body), intent(in) :: body
+      integer, intent(in) :: quantity
+      integer, intent(in) :: axes(:)                 !! the directions of the search
+      real(dp), intent(in) :: reach                  !! [rad]
+      type(largest_stress), intent(inout) :: best
+      real(dp), intent(out) :: step                  !! largest distance moved along an axis [rad]
+
+      real(dp) :: curvature(size(axes), size(axes)), move(3), slope(size(axes)), start(3), value, value_here, &
+         values(-1:1)
+      integer :: i, j, k, status
+
+      start = best%place
+      value_here = best%value
+      do i = 1, size(axes)
+         values(0) = value_here
+         do k = -1, 1, 2
+            move = 0.0_dp
+            move(axes(i)) = k*reach
+            call try(move, values(k))
+         end do
+         slope(i) = 0.5_dp*(values(1) - values(-1))
+         curvature(i, i) = values(1) - 2*values(0) + values(-1)
+         do j = 1, i - 1
+            curvature(i, j) = 0.0_dp
+            do k = -1, 1, 2
+               move = 0.0_dp
+               move(axes(i)) = reach
+               move(axes(j)) = k*reach
+               call try(move, value)
+               curvature(i, j) = curvature(i, j) + 0.25_dp*k*value
+               move(axes(i)) = -reach
+               call try(move, value)
+               curvature(i, j) = curvature(i, j) - 0.25_dp*k*value
+            end do
+            curvature(j, i) = curvature(i, j)
+         end do
+      end do
+      curvature = -curvature
+      call dposv('U', size(axes), 1, curvature, size(axes), slope, size(axes), status)
+      if (status == 0) then
+         if (maxval(abs(slope)) > 1.0_dp) slope = slope/maxval(abs(slope))
+         move = 0.0_dp
+         move(axes) = reach*slope
+         call try(move, value)
+      end if
+      step = maxval(abs(best%place - abs_depth(start)))
+
+   contains
+
+      !> The value at a place; the best place so far is kept.
+      subroutine try(move, value)
+         real(dp), intent(in) :: move(3)
+         real(dp), intent(out) :: value
+
+         real(dp) :: place(3)
+
+         place = abs_depth(start + move)
+         value = value_at(fields, body, quantity, place)
+         if (value > best%value) then
+            best%value = value
+            best%place = place
+         end if
+      end subroutine try
+
+   end subroutine improve
+
+   !> A place, mirrored at the surface if it is outside the body.
+   pure function abs_depth(place)
+      real(dp), intent(in) :: place(3)
+      real(dp) :: abs_depth(3)
+
+      abs_depth = [place(1), place(2), abs(place(3))]
+   end function abs_depth
+
+   real(dp) function value_at(fields, body, quantity, place) result(value)
+      class(stress_fields), intent(inout) :: fields
+      type(elastic_body), intent(in) :: body
+      integer, intent(in) :: quantity
+      real(dp), intent(in) :: place(3)   !! X, Y, Z [rad]
+
+      real(dp) :: parts(6, 2), stress(6)
+
+      call fields%at(place(1), place(2), place(3), parts)
+      stress = body%stress(parts, fields%pbar_over_pstar)
+      if (quantity == by_shear) then
+         value = largest_shear(stress)
+      else
+         value = von_mises(stress)
+      end if
+   end function value_at
+
+end module wavycon_largest_stress

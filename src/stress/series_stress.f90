@@ -1,0 +1,306 @@
+!> The stresses under a pressure that is a Fourier series: full contact, the paper's series, the points of a grid.
+!>
+!> Equations (S1) to (S5) of README.md in this directory.
+module wavycon_series_stress
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use wavycon_constants, only: pi, sqrt3
+   use wavycon_elastic_body, only: elastic_body
+   use wavycon_fourier_series, only: fourier_series
+   use wavycon_grid_transform, only: grid_transform
+   use wavycon_kinds, only: dp
+   use wavycon_stress_fields, only: stress_fields
+   use wavycon_stress_tensor, only: largest_shear, von_mises, xx, xy, xz, yy, yz, zz
+   use wavycon_stress_tuning, only: plane_points, plane_ratio, waves_in_depth
+   use wavycon_surface, only: surface_type
+   implicit none (type, external)
+   private
+
+   public :: series_stress, start_series_stress
+
+   !> Waves whose factor exp(-q Z) is smaller than exp(-faintest) are rounding.
+   real(dp), parameter :: faintest = 37.0_dp
+
+   type, extends(stress_fields) :: series_stress
+      private
+      !> W of (S3), p = P + sum of Re W exp(i(kX + lY)) over k > 0, and over l > 0 for k = 0; shape (0:m, -n:n) [p*].
+      complex(dp), allocatable :: wave(:, :)
+      real(dp) :: sampled_from = huge(1.0_dp)   !! waves with q above this are those of a grid's last octave
+      real(dp) :: pressure_error = 0.0_dp       !! of the pressure [p*]; NaN if there is no estimate
+   contains
+      procedure :: at
+      procedure :: on_line
+      procedure :: on_plane
+      procedure :: start_places
+   end type series_stress
+
+contains
+
+   !> Prepares the stresses of a series.
+   subroutine start_series_stress(stress, surface, pressure, pbar_over_pstar, pressure_error, is_sampled)
+      type(series_stress), intent(out) :: stress
+      type(surface_type), intent(in) :: surface
+      type(fourier_series), intent(in) :: pressure    !! p/p*; the mean is ignored
+      real(dp), intent(in) :: pbar_over_pstar         !! P
+      real(dp), intent(in) :: pressure_error          !! estimate of the error of the pressure [p*]; NaN if there is none
+      logical, intent(in) :: is_sampled               !! whether the series is that of values on a grid
+
+      integer :: k, l, m, n
+
+      m = ubound(pressure%c, 1)
+      n = ubound(pressure%c, 2)
+      stress%pbar_over_pstar = pbar_over_pstar
+      stress%dimension = surface%dimension
+      stress%side_ratio = surface%length(2)/surface%length(1)
+      if (surface%dimension == 1) stress%side_ratio = 1.0_dp
+      stress%pressure_error = pressure_error
+      if (is_sampled) then
+         stress%sampled_from = 0.5_dp*m
+         if (n > 0) stress%sampled_from = 0.5_dp*min(real(m, dp), n/stress%side_ratio)
+      end if
+      allocate (stress%wave(0:m, -n:n), source=(0.0_dp, 0.0_dp))
+      do l = 0, n
+         do k = 0, m
+            associate (up => stress%wave(k, l), down => stress%wave(k, -l))
+               if (k == 0 .and. l == 0) cycle
+               if (k > 0 .and. l > 0) then
+                  up = 0.5_dp*pressure%c(k, l)
+                  down = up
+                  if (pressure%is_even()) cycle
+                  up = up - 0.5_dp*cmplx(pressure%ss(k, l), pressure%sc(k, l) + pressure%cs(k, l), dp)
+                  down = down + 0.5_dp*cmplx(pressure%ss(k, l), pressure%cs(k, l) - pressure%sc(k, l), dp)
+               else
+                  up = pressure%c(k, l)
+                  if (pressure%is_even()) cycle
+                  if (l == 0) up = up - cmplx(0.0_dp, pressure%sc(k, l), dp)
+                  if (k == 0) up = up - cmplx(0.0_dp, pressure%cs(k, l), dp)
+               end if
+            end associate
+         end do
+      end do
+   end subroutine start_series_stress
+
+   !> The sums (S4) at one point.
+   subroutine at(self, x, y, depth, parts, error)
+      class(series_stress), intent(inout) :: self
+      real(dp), intent(in) :: x, y
+      real(dp), intent(in) :: depth
+      real(dp), intent(out) :: parts(6, 2)
+      real(dp), intent(out), optional :: error
+
+      real(dp) :: errors(1), parts_here(6, 2, 1)
+
+      call self%on_line([x, y], [0, 0], [0.0_dp], depth, parts_here, errors)
+      parts = parts_here(:, :, 1)
+      if (present(error)) error = errors(1)
+   end subroutine at
+
+   !> The sums (S4) along a line: its waves are first added up to those with the same wave number d_x k + d_y l along t.
+   subroutine on_line(self, start, direction, t, depth, parts, error)
+      class(series_stress), intent(inout) :: self
+      real(dp), intent(in) :: start(2)
+      integer, intent(in) :: direction(2)
+      real(dp), intent(in) :: t(:)
+      real(dp), intent(in) :: depth
+      real(dp), intent(out) :: parts(:, :, :), error(:)
+
+      complex(dp), allocatable :: along(:, :)
+      complex(dp) :: turn_x(0:ubound(self%wave, 1)), turn_y(-ubound(self%wave, 2):ubound(self%wave, 2)), wave, &
+         weights(10)
+      real(dp) :: n_x, n_y, q, q_y, sums(10)
+      integer :: i, k, l, last(2), m
+
+      last = last_waves(self, depth)
+      turn_x(:last(1)) = [(exp(cmplx(0.0_dp, k*start(1), dp)), k=0, last(1))]
+      turn_y(-last(2):last(2)) = [(exp(cmplx(0.0_dp, l*start(2), dp)), l=-last(2), last(2))]
+      m = dot_product(abs(direction), last)
+      allocate (along(10, -m:m), source=(0.0_dp, 0.0_dp))
+      do l = -last(2), last(2)
+         q_y = l/self%side_ratio
+         do k = 0, last(1)
+            if (k == 0 .and. l <= 0) cycle
+            q = sqrt(k**2 + q_y**2)
+            if (q*depth > faintest) exit
+            wave = self%wave(k, l)*turn_x(k)*turn_y(l)*exp(-q*depth)
+            n_x = k/q
+            n_y = q_y/q
+            weights(:4) = [n_x**2, n_y**2, 0.0_dp, n_x*n_y]*(q*depth - 1.0_dp)
+            weights(3) = -(1.0_dp + q*depth)
+            weights(5:6) = cmplx(0.0_dp, [real(k, dp), q_y]*depth, dp)
+            weights(7:10) = [-2*n_y**2, -2*n_x**2, 2*n_x*n_y, merge(1.0_dp + q*depth, 0.0_dp, q > self%sampled_from)]
+            m = direction(1)*k + direction(2)*l
+            along(:, m) = along(:, m) + weights*wave
+         end do
+      end do
+      parts = 0.0_dp
+      do i = 1, size(t)
+         sums = 0.0_dp
+         do m = lbound(along, 2), ubound(along, 2)
+            sums = sums + real(along(:, m)*exp(cmplx(0.0_dp, m*t(i), dp)))
+         end do
+         parts(:, 1, i) = sums(:6)
+         parts([xx, yy, xy], 2, i) = sums(7:9)
+         error(i) = self%pressure_error + abs(sums(10))
+      end do
+   end subroutine on_line
+
+   !> The highest wave numbers that reach a depth.
+   pure function last_waves(stress, depth) result(last)
+      class(series_stress), intent(in) :: stress
+      real(dp), intent(in) :: depth
+      integer :: last(2)
+
+      last = ubound(stress%wave)
+      if (depth*maxval(last*[1.0_dp, 1.0_dp/stress%side_ratio]) > faintest) &
+         last = min(last, floor(min(faintest/depth*[1.0_dp, stress%side_ratio], real(last, dp))))
+   end function last_waves
+
+   !> One transform for each component, and one for the error (S5). Waves that the points cannot tell from slower ones are
+   !> added to those, so that the values are exact for any number of points.
+   subroutine on_plane(self, points, offset, depth, body, stress, error)
+      class(series_stress), intent(inout) :: self
+      integer, intent(in) :: points(2)
+      real(dp), intent(in) :: offset(2)
+      real(dp), intent(in) :: depth
+      type(elastic_body), intent(in) :: body
+      real(dp), allocatable, intent(out) :: stress(:, :, :)
+      real(dp), allocatable, intent(out) :: error(:, :)
+
+      complex(dp), allocatable :: waves(:, :, :)
+      type(grid_transform) :: transform
+      real(dp) :: mean(6)
+      integer :: i, spectra
+
+      allocate (stress(points(1), points(2), 6), error(points(1), points(2)))
+      call transform%start(points, even=.false.)
+      spectra = merge(7, 6, self%sampled_from*depth < faintest)
+      allocate (waves(points(1)/2 + 1, points(2), spectra), source=(0.0_dp, 0.0_dp))
+      call add_waves(self, points, offset, depth, body%nu, waves)
+      do i = 1, 6
+         transform%waves = waves(:, :, i)
+         call transform%backward(stress(:, :, i))
+      end do
+      mean = body%stress(reshape([(0.0_dp, i=1, 12)], [6, 2]), self%pbar_over_pstar)
+      do i = 1, 6
+         if (abs(mean(i)) > 0.0_dp) stress(:, :, i) = stress(:, :, i) + mean(i)
+      end do
+      if (spectra == 7) then
+         transform%waves = waves(:, :, 7)
+         call transform%backward(error)
+         error = abs(error) + self%pressure_error
+      else
+         error = self%pressure_error
+      end if
+   end subroutine on_plane
+
+   !> Adds the waves of the components of the stress to their spectra, and to a seventh, if there is one, those of zz that
+   !> are of the last octave.
+   subroutine add_waves(self, points, offset, depth, nu, spectra)
+      class(series_stress), intent(in) :: self
+      integer, intent(in) :: points(2)
+      real(dp), intent(in) :: offset(2), depth, nu
+      complex(dp), intent(inout) :: spectra(0:, 0:, :)   !! shape (0:N_x/2, 0:N_y - 1, 6 or 7)
+
+      complex(dp) :: here(size(spectra, 3)), turn_x(0:ubound(self%wave, 1)), wave
+      real(dp) :: n_x, n_y, q, q_y
+      integer :: k, l, last(2)
+
+      last = last_waves(self, depth)
+      turn_x = [(exp(cmplx(0.0_dp, 2*pi*modulo(k*offset(1)/points(1), 1.0_dp), dp)), k=0, ubound(self%wave, 1))]
+      do l = -last(2), last(2)
+         q_y = l/self%side_ratio
+         associate (turn_y => exp(cmplx(0.0_dp, 2*pi*modulo(l*offset(2)/points(2), 1.0_dp), dp)))
+            do k = 0, last(1)
+               if (k == 0 .and. l <= 0) cycle
+               q = sqrt(k**2 + q_y**2)
+               if (q*depth > faintest) exit
+               wave = 0.5_dp*exp(-q*depth)*self%wave(k, l)*turn_x(k)*turn_y
+               n_x = k/q
+               n_y = q_y/q
+               here(xx) = -(n_x**2*(1.0_dp - q*depth) + 2*nu*n_y**2)*wave
+               here(yy) = -(n_y**2*(1.0_dp - q*depth) + 2*nu*n_x**2)*wave
+               here(zz) = -(1.0_dp + q*depth)*wave
+               here(xy) = -n_x*n_y*(1.0_dp - 2*nu - q*depth)*wave
+               here(xz) = cmplx(0.0_dp, k*depth, dp)*wave
+               here(yz) = cmplx(0.0_dp, q_y*depth, dp)*wave
+               if (size(here) > 6) here(7) = merge(here(zz), (0.0_dp, 0.0_dp), q > self%sampled_from)
+               call add(modulo(k, points(1)), modulo(l, points(2)), here)
+               call add(modulo(-k, points(1)), modulo(-l, points(2)), conjg(here))
+            end do
+         end associate
+      end do
+
+   contains
+
+      !> Adds a wave, unless it belongs to the half of the spectrum that the transform takes from the other one.
+      subroutine add(k, l, here)
+         integer, intent(in) :: k, l
+         complex(dp), intent(in) :: here(:)
+
+         if (2*k <= points(1)) spectra(k, l, :) = spectra(k, l, :) + here
+      end subroutine add
+
+   end subroutine add_waves
+
+   !> The places of the largest von Mises stress and of the largest shear on planes from the surface down, each at about
+   !> `plane_ratio` times the depth of the one before. Deeper planes need fewer points.
+   subroutine start_places(self, body, places, widths)
+      class(series_stress), intent(inout) :: self
+      type(elastic_body), intent(in) :: body
+      real(dp), allocatable, intent(out) :: places(:, :)
+      real(dp), allocatable, intent(out) :: widths(:)
+
+      real(dp), allocatable :: depth(:), error(:, :), shear(:, :), stress(:, :, :), yielding(:, :)
+      real(dp) :: least, step
+      integer :: i, k, l, points(2)
+
+      step = pi/max(plane_points/2.0_dp, real(maxval(ubound(self%wave)), dp))
+      allocate (depth(2 + ceiling(log(2*pi/step)/log(plane_ratio))), source=0.0_dp)
+      do i = 2, size(depth)
+         depth(i) = step*plane_ratio**(i - 2)
+      end do
+      allocate (places(3, 2*size(depth)), widths(2*size(depth)))
+      do i = 1, size(depth)
+         points = plane_of(depth(i))
+         if (self%dimension == 1) points(2) = 1
+         call self%on_plane(points, [0.0_dp, 0.0_dp], depth(i), body, stress, error)
+         allocate (yielding(points(1), points(2)), shear(points(1), points(2)), source=0.0_dp)
+         do l = 1, points(2)
+            do k = 1, points(1)
+               yielding(k, l) = von_mises(stress(k, l, :))
+            end do
+         end do
+         ! A shear stress is between 1/2 and 1/sqrt3 of the von Mises stress: below this bound it is not the largest.
+         least = 0.5_dp*sqrt3*maxval(yielding)
+         do l = 1, points(2)
+            do k = 1, points(1)
+               if (yielding(k, l) >= least) shear(k, l) = largest_shear(stress(k, l, :))
+            end do
+         end do
+         places(:, 2*i - 1) = [2*pi*(maxloc(yielding) - 1)/points, depth(i)]
+         places(:, 2*i) = [2*pi*(maxloc(shear) - 1)/points, depth(i)]
+         widths(2*i - 1:2*i) = max(depth(i), step)
+         deallocate (yielding, shear)
+      end do
+
+   contains
+
+      !> Points along X and Y that resolve the waves that reach a depth.
+      function plane_of(depth) result(points)
+         real(dp), intent(in) :: depth
+         integer :: points(2)
+
+         !> Lengths of which are fast to transform.
+         integer, parameter :: multiple = 8
+         real(dp) :: most
+
+         most = 2.0_dp*ubound(self%wave, 1)
+         if (depth > 0.0_dp) most = min(most, waves_in_depth/depth)
+         points(1) = max(plane_points, multiple*ceiling(most/multiple))
+         most = 2.0_dp*ubound(self%wave, 2)
+         if (depth > 0.0_dp) most = min(most, waves_in_depth/depth*self%side_ratio)
+         points(2) = max(plane_points, multiple*ceiling(most/multiple))
+      end function plane_of
+
+   end subroutine start_places
+
+end module wavycon_series_stress

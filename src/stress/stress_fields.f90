@@ -1,0 +1,92 @@
+!> The stresses in a half-space under the pressure of one solution, at points and on planes.
+!>
+!> Positions are the angles X, Y of the surface's cell and the depth Z = 2 pi z/L_x, z into the body; stresses are in p*,
+!> tension positive. Those of the mean pressure are left out: `elastic_body` adds them.
+module wavycon_stress_fields
+   use wavycon_constants, only: pi
+   use wavycon_elastic_body, only: elastic_body
+   use wavycon_kinds, only: dp
+   implicit none (type, external)
+   private
+
+   public :: stress_fields
+
+   type, abstract :: stress_fields
+      real(dp) :: pbar_over_pstar = 0.0_dp    !! P
+      logical :: exist = .true.               !! whether there is a solution; if not all stresses are NaN
+      integer :: dimension = 2                !! 1: nothing depends on Y
+      real(dp) :: side_ratio = 1.0_dp         !! L_y/L_x
+   contains
+      procedure(parts_at_point), deferred :: at
+      procedure(find_start_places), deferred :: start_places
+      procedure :: on_line
+      procedure :: on_plane
+   end type stress_fields
+
+   abstract interface
+      !> At one point.
+      subroutine parts_at_point(self, x, y, depth, parts, error)
+         import :: dp, stress_fields
+         class(stress_fields), intent(inout) :: self
+         real(dp), intent(in) :: x, y            !! X, Y [rad]
+         real(dp), intent(in) :: depth           !! Z >= 0 [rad]
+         !> xx, yy, zz, xy, xz, yz [p*] of the waves: the stress is parts(:, 1) + nu*parts(:, 2).
+         real(dp), intent(out) :: parts(6, 2)
+         !> Estimate of the largest error of a component for 0 <= nu <= 1/2 [p*]; NaN if there is none.
+         real(dp), intent(out), optional :: error
+      end subroutine parts_at_point
+
+      !> Places from which the search for the largest stress starts: the best of them is close to it.
+      subroutine find_start_places(self, body, places, widths)
+         import :: dp, elastic_body, stress_fields
+         class(stress_fields), intent(inout) :: self
+         type(elastic_body), intent(in) :: body
+         real(dp), allocatable, intent(out) :: places(:, :)   !! X, Y, Z, shape (3, n) [rad]
+         real(dp), allocatable, intent(out) :: widths(:)      !! distance over which the stress changes, shape (n) [rad]
+      end subroutine find_start_places
+   end interface
+
+contains
+
+   !> Along a line at one depth, at X = X_0 + d_x t, Y = Y_0 + d_y t.
+   subroutine on_line(self, start, direction, t, depth, parts, error)
+      class(stress_fields), intent(inout) :: self
+      real(dp), intent(in) :: start(2)                    !! X_0, Y_0 [rad]
+      integer, intent(in) :: direction(2)                 !! d_x, d_y
+      real(dp), intent(in) :: t(:)                        !! [rad]
+      real(dp), intent(in) :: depth                       !! Z >= 0 [rad]
+      real(dp), intent(out) :: parts(:, :, :), error(:)   !! as of `at` for each t, shapes (6, 2, n), (n)
+
+      integer :: i
+
+      do i = 1, size(t)
+         call self%at(start(1) + direction(1)*t(i), start(2) + direction(2)*t(i), depth, parts(:, :, i), error(i))
+      end do
+   end subroutine on_line
+
+   !> On a plane at X = 2 pi (k + offset_x)/N_x, k = 0 .. N_x - 1, and the same in Y.
+   subroutine on_plane(self, points, offset, depth, body, stress, error)
+      class(stress_fields), intent(inout) :: self
+      integer, intent(in) :: points(2)        !! N_x, N_y >= 1; N_y = 1 in 1-D
+      real(dp), intent(in) :: offset(2)       !! of the first point, in steps; 0 along y in 1-D
+      real(dp), intent(in) :: depth           !! Z >= 0 [rad]
+      type(elastic_body), intent(in) :: body
+      !> xx, yy, zz, xy, xz, yz with those of the mean pressure [p*], shape (N_x, N_y, 6).
+      real(dp), allocatable, intent(out) :: stress(:, :, :)
+      real(dp), allocatable, intent(out) :: error(:, :)   !! as of `at`, shape (N_x, N_y) [p*]
+
+      real(dp) :: parts(6, 2)
+      integer :: k, l
+
+      allocate (stress(points(1), points(2), 6), error(points(1), points(2)))
+      do l = 1, points(2)
+         do k = 1, points(1)
+            associate (angles => 2*pi*([k, l] - 1 + offset)/points)
+               call self%at(angles(1), angles(2), depth, parts, error(k, l))
+            end associate
+            stress(k, l, :) = body%stress(parts, self%pbar_over_pstar)
+         end do
+      end do
+   end subroutine on_plane
+
+end module wavycon_stress_fields

@@ -1,0 +1,27 @@
+!> The tuned constants of this room. README.md, "Constants", has what changing them does; `scripts/constants --room stress`
+!> measures it.
+module wavycon_stress_tuning
+   use wavycon_kinds, only: dp
+   implicit none (type, external)
+   public
+
+   !> Search on planes: the depth of a plane over that of the plane above it; the number of points across a cell times the
+   !> depth Z; the fewest points of a plane along a side. The largest stress has a width of about its depth.
+   real(dp), parameter :: plane_ratio = 1.5_dp, waves_in_depth = 14.0_dp
+   integer, parameter :: plane_points = 24
+
+   !> Start places of expansions: distances from the centre of a spot or island over that of its edge, depths over its
+   !> radius, and depths over the distance of crests where spots have merged.
+   real(dp), parameter :: edge_ratios(*) = [0.5_dp, 0.9_dp, 1.0_dp, 1.1_dp, 1.4_dp]
+   real(dp), parameter :: depths_of_spot(*) = [0.0_dp, 0.1_dp, 0.25_dp, 0.5_dp, 0.9_dp]
+   real(dp), parameter :: depths_of_cell(*) = [0.03_dp, 0.07_dp, 0.12_dp, 0.2_dp]
+
+   !> Refinement: the number of best places that are refined; first distance of the points of its quadratic model over
+   !> the width of the stress; the factor by which this falls; the most models.
+   integer, parameter :: refined_places = 2
+   real(dp), parameter :: first_reach = 0.25_dp, reach_factor = 0.2_dp
+   integer, parameter :: most_models = 8
+
+   !> The error of a von Mises stress or a shear stress over that of the components.
+   real(dp), parameter :: error_of_invariant = 2.0_dp
+end module wavycon_stress_tuning
