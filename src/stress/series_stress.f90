@@ -10,7 +10,7 @@ module wavycon_series_stress
    use wavycon_kinds, only: dp
    use wavycon_stress_fields, only: stress_fields
    use wavycon_stress_tensor, only: largest_shear, von_mises, xx, xy, xz, yy, yz, zz
-   use wavycon_stress_tuning, only: plane_points, plane_ratio, waves_in_depth
+   use wavycon_stress_tuning, only: octave_factor, plane_points, plane_ratio, waves_in_depth
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
@@ -105,15 +105,15 @@ contains
 
       complex(dp), allocatable :: along(:, :)
       complex(dp) :: turn_x(0:ubound(self%wave, 1)), turn_y(-ubound(self%wave, 2):ubound(self%wave, 2)), wave, &
-         weights(10)
-      real(dp) :: n_x, n_y, q, q_y, sums(10)
+         weights(12)
+      real(dp) :: n_x, n_y, q, q_y, sums(12)
       integer :: i, k, l, last(2), m
 
       last = last_waves(self, depth)
       turn_x(:last(1)) = [(exp(cmplx(0.0_dp, k*start(1), dp)), k=0, last(1))]
       turn_y(-last(2):last(2)) = [(exp(cmplx(0.0_dp, l*start(2), dp)), l=-last(2), last(2))]
       m = dot_product(abs(direction), last)
-      allocate (along(10, -m:m), source=(0.0_dp, 0.0_dp))
+      allocate (along(12, -m:m), source=(0.0_dp, 0.0_dp))
       do l = -last(2), last(2)
          q_y = l/self%side_ratio
          do k = 0, last(1)
@@ -126,7 +126,9 @@ contains
             weights(:4) = [n_x**2, n_y**2, 0.0_dp, n_x*n_y]*(q*depth - 1.0_dp)
             weights(3) = -(1.0_dp + q*depth)
             weights(5:6) = cmplx(0.0_dp, [real(k, dp), q_y]*depth, dp)
-            weights(7:10) = [-2*n_y**2, -2*n_x**2, 2*n_x*n_y, merge(1.0_dp + q*depth, 0.0_dp, q > self%sampled_from)]
+            weights(7:9) = [-2*n_y**2, -2*n_x**2, 2*n_x*n_y]
+            weights(10:) = 0.0_dp
+            if (q > self%sampled_from) weights(10:) = octave_weights(n_x, n_y, q*depth)
             m = direction(1)*k + direction(2)*l
             along(:, m) = along(:, m) + weights*wave
          end do
@@ -139,9 +141,19 @@ contains
          end do
          parts(:, 1, i) = sums(:6)
          parts([xx, yy, xy], 2, i) = sums(7:9)
-         error(i) = self%pressure_error + abs(sums(10))
+         error(i) = self%pressure_error + octave_factor*norm2(sums(10:))
       end do
    end subroutine on_line
+
+   !> What the waves of zz of the last octave are multiplied by: 1, and i n along X and Y. The root of the sum of the three
+   !> squares is the amplitude of a wave where a single one passes through zero: (S5).
+   pure function octave_weights(n_x, n_y, q_z) result(weights)
+      real(dp), intent(in) :: n_x, n_y   !! direction of the wave
+      real(dp), intent(in) :: q_z        !! q Z
+      complex(dp) :: weights(3)
+
+      weights = (1.0_dp + q_z)*[(1.0_dp, 0.0_dp), cmplx(0.0_dp, n_x, dp), cmplx(0.0_dp, n_y, dp)]
+   end function octave_weights
 
    !> The highest wave numbers that reach a depth.
    pure function last_waves(stress, depth) result(last)
@@ -154,7 +166,7 @@ contains
          last = min(last, floor(min(faintest/depth*[1.0_dp, stress%side_ratio], real(last, dp))))
    end function last_waves
 
-   !> One transform for each component, and one for the error (S5). Waves that the points cannot tell from slower ones are
+   !> One transform for each component, and three for the error (S5). Waves that the points cannot tell from slower ones are
    !> added to those, so that the values are exact for any number of points.
    subroutine on_plane(self, points, offset, depth, body, stress, error)
       class(series_stress), intent(inout) :: self
@@ -167,12 +179,13 @@ contains
 
       complex(dp), allocatable :: waves(:, :, :)
       type(grid_transform) :: transform
+      real(dp), allocatable :: part(:, :)
       real(dp) :: mean(6)
       integer :: i, spectra
 
-      allocate (stress(points(1), points(2), 6), error(points(1), points(2)))
+      allocate (stress(points(1), points(2), 6), error(points(1), points(2)), part(points(1), points(2)))
       call transform%start(points, even=.false.)
-      spectra = merge(7, 6, self%sampled_from*depth < faintest)
+      spectra = merge(9, 6, self%sampled_from*depth < faintest)
       allocate (waves(points(1)/2 + 1, points(2), spectra), source=(0.0_dp, 0.0_dp))
       call add_waves(self, points, offset, depth, body%nu, waves)
       do i = 1, 6
@@ -183,22 +196,22 @@ contains
       do i = 1, 6
          if (abs(mean(i)) > 0.0_dp) stress(:, :, i) = stress(:, :, i) + mean(i)
       end do
-      if (spectra == 7) then
-         transform%waves = waves(:, :, 7)
-         call transform%backward(error)
-         error = abs(error) + self%pressure_error
-      else
-         error = self%pressure_error
-      end if
+      error = 0.0_dp
+      do i = 7, spectra
+         transform%waves = waves(:, :, i)
+         call transform%backward(part)
+         error = error + part**2
+      end do
+      error = octave_factor*sqrt(error) + self%pressure_error
    end subroutine on_plane
 
-   !> Adds the waves of the components of the stress to their spectra, and to a seventh, if there is one, those of zz that
-   !> are of the last octave.
+   !> Adds the waves of the components of the stress to their spectra, and to three more, if there are, those of zz that are
+   !> of the last octave.
    subroutine add_waves(self, points, offset, depth, nu, spectra)
       class(series_stress), intent(in) :: self
       integer, intent(in) :: points(2)
       real(dp), intent(in) :: offset(2), depth, nu
-      complex(dp), intent(inout) :: spectra(0:, 0:, :)   !! shape (0:N_x/2, 0:N_y - 1, 6 or 7)
+      complex(dp), intent(inout) :: spectra(0:, 0:, :)   !! shape (0:N_x/2, 0:N_y - 1, 6 or 9)
 
       complex(dp) :: here(size(spectra, 3)), turn_x(0:ubound(self%wave, 1)), wave
       real(dp) :: n_x, n_y, q, q_y
@@ -222,7 +235,10 @@ contains
                here(xy) = -n_x*n_y*(1.0_dp - 2*nu - q*depth)*wave
                here(xz) = cmplx(0.0_dp, k*depth, dp)*wave
                here(yz) = cmplx(0.0_dp, q_y*depth, dp)*wave
-               if (size(here) > 6) here(7) = merge(here(zz), (0.0_dp, 0.0_dp), q > self%sampled_from)
+               if (size(here) > 6) then
+                  here(7:) = (0.0_dp, 0.0_dp)
+                  if (q > self%sampled_from) here(7:) = octave_weights(n_x, n_y, q*depth)*wave
+               end if
                call add(modulo(k, points(1)), modulo(l, points(2)), here)
                call add(modulo(-k, points(1)), modulo(-l, points(2)), conjg(here))
             end do
