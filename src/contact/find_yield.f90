@@ -23,7 +23,7 @@ module wavycon_find_yield
 contains
 
    !> Solves for the load at which the largest equivalent stress is a given part of the yield stress. If no load reaches it
-   !> the solution is that of the largest stress met, with the status not_found.
+   !> there is no solution, with the status not_found and the load of the largest stress met.
    subroutine solve_for_yield(solver, setting, target, solution)
       class(contact_solver), intent(inout) :: solver        !! started with keep_fields
       type(stress_setting), intent(in) :: setting           !! with yield stresses
@@ -49,9 +49,10 @@ contains
       real(dp), intent(inout) :: log_p               !! ln P of the first load; on return of the last one
       class(contact_solution), allocatable, intent(out) :: solution
 
-      class(contact_solution), allocatable :: best
-      real(dp) :: error, high, largest, last_log_p, last_miss, low, miss, next, slope
+      real(dp) :: at_largest, error, high, largest, last_log_p, last_miss, low, miss, next, slope
       integer :: i
+      !> Of the logarithm of a stress.
+      real(dp), parameter :: rounding = 1e-10_dp
 
       low = -huge(low)
       high = huge(high)
@@ -60,13 +61,14 @@ contains
       last_log_p = log_p
       last_miss = 0.0_dp
       largest = -huge(largest)
+      at_largest = log_p
       do i = 1, most_solves
          call solver%solve(exp(log_p), solution)
          call find_miss(solver, setting, log_target, solution, miss, error)
          if (.not. ieee_is_finite(miss)) exit
-         if (miss > largest) then
+         if (miss > largest + rounding) then
             largest = miss
-            best = solution
+            at_largest = log_p
          end if
          if (abs(miss) <= min(max(fraction_of_error*error, least_fraction), largest_fraction)) return
          if (i > 1 .and. abs(log_p - last_log_p) > 0.0_dp) slope = (miss - last_miss)/(log_p - last_log_p)
@@ -85,12 +87,7 @@ contains
          end if
          log_p = next
       end do
-      if (allocated(best)) then
-         call move_alloc(best, solution)
-         solution%status = not_found
-      else
-         call no_solution(exp(log_p), solver%surface, solver%name(), not_found, solution)
-      end if
+      call no_solution(exp(at_largest), solver%surface, solver%name(), not_found, solution)
    end subroutine find_root
 
    !> ln of the largest stress over the target, and its error estimate. NaN if the load has no solution.
