@@ -1,6 +1,6 @@
 !> Finds the least load at which a body reaches its yield stress, or a given part of it.
 !>
-!> Equation (C24) of README.md in this directory: the secant method for ln r(P) = ln r, r the largest equivalent stress over
+!> Equation (S8) of src/stress/README.md: the secant method for ln r(P) = ln r, r the largest equivalent stress over
 !> the yield stress. It begins at a light load, where r is a power of P, and approaches the root from below: beyond the
 !> first one r may fall again.
 module wavycon_find_yield
