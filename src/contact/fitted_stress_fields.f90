@@ -2,6 +2,7 @@
 module wavycon_fitted_stress_fields
    use wavycon_constants, only: pi
    use wavycon_elastic_body, only: elastic_body
+   use wavycon_equivalent_points, only: equivalent_points, point_image
    use wavycon_fitted_answer, only: fitted_answer
    use wavycon_fitted_frame, only: fitted_frame
    use wavycon_fitted_stress, only: fitted_stress, start_fitted_stress
@@ -25,6 +26,7 @@ module wavycon_fitted_stress_fields
       real(dp) :: length(2) = 1.0_dp      !! sides of the surface's cell [length]
    contains
       procedure :: at
+      procedure :: on_plane
       procedure :: start_places
    end type fitted_stress_fields
 
@@ -67,6 +69,53 @@ contains
       if (present(error)) error = self%frame%pressure_unit*error
    end subroutine at
 
+   !> Equivalent points are evaluated once.
+   subroutine on_plane(self, points, offset, depth, body, stress, error)
+      class(fitted_stress_fields), intent(inout) :: self
+      integer, intent(in) :: points(2)
+      real(dp), intent(in) :: offset(2)
+      real(dp), intent(in) :: depth
+      type(elastic_body), intent(in) :: body
+      real(dp), allocatable, intent(out) :: stress(:, :, :)
+      real(dp), allocatable, intent(out) :: error(:, :)
+
+      type(equivalent_points) :: grid
+      type(point_image) :: first
+      real(dp) :: parts(6, 2)
+      integer :: k, l
+
+      allocate (stress(points(1), points(2), 6), error(points(1), points(2)))
+      call grid%start(points, offset, self%lattice%square, self%frame%crests)
+      do l = 0, points(2) - 1
+         do k = 0, points(1) - 1
+            first = grid%first_of([k, l])
+            associate (i => first%point(1) + 1, j => first%point(2) + 1)
+               if (all(first%point == [k, l])) then
+                  associate (angles => 2*pi*([k, l] + offset)/points)
+                     call self%at(angles(1), angles(2), depth, parts, error(i, j))
+                  end associate
+                  stress(i, j, :) = body%stress(parts, self%pbar_over_pstar)
+               else
+                  stress(k + 1, l + 1, :) = from_image(stress(i, j, :), first)
+                  error(k + 1, l + 1) = error(i, j)
+               end if
+            end associate
+         end do
+      end do
+   end subroutine on_plane
+
+   !> The stress at a point from that at its image.
+   pure function from_image(stress, image) result(here)
+      real(dp), intent(in) :: stress(6)
+      type(point_image), intent(in) :: image
+      real(dp) :: here(6)
+
+      here = stress
+      if (image%exchanged) here = here([yy, xx, zz, xy, yz, xz])
+      if (image%mirrored(1)) here([xy, xz]) = -here([xy, xz])
+      if (image%mirrored(2)) here([xy, yz]) = -here([xy, yz])
+   end function from_image
+
    !> A stress after a rotation about the z axis.
    pure function turned(stress, turn)
       real(dp), intent(in) :: stress(6)
@@ -85,11 +134,12 @@ contains
 
    !> Places below the spot or, above merging, below the crest and about the island, on the lines of symmetry of the
    !> lattice.
-   subroutine start_places(self, body, places, widths)
+   subroutine start_places(self, body, places, widths, stresses)
       class(fitted_stress_fields), intent(inout) :: self
       type(elastic_body), intent(in) :: body
       real(dp), allocatable, intent(out) :: places(:, :)
       real(dp), allocatable, intent(out) :: widths(:)
+      real(dp), allocatable, intent(out) :: stresses(:, :)
 
       complex(dp) :: centre
       complex(dp), allocatable :: at_surface(:), edge(:)
@@ -97,7 +147,6 @@ contains
       real(dp) :: radius
       integer :: directions, i, k, n
 
-      associate (unused => body); end associate
       associate (shape => self%answer%solution%shape)
          centre = (0.0_dp, 0.0_dp)
          if (self%answer%island) centre = self%lattice%trough
@@ -127,6 +176,7 @@ contains
             widths((k - 1)*n + i) = 2*pi*size_at(k)*self%frame%side/self%length(1)
          end do
       end do
+      call self%at_places(body, places, stresses)
    end subroutine start_places
 
 end module wavycon_fitted_stress_fields

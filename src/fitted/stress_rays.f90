@@ -1,0 +1,238 @@
+!> Stresses near a spot or island, by integration along rays from its point next to the place: README.md, section 13.
+!>
+!> The rays start at w_0, the preimage of the place, or at a point of the edge where the place is outside. Directions
+!> and points are dense where the integrand varies fast: at directions along the edge if w_0 is near the edge, and on
+!> a ray where the kernel is nearly singular. The number of points grows as the logarithm of the distances.
+module wavycon_stress_rays
+   use wavycon_constants, only: pi
+   use wavycon_expansion, only: expansion
+   use wavycon_gauss_rules, only: gauss_jacobi
+   use wavycon_kinds, only: dp
+   use wavycon_source_density, only: find_density, find_slopes, place_differences
+   use wavycon_stress_kernel, only: add_gap_gradient, add_pressure, h_field, l_field, stress_fields
+   implicit none (type, external)
+   private
+
+   public :: stress_rays, start_stress_rays
+
+   type :: gauss_rule
+      real(dp), allocatable :: node(:), weight(:)     !! Legendre's, -1 to 1
+   end type gauss_rule
+
+   type :: stress_rays
+      real(dp) :: least_angles = 0.0_dp               !! of a quarter of a turn
+      real(dp) :: angles_per_unit = 0.0_dp            !! more of them for each unit of the quarter's length in x
+      real(dp) :: least_points = 0.0_dp               !! on a ray
+      real(dp) :: points_per_unit = 0.0_dp            !! more of them for each unit of the ray's length in eta
+      type(gauss_rule), allocatable :: rules(:)       !! of 4, 8, 12, .. points
+   contains
+      procedure :: add_at
+   end type stress_rays
+
+   integer, parameter :: rule_step = 4, most_rules = 40
+
+   !> Distance of w_0 from the edge that counts as none.
+   real(dp), parameter :: at_edge = 1e-16_dp
+
+contains
+
+   subroutine start_stress_rays(rays, degree, digits)
+      type(stress_rays), intent(out) :: rays
+      integer, intent(in) :: degree              !! of the expansion
+      real(dp), intent(in) :: digits             !! natural logarithm of 1/accuracy
+
+      integer :: i
+
+      associate (share => digits/27)
+         rays%least_angles = 1.2_dp*share*(8.0_dp + 0.25_dp*degree)
+         rays%angles_per_unit = 1.2_dp*share*4.0_dp
+         rays%least_points = 1.2_dp*share*(8.0_dp + 0.25_dp*degree)
+         rays%points_per_unit = 1.2_dp*share*(0.9_dp + degree/16.0_dp)
+      end associate
+      allocate (rays%rules(most_rules))
+      do i = 1, most_rules
+         allocate (rays%rules(i)%node(rule_step*i), rays%rules(i)%weight(rule_step*i))
+         call gauss_jacobi(0.0_dp, 0.0_dp, rays%rules(i)%node, rays%rules(i)%weight)
+      end do
+   end subroutine start_stress_rays
+
+   !> Adds the fields of a spot or island at a place.
+   subroutine add_at(self, solution, origin, offset, depth, fields)
+      class(stress_rays), intent(in) :: self
+      type(expansion), intent(in) :: solution
+      complex(dp), intent(in) :: origin                   !! w_0, |w_0| <= 1
+      complex(dp), intent(in) :: offset                   !! the place as seen from z(w_0) [s]
+      real(dp), intent(in) :: depth                       !! >= 0 [s]
+      real(dp), intent(inout) :: fields(stress_fields)
+
+      complex(dp) :: density(1), direction, normal, slope(1), conjugate_slope(1)
+      real(dp), dimension(rule_step*most_rules) :: cosine, sine, weight
+      real(dp) :: distance, edge, kappa, scale, width
+      logical :: on_surface
+      integer :: i, inwards, quarter, rule, sideways
+
+      scale = solution%shape%b(0)
+      distance = hypot(abs(offset), depth)
+      on_surface = distance <= epsilon(1.0_dp)**2*scale
+      edge = max((1.0_dp - abs(origin))*(1.0_dp + abs(origin)), at_edge)
+      call find_slopes(solution%shape, 1, [origin], slope, conjugate_slope)
+      ! A place outside sees the edge vary on the scale of its distance.
+      width = sqrt(edge)
+      if (edge <= at_edge) width = max(width, 0.5_dp*distance/(abs(slope(1)) + abs(conjugate_slope(1))))
+      width = min(width, 1.0_dp)
+      normal = 1.0_dp
+      if (abs(origin) > 0.0_dp) normal = origin/abs(origin)
+      density = 0.0_dp
+      if (on_surface) call find_density(solution, 1, [origin], [edge], density)
+      ! The integrand is singular at complex directions of imaginary part kappa, where the map's derivative vanishes.
+      kappa = 0.5_dp*log(abs(slope(1))/max(abs(conjugate_slope(1)), tiny(1.0_dp)))
+      rule = rule_for((self%least_angles + self%angles_per_unit*asinh(0.5_dp*pi/width))*max(1.0_dp, 1.1_dp*kappa**(-0.4_dp)))
+      associate (n => size(self%rules(rule)%node))
+         call find_directions(self%rules(rule), width, cosine(:n), sine(:n), weight(:n))
+         do quarter = 1, merge(2, 4, edge <= at_edge)
+            inwards = merge(1, -1, quarter <= 2)
+            sideways = merge(1, -1, mod(quarter, 2) == 0)
+            do i = 1, n
+               direction = normal*cmplx(inwards*cosine(i), sideways*sine(i), dp)
+               call add_ray(self, solution, origin, offset, depth, on_surface, edge, inwards*cosine(i), direction, &
+                            slope(1)*direction + conjugate_slope(1)*conjg(direction), weight(i), density(1), fields)
+            end do
+         end do
+      end associate
+      if (on_surface .and. .not. solution%island) &
+         fields(h_field) = fields(h_field) + density(1)%re*sqrt(edge) &
+         /(slope(1)%re**2 + slope(1)%im**2 - (conjugate_slope(1)%re**2 + conjugate_slope(1)%im**2))
+   end subroutine add_at
+
+   !> Directions from the outward normal, and weights in the angle, of one quarter between the edge's direction and the
+   !> inward normal: Gauss's rule in x, where the angle from the edge is c sinh(x).
+   pure subroutine find_directions(rule, width, cosine, sine, weight)
+      type(gauss_rule), intent(in) :: rule
+      real(dp), intent(in) :: width                                     !! c > 0
+      real(dp), intent(out), dimension(:) :: cosine, sine, weight       !! shape of the rule
+
+      real(dp) :: last, x(size(rule%node))
+
+      last = asinh(0.5_dp*pi/width)
+      x = 0.5_dp*last*(1.0_dp + rule%node)
+      cosine = -sin(width*sinh(x))
+      sine = cos(width*sinh(x))
+      weight = 0.5_dp*last*rule%weight*width*cosh(x)
+   end subroutine find_directions
+
+   !> Adds a ray.
+   !>
+   !> On the chord through w_0 that the ray is part of let -cos(alpha) be the place from -1 to 1, so that the root of
+   !> 1 - |w|^2 is l sin(alpha), and alpha_0 that of w_0. In sigma = alpha - alpha_0 the kernel is singular at complex
+   !> places; sigma = r + m sinh(eta) moves them to eta = +-i pi/2.
+   subroutine add_ray(self, solution, origin, offset, depth, on_surface, edge, cosine, direction, stretch, weight, &
+                      density_at_origin, fields)
+      type(stress_rays), intent(in) :: self
+      type(expansion), intent(in) :: solution
+      complex(dp), intent(in) :: origin, offset
+      real(dp), intent(in) :: depth
+      logical, intent(in) :: on_surface
+      real(dp), intent(in) :: edge                  !! 1 - |w_0|^2
+      real(dp), intent(in) :: cosine                !! of the direction from the outward normal
+      complex(dp), intent(in) :: direction          !! e^(i phi)
+      complex(dp), intent(in) :: stretch            !! dz/dt at w_0
+      real(dp), intent(in) :: weight
+      complex(dp), intent(in) :: density_at_origin
+      real(dp), intent(inout) :: fields(stress_fields)
+
+      real(dp), parameter :: least_scale = 1e-25_dp
+      complex(dp) :: pole
+      real(dp) :: ahead, alpha, along, back, behind, first, forward, half, last, length, middle, r, squared, width
+      integer :: rule
+
+      along = sqrt(max(1.0_dp - edge, 0.0_dp))*cosine
+      half = sqrt(edge + along**2)
+      if (along > 0.0_dp) then
+         back = half + along
+         forward = edge/back
+      else
+         forward = half - along
+         back = edge/forward
+      end if
+      behind = min(back/(2*half), 1.0_dp)
+      ahead = min(forward/(2*half), 1.0_dp)
+      alpha = 2*atan2(sqrt(behind), sqrt(ahead))
+      length = 2*atan2(sqrt(ahead), sqrt(behind))
+      if (on_surface) then
+         r = 0.0_dp
+         width = alpha
+      else
+         squared = stretch%re**2 + stretch%im**2
+         middle = (offset%re*stretch%re + offset%im*stretch%im)/squared
+         pole = cmplx(middle, sqrt(max((offset%re**2 + offset%im**2 + depth**2)/squared - middle**2, 0.0_dp)), dp)
+         pole = 2*asin(sqrt(behind + pole/(2*half)))
+         r = pole%re - alpha
+         width = abs(pole%im)
+      end if
+      width = max(width, least_scale)
+      first = asinh(-r/width)
+      last = asinh((length - r)/width)
+      rule = rule_for(self%least_points + self%points_per_unit*(last - first))
+      associate (nodes => self%rules(rule))
+         call add_points(size(nodes%node), nodes%node, nodes%weight)
+      end associate
+
+   contains
+
+      subroutine add_points(n, node, node_weight)
+         integer, intent(in) :: n
+         real(dp), intent(in) :: node(n), node_weight(n)
+
+         complex(dp), dimension(n) :: density, difference, step, w
+         real(dp), dimension(n) :: at_t, eta, root, sigma, t
+         real(dp) :: own(stress_fields), squared_stretch
+         complex(dp) :: kernel
+
+         eta = first + 0.5_dp*(last - first)*(1.0_dp + node)
+         ! The same as r + width sinh(eta), without cancellation next to w_0.
+         sigma = 2*width*cosh(0.5_dp*(eta + first))*sinh(0.5_dp*(eta - first))
+         root = half*merge(sin(alpha + sigma), sin(length - sigma), alpha < length)
+         t = 2*half*sin(0.5_dp*sigma)*merge(sin(alpha + 0.5_dp*sigma), sin(length - 0.5_dp*sigma), alpha < length)
+         step = t*direction
+         w = origin + step
+         call place_differences(solution%shape, origin, n, step, w, difference)
+         call find_density(solution, n, w, root**2, density)
+         ! dt = root dsigma, and the density's own root.
+         at_t = weight*0.5_dp*(last - first)*node_weight*width*cosh(eta)*root
+         density = density*(at_t*root*t)
+         difference = offset - difference
+         own = 0.0_dp
+         if (solution%island) then
+            call add_gap_gradient(n, difference%re, difference%im, depth, density%re, density%im, own)
+         else
+            call add_pressure(n, difference%re, difference%im, depth, density%re, own)
+         end if
+         if (on_surface) then
+            ! Less 1/t times the value at t = 0, of which the integral to a small circle in z is known.
+            squared_stretch = stretch%re**2 + stretch%im**2
+            associate (remainder => weight*log(forward*sqrt(squared_stretch)/solution%shape%b(0)) - sum(at_t/t), &
+                       at_origin => density_at_origin*sqrt(edge))
+               if (solution%island) then
+                  kernel = -conjg(stretch)*at_origin/sqrt(squared_stretch)**3/(4*pi**2)
+                  own(h_field) = own(h_field) + remainder*kernel%re
+                  kernel = stretch*at_origin/sqrt(squared_stretch)**3/(4*pi**2)
+               else
+                  kernel = stretch**2/squared_stretch**2/pi*at_origin
+               end if
+               own(l_field) = own(l_field) + remainder*kernel%re
+               own(l_field + 1) = own(l_field + 1) + remainder*kernel%im
+            end associate
+         end if
+         fields = fields + own
+      end subroutine add_points
+
+   end subroutine add_ray
+
+   !> The rule of at least as many points, or the longest.
+   pure integer function rule_for(points)
+      real(dp), intent(in) :: points
+
+      rule_for = min(max(ceiling(points/rule_step), 1), most_rules)
+   end function rule_for
+
+end module wavycon_stress_rays
