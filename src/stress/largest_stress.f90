@@ -5,9 +5,10 @@
 !> directory. Depths are mirrored at the surface, so that the search may end on it.
 module wavycon_largest_stress
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
+   use wavycon_constants, only: pi
    use wavycon_elastic_body, only: elastic_body
    use wavycon_kinds, only: dp
-   use wavycon_lapack, only: dposv
+   use wavycon_lapack, only: dsyev
    use wavycon_stress_fields, only: stress_fields
    use wavycon_stress_tensor, only: largest_shear, von_mises
    use wavycon_stress_tuning, only: close_to_largest, error_of_invariant, first_reach, gain_part, most_models, &
@@ -19,6 +20,9 @@ module wavycon_largest_stress
 
    !> The quantities that can be searched for.
    integer, parameter, public :: by_von_mises = 1, by_shear = 2
+
+   !> Relative differences of stresses below this are rounding.
+   real(dp), parameter :: rounding = 1e-14_dp
 
    type :: largest_stress
       real(dp) :: value = 0.0_dp        !! [p*]
@@ -98,12 +102,29 @@ contains
             answer = other
             least_gain = gain
          end if
-         values(best) = -1.0_dp
+         ! Places about the same maximum are not refined again.
+         where (distances(fields, places, places(:, best)) < widths(best)) values = -1.0_dp
+         if (all(values < 0.0_dp)) exit
       end do
       if (fields%dimension == 1) answer%place(2) = 0.0_dp
       call fields%at(answer%place(1), answer%place(2), answer%place(3), parts, answer%error)
       answer%error = error_of_invariant*answer%error + least_gain
    end subroutine search
+
+   !> The distances of places from a place, across the borders of the cell.
+   pure function distances(fields, places, place)
+      class(stress_fields), intent(in) :: fields
+      real(dp), intent(in) :: places(:, :), place(3)   !! X, Y, Z [rad]
+      real(dp) :: distances(size(places, 2))
+
+      integer :: i
+
+      do i = 1, size(places, 2)
+         associate (d => places(:, i) - place)
+            distances(i) = norm2([modulo(d(1) + pi, 2*pi) - pi, fields%side_ratio*(modulo(d(2) + pi, 2*pi) - pi), d(3)])
+         end associate
+      end do
+   end function distances
 
    !> Improves a place by quadratic models.
    subroutine refine(fields, body, quantity, width, enough, best, gain)
@@ -115,8 +136,6 @@ contains
       type(largest_stress), intent(inout) :: best    !! value and place
       real(dp), intent(out) :: gain                  !! by the last model [p*]
 
-      !> Relative gains below this are rounding.
-      real(dp), parameter :: rounding = 1e-14_dp
       integer, allocatable :: axes(:)
       real(dp) :: before, least, reach, step
       integer :: i
@@ -129,9 +148,10 @@ contains
          before = best%value
          call improve(fields, body, quantity, axes, reach, best, step)
          gain = best%value - before
-         if (gain <= least .and. i > 1) exit
+         ! A lucky model is followed by one that gains nothing: the error of a model counts too, see (S6).
+         if (max(gain, (reach/width)**4*best%value) <= least) exit
          ! A place at the border of the model may be far from the maximum: the next model is as large.
-         if (step < 0.9_dp*reach) reach = max(reach_factor*reach, min(step, reach))
+         if (step < 0.9_dp*reach) reach = reach_factor*reach
       end do
    end subroutine refine
 
@@ -148,7 +168,7 @@ contains
 
       real(dp) :: curvature(size(axes), size(axes)), move(3), slope(size(axes)), start(3), value, value_here, &
          values(-1:1)
-      integer :: i, j, k, l, status
+      integer :: i, j, k, l
 
       start = best%place
       value_here = best%value
@@ -172,14 +192,9 @@ contains
          curvature(i, i) = values(1) - 2*value_here + values(-1)
          curvature(:i - 1, i) = curvature(i, :i - 1)
       end do
-      curvature = -curvature
-      call dposv('U', size(axes), 1, curvature, size(axes), slope, size(axes), status)
-      if (status == 0) then
-         if (maxval(abs(slope)) > 1.0_dp) slope = slope/maxval(abs(slope))
-         move = 0.0_dp
-         move(axes) = reach*slope
-         call try(move, value)
-      end if
+      move = 0.0_dp
+      move(axes) = reach*step_to_maximum(slope, -curvature, rounding*value_here)
+      call try(move, value)
       step = maxval(abs(best%place - abs_depth(start)))
 
    contains
@@ -200,6 +215,34 @@ contains
       end subroutine try
 
    end subroutine improve
+
+   !> The maximum of g.d - (1/2) d.C d for |d_i| <= 1, along the principal axes of C. Where the function is not curved
+   !> downwards along an axis the step goes to the end on the side of the slope, or is zero if there is no slope.
+   pure function step_to_maximum(slope, curvature, least) result(step)
+      real(dp), intent(in) :: slope(:)          !! g, shape (n)
+      real(dp), intent(in) :: curvature(:, :)   !! C, symmetric, shape (n, n)
+      real(dp), intent(in) :: least             !! a smaller slope is none
+      real(dp) :: step(size(slope))
+
+      real(dp) :: along, axes(size(slope), size(slope)), values(size(slope)), work(3*size(slope))
+      integer :: i, status
+
+      step = 0.0_dp
+      axes = curvature
+      call dsyev('V', 'U', size(slope), axes, size(slope), values, work, size(work), status)
+      if (status /= 0) return
+      do i = 1, size(slope)
+         along = dot_product(axes(:, i), slope)
+         if (abs(along) <= least) cycle
+         if (values(i) > abs(along)) then
+            along = along/values(i)
+         else
+            along = sign(1.0_dp, along)
+         end if
+         step = step + along*axes(:, i)
+      end do
+      if (maxval(abs(step)) > 1.0_dp) step = step/maxval(abs(step))
+   end function step_to_maximum
 
    !> A place, mirrored at the surface if it is outside the body.
    pure function abs_depth(place)

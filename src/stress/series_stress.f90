@@ -255,33 +255,50 @@ contains
       real(dp), allocatable, intent(out) :: stress(:, :, :)
       real(dp), allocatable, intent(out) :: error(:, :)
 
+      real(dp), allocatable :: fields(:, :, :)
+      integer :: i, number
+
+      number = merge(9, 6, self%sampled_from*depth < self%faintest)
+      call transform_waves(self, points, offset, depth, body, number, fields)
+      allocate (error(points(1), points(2)), source=0.0_dp)
+      do i = 7, number
+         error = error + fields(:, :, i)**2
+      end do
+      error = self%pressure_error + octave_factor*sqrt(error)
+      if (number == 6) then
+         call move_alloc(fields, stress)
+      else
+         allocate (stress, source=fields(:, :, :6))
+      end if
+   end subroutine on_plane
+
+   !> The six components on a plane and, if asked for, the three sums of (S5).
+   subroutine transform_waves(self, points, offset, depth, body, number, fields)
+      class(series_stress), intent(inout) :: self
+      integer, intent(in) :: points(2)
+      real(dp), intent(in) :: offset(2), depth
+      type(elastic_body), intent(in) :: body
+      integer, intent(in) :: number                          !! of fields, 6 or 9
+      real(dp), allocatable, intent(out) :: fields(:, :, :)  !! shape (N_x, N_y, number)
+
       complex(dp), allocatable :: waves(:, :, :)
       type(grid_transform) :: transform
-      real(dp), allocatable :: part(:, :)
       real(dp) :: mean(6)
-      integer :: i, spectra
+      integer :: i
 
-      allocate (stress(points(1), points(2), 6), error(points(1), points(2)), part(points(1), points(2)))
+      allocate (fields(points(1), points(2), number))
+      allocate (waves(points(1)/2 + 1, points(2), number), source=(0.0_dp, 0.0_dp))
       call transform%start(points, even=.false.)
-      spectra = merge(9, 6, self%sampled_from*depth < self%faintest)
-      allocate (waves(points(1)/2 + 1, points(2), spectra), source=(0.0_dp, 0.0_dp))
       call add_waves(self, points, offset, depth, body%nu, waves)
-      do i = 1, 6
+      do i = 1, number
          transform%waves = waves(:, :, i)
-         call transform%backward(stress(:, :, i))
+         call transform%backward(fields(:, :, i))
       end do
       mean = body%stress(reshape([(0.0_dp, i=1, 12)], [6, 2]), self%pbar_over_pstar)
       do i = 1, 6
-         if (abs(mean(i)) > 0.0_dp) stress(:, :, i) = stress(:, :, i) + mean(i)
+         if (abs(mean(i)) > 0.0_dp) fields(:, :, i) = fields(:, :, i) + mean(i)
       end do
-      error = 0.0_dp
-      do i = 7, spectra
-         transform%waves = waves(:, :, i)
-         call transform%backward(part)
-         error = error + part**2
-      end do
-      error = self%pressure_error + octave_factor*sqrt(error)
-   end subroutine on_plane
+   end subroutine transform_waves
 
    !> Adds the waves of the components of the stress to their spectra, and to three more, if there are, those of
    !> the last octave for the error (S5).
@@ -343,7 +360,7 @@ contains
       real(dp), allocatable, intent(out) :: widths(:)
       real(dp), allocatable, intent(out) :: stresses(:, :)
 
-      real(dp), allocatable :: depth(:), error(:, :), shear(:, :), stress(:, :, :), yielding(:, :)
+      real(dp), allocatable :: depth(:), shear(:, :), stress(:, :, :), yielding(:, :)
       real(dp) :: least, step
       integer :: i, k, l, points(2)
 
@@ -356,7 +373,7 @@ contains
       do i = 1, size(depth)
          points = plane_of(depth(i))
          if (self%dimension == 1) points(2) = 1
-         call self%on_plane(points, [0.0_dp, 0.0_dp], depth(i), body, stress, error)
+         call transform_waves(self, points, [0.0_dp, 0.0_dp], depth(i), body, 6, stress)
          allocate (yielding(points(1), points(2)), shear(points(1), points(2)), source=0.0_dp)
          do l = 1, points(2)
             do k = 1, points(1)

@@ -23,7 +23,7 @@ module wavycon_stress_tuning
    !> that ends the search over the error of the stress; first distance of the points of its quadratic model over
    !> the width of the stress; the factor by which this falls; the most models.
    integer, parameter :: refined_places = 2
-   real(dp), parameter :: close_to_largest = 0.95_dp, gain_part = 0.1_dp
+   real(dp), parameter :: close_to_largest = 0.9_dp, gain_part = 0.1_dp
    real(dp), parameter :: first_reach = 0.25_dp, reach_factor = 0.2_dp
    integer, parameter :: most_models = 8
 
