@@ -2,7 +2,7 @@
 !>
 !> Equations (S1) to (S5) of README.md in this directory.
 module wavycon_series_stress
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
    use wavycon_constants, only: pi, sqrt3
    use wavycon_elastic_body, only: elastic_body
    use wavycon_fourier_series, only: fourier_series
@@ -99,6 +99,11 @@ contains
       real(dp) :: q, q_y, sums(number_of_sums)
       integer :: k, l, last(2)
 
+      if (.not. self%exist) then
+         parts = ieee_value(parts, ieee_quiet_nan)
+         if (present(error)) error = ieee_value(error, ieee_quiet_nan)
+         return
+      end if
       call self%use_depth(depth)
       last = ubound(self%decay) - 1
       turn_x(:last(1)) = [(exp(cmplx(0.0_dp, k*x, dp)), k=0, last(1))]
@@ -160,6 +165,11 @@ contains
       real(dp) :: n_x, n_y, q, q_y, sums(number_of_sums)
       integer :: i, k, l, last(2), m
 
+      if (.not. self%exist) then
+         parts = ieee_value(parts, ieee_quiet_nan)
+         error = ieee_value(error, ieee_quiet_nan)
+         return
+      end if
       call self%use_depth(depth)
       last = ubound(self%decay) - 1
       turn_x(:last(1)) = [(exp(cmplx(0.0_dp, k*start(1), dp)), k=0, last(1))]
@@ -241,7 +251,7 @@ contains
    pure logical function is_zero(wave)
       complex(dp), intent(in) :: wave
 
-      is_zero = max(abs(wave%re), abs(wave%im)) <= 0.0_dp
+      is_zero = abs(wave%re) <= 0.0_dp .and. abs(wave%im) <= 0.0_dp
    end function is_zero
 
    !> One transform for each component, and three for the error (S5). Waves that the points cannot tell from slower ones are
@@ -258,6 +268,12 @@ contains
       real(dp), allocatable :: fields(:, :, :)
       integer :: i, number
 
+      if (.not. self%exist) then
+         allocate (stress(points(1), points(2), 6), error(points(1), points(2)))
+         stress = ieee_value(stress, ieee_quiet_nan)
+         error = ieee_value(error, ieee_quiet_nan)
+         return
+      end if
       number = merge(9, 6, self%sampled_from*depth < self%faintest)
       call transform_waves(self, points, offset, depth, body, number, fields)
       allocate (error(points(1), points(2)), source=0.0_dp)
