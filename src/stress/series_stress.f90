@@ -131,7 +131,7 @@ contains
          end associate
       end do
       parts = parts_of(sums)
-      if (present(error)) error = error_of(self, sums(9:))
+      if (present(error)) error = error_of(self, parts, sums(9:))
    end subroutine at
 
    !> The stresses from the sums (S4).
@@ -200,16 +200,18 @@ contains
             sums = sums + real(along(:, m)*exp(cmplx(0.0_dp, m*t(i), dp)))
          end do
          parts(:, :, i) = parts_of(sums)
-         error(i) = error_of(self, sums(9:))
+         error(i) = error_of(self, parts(:, :, i), sums(9:))
       end do
    end subroutine on_line
 
    !> The error (S5).
-   pure real(dp) function error_of(stress, octave)
+   pure real(dp) function error_of(stress, parts, octave)
       class(series_stress), intent(in) :: stress
+      real(dp), intent(in) :: parts(6, 2)
       real(dp), intent(in) :: octave(3)   !! sums over the waves of the last octave, with the weights below
 
       error_of = stress%pressure_error + octave_factor*norm2(octave)
+      if (error_of < parts(zz, 1) - stress%pbar_over_pstar) error_of = parts(zz, 1) - stress%pbar_over_pstar
    end function error_of
 
    !> The weights of a wave of the last octave in (S5), to its sign.
@@ -281,6 +283,7 @@ contains
          error = error + fields(:, :, i)**2
       end do
       error = self%pressure_error + octave_factor*sqrt(error)
+      where (error < fields(:, :, zz)) error = fields(:, :, zz)
       if (number == 6) then
          call move_alloc(fields, stress)
       else
