@@ -11,8 +11,8 @@ POINTS = 24  # of planes along each side
 WAVES_LEFT = 37.0  # planes bear the load to rounding where waves that the points do not see are below exp(-37)
 ROUNDING = 1e-9  # of sums over the points, and of the digits of the tables, over the peak pressure
 COMPONENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
-# As tests/README.md states of error estimates: the fraction that holds. Near edges of contact, where the pressure has an
-# infinite slope, a point of a coarse grid may be off by more than 3 times.
+# As tests/README.md states of error estimates: the fraction that holds. Near edges of contact, where the pressure has
+# an infinite slope, a point of a coarse grid may be off by more than 3 times.
 CONFIDENCE, LARGEST_RATIO = 0.95, 8.0
 SYMMETRIC_RATIO = 3.0  # of largest stresses
 FEWEST = 100
@@ -28,7 +28,8 @@ class Stresses:
         deep = ratio*(WAVES_LEFT/(2.0*math.pi*POINTS))
         depths = [0.0, stream.uniform(0.0, 0.05), stream.uniform(0.05, 0.2), deep*stream.uniform(1.0, 3.0)]
         self.deep = deep
-        self.group = (f"&stress nu = {nu!r}, lateral = '{stream.choice(LATERAL)}', line = t, section = 'x', planes = t,\n"
+        self.group = (f"&stress nu = {nu!r}, lateral = '{stream.choice(LATERAL)}',\n"
+                      f"   line = t, section = 'x', planes = t,\n"
                       f"   depths_over_cell_x = {', '.join(map(repr, depths))} /\n"
                       f"&output map_points = {POINTS}, line_points = {POINTS} /\n")
 
@@ -72,8 +73,8 @@ def bounds(tables, load, peak):
 
 
 def balance(tables, load, pressure, peak, cell_x, deep, sees_all):
-    """The largest difference of the mean of s_zz from the load, and of the mean shear stresses from zero, over the peak
-    pressure."""
+    """The largest difference of the mean of s_zz from the load, and of the mean shear stresses from zero, over the
+    peak pressure."""
     worst = 0.0
     planes = {}
     for record in of_load(tables["planes"], load):
@@ -148,7 +149,8 @@ def campaign(program, seed, kinds, scenes, work, failures):
                     off = difference_of_largest(one, another, peak)
                     worst["symmetry"] = max(worst["symmetry"], off)
                     if not off <= SYMMETRIC_RATIO:
-                        complaints.append(f"load {one['load']:.0f}: largest stresses differ by {off:.1f} times the estimates")
+                        complaints.append(f"load {one['load']:.0f}: largest stresses differ by {off:.1f} times the "
+                                          "estimates")
                 if not part.count(f"{name}, {change}", complaints):
                     keep(failures, f"{name}-{change}", files)
             if kind in FITTED or kind == "wave_1d":
