@@ -35,11 +35,12 @@ contains
    end subroutine at
 
    !> Places across the contact, at depths from the surface to that of the longest wave.
-   subroutine start_places(self, body, places, widths)
+   subroutine start_places(self, body, places, widths, stresses)
       class(closed_form_stress), intent(inout) :: self
       type(elastic_body), intent(in) :: body
       real(dp), allocatable, intent(out) :: places(:, :)
       real(dp), allocatable, intent(out) :: widths(:)
+      real(dp), allocatable, intent(out) :: stresses(:, :)
 
       !> Places over the half width of the contact.
       real(dp), parameter :: across(*) = [0.0_dp, 0.3_dp, 0.6_dp, 0.9_dp, 1.0_dp, 1.1_dp], &
@@ -47,7 +48,6 @@ contains
       real(dp) :: half_width
       integer :: i, k
 
-      associate (unused => body); end associate
       half_width = pi*westergaard_contact_area_fraction(self%pbar_over_pstar)
       allocate (places(3, size(across)*size(below)), widths(size(across)*size(below)))
       do k = 1, size(below)
@@ -56,6 +56,7 @@ contains
          end do
       end do
       widths = 0.5_dp*half_width
+      call self%at_places(body, places, stresses)
    end subroutine start_places
 
 end module wavycon_closed_form_stress

@@ -1,6 +1,6 @@
 !> Finds the least load at which a body reaches its yield stress, or a given part of it.
 !>
-!> Equation (C24) of README.md in this directory: the secant method for ln r(P) = ln r, r the largest equivalent stress over
+!> Equation (S8) of src/stress/README.md: the secant method for ln r(P) = ln r, r the largest equivalent stress over
 !> the yield stress. It begins at a light load, where r is a power of P, and approaches the root from below: beyond the
 !> first one r may fall again.
 module wavycon_find_yield
@@ -22,8 +22,8 @@ module wavycon_find_yield
 
 contains
 
-   !> Solves for the load at which the largest equivalent stress is a given part of the yield stress. The solution has the
-   !> status not_found if no load has it.
+   !> Solves for the load at which the largest equivalent stress is a given part of the yield stress. If no load reaches it
+   !> there is no solution, with the status not_found and the load of the largest stress met.
    subroutine solve_for_yield(solver, setting, target, solution)
       class(contact_solver), intent(inout) :: solver        !! started with keep_fields
       type(stress_setting), intent(in) :: setting           !! with yield stresses
@@ -49,8 +49,10 @@ contains
       real(dp), intent(inout) :: log_p               !! ln P of the first load; on return of the last one
       class(contact_solution), allocatable, intent(out) :: solution
 
-      real(dp) :: error, high, last_log_p, last_miss, low, miss, next, slope
+      real(dp) :: at_largest, error, high, largest, last_log_p, last_miss, low, miss, next, slope
       integer :: i
+      !> Of the logarithm of a stress.
+      real(dp), parameter :: rounding = 1e-10_dp
 
       low = -huge(low)
       high = huge(high)
@@ -58,10 +60,16 @@ contains
       slope = merge(0.5_dp, 1.0_dp/3, solver%surface%dimension == 1)
       last_log_p = log_p
       last_miss = 0.0_dp
+      largest = -huge(largest)
+      at_largest = log_p
       do i = 1, most_solves
          call solver%solve(exp(log_p), solution)
          call find_miss(solver, setting, log_target, solution, miss, error)
          if (.not. ieee_is_finite(miss)) exit
+         if (miss > largest + rounding) then
+            largest = miss
+            at_largest = log_p
+         end if
          if (abs(miss) <= min(max(fraction_of_error*error, least_fraction), largest_fraction)) return
          if (i > 1 .and. abs(log_p - last_log_p) > 0.0_dp) slope = (miss - last_miss)/(log_p - last_log_p)
          last_log_p = log_p
@@ -79,7 +87,7 @@ contains
          end if
          log_p = next
       end do
-      call no_solution(exp(log_p), solver%surface, solver%name(), not_found, solution)
+      call no_solution(exp(at_largest), solver%surface, solver%name(), not_found, solution)
    end subroutine find_root
 
    !> ln of the largest stress over the target, and its error estimate. NaN if the load has no solution.

@@ -85,11 +85,12 @@ contains
 
    !> Places below the spot or, above merging, below the crest and about the island, on the lines of symmetry of the
    !> lattice.
-   subroutine start_places(self, body, places, widths)
+   subroutine start_places(self, body, places, widths, stresses)
       class(fitted_stress_fields), intent(inout) :: self
       type(elastic_body), intent(in) :: body
       real(dp), allocatable, intent(out) :: places(:, :)
       real(dp), allocatable, intent(out) :: widths(:)
+      real(dp), allocatable, intent(out) :: stresses(:, :)
 
       complex(dp) :: centre
       complex(dp), allocatable :: at_surface(:), edge(:)
@@ -97,7 +98,6 @@ contains
       real(dp) :: radius
       integer :: directions, i, k, n
 
-      associate (unused => body); end associate
       associate (shape => self%answer%solution%shape)
          centre = (0.0_dp, 0.0_dp)
          if (self%answer%island) centre = self%lattice%trough
@@ -127,6 +127,7 @@ contains
             widths((k - 1)*n + i) = 2*pi*size_at(k)*self%frame%side/self%length(1)
          end do
       end do
+      call self%at_places(body, places, stresses)
    end subroutine start_places
 
 end module wavycon_fitted_stress_fields

@@ -99,7 +99,7 @@ contains
       worst = maxval(loads)
       if (p_star <= 0.0_dp) then
          if (loads_by /= by_pressure) call values%complain(problems, key, &
-            'the surface is flat: give its loads by pressure')
+            'the surface is flat: give its loads by pressure, not by gap, area or yield')
       else if (key == 'mean_pressure' .and. worst > largest_pbar_over_pstar*p_star) then
          call values%complain(problems, key, 'mean_pressure = '//short_number(worst)//' is more than '// &
             short_number(largest_pbar_over_pstar)//' times p* = '//short_number(p_star)// &

@@ -1,30 +1,80 @@
+!> Stresses in the half-space under the pressure of an answer of the boundary-fitted solver: README.md, section 13.
+!>
+!> They are exact to ten digits of the peak pressure at any depth, the surface included, as far as the answer is.
 module wavycon_fitted_stress
+   use wavycon_error_estimate, only: at_point, error_estimate
+   use wavycon_expansion_stress, only: expansion_stress, start_expansion_stress
    use wavycon_fitted_answer, only: fitted_answer
    use wavycon_kinds, only: dp
+   use wavycon_stress_kernel, only: stress_fields, stress_parts
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
    private
+
    public :: fitted_stress, start_fitted_stress
+
    type :: fitted_stress
+      type(wave_lattice), private :: lattice
+      real(dp), private :: accuracy = 0.0_dp
+      real(dp), private :: peak_pressure = 0.0_dp                  !! of the answer [pi E* Delta/s]
+      real(dp), private :: misfit_decay(2) = 1.0_dp
+      type(expansion_stress), allocatable, private :: of_degree(:) !! of the answer's expansion and those of lower degrees
    contains
       procedure :: at
    end type fitted_stress
+
+   !> Expansions of lower degrees that errors are estimated from.
+   integer, parameter :: most_lower = 2
+
 contains
+
+   !> Prepares. Series, tables and rules are made when a place first needs them.
    subroutine start_fitted_stress(stress, lattice, answer, accuracy)
       type(fitted_stress), intent(out) :: stress
-      type(wave_lattice), intent(in) :: lattice
-      type(fitted_answer), intent(in) :: answer
-      real(dp), intent(in) :: accuracy
-      associate (a => lattice, b => answer, c => accuracy, d => stress); end associate
-   end subroutine
+      type(wave_lattice), intent(in) :: lattice    !! the answer's
+      type(fitted_answer), intent(in) :: answer    !! with a solution, status <= fitted_less_exact
+      real(dp), intent(in) :: accuracy             !! of the integrals, over the answer's peak pressure, > 0
+
+      integer :: i
+
+      stress%lattice = lattice
+      stress%accuracy = accuracy
+      stress%peak_pressure = answer%peak_pressure
+      stress%misfit_decay = answer%misfit_decay
+      allocate (stress%of_degree(0:min(size(answer%previous), most_lower)))
+      call start_expansion_stress(stress%of_degree(0), lattice, answer%solution, accuracy)
+      do i = 1, ubound(stress%of_degree, 1)
+         call start_expansion_stress(stress%of_degree(i), lattice, answer%previous(i), accuracy)
+      end do
+   end subroutine start_fitted_stress
+
+   !> The stresses at a place, less those of the mean pressure.
    subroutine at(self, place, depth, parts, error)
       class(fitted_stress), intent(inout) :: self
-      complex(dp), intent(in) :: place
-      real(dp), intent(in) :: depth
+      complex(dp), intent(in) :: place             !! x + i y from a crest [s]
+      real(dp), intent(in) :: depth                !! z >= 0 [s]
       real(dp), intent(out) :: parts(6, 2)
+         !! xx, yy, zz, xy, xz, yz [pi E* Delta/s], tension > 0: the stress is parts(:, 1) + nu*parts(:, 2)
       real(dp), intent(out), optional :: error
-      associate (a => self, b => place, c => depth); end associate
-      parts = 0
-      if (present(error)) error = 0
-   end subroutine
+         !! estimate of the largest error of a component for 0 <= nu <= 1/2 [pi E* Delta/s]
+
+      real(dp) :: difference(2), estimate(1), fields(stress_fields), older(6, 2, 0:most_lower)
+      integer :: i
+
+      call self%of_degree(0)%fields_at(place, depth, fields)
+      call stress_parts(fields, parts)
+      if (.not. present(error)) return
+      older(:, :, 0) = parts
+      difference = huge(1.0_dp)
+      do i = 1, ubound(self%of_degree, 1)
+         call self%of_degree(i)%fields_at(place, depth, fields)
+         call stress_parts(fields, older(:, :, i))
+         associate (change => older(:, :, i) - older(:, :, i - 1))
+            difference(i) = maxval(abs(matmul(change, reshape([1.0_dp, 0.0_dp, 1.0_dp, 0.5_dp], [2, 2]))))
+         end associate
+      end do
+      call error_estimate(difference(1:1), difference(2:2), at_point(self%misfit_decay), [self%peak_pressure], estimate)
+      error = estimate(1) + self%accuracy*self%peak_pressure
+   end subroutine at
+
 end module wavycon_fitted_stress

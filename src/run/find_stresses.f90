@@ -1,6 +1,6 @@
 !> Finds the largest stresses of all loads of a scene.
 module wavycon_find_stresses
-   use wavycon_largest_stress, only: by_shear, by_von_mises, find_largest_stress
+   use wavycon_largest_stress, only: find_largest_stresses
    use wavycon_results, only: results_type
    use wavycon_run_log, only: run_log
    use wavycon_stress_fields, only: stress_fields
@@ -25,10 +25,8 @@ contains
          do load = 1, size(results%loads)
             call results%loads(load)%solution%stresses(results%scene%surface, fields)
             do body = 1, size(setting%body)
-               associate (yielding => results%von_mises(body, load), shear => results%shear(body, load))
-                  call find_largest_stress(fields, setting%body(body), by_von_mises, yielding)
-                  call find_largest_stress(fields, setting%body(body), by_shear, shear)
-               end associate
+               call find_largest_stresses(fields, setting%body(body), results%von_mises(body, load), &
+                                          results%shear(body, load))
             end do
             call log%show_stress_progress(load, size(results%loads))
          end do

@@ -1,7 +1,7 @@
 !> Runs a scene from beginning to end: starts the solver, solves all loads, writes the tables.
 module wavycon_run_scene
    use wavycon_checkpoint, only: checkpoint_file, checkpoint_name, read_checkpoint
-   use wavycon_contact_status, only: converged
+   use wavycon_contact_status, only: converged, not_found
    use wavycon_error, only: error_type, exit_file_trouble, exit_fine, exit_not_converged, fatal_error
    use wavycon_find_stresses, only: find_stresses
    use wavycon_kinds, only: dp
@@ -182,7 +182,7 @@ contains
       integer, intent(out) :: status
 
       character(:), allocatable :: loads
-      integer :: bad, i, without_area
+      integer :: bad, i, unreached, without_area
 
       bad = 0
       without_area = 0
@@ -193,10 +193,13 @@ contains
                without_area = without_area + 1
          end associate
       end do
+      unreached = count([(results%loads(i)%solution%status == not_found, i=1, size(results%loads))])
       loads = integer_text(size(results%loads))
       associate (scene => results%scene)
          if (without_area > 0) call log%say('note: at '//integer_text(without_area)//' loads '// &
                                             results%solver%why_no_area()//', so that their contact area shows as 0')
+         if (scene%loads_by == by_yield .and. unreached > 0) call log%say('note: for '//integer_text(unreached)// &
+            ' loads no mean pressure was found that brings the stresses to the given part of the yield stress')
          if (scene%p_star <= 0.0_dp) call log%say('the surface is flat: there is only a summary')
          call log%say('results: '//escaped(scene%directory)//'/'//scene%case//'.summary.dat')
          if (bad == 0) then

@@ -4,17 +4,18 @@
 !> about a place predicts the next, better one, while the distance of the points falls: (S6), (S7) of README.md in this
 !> directory. Depths are mirrored at the surface, so that the search may end on it.
 module wavycon_largest_stress
-   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
    use wavycon_elastic_body, only: elastic_body
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dposv
    use wavycon_stress_fields, only: stress_fields
    use wavycon_stress_tensor, only: largest_shear, von_mises
-   use wavycon_stress_tuning, only: error_of_invariant, first_reach, most_models, reach_factor, refined_places
+   use wavycon_stress_tuning, only: close_to_largest, error_of_invariant, first_reach, gain_part, most_models, &
+      reach_factor, refined_places
    implicit none (type, external)
    private
 
-   public :: largest_stress, find_largest_stress
+   public :: largest_stress, find_largest_stress, find_largest_stresses
 
    !> The quantities that can be searched for.
    integer, parameter, public :: by_von_mises = 1, by_shear = 2
@@ -27,36 +28,72 @@ module wavycon_largest_stress
 
 contains
 
-   !> Finds the largest value of a quantity in a body. NaN if there is no solution.
+   !> Finds the largest von Mises stress and the largest shear stress in a body. NaN if there is no solution.
+   subroutine find_largest_stresses(fields, body, yielding, shear)
+      class(stress_fields), intent(inout) :: fields
+      type(elastic_body), intent(in) :: body
+      type(largest_stress), intent(out) :: yielding, shear
+
+      real(dp), allocatable :: places(:, :), stresses(:, :), widths(:)
+
+      if (fields%exist) then
+         call fields%start_places(body, places, widths, stresses)
+         call search(fields, body, by_von_mises, places, widths, stresses, yielding)
+         call search(fields, body, by_shear, places, widths, stresses, shear)
+      else
+         yielding = no_stress()
+         shear = no_stress()
+      end if
+   end subroutine find_largest_stresses
+
+   !> Finds the largest value of one of the two. NaN if there is no solution.
    subroutine find_largest_stress(fields, body, quantity, answer)
       class(stress_fields), intent(inout) :: fields
       type(elastic_body), intent(in) :: body
       integer, intent(in) :: quantity                   !! by_von_mises or by_shear
       type(largest_stress), intent(out) :: answer
 
-      real(dp), allocatable :: places(:, :), values(:), widths(:)
-      real(dp) :: gain, least_gain, parts(6, 2)
+      real(dp), allocatable :: places(:, :), stresses(:, :), widths(:)
+
+      if (fields%exist) then
+         call fields%start_places(body, places, widths, stresses)
+         call search(fields, body, quantity, places, widths, stresses, answer)
+      else
+         answer = no_stress()
+      end if
+   end subroutine find_largest_stress
+
+   !> Of a load without a solution.
+   pure type(largest_stress) function no_stress()
+      no_stress%value = ieee_value(1.0_dp, ieee_quiet_nan)
+      no_stress%error = no_stress%value
+      no_stress%place = no_stress%value
+   end function no_stress
+
+   !> Refines the best of the places.
+   subroutine search(fields, body, quantity, places, widths, stresses, answer)
+      class(stress_fields), intent(inout) :: fields
+      type(elastic_body), intent(in) :: body
+      integer, intent(in) :: quantity
+      real(dp), intent(in) :: places(:, :), widths(:), stresses(:, :)   !! from start_places
+      type(largest_stress), intent(out) :: answer
+
+      real(dp) :: error, gain, least_gain, parts(6, 2), values(size(widths))
       type(largest_stress) :: other
       integer :: best, i
 
-      if (.not. fields%exist) then
-         answer%value = ieee_value(answer%value, ieee_quiet_nan)
-         answer%error = answer%value
-         answer%place = answer%value
-         return
-      end if
-      call fields%start_places(body, places, widths)
-      allocate (values(size(widths)))
       do i = 1, size(widths)
-         values(i) = value_at(fields, body, quantity, places(:, i))
+         values(i) = size_of(quantity, stresses(:, i))
       end do
       least_gain = 0.0_dp
       gain = 0.0_dp
       do i = 1, min(refined_places, size(widths))
          best = maxloc(values, dim=1)
+         if (values(best) < close_to_largest*answer%value) exit
          other%value = values(best)
          other%place = places(:, best)
-         call refine(fields, body, quantity, widths(best), other, gain)
+         call fields%at(other%place(1), other%place(2), other%place(3), parts, error)
+         call refine(fields, body, quantity, widths(best), gain_part*error, other, gain)
          if (i == 1 .or. other%value > answer%value) then
             answer = other
             least_gain = gain
@@ -66,30 +103,33 @@ contains
       if (fields%dimension == 1) answer%place(2) = 0.0_dp
       call fields%at(answer%place(1), answer%place(2), answer%place(3), parts, answer%error)
       answer%error = error_of_invariant*answer%error + least_gain
-   end subroutine find_largest_stress
+   end subroutine search
 
    !> Improves a place by quadratic models.
-   subroutine refine(fields, body, quantity, width, best, gain)
+   subroutine refine(fields, body, quantity, width, enough, best, gain)
       class(stress_fields), intent(inout) :: fields
       type(elastic_body), intent(in) :: body
       integer, intent(in) :: quantity
       real(dp), intent(in) :: width                  !! of the maximum [rad]
+      real(dp), intent(in) :: enough                 !! the search ends when a model gains less [p*]; NaN: at rounding
       type(largest_stress), intent(inout) :: best    !! value and place
       real(dp), intent(out) :: gain                  !! by the last model [p*]
 
       !> Relative gains below this are rounding.
       real(dp), parameter :: rounding = 1e-14_dp
       integer, allocatable :: axes(:)
-      real(dp) :: before, reach, step
+      real(dp) :: before, least, reach, step
       integer :: i
 
       allocate (axes, source=pack([1, 2, 3], [.true., fields%dimension > 1, .true.]))
+      least = rounding*best%value
+      if (.not. ieee_is_nan(enough)) least = max(enough, least)
       reach = first_reach*width
       do i = 1, most_models
          before = best%value
          call improve(fields, body, quantity, axes, reach, best, step)
          gain = best%value - before
-         if (gain <= rounding*best%value .and. i > 1) exit
+         if (gain <= least .and. i > 1) exit
          ! A place at the border of the model may be far from the maximum: the next model is as large.
          if (step < 0.9_dp*reach) reach = max(reach_factor*reach, min(step, reach))
       end do
@@ -108,33 +148,29 @@ contains
 
       real(dp) :: curvature(size(axes), size(axes)), move(3), slope(size(axes)), start(3), value, value_here, &
          values(-1:1)
-      integer :: i, j, k, status
+      integer :: i, j, k, l, status
 
       start = best%place
       value_here = best%value
+      ! The directions are in the order of `axes`, depth last: points of one depth follow each other.
+      curvature = 0.0_dp
       do i = 1, size(axes)
-         values(0) = value_here
          do k = -1, 1, 2
             move = 0.0_dp
             move(axes(i)) = k*reach
             call try(move, values(k))
+            do j = 1, i - 1
+               do l = -1, 1, 2
+                  move(axes(j)) = l*reach
+                  call try(move, value)
+                  curvature(i, j) = curvature(i, j) + 0.25_dp*k*l*value
+               end do
+               move(axes(j)) = 0.0_dp
+            end do
          end do
          slope(i) = 0.5_dp*(values(1) - values(-1))
-         curvature(i, i) = values(1) - 2*values(0) + values(-1)
-         do j = 1, i - 1
-            curvature(i, j) = 0.0_dp
-            do k = -1, 1, 2
-               move = 0.0_dp
-               move(axes(i)) = reach
-               move(axes(j)) = k*reach
-               call try(move, value)
-               curvature(i, j) = curvature(i, j) + 0.25_dp*k*value
-               move(axes(i)) = -reach
-               call try(move, value)
-               curvature(i, j) = curvature(i, j) - 0.25_dp*k*value
-            end do
-            curvature(j, i) = curvature(i, j)
-         end do
+         curvature(i, i) = values(1) - 2*value_here + values(-1)
+         curvature(:i - 1, i) = curvature(i, :i - 1)
       end do
       curvature = -curvature
       call dposv('U', size(axes), 1, curvature, size(axes), slope, size(axes), status)
@@ -156,7 +192,7 @@ contains
          real(dp) :: place(3)
 
          place = abs_depth(start + move)
-         value = value_at(fields, body, quantity, place)
+         value = size_of(quantity, stress_at(fields, body, place))
          if (value > best%value) then
             best%value = value
             best%place = place
@@ -173,21 +209,28 @@ contains
       abs_depth = [place(1), place(2), abs(place(3))]
    end function abs_depth
 
-   real(dp) function value_at(fields, body, quantity, place) result(value)
+   function stress_at(fields, body, place) result(stress)
       class(stress_fields), intent(inout) :: fields
       type(elastic_body), intent(in) :: body
-      integer, intent(in) :: quantity
       real(dp), intent(in) :: place(3)   !! X, Y, Z [rad]
+      real(dp) :: stress(6)
 
-      real(dp) :: parts(6, 2), stress(6)
+      real(dp) :: parts(6, 2)
 
       call fields%at(place(1), place(2), place(3), parts)
       stress = body%stress(parts, fields%pbar_over_pstar)
+   end function stress_at
+
+   !> The von Mises stress or the largest shear stress.
+   pure real(dp) function size_of(quantity, stress)
+      integer, intent(in) :: quantity
+      real(dp), intent(in) :: stress(6)
+
       if (quantity == by_shear) then
-         value = largest_shear(stress)
+         size_of = largest_shear(stress)
       else
-         value = von_mises(stress)
+         size_of = von_mises(stress)
       end if
-   end function value_at
+   end function size_of
 
 end module wavycon_largest_stress

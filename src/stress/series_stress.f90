@@ -2,7 +2,7 @@
 !>
 !> Equations (S1) to (S5) of README.md in this directory.
 module wavycon_series_stress
-   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_constants, only: pi, sqrt3
    use wavycon_elastic_body, only: elastic_body
    use wavycon_fourier_series, only: fourier_series
@@ -10,15 +10,17 @@ module wavycon_series_stress
    use wavycon_kinds, only: dp
    use wavycon_stress_fields, only: stress_fields
    use wavycon_stress_tensor, only: largest_shear, von_mises, xx, xy, xz, yy, yz, zz
-   use wavycon_stress_tuning, only: plane_points, plane_ratio, waves_in_depth
+   use wavycon_stress_tuning, only: plane_points, plane_ratio, pressure_part, waves_in_depth
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
 
    public :: series_stress, start_series_stress
 
-   !> Waves whose factor exp(-q Z) is smaller than exp(-faintest) are rounding.
-   real(dp), parameter :: faintest = 37.0_dp
+   integer, parameter :: number_of_sums = 9
+
+   !> Waves whose factor exp(-q Z) is smaller than exp(-37) are rounding.
+   real(dp), parameter :: deepest = 37.0_dp
 
    type, extends(stress_fields) :: series_stress
       private
@@ -26,11 +28,15 @@ module wavycon_series_stress
       complex(dp), allocatable :: wave(:, :)
       real(dp) :: sampled_from = huge(1.0_dp)   !! waves with q above this are those of a grid's last octave
       real(dp) :: pressure_error = 0.0_dp       !! of the pressure [p*]; NaN if there is no estimate
+      real(dp) :: faintest = deepest            !! waves with q Z above this are left out
+      real(dp), allocatable :: decay(:, :)      !! exp(-q Z) of the depth in use, shape (0:., 0:.)
+      real(dp) :: decay_depth = 0.0_dp          !! Z [rad]
    contains
       procedure :: at
       procedure :: on_line
       procedure :: on_plane
       procedure :: start_places
+      procedure, private :: use_depth
    end type series_stress
 
 contains
@@ -53,6 +59,8 @@ contains
       stress%side_ratio = surface%length(2)/surface%length(1)
       if (surface%dimension == 1) stress%side_ratio = 1.0_dp
       stress%pressure_error = pressure_error
+      if (.not. ieee_is_nan(pressure_error)) &
+         stress%faintest = log(pressure_part/min(max(pressure_error, pressure_part*exp(-deepest)), 1.0_dp))
       if (is_sampled) then
          stress%sampled_from = 0.5_dp*m
          if (n > 0) stress%sampled_from = 0.5_dp*min(real(m, dp), n/stress%side_ratio)
@@ -87,12 +95,55 @@ contains
       real(dp), intent(out) :: parts(6, 2)
       real(dp), intent(out), optional :: error
 
-      real(dp) :: errors(1), parts_here(6, 2, 1)
+      complex(dp) :: turn_x(0:ubound(self%wave, 1)), wave
+      real(dp) :: q, q_y, sums(number_of_sums)
+      integer :: k, l, last(2)
 
-      call self%on_line([x, y], [0, 0], [0.0_dp], depth, parts_here, errors)
-      parts = parts_here(:, :, 1)
-      if (present(error)) error = errors(1)
+      call self%use_depth(depth)
+      last = ubound(self%decay) - 1
+      turn_x(:last(1)) = [(exp(cmplx(0.0_dp, k*x, dp)), k=0, last(1))]
+      sums = 0.0_dp
+      do l = -last(2), last(2)
+         q_y = l/self%side_ratio
+         associate (turn_y => exp(cmplx(0.0_dp, l*y, dp)))
+            do k = merge(1, 0, l <= 0), last(1)
+               if (is_zero(self%wave(k, l))) cycle
+               wave = self%decay(k, abs(l))*self%wave(k, l)*turn_x(k)*turn_y
+               q = sqrt(k**2 + q_y**2)
+               associate (a => wave%re, n_x => k/q, n_y => q_y/q, inner => q*depth*wave%re)
+                  sums(1) = sums(1) + a
+                  sums(2) = sums(2) + inner
+                  sums(3) = sums(3) + n_x**2*a
+                  sums(4) = sums(4) + n_x**2*inner
+                  sums(5) = sums(5) + n_x*n_y*a
+                  sums(6) = sums(6) + n_x*n_y*inner
+                  sums(7) = sums(7) - k*depth*wave%im
+                  sums(8) = sums(8) - q_y*depth*wave%im
+                  if (q > self%sampled_from) sums(9) = sums(9) + a + inner
+               end associate
+            end do
+         end associate
+      end do
+      parts = parts_of(sums)
+      if (present(error)) error = self%pressure_error + abs(sums(9))
    end subroutine at
+
+   !> The stresses from the sums (S4).
+   pure function parts_of(sums) result(parts)
+      real(dp), intent(in) :: sums(number_of_sums)
+      real(dp) :: parts(6, 2)
+
+      parts = 0.0_dp
+      parts(xx, 1) = sums(4) - sums(3)
+      parts(yy, 1) = (sums(2) - sums(4)) - (sums(1) - sums(3))
+      parts(zz, 1) = -(sums(1) + sums(2))
+      parts(xy, 1) = sums(6) - sums(5)
+      parts(xz, 1) = sums(7)
+      parts(yz, 1) = sums(8)
+      parts(xx, 2) = -2*(sums(1) - sums(3))
+      parts(yy, 2) = -2*sums(3)
+      parts(xy, 2) = 2*sums(5)
+   end function parts_of
 
    !> The sums (S4) along a line: its waves are first added up to those with the same wave number d_x k + d_y l along t.
    subroutine on_line(self, start, direction, t, depth, parts, error)
@@ -104,55 +155,75 @@ contains
       real(dp), intent(out) :: parts(:, :, :), error(:)
 
       complex(dp), allocatable :: along(:, :)
-      complex(dp) :: turn_x(0:ubound(self%wave, 1)), turn_y(-ubound(self%wave, 2):ubound(self%wave, 2)), wave, &
-         weights(10)
-      real(dp) :: n_x, n_y, q, q_y, sums(10)
+      complex(dp) :: turn_x(0:ubound(self%wave, 1)), wave, weights(number_of_sums)
+      real(dp) :: n_x, n_y, q, q_y, sums(number_of_sums)
       integer :: i, k, l, last(2), m
 
-      last = last_waves(self, depth)
+      call self%use_depth(depth)
+      last = ubound(self%decay) - 1
       turn_x(:last(1)) = [(exp(cmplx(0.0_dp, k*start(1), dp)), k=0, last(1))]
-      turn_y(-last(2):last(2)) = [(exp(cmplx(0.0_dp, l*start(2), dp)), l=-last(2), last(2))]
       m = dot_product(abs(direction), last)
-      allocate (along(10, -m:m), source=(0.0_dp, 0.0_dp))
+      allocate (along(number_of_sums, -m:m), source=(0.0_dp, 0.0_dp))
       do l = -last(2), last(2)
          q_y = l/self%side_ratio
-         do k = 0, last(1)
-            if (k == 0 .and. l <= 0) cycle
-            q = sqrt(k**2 + q_y**2)
-            if (q*depth > faintest) exit
-            wave = self%wave(k, l)*turn_x(k)*turn_y(l)*exp(-q*depth)
-            n_x = k/q
-            n_y = q_y/q
-            weights(:4) = [n_x**2, n_y**2, 0.0_dp, n_x*n_y]*(q*depth - 1.0_dp)
-            weights(3) = -(1.0_dp + q*depth)
-            weights(5:6) = cmplx(0.0_dp, [real(k, dp), q_y]*depth, dp)
-            weights(7:10) = [-2*n_y**2, -2*n_x**2, 2*n_x*n_y, merge(1.0_dp + q*depth, 0.0_dp, q > self%sampled_from)]
-            m = direction(1)*k + direction(2)*l
-            along(:, m) = along(:, m) + weights*wave
-         end do
+         associate (turn_y => exp(cmplx(0.0_dp, l*start(2), dp)))
+            do k = merge(1, 0, l <= 0), last(1)
+               if (is_zero(self%wave(k, l))) cycle
+               wave = self%decay(k, abs(l))*self%wave(k, l)*turn_x(k)*turn_y
+               q = sqrt(k**2 + q_y**2)
+               n_x = k/q
+               n_y = q_y/q
+               weights(1:5:2) = [1.0_dp, n_x**2, n_x*n_y]
+               weights(2:6:2) = q*depth*weights(1:5:2)
+               weights(7:8) = cmplx(0.0_dp, [real(k, dp), q_y]*depth, dp)
+               weights(9) = merge(1.0_dp + q*depth, 0.0_dp, q > self%sampled_from)
+               m = direction(1)*k + direction(2)*l
+               along(:, m) = along(:, m) + weights*wave
+            end do
+         end associate
       end do
-      parts = 0.0_dp
       do i = 1, size(t)
          sums = 0.0_dp
          do m = lbound(along, 2), ubound(along, 2)
             sums = sums + real(along(:, m)*exp(cmplx(0.0_dp, m*t(i), dp)))
          end do
-         parts(:, 1, i) = sums(:6)
-         parts([xx, yy, xy], 2, i) = sums(7:9)
-         error(i) = self%pressure_error + abs(sums(10))
+         parts(:, :, i) = parts_of(sums)
+         error(i) = self%pressure_error + abs(sums(9))
       end do
    end subroutine on_line
 
-   !> The highest wave numbers that reach a depth.
-   pure function last_waves(stress, depth) result(last)
-      class(series_stress), intent(in) :: stress
-      real(dp), intent(in) :: depth
-      integer :: last(2)
+   !> Computes the factors exp(-q Z) of a depth, unless they are those of the last call.
+   subroutine use_depth(self, depth)
+      class(series_stress), intent(inout) :: self
+      real(dp), intent(in) :: depth   !! Z [rad]
 
-      last = ubound(stress%wave)
-      if (depth*maxval(last*[1.0_dp, 1.0_dp/stress%side_ratio]) > faintest) &
-         last = min(last, floor(min(faintest/depth*[1.0_dp, stress%side_ratio], real(last, dp))))
-   end function last_waves
+      real(dp) :: q_z
+      integer :: k, l, last(2)
+
+      if (allocated(self%decay)) then
+         if (abs(depth - self%decay_depth) <= 0.0_dp) return
+         deallocate (self%decay)
+      end if
+      last = ubound(self%wave)
+      if (depth > 0.0_dp) last = floor(min(self%faintest/depth*[1.0_dp, self%side_ratio], real(last, dp)))
+      ! With one more in each direction, for a series without waves in one of them.
+      allocate (self%decay(0:last(1) + 1, 0:last(2) + 1), source=0.0_dp)
+      do l = 0, last(2)
+         do k = 0, last(1)
+            q_z = depth*sqrt(k**2 + (l/self%side_ratio)**2)
+            if (q_z > self%faintest) exit
+            self%decay(k, l) = exp(-q_z)
+         end do
+      end do
+      self%decay_depth = depth
+   end subroutine use_depth
+
+   !> Series on turned cells have many such waves.
+   pure logical function is_zero(wave)
+      complex(dp), intent(in) :: wave
+
+      is_zero = max(abs(wave%re), abs(wave%im)) <= 0.0_dp
+   end function is_zero
 
    !> One transform for each component, and one for the error (S5). Waves that the points cannot tell from slower ones are
    !> added to those, so that the values are exact for any number of points.
@@ -172,7 +243,7 @@ contains
 
       allocate (stress(points(1), points(2), 6), error(points(1), points(2)))
       call transform%start(points, even=.false.)
-      spectra = merge(7, 6, self%sampled_from*depth < faintest)
+      spectra = merge(7, 6, self%sampled_from*depth < self%faintest)
       allocate (waves(points(1)/2 + 1, points(2), spectra), source=(0.0_dp, 0.0_dp))
       call add_waves(self, points, offset, depth, body%nu, waves)
       do i = 1, 6
@@ -195,7 +266,7 @@ contains
    !> Adds the waves of the components of the stress to their spectra, and to a seventh, if there is one, those of zz that
    !> are of the last octave.
    subroutine add_waves(self, points, offset, depth, nu, spectra)
-      class(series_stress), intent(in) :: self
+      class(series_stress), intent(inout) :: self
       integer, intent(in) :: points(2)
       real(dp), intent(in) :: offset(2), depth, nu
       complex(dp), intent(inout) :: spectra(0:, 0:, :)   !! shape (0:N_x/2, 0:N_y - 1, 6 or 7)
@@ -204,16 +275,17 @@ contains
       real(dp) :: n_x, n_y, q, q_y
       integer :: k, l, last(2)
 
-      last = last_waves(self, depth)
+      call self%use_depth(depth)
+      last = ubound(self%decay) - 1
       turn_x = [(exp(cmplx(0.0_dp, 2*pi*modulo(k*offset(1)/points(1), 1.0_dp), dp)), k=0, ubound(self%wave, 1))]
       do l = -last(2), last(2)
          q_y = l/self%side_ratio
          associate (turn_y => exp(cmplx(0.0_dp, 2*pi*modulo(l*offset(2)/points(2), 1.0_dp), dp)))
-            do k = 0, last(1)
-               if (k == 0 .and. l <= 0) cycle
+            do k = merge(1, 0, l <= 0), last(1)
+               if (is_zero(self%wave(k, l))) cycle
                q = sqrt(k**2 + q_y**2)
-               if (q*depth > faintest) exit
-               wave = 0.5_dp*exp(-q*depth)*self%wave(k, l)*turn_x(k)*turn_y
+               if (q*depth > self%faintest) exit
+               wave = 0.5_dp*self%decay(k, abs(l))*self%wave(k, l)*turn_x(k)*turn_y
                n_x = k/q
                n_y = q_y/q
                here(xx) = -(n_x**2*(1.0_dp - q*depth) + 2*nu*n_y**2)*wave
@@ -243,11 +315,12 @@ contains
 
    !> The places of the largest von Mises stress and of the largest shear on planes from the surface down, each at about
    !> `plane_ratio` times the depth of the one before. Deeper planes need fewer points.
-   subroutine start_places(self, body, places, widths)
+   subroutine start_places(self, body, places, widths, stresses)
       class(series_stress), intent(inout) :: self
       type(elastic_body), intent(in) :: body
       real(dp), allocatable, intent(out) :: places(:, :)
       real(dp), allocatable, intent(out) :: widths(:)
+      real(dp), allocatable, intent(out) :: stresses(:, :)
 
       real(dp), allocatable :: depth(:), error(:, :), shear(:, :), stress(:, :, :), yielding(:, :)
       real(dp) :: least, step
@@ -258,7 +331,7 @@ contains
       do i = 2, size(depth)
          depth(i) = step*plane_ratio**(i - 2)
       end do
-      allocate (places(3, 2*size(depth)), widths(2*size(depth)))
+      allocate (places(3, 2*size(depth)), widths(2*size(depth)), stresses(6, 2*size(depth)))
       do i = 1, size(depth)
          points = plane_of(depth(i))
          if (self%dimension == 1) points(2) = 1
@@ -276,13 +349,21 @@ contains
                if (yielding(k, l) >= least) shear(k, l) = largest_shear(stress(k, l, :))
             end do
          end do
-         places(:, 2*i - 1) = [2*pi*(maxloc(yielding) - 1)/points, depth(i)]
-         places(:, 2*i) = [2*pi*(maxloc(shear) - 1)/points, depth(i)]
+         call take(2*i - 1, maxloc(yielding))
+         call take(2*i, maxloc(shear))
          widths(2*i - 1:2*i) = max(depth(i), step)
          deallocate (yielding, shear)
       end do
 
    contains
+
+      !> Takes a point of the plane as a place.
+      subroutine take(place, point)
+         integer, intent(in) :: place, point(2)
+
+         places(:, place) = [2*pi*(point - 1)/points, depth(i)]
+         stresses(:, place) = stress(point(1), point(2), :)
+      end subroutine take
 
       !> Points along X and Y that resolve the waves that reach a depth.
       function plane_of(depth) result(points)

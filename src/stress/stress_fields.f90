@@ -21,6 +21,7 @@ module wavycon_stress_fields
       procedure(find_start_places), deferred :: start_places
       procedure :: on_line
       procedure :: on_plane
+      procedure :: at_places
    end type stress_fields
 
    abstract interface
@@ -36,17 +37,35 @@ module wavycon_stress_fields
          real(dp), intent(out), optional :: error
       end subroutine parts_at_point
 
-      !> Places from which the search for the largest stress starts: the best of them is close to it.
-      subroutine find_start_places(self, body, places, widths)
+      !> Places from which the search for the largest stress starts, the best of them close to it, and the stresses there.
+      subroutine find_start_places(self, body, places, widths, stresses)
          import :: dp, elastic_body, stress_fields
          class(stress_fields), intent(inout) :: self
          type(elastic_body), intent(in) :: body
          real(dp), allocatable, intent(out) :: places(:, :)   !! X, Y, Z, shape (3, n) [rad]
          real(dp), allocatable, intent(out) :: widths(:)      !! distance over which the stress changes, shape (n) [rad]
+         real(dp), allocatable, intent(out) :: stresses(:, :) !! with those of the mean pressure, shape (6, n) [p*]
       end subroutine find_start_places
    end interface
 
 contains
+
+   !> The stresses of a body at places, with those of the mean pressure.
+   subroutine at_places(self, body, places, stresses)
+      class(stress_fields), intent(inout) :: self
+      type(elastic_body), intent(in) :: body
+      real(dp), intent(in) :: places(:, :)                    !! X, Y, Z, shape (3, n) [rad]
+      real(dp), allocatable, intent(out) :: stresses(:, :)    !! xx, yy, zz, xy, xz, yz [p*], shape (6, n)
+
+      real(dp) :: parts(6, 2)
+      integer :: i
+
+      allocate (stresses(6, size(places, 2)))
+      do i = 1, size(places, 2)
+         call self%at(places(1, i), places(2, i), places(3, i), parts)
+         stresses(:, i) = body%stress(parts, self%pbar_over_pstar)
+      end do
+   end subroutine at_places
 
    !> Along a line at one depth, at X = X_0 + d_x t, Y = Y_0 + d_y t.
    subroutine on_line(self, start, direction, t, depth, parts, error)

@@ -5,6 +5,9 @@ module wavycon_stress_tuning
    implicit none (type, external)
    public
 
+   !> Waves of a series of pressure with an error are left out where exp(-q Z) is less than that error [p*] over this.
+   real(dp), parameter :: pressure_part = 1e3_dp
+
    !> Search on planes: the depth of a plane over that of the plane above it; the number of points across a cell times the
    !> depth Z; the fewest points of a plane along a side. The largest stress has a width of about its depth.
    real(dp), parameter :: plane_ratio = 1.5_dp, waves_in_depth = 14.0_dp
@@ -16,9 +19,11 @@ module wavycon_stress_tuning
    real(dp), parameter :: depths_of_spot(*) = [0.0_dp, 0.1_dp, 0.25_dp, 0.5_dp, 0.9_dp]
    real(dp), parameter :: depths_of_cell(*) = [0.03_dp, 0.07_dp, 0.12_dp, 0.2_dp]
 
-   !> Refinement: the number of best places that are refined; first distance of the points of its quadratic model over
+   !> Refinement: the number of best places that are refined, and how close to the largest so far they must be; the gain
+   !> that ends the search over the error of the stress; first distance of the points of its quadratic model over
    !> the width of the stress; the factor by which this falls; the most models.
    integer, parameter :: refined_places = 2
+   real(dp), parameter :: close_to_largest = 0.95_dp, gain_part = 0.1_dp
    real(dp), parameter :: first_reach = 0.25_dp, reach_factor = 0.2_dp
    integer, parameter :: most_models = 8
 

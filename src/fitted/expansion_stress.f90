@@ -1,0 +1,308 @@
+!> Stresses in the half-space under one expansion and all its images: README.md, section 13.
+!>
+!> At depth they are a Fourier series. Near the surface they are those of the spots or islands near the place, each by a
+!> rule over the disc or, next to it, along rays, and those of all others, which are smooth, by a table.
+module wavycon_expansion_stress
+   use wavycon_constants, only: pi
+   use wavycon_disc_rule, only: disc_rule, start_disc_rule
+   use wavycon_exterior_map, only: find_exterior
+   use wavycon_expansion, only: expansion
+   use wavycon_far_stress, only: far_nodes, far_stress, set_far_values, start_far_stress
+   use wavycon_fitted_tuning, only: far_bottom, far_terms, far_top, near_sources_distance, series_depth
+   use wavycon_kinds, only: dp
+   use wavycon_shape_search, only: find_edge_in_direction, find_preimage
+   use wavycon_source_density, only: find_slopes
+   use wavycon_stress_kernel, only: add_gap, add_pressure, stress_fields
+   use wavycon_stress_rays, only: start_stress_rays, stress_rays
+   use wavycon_stress_series, only: add_wave, start_stress_series, stress_series
+   use wavycon_stress_sources, only: start_stress_sources, stress_sources
+   use wavycon_wave_lattice, only: wave_lattice
+   implicit none (type, external)
+   private
+
+   public :: expansion_stress, start_expansion_stress
+
+   !> Rules of rising fineness, before rays are taken.
+   integer, parameter :: levels = 6
+
+   type :: expansion_stress
+      type(wave_lattice), private :: lattice
+      type(expansion), private :: solution
+      real(dp), private :: digits = 0.0_dp                   !! natural logarithm of 1/accuracy
+      real(dp), private :: radius = 0.0_dp                   !! of the shape [s]
+      complex(dp), allocatable, private :: centre(:)         !! of the spots or islands near the cell [s]
+      real(dp), allocatable, private :: half_turn(:)         !! 1, or -1 if turned by half a turn
+      ! Made when first needed.
+      type(stress_series), allocatable, private :: series
+      type(far_stress), allocatable, private :: far
+      type(stress_rays), allocatable, private :: rays
+      type(stress_sources), private :: rules(levels)
+      integer, private :: radii(levels) = 0, angles(levels) = 0
+   contains
+      procedure :: fields_at
+      procedure, private :: prepare_series
+      procedure, private :: prepare_far
+      procedure, private :: prepare_rule
+      procedure, private :: add_near
+   end type expansion_stress
+
+contains
+
+   subroutine start_expansion_stress(stress, lattice, solution, accuracy)
+      type(expansion_stress), intent(out) :: stress
+      type(wave_lattice), intent(in) :: lattice
+      type(expansion), intent(in) :: solution
+      real(dp), intent(in) :: accuracy             !! of the stresses over the peak pressure
+
+      real(dp), parameter :: finer = 1.6_dp
+      integer :: i
+
+      stress%lattice = lattice
+      stress%solution = solution
+      stress%digits = -log(min(max(accuracy, 1e-13_dp), 1e-2_dp)) + 2.0_dp
+      stress%radius = 1.02_dp*solution%shape%radius()
+      associate (degree => solution%basis%degree)
+         stress%angles = [(ceiling(max(24.0_dp, 1.5_dp*degree)*finer**i), i=0, levels - 1)]
+         stress%radii = [(ceiling(max(8.0_dp, 0.5_dp*degree + 2)*finer**i), i=0, levels - 1)]
+      end associate
+      call find_centres(stress)
+   end subroutine start_expansion_stress
+
+   !> The fields at a place, less those of the mean pressure.
+   subroutine fields_at(self, place, depth, fields)
+      class(expansion_stress), intent(inout) :: self
+      complex(dp), intent(in) :: place                    !! from a crest [s]
+      real(dp), intent(in) :: depth                       !! >= 0 [s]
+      real(dp), intent(out) :: fields(stress_fields)
+
+      real(dp), dimension(stress_fields) :: mirrored
+      complex(dp) :: z
+      integer :: i
+
+      fields = 0.0_dp
+      if (depth >= series_depth) then
+         if (.not. allocated(self%series)) call self%prepare_series()
+         call self%series%add_at(place, depth, fields)
+      else
+         if (.not. allocated(self%far)) call self%prepare_far()
+         z = self%lattice%rows%reduced(place)
+         mirrored = 0.0_dp
+         call self%far%add_at(abs(z%re), abs(z%im), depth, mirrored)
+         ! Fields change with the place: D^2 L and z D^2 V are of second, z D H of first order.
+         mirrored([4, 6]) = mirrored([4, 6])*sign(1.0_dp, z%re)*sign(1.0_dp, z%im)
+         mirrored(7) = mirrored(7)*sign(1.0_dp, z%re)
+         mirrored(8) = mirrored(8)*sign(1.0_dp, z%im)
+         fields = mirrored
+         do i = 1, size(self%centre)
+            call self%add_near(self%half_turn(i), self%half_turn(i)*(z - self%centre(i)), depth, fields)
+         end do
+      end if
+      if (self%solution%island) then
+         do i = 1, size(self%lattice%pressure)
+            call add_wave(2*pi*self%lattice%wave(:, i), self%lattice%pressure(i), place, depth, fields)
+         end do
+      end if
+   end subroutine fields_at
+
+   !> Centres of the spots or islands within a distance of the rectangle that places are reduced to.
+   subroutine find_centres(stress)
+      type(expansion_stress), intent(inout) :: stress
+
+      real(dp), allocatable :: point(:, :)
+      real(dp) :: next, off, reach, width(2)
+      complex(dp) :: centre
+      integer :: i, island
+
+      associate (rows => stress%lattice%rows, lattice => stress%lattice)
+         width = [0.5_dp, 0.5_dp*rows%spacing]
+         if (rows%along_y) width = width([2, 1])
+         reach = hypot(width(1), width(2)) + near_sources_distance + abs(lattice%trough)
+         call rows%points_within(reach, point, next)
+         allocate (stress%centre(0), stress%half_turn(0))
+         do island = 1, merge(lattice%troughs, 1, stress%solution%island)
+            do i = 0, size(point, 2)
+               centre = 0.0_dp
+               if (i > 0) centre = cmplx(point(1, i), point(2, i), dp)
+               if (stress%solution%island) centre = centre + merge(1, -1, island == 1)*lattice%trough
+               off = hypot(max(abs(centre%re) - width(1), 0.0_dp), max(abs(centre%im) - width(2), 0.0_dp))
+               if (off > near_sources_distance) cycle
+               stress%centre = [stress%centre, centre]
+               stress%half_turn = [stress%half_turn, merge(1.0_dp, -1.0_dp, island == 1)]
+            end do
+         end do
+      end associate
+   end subroutine find_centres
+
+   !> Makes the Fourier series.
+   subroutine prepare_series(self)
+      class(expansion_stress), intent(inout) :: self
+
+      complex(dp), allocatable :: place(:)
+      real(dp), allocatable :: strength(:)
+      integer :: turns
+
+      turns = ceiling(self%digits/series_depth*self%radius)
+      call plain_sources(self, 10 + ceiling(0.5_dp*(turns + self%digits + self%solution%basis%degree)), &
+                         ceiling(turns + self%digits + self%solution%basis%degree), place, strength)
+      allocate (self%series)
+      call start_stress_series(self%series, self%lattice%rows, place%re, place%im, strength, self%solution%island, &
+                               series_depth, self%digits)
+   end subroutine prepare_series
+
+   !> Point sources of all spots or islands in a cell, from a crest: pressure or gap.
+   subroutine plain_sources(stress, radii, angles, place, strength)
+      type(expansion_stress), intent(in) :: stress
+      integer, intent(in) :: radii, angles
+      complex(dp), allocatable, intent(out) :: place(:)
+      real(dp), allocatable, intent(out) :: strength(:)
+
+      type(disc_rule) :: rule
+      real(dp), allocatable :: density(:), values(:, :)
+      complex(dp) :: turn
+      integer :: fold, g, n
+
+      associate (solution => stress%solution)
+         fold = solution%basis%fold
+         call start_disc_rule(rule, solution%basis%power, fold, radii, (angles + 2*fold - 1)/(2*fold))
+         n = size(rule%point)
+         allocate (values(n, solution%basis%terms), density(n), place(0), strength(0))
+         call solution%basis%evaluate(n, rule%point, values)
+         density = matmul(values, solution%c)*rule%weight/(2*fold)*solution%shape%jacobian(rule%point)
+         do g = 0, fold - 1
+            turn = exp(cmplx(0.0_dp, 2*pi*g/fold, dp))
+            place = [place, turn*solution%shape%place(rule%point), turn*conjg(solution%shape%place(rule%point))]
+            strength = [strength, density, density]
+         end do
+         if (solution%island) then
+            place = place + stress%lattice%trough
+            ! The half-turn of an island about a crest has the same even terms.
+            strength = stress%lattice%troughs*strength
+         end if
+      end associate
+   end subroutine plain_sources
+
+   !> Makes the table: at its nodes the series of all, less the sum of the near ones, of the same point sources.
+   subroutine prepare_far(self)
+      class(expansion_stress), intent(inout) :: self
+
+      type(stress_series) :: series
+      complex(dp), allocatable :: place(:)
+      complex(dp) :: at
+      real(dp), allocatable :: strength(:), values(:, :, :, :), x(:), y(:), z(:)
+      real(dp) :: fields(stress_fields), mean, sides(2)
+      integer :: i, j, k, m
+
+      associate (rows => self%lattice%rows, terms => far_terms)
+         call plain_sources(self, self%radii(1), self%angles(1), place, strength)
+         call start_stress_series(series, rows, place%re, place%im, strength, self%solution%island, far_top, &
+                                  self%digits + 2.0_dp)
+         mean = -sum(strength)/rows%spacing
+         ! Of one spot or island from its centre.
+         if (self%solution%island) then
+            place = place - self%lattice%trough
+            strength = strength/self%lattice%troughs
+         end if
+         sides = [0.5_dp, 0.5_dp*rows%spacing]
+         if (rows%along_y) sides = sides([2, 1])
+         allocate (self%far)
+         call start_far_stress(self%far, sides(1), sides(2), far_top, far_bottom, self%solution%island, terms)
+         allocate (x(terms(1)), y(terms(2)), z(terms(3)), values(terms(1), terms(2), terms(3), stress_fields))
+         call far_nodes(self%far, x, y, z)
+         do k = 1, terms(3)
+            do j = 1, terms(2)
+               do i = 1, terms(1)
+                  fields = 0.0_dp
+                  do m = 1, size(self%centre)
+                     at = self%half_turn(m)*(cmplx(x(i), y(j), dp) - self%centre(m))
+                     fields(7:8) = self%half_turn(m)*fields(7:8)
+                     if (self%solution%island) then
+                        call add_gap(size(strength), at%re - place%re, at%im - place%im, z(k), strength, fields)
+                     else
+                        call add_pressure(size(strength), at%re - place%re, at%im - place%im, z(k), strength, fields)
+                     end if
+                     fields(7:8) = self%half_turn(m)*fields(7:8)
+                  end do
+                  fields = -fields
+                  call series%add_at(cmplx(x(i), y(j), dp), z(k), fields)
+                  values(i, j, k, :) = fields
+               end do
+            end do
+         end do
+         call set_far_values(self%far, mean, values)
+      end associate
+   end subroutine prepare_far
+
+   !> Makes a rule.
+   subroutine prepare_rule(self, level)
+      class(expansion_stress), intent(inout) :: self
+      integer, intent(in) :: level
+
+      if (.not. allocated(self%rules(level)%x)) &
+         call start_stress_sources(self%rules(level), self%solution, self%radii(level), self%angles(level))
+   end subroutine prepare_rule
+
+   !> Adds the fields of one spot or island.
+   subroutine add_near(self, half_turn, z, depth, fields)
+      class(expansion_stress), intent(inout) :: self
+      real(dp), intent(in) :: half_turn                   !! -1 if it is turned by half a turn, otherwise 1
+      complex(dp), intent(in) :: z                        !! the place from its centre, turned with it [s]
+      real(dp), intent(in) :: depth
+      real(dp), intent(inout) :: fields(stress_fields)
+
+      complex(dp) :: conjugate_slope(1), edge, origin, slope(1), v
+      real(dp) :: own(stress_fields), stretch
+      integer :: level
+      logical :: inside, found
+
+      own = 0.0_dp
+      level = level_for(self, abs(z)/self%radius, depth/self%radius)
+      if (level > 1) then
+         call find_preimage(self%solution%shape, z, origin, found)
+         inside = found .and. abs(origin) <= 1.0_dp
+         v = origin
+         if (.not. inside) then
+            call find_exterior(self%solution%shape, z, v, found)
+            if (.not. found) call find_edge_in_direction(self%solution%shape, z, v, edge)
+            origin = v/abs(v)
+         end if
+         call find_slopes(self%solution%shape, 1, [origin], slope, conjugate_slope)
+         stretch = abs(slope(1)) + abs(conjugate_slope(1))
+         level = level_for(self, abs(v), depth/stretch)
+      end if
+      if (level <= levels) then
+         call self%prepare_rule(level)
+         call self%rules(level)%add_at(z, depth, own)
+      else
+         if (.not. allocated(self%rays)) then
+            allocate (self%rays)
+            call start_stress_rays(self%rays, self%solution%basis%degree, self%digits)
+         end if
+         call self%rays%add_at(self%solution, origin, merge((0.0_dp, 0.0_dp), z - self%solution%shape%place(origin), &
+                                                            inside), depth, own)
+      end if
+      own(7:8) = half_turn*own(7:8)
+      fields = fields + own
+   end subroutine add_near
+
+   !> The coarsest rule that resolves the kernel for a place over a round disc of radius 1: README.md (F57).
+   pure integer function level_for(self, distance, depth) result(level)
+      class(expansion_stress), intent(in) :: self
+      real(dp), intent(in) :: distance                    !! from the axis
+      real(dp), intent(in) :: depth
+
+      complex(dp) :: pole
+      real(dp) :: angular, nearest, radial
+
+      nearest = min(hypot(distance, depth), 1.0_dp)
+      angular = 1.0_dp + ((distance - nearest)**2 + depth**2)/(2*max(distance*nearest, 1e-12_dp))
+      angular = acosh(min(angular, 1e6_dp))
+      ! Bernstein's ellipse through the nearest singularity in |w|^2, between 0 and 1.
+      pole = 2*cmplx(distance, depth, dp)**2 - 1.0_dp
+      radial = abs(pole + sqrt(pole - 1.0_dp)*sqrt(pole + 1.0_dp))
+      radial = 2*log(max(radial, 1/radial))
+      do level = 1, levels
+         if (self%angles(level)*angular >= self%digits .and. self%radii(level)*radial >= self%digits) exit
+      end do
+   end function level_for
+
+end module wavycon_expansion_stress

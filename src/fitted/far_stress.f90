@@ -1,0 +1,192 @@
+!> Stresses near the surface below all spots or islands of a lattice but those nearest to a cell, as a table.
+!>
+!> The far ones' fields are analytic down to the surface and beyond, and even or odd in x, y and z: README.md, section
+!> 13. They are the difference of the Fourier series of all and the sum of the near ones, which is taken at some depth
+!> where the series is short. The same point sources stand for both, so that the difference is exact.
+module wavycon_far_stress
+   use wavycon_chebyshev, only: chebyshev_coefficients, chebyshev_node, chebyshev_polynomials
+   use wavycon_kinds, only: dp
+   use wavycon_lapack, only: dgemm, dgemv
+   use wavycon_stress_kernel, only: dh_field, h_field, hz_field, l_field, stress_fields, v_field
+   implicit none (type, external)
+   private
+
+   public :: far_stress, start_far_stress, far_nodes, set_far_values
+
+   !> Each field is x^a y^b (constant + z^c even(z)), with coefficients of Chebyshev's polynomials in x^2, y^2 and z^2.
+   type :: far_stress
+      real(dp) :: width = 0.5_dp, height = 0.5_dp       !! of the quarter of the cell [s]
+      real(dp) :: top = 0.0_dp, bottom = 0.0_dp         !! of the depths of the nodes [s]
+      logical :: island = .false.
+      integer :: n(3) = 0                               !! terms in x, y and z
+      real(dp), allocatable :: coefficient(:, :, :, :)  !! shape (0:n_x-1, 0:n_y-1, 0:n_z, 8); last in z the constant
+   contains
+      procedure :: add_at
+   end type far_stress
+
+   !> Whether a field is odd in x, in y, and, below a spot, in z. Below an island it is the other way round in z.
+   logical, parameter :: odd_x(stress_fields) = &
+      [.false., .false., .false., .true., .false., .true., .true., .false.]
+   logical, parameter :: odd_y(stress_fields) = &
+      [.false., .false., .false., .true., .false., .true., .false., .true.]
+   logical, parameter :: odd_z(stress_fields) = &
+      [.true., .false., .true., .true., .false., .false., .true., .true.]
+
+contains
+
+   subroutine start_far_stress(table, width, height, top, bottom, island, terms)
+      type(far_stress), intent(out) :: table
+      real(dp), intent(in) :: width, height    !! half the sides of the rectangle about a crest [s]
+      real(dp), intent(in) :: top, bottom      !! depths between which the values are taken [s]
+      logical, intent(in) :: island
+      integer, intent(in) :: terms(3)          !! in x, y and z
+
+      table%width = width
+      table%height = height
+      table%top = top
+      table%bottom = bottom
+      table%island = island
+      table%n = terms
+      allocate (table%coefficient(0:terms(1) - 1, 0:terms(2) - 1, 0:terms(3), stress_fields), source=0.0_dp)
+   end subroutine start_far_stress
+
+   !> Places at which the values are taken.
+   subroutine far_nodes(table, x, y, z)
+      type(far_stress), intent(in) :: table
+      real(dp), intent(out) :: x(:), y(:), z(:)     !! [s]
+
+      integer :: i
+
+      x = table%width*sqrt(0.5_dp*(1.0_dp + chebyshev_node([(i, i=1, size(x))], size(x))))
+      y = table%height*sqrt(0.5_dp*(1.0_dp + chebyshev_node([(i, i=1, size(y))], size(y))))
+      z = sqrt(0.5_dp*(table%top**2 + table%bottom**2 &
+                       + (table%bottom**2 - table%top**2)*chebyshev_node([(i, i=1, size(z))], size(z))))
+   end subroutine far_nodes
+
+   !> Sets the table.
+   subroutine set_far_values(table, mean, values)
+      type(far_stress), intent(inout) :: table
+      real(dp), intent(in) :: mean                   !! H on the surface: less the mean pressure of spots, 0 of islands
+      real(dp), intent(inout) :: values(:, :, :, :)  !! at the nodes, shape (n_x, n_y, n_z, 8); used up
+
+      real(dp) :: constant(table%n(1), table%n(2), 2), of_x(table%n(1), table%n(1)), of_y(table%n(2), table%n(2)), &
+                  of_z(table%n(3), table%n(3)), x(table%n(1)), y(table%n(2)), z(table%n(3))
+      integer :: f, i, j, k
+
+      call far_nodes(table, x, y, z)
+      of_x = chebyshev_coefficients(table%n(1))
+      of_y = chebyshev_coefficients(table%n(2))
+      of_z = chebyshev_coefficients(table%n(3))
+      ! From z H_z, z D^2 V and z D H.
+      do k = 1, table%n(3)
+         values(:, :, k, [2, 5, 6, 7, 8]) = values(:, :, k, [2, 5, 6, 7, 8])/z(k)
+      end do
+      constant = 0.0_dp
+      if (.not. table%island) then
+         ! D^2 L is its value on the surface less the integral of D^2 V over the depth.
+         constant = surface_values()
+         values(:, :, :, h_field) = values(:, :, :, h_field) - mean
+         do k = 1, table%n(3)
+            values(:, :, k, l_field:l_field + 1) = values(:, :, k, l_field:l_field + 1) - constant
+         end do
+      end if
+      do f = 1, stress_fields
+         do k = 1, table%n(3)
+            if (odd_z(f) .neqv. table%island) values(:, :, k, f) = values(:, :, k, f)/z(k)
+            call divide(values(:, :, k, f))
+         end do
+         values(:, :, :, f) = reshape(matmul(reshape(values(:, :, :, f), [table%n(1)*table%n(2), table%n(3)]), &
+                                             transpose(of_z)), table%n)
+         do k = 1, table%n(3)
+            table%coefficient(:, :, k - 1, f) = matmul(of_x, matmul(values(:, :, k, f), transpose(of_y)))
+         end do
+      end do
+      do f = l_field, l_field + 1
+         call divide(constant(:, :, f - l_field + 1))
+         table%coefficient(:, :, table%n(3), f) = &
+            matmul(of_x, matmul(constant(:, :, f - l_field + 1), transpose(of_y)))
+      end do
+      if (.not. table%island) table%coefficient(0, 0, table%n(3), h_field) = mean
+
+   contains
+
+      subroutine divide(plane)
+         real(dp), intent(inout) :: plane(:, :)
+
+         if (odd_x(f)) then
+            do i = 1, table%n(1)
+               plane(i, :) = plane(i, :)/x(i)
+            end do
+         end if
+         if (odd_y(f)) then
+            do j = 1, table%n(2)
+               plane(:, j) = plane(:, j)/y(j)
+            end do
+         end if
+      end subroutine divide
+
+      !> D^2 L on the surface, from its value at the least depth and D^2 V above, integrated by Gauss's rule of as many
+      !> points as there are terms: exact for the polynomial.
+      function surface_values() result(surface)
+         use wavycon_gauss_rules, only: gauss_jacobi
+         real(dp) :: surface(table%n(1), table%n(2), 2)
+
+         real(dp) :: node(table%n(3)), per_node(table%n(3)), weight(table%n(3))
+
+         call gauss_jacobi(0.0_dp, 0.0_dp, node, weight)
+         per_node = 0.0_dp
+         associate (least => z(table%n(3)))
+            do k = 1, table%n(3)
+               per_node = per_node + 0.5_dp*least*weight(k) &
+                  *matmul(chebyshev_polynomials(depth_argument(table, 0.5_dp*least*(1.0_dp + node(k))), &
+                                                table%n(3)), of_z)
+            end do
+         end associate
+         surface = values(:, :, table%n(3), l_field:l_field + 1)
+         do k = 1, table%n(3)
+            surface = surface + per_node(k)*values(:, :, k, v_field:v_field + 1)
+         end do
+      end function surface_values
+
+   end subroutine set_far_values
+
+   !> The argument of the polynomials for a depth.
+   pure real(dp) function depth_argument(table, depth)
+      type(far_stress), intent(in) :: table
+      real(dp), intent(in) :: depth
+
+      depth_argument = (2*depth**2 - table%top**2 - table%bottom**2)/(table%bottom**2 - table%top**2)
+   end function depth_argument
+
+   !> Adds the fields at a place.
+   subroutine add_at(self, x, y, depth, fields)
+      class(far_stress), intent(in) :: self
+      real(dp), intent(in) :: x, y                        !! in the quarter of the cell, >= 0 [s]
+      real(dp), intent(in) :: depth                       !! between 0 and the lowest node [s]
+      real(dp), intent(inout) :: fields(stress_fields)
+
+      real(dp) :: of_x(0:self%n(1) - 1), of_y(0:self%n(2) - 1), of_z(0:self%n(3), 2), plane(0:self%n(2) - 1, 0:self%n(3), &
+                  stress_fields), value
+      integer :: f, i, k, rest
+
+      of_x = chebyshev_polynomials(2*(x/self%width)**2 - 1.0_dp, self%n(1))
+      of_y = chebyshev_polynomials(2*(y/self%height)**2 - 1.0_dp, self%n(2))
+      of_z(:self%n(3) - 1, 1) = chebyshev_polynomials(depth_argument(self, depth), self%n(3))
+      of_z(:, 2) = depth*of_z(:, 1)
+      of_z(self%n(3), :) = 1.0_dp
+      rest = size(plane)
+      call dgemv('T', self%n(1), rest, 1.0_dp, self%coefficient, self%n(1), of_x, 1, 0.0_dp, plane, 1)
+      do f = 1, stress_fields
+         i = merge(2, 1, odd_z(f) .neqv. self%island)
+         value = 0.0_dp
+         do k = 0, self%n(3)
+            value = value + of_z(k, i)*dot_product(of_y, plane(:, k, f))
+         end do
+         if (odd_x(f)) value = value*x
+         if (odd_y(f)) value = value*y
+         if (f == hz_field .or. f == v_field .or. f == v_field + 1 .or. f >= dh_field) value = value*depth
+         fields(f) = fields(f) + value
+      end do
+   end subroutine add_at
+
+end module wavycon_far_stress

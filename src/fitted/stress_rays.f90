@@ -1,0 +1,241 @@
+!> Stresses near a spot or island, by integration along rays from its point next to the place: README.md, section 13.
+!>
+!> The rays start at w_0, the preimage of the place, or at a point of the edge where the place is outside. Directions
+!> and points are dense where the integrand varies fast: at directions along the edge if w_0 is near the edge, and on
+!> a ray where the kernel is nearly singular. The number of points grows as the logarithm of the distances.
+module wavycon_stress_rays
+   use wavycon_constants, only: pi
+   use wavycon_expansion, only: expansion
+   use wavycon_gauss_rules, only: gauss_jacobi
+   use wavycon_gsl, only: gsl_prec_double, gsl_sf_ellint_rf, gsl_sf_elljac_e
+   use wavycon_kinds, only: dp
+   use wavycon_source_density, only: find_density, find_slopes, place_differences
+   use wavycon_stress_kernel, only: add_gap_gradient, add_pressure, h_field, l_field, stress_fields
+   implicit none (type, external)
+   private
+
+   public :: stress_rays, start_stress_rays
+
+   type :: gauss_rule
+      real(dp), allocatable :: node(:), weight(:)     !! Legendre's, -1 to 1
+   end type gauss_rule
+
+   type :: stress_rays
+      real(dp) :: angular_step = 0.35_dp              !! of Jacobi's amplitude
+      integer :: least_rays = 32                      !! of a turn
+      real(dp) :: least_points = 20.0_dp              !! on a ray
+      real(dp) :: points_per_unit = 2.0_dp            !! more of them for each unit of the ray's length in eta
+      type(gauss_rule), allocatable :: rules(:)       !! of 4, 8, 12, .. points
+   contains
+      procedure :: add_at
+   end type stress_rays
+
+   integer, parameter :: rule_step = 4, most_rules = 40
+
+   !> Distance of w_0 from the edge that counts as none.
+   real(dp), parameter :: at_edge = 1e-16_dp
+
+contains
+
+   subroutine start_stress_rays(rays, degree, digits)
+      type(stress_rays), intent(out) :: rays
+      integer, intent(in) :: degree              !! of the expansion
+      real(dp), intent(in) :: digits             !! natural logarithm of 1/accuracy
+
+      integer :: i
+
+      rays%angular_step = pi**2/digits
+      rays%least_rays = 16 + 2*degree
+      rays%least_points = 0.3_dp*digits + 0.5_dp*degree
+      rays%points_per_unit = digits/14
+      allocate (rays%rules(most_rules))
+      do i = 1, most_rules
+         allocate (rays%rules(i)%node(rule_step*i), rays%rules(i)%weight(rule_step*i))
+         call gauss_jacobi(0.0_dp, 0.0_dp, rays%rules(i)%node, rays%rules(i)%weight)
+      end do
+   end subroutine start_stress_rays
+
+   !> Adds the fields of a spot or island at a place.
+   subroutine add_at(self, solution, origin, offset, depth, fields)
+      class(stress_rays), intent(in) :: self
+      type(expansion), intent(in) :: solution
+      complex(dp), intent(in) :: origin                   !! w_0, |w_0| <= 1
+      complex(dp), intent(in) :: offset                   !! the place as seen from z(w_0) [s]
+      real(dp), intent(in) :: depth                       !! >= 0 [s]
+      real(dp), intent(inout) :: fields(stress_fields)
+
+      complex(dp) :: density(1), direction, normal, slope(1), conjugate_slope(1)
+      real(dp), allocatable :: cosine(:), sine(:), weight(:)
+      real(dp) :: clustering, distance, edge, scale
+      logical :: on_surface
+      integer :: i
+
+      scale = solution%shape%b(0)
+      distance = hypot(abs(offset), depth)
+      on_surface = distance <= epsilon(1.0_dp)**2*scale
+      edge = max((1.0_dp - abs(origin))*(1.0_dp + abs(origin)), at_edge)
+      call find_slopes(solution%shape, 1, [origin], slope, conjugate_slope)
+      clustering = sqrt(edge)
+      if (edge <= at_edge) &
+         clustering = max(clustering, min(0.5_dp*distance/(abs(slope(1)) + abs(conjugate_slope(1))), 1.0_dp))
+      normal = 1.0_dp
+      if (abs(origin) > 0.0_dp) normal = origin/abs(origin)
+      density = 0.0_dp
+      if (on_surface) call find_density(solution, 1, [origin], [edge], density)
+      call find_directions(self, min(clustering, 1.0_dp), cosine, sine, weight)
+      do i = 1, size(weight)
+         direction = normal*cmplx(cosine(i), sine(i), dp)
+         call add_ray(self, solution, origin, offset, depth, on_surface, edge, cosine(i), direction, &
+                      slope(1)*direction + conjugate_slope(1)*conjg(direction), weight(i), density(1), fields)
+      end do
+      if (on_surface .and. .not. solution%island) &
+         fields(h_field) = fields(h_field) + density(1)%re*sqrt(edge) &
+         /(slope(1)%re**2 + slope(1)%im**2 - (conjugate_slope(1)%re**2 + conjugate_slope(1)%im**2))
+   end subroutine add_at
+
+   !> Directions from the outward normal, and weights in the angle: equal steps of Jacobi's amplitude with the
+   !> complementary modulus k', dphi/dtau = (k'^2 + k^2 cos^2 phi)^(1/2).
+   subroutine find_directions(self, modulus, cosine, sine, weight)
+      type(stress_rays), intent(in) :: self
+      real(dp), intent(in) :: modulus                     !! k', 0 < k' <= 1
+      real(dp), allocatable, intent(out) :: cosine(:), sine(:), weight(:)
+
+      real(dp) :: cn, dn, sn, quarter, u
+      integer :: i, n, status
+
+      quarter = gsl_sf_ellint_rf(0.0_dp, modulus**2, 1.0_dp, gsl_prec_double)
+      n = max(ceiling(quarter/self%angular_step), (self%least_rays + 3)/4)
+      allocate (cosine(4*n), sine(4*n), weight(4*n))
+      associate (m => (1.0_dp - modulus)*(1.0_dp + modulus))
+         do i = 1, n
+            ! From the nearer end of the quarter: cn and dn next to its far end would lose digits.
+            u = quarter*(i - 0.5_dp)/n
+            if (2*i <= n) then
+               status = gsl_sf_elljac_e(u, m, sn, cn, dn)
+               cosine(i) = cn
+               sine(i) = sn
+               weight(i) = dn
+            else
+               status = gsl_sf_elljac_e(quarter*(n - i + 0.5_dp)/n, m, sn, cn, dn)
+               cosine(i) = modulus*sn/dn
+               sine(i) = cn/dn
+               weight(i) = modulus/dn
+            end if
+         end do
+      end associate
+      weight(:n) = weight(:n)*quarter/n
+      cosine = [cosine(:n), -cosine(:n), -cosine(:n), cosine(:n)]
+      sine = [sine(:n), sine(:n), -sine(:n), -sine(:n)]
+      weight = [weight(:n), weight(:n), weight(:n), weight(:n)]
+   end subroutine find_directions
+
+   !> Adds a ray.
+   !>
+   !> On the chord through w_0 that the ray is part of let -cos(alpha) be the place from -1 to 1, so that the root of
+   !> 1 - |w|^2 is l sin(alpha), and alpha_0 that of w_0. In sigma = alpha - alpha_0 the kernel is singular at complex
+   !> places; sigma = r + m sinh(eta) moves them to eta = +-i pi/2.
+   subroutine add_ray(self, solution, origin, offset, depth, on_surface, edge, cosine, direction, stretch, weight, &
+                      density_at_origin, fields)
+      type(stress_rays), intent(in) :: self
+      type(expansion), intent(in) :: solution
+      complex(dp), intent(in) :: origin, offset
+      real(dp), intent(in) :: depth
+      logical, intent(in) :: on_surface
+      real(dp), intent(in) :: edge                  !! 1 - |w_0|^2
+      real(dp), intent(in) :: cosine                !! of the direction from the outward normal
+      complex(dp), intent(in) :: direction          !! e^(i phi)
+      complex(dp), intent(in) :: stretch            !! dz/dt at w_0
+      real(dp), intent(in) :: weight
+      complex(dp), intent(in) :: density_at_origin
+      real(dp), intent(inout) :: fields(stress_fields)
+
+      real(dp), parameter :: least_scale = 1e-25_dp
+      complex(dp) :: pole
+      real(dp) :: ahead, alpha, along, back, behind, first, forward, half, last, length, middle, r, squared, width
+      integer :: rule
+
+      along = sqrt(max(1.0_dp - edge, 0.0_dp))*cosine
+      half = sqrt(edge + along**2)
+      if (along > 0.0_dp) then
+         back = half + along
+         forward = edge/back
+      else
+         forward = half - along
+         back = edge/forward
+      end if
+      if (edge <= at_edge .and. along > 0.0_dp) return
+      behind = min(back/(2*half), 1.0_dp)
+      ahead = min(forward/(2*half), 1.0_dp)
+      alpha = 2*atan2(sqrt(behind), sqrt(ahead))
+      length = 2*atan2(sqrt(ahead), sqrt(behind))
+      if (on_surface) then
+         r = 0.0_dp
+         width = alpha
+      else
+         squared = stretch%re**2 + stretch%im**2
+         middle = (offset%re*stretch%re + offset%im*stretch%im)/squared
+         pole = cmplx(middle, sqrt(max((offset%re**2 + offset%im**2 + depth**2)/squared - middle**2, 0.0_dp)), dp)
+         pole = 2*asin(sqrt(behind + pole/(2*half)))
+         r = pole%re - alpha
+         width = abs(pole%im)
+      end if
+      width = max(width, least_scale)
+      first = asinh(-r/width)
+      last = asinh((length - r)/width)
+      rule = min(max(ceiling((self%least_points + self%points_per_unit*(last - first))/rule_step), 1), most_rules)
+      associate (nodes => self%rules(rule))
+         call add_points(size(nodes%node), nodes%node, nodes%weight)
+      end associate
+
+   contains
+
+      subroutine add_points(n, node, node_weight)
+         integer, intent(in) :: n
+         real(dp), intent(in) :: node(n), node_weight(n)
+
+         complex(dp), dimension(n) :: density, difference, step, w
+         real(dp), dimension(n) :: at_t, eta, root, sigma, t
+         real(dp) :: own(stress_fields), squared_stretch
+         complex(dp) :: kernel
+
+         eta = first + 0.5_dp*(last - first)*(1.0_dp + node)
+         ! The same as r + width sinh(eta), without cancellation next to w_0.
+         sigma = 2*width*cosh(0.5_dp*(eta + first))*sinh(0.5_dp*(eta - first))
+         root = half*merge(sin(alpha + sigma), sin(length - sigma), alpha < length)
+         t = 2*half*sin(0.5_dp*sigma)*merge(sin(alpha + 0.5_dp*sigma), sin(length - 0.5_dp*sigma), alpha < length)
+         step = t*direction
+         w = origin + step
+         call place_differences(solution%shape, origin, n, step, w, difference)
+         call find_density(solution, n, w, root**2, density)
+         ! dt = root dsigma, and the density's own root.
+         at_t = weight*0.5_dp*(last - first)*node_weight*width*cosh(eta)*root
+         density = density*(at_t*root*t)
+         difference = offset - difference
+         own = 0.0_dp
+         if (solution%island) then
+            call add_gap_gradient(n, difference%re, difference%im, depth, density%re, density%im, own)
+         else
+            call add_pressure(n, difference%re, difference%im, depth, density%re, own)
+         end if
+         if (on_surface) then
+            ! Less 1/t times the value at t = 0, of which the integral to a small circle in z is known.
+            squared_stretch = stretch%re**2 + stretch%im**2
+            associate (remainder => weight*log(forward*sqrt(squared_stretch)/solution%shape%b(0)) - sum(at_t/t), &
+                       at_origin => density_at_origin*sqrt(edge))
+               if (solution%island) then
+                  kernel = -conjg(stretch)*at_origin/sqrt(squared_stretch)**3/(4*pi**2)
+                  own(h_field) = own(h_field) + remainder*kernel%re
+                  kernel = stretch*at_origin/sqrt(squared_stretch)**3/(4*pi**2)
+               else
+                  kernel = stretch**2/squared_stretch**2/pi*at_origin
+               end if
+               own(l_field) = own(l_field) + remainder*kernel%re
+               own(l_field + 1) = own(l_field + 1) + remainder*kernel%im
+            end associate
+         end if
+         fields = fields + own
+      end subroutine add_points
+
+   end subroutine add_ray
+
+end module wavycon_stress_rays

@@ -1,0 +1,147 @@
+!> Stresses below all spots or islands of a lattice as a Fourier series: README.md (F55).
+!>
+!> All lattices here are even in x and in y about a crest, so that their series has the terms cos(k_x x) cos(k_y y)
+!> alone. Those of a lattice of shifted rows are those of the rectangle of two rows with an even sum of the numbers of
+!> waves.
+module wavycon_stress_series
+   use wavycon_constants, only: pi
+   use wavycon_kinds, only: dp
+   use wavycon_lapack, only: dgemm
+   use wavycon_row_lattice, only: row_lattice
+   use wavycon_stress_kernel, only: stress_fields
+   implicit none (type, external)
+   private
+
+   public :: stress_series, start_stress_series, add_wave
+
+   type :: stress_series
+      real(dp) :: digits = 0.0_dp                      !! natural logarithm of the least term over the largest
+      real(dp) :: base_x = 0.0_dp, base_y = 0.0_dp     !! steps of the wave vector [rad/s]
+      real(dp), allocatable, private :: pressure(:, :) !! amplitude of each wave, shape (0:., 0:.); 0 for the mean
+   contains
+      procedure :: add_at
+   end type stress_series
+
+contains
+
+   !> Sets the pressures of the waves that reach a depth, from point sources in a cell.
+   subroutine start_stress_series(series, rows, x, y, strength, gap, depth, digits)
+      type(stress_series), intent(out) :: series
+      type(row_lattice), intent(in) :: rows
+      real(dp), intent(in) :: x(:), y(:)         !! the sources from a crest, shape (n) [s]
+      real(dp), intent(in) :: strength(:)        !! pressure, or gap, times area, shape (n)
+      logical, intent(in) :: gap                 !! whether it is the gap: the pressure is |k| times that
+      real(dp), intent(in) :: depth              !! least depth of a place, > 0 [s]
+      real(dp), intent(in) :: digits
+
+      real(dp), allocatable :: along_x(:, :), along_y(:, :)
+      real(dp) :: height, largest, length
+      integer :: i, j, n, waves_x, waves_y
+
+      height = rows%spacing*merge(2, 1, rows%shift > 0.0_dp)
+      series%base_x = 2*pi/merge(height, 1.0_dp, rows%along_y)
+      series%base_y = 2*pi/merge(1.0_dp, height, rows%along_y)
+      series%digits = digits
+      largest = digits/depth
+      waves_x = ceiling(largest/series%base_x)
+      waves_y = ceiling(largest/series%base_y)
+      n = size(x)
+      allocate (along_x(n, 0:waves_x), along_y(n, 0:waves_y), series%pressure(0:waves_x, 0:waves_y))
+      call cosines(series%base_x*x, along_x)
+      call cosines(series%base_y*y, along_y)
+      do i = 0, waves_x
+         along_x(:, i) = along_x(:, i)*strength
+      end do
+      associate (p => series%pressure)
+         call dgemm('T', 'N', waves_x + 1, waves_y + 1, n, 1.0_dp/rows%spacing, along_x, n, along_y, n, 0.0_dp, p, &
+                    waves_x + 1)
+         do j = 0, waves_y
+            do i = 0, waves_x
+               length = hypot(series%base_x*i, series%base_y*j)
+               if (rows%shift > 0.0_dp .and. mod(i + j, 2) == 1) p(i, j) = 0.0_dp
+               if (gap) p(i, j) = p(i, j)*length/(2*pi)
+               if (i > 0) p(i, j) = 2*p(i, j)
+               if (j > 0) p(i, j) = 2*p(i, j)
+            end do
+         end do
+         p(0, 0) = 0.0_dp
+      end associate
+   end subroutine start_stress_series
+
+   !> cos(k x), k = 0, 1, ..
+   pure subroutine cosines(x, values)
+      real(dp), intent(in) :: x(:)
+      real(dp), intent(out) :: values(:, 0:)
+
+      integer :: k
+
+      do k = 0, ubound(values, 2)
+         values(:, k) = cos(k*x)
+      end do
+   end subroutine cosines
+
+   !> Adds the fields at a place.
+   pure subroutine add_at(self, place, depth, fields)
+      class(stress_series), intent(in) :: self
+      complex(dp), intent(in) :: place             !! from a crest [s]
+      real(dp), intent(in) :: depth                !! >= that of the start [s]
+      real(dp), intent(inout) :: fields(stress_fields)
+
+      complex(dp) :: x(0:ubound(self%pressure, 1)), y(0:ubound(self%pressure, 2))
+      real(dp) :: kx, ky, length, p, total(stress_fields)
+      integer :: i, j, last
+
+      do i = 0, ubound(x, 1)
+         x(i) = exp(cmplx(0.0_dp, i*self%base_x*place%re, dp))
+      end do
+      do j = 0, ubound(y, 1)
+         y(j) = exp(cmplx(0.0_dp, j*self%base_y*place%im, dp))
+      end do
+      total = 0.0_dp
+      do i = 0, ubound(x, 1)
+         kx = i*self%base_x
+         if (kx*depth > self%digits) exit
+         last = min(ubound(y, 1), int(sqrt((self%digits/depth)**2 - kx**2)/self%base_y))
+         do j = 0, last
+            if (.not. abs(self%pressure(i, j)) > 0.0_dp) cycle
+            ky = j*self%base_y
+            length = sqrt(kx**2 + ky**2)
+            p = self%pressure(i, j)*exp(-length*depth)
+            associate (cc => p*x(i)%re*y(j)%re, ss => p*x(i)%im*y(j)%im, depth_waves => depth*length)
+               total(1) = total(1) + cc
+               total(2) = total(2) - depth_waves*cc
+               total(3) = total(3) + (ky - kx)*(ky + kx)*cc/length**2
+               total(4) = total(4) + 2*kx*ky*ss/length**2
+               total(5) = total(5) + (ky - kx)*(ky + kx)*depth*cc/length
+               total(6) = total(6) + 2*kx*ky*depth*ss/length
+               total(7) = total(7) - kx*depth*p*x(i)%im*y(j)%re
+               total(8) = total(8) - ky*depth*p*x(i)%re*y(j)%im
+            end associate
+         end do
+      end do
+      fields = fields + total
+   end subroutine add_at
+
+   !> Adds the fields of the pressure p cos(k.x).
+   pure subroutine add_wave(wave, pressure, place, depth, fields)
+      real(dp), intent(in) :: wave(2)              !! k, not 0 [rad/s]
+      real(dp), intent(in) :: pressure             !! p
+      complex(dp), intent(in) :: place             !! [s]
+      real(dp), intent(in) :: depth                !! >= 0 [s]
+      real(dp), intent(inout) :: fields(stress_fields)
+
+      complex(dp) :: direction
+      real(dp) :: length, turn
+
+      length = hypot(wave(1), wave(2))
+      direction = cmplx(wave(1), wave(2), dp)/length
+      turn = wave(1)*place%re + wave(2)*place%im
+      associate (even => pressure*exp(-length*depth)*cos(turn), odd => pressure*exp(-length*depth)*sin(turn), &
+                 depth_waves => depth*length, square => direction**2)
+         fields = fields + [even, -depth_waves*even, -even*square%re, -even*square%im, &
+                            -depth_waves*even*square%re, -depth_waves*even*square%im, &
+                            -depth_waves*odd*direction%re, -depth_waves*odd*direction%im]
+      end associate
+   end subroutine add_wave
+
+end module wavycon_stress_series
