@@ -13,6 +13,7 @@ module wavycon_pressure_correction
    use wavycon_kinds, only: dp, sp
    use wavycon_lapack, only: sdot
    use wavycon_local_stiffness, only: local_stiffness
+   use wavycon_pressure_load, only: set_load, sum_of_field
    implicit none (type, external)
    private
 
@@ -39,11 +40,13 @@ module wavycon_pressure_correction
       integer, private :: preconditioner = extended
       logical, private :: has_resumed = .false. !! whether the preconditioner was `restricted` and is `extended` again
       real(dp), private :: descent = 0.0_dp     !! (gap, z) of the last direction
+      real(dp), private :: hardness = huge(1.0_dp)
       real(sp), allocatable, private :: start_pressure(:)
+      real(sp), allocatable, private :: room(:)        !! H - p of the start; not allocated without a hardness
       real(sp), allocatable, private :: change(:)      !! of the pressure since the start
       real(sp), allocatable, private :: gap(:)
-      real(sp), allocatable, private :: contact(:)     !! 1 in contact, 0 outside
-      real(sp), allocatable, private :: residuals(:)   !! r: the gap in contact, zero outside, of the last iteration
+      real(sp), allocatable, private :: contact(:)     !! 1 at free points, 0 at those with p = 0 or p = H
+      real(sp), allocatable, private :: residuals(:)   !! r: the gap at free points, zero elsewhere, of the last iteration
       real(sp), allocatable, private :: direction(:)   !! d
       real(sp), allocatable, private :: image(:)       !! in turn r, z, d, Sd
       real(sp), allocatable, private :: field(:, :)    !! a vector on the grid, for transforms
@@ -60,9 +63,11 @@ module wavycon_pressure_correction
       procedure, private :: set_extension
       procedure, private :: update_direction
       procedure, private :: find_step
+      procedure, private :: keep_free_points
       procedure, private :: move
       procedure, private :: restore_mean
       procedure, private :: add_overlaps
+      procedure, private :: is_at_hardness
       procedure, private :: displace
       procedure, private :: product_of
       procedure, private :: subtract_mean
@@ -70,14 +75,16 @@ module wavycon_pressure_correction
 
 contains
 
-   subroutine start(self, inside, stencil, pressure, gap, residual)
+   subroutine start(self, inside, stencil, pressure, gap, residual, hardness)
       class(pressure_correction), intent(out) :: self
       logical(c_bool), intent(in) :: inside(:, :) !! the points in and near the contact
       type(local_stiffness), intent(in) :: stencil
-      real(dp), intent(in) :: pressure(:, :)      !! p/p* >= 0, shape (M, N); zero outside the region
-      real(dp), intent(in) :: gap(:, :)           !! its gap/Delta, whose mean in contact is zero
+      real(dp), intent(in) :: pressure(:, :)      !! p/p*, shape (M, N); 0 or H outside the region
+      real(dp), intent(in) :: gap(:, :)           !! its gap/Delta, whose mean over the free points is zero
       real(dp), intent(in) :: residual            !! root mean square of the violated conditions [Delta]
+      real(dp), intent(in) :: hardness            !! H/p*, > p or huge
 
+      self%hardness = hardness
       self%scale = residual
       self%grid = shape(inside)
       self%stencil = stencil
@@ -89,6 +96,12 @@ contains
       call self%region%gather_scaled(pressure, residual, self%start_pressure)
       call self%region%gather_scaled(gap, residual, self%gap)
       self%contact = merge(1.0_sp, 0.0_sp, self%start_pressure > 0.0_sp)
+      if (hardness < huge(hardness)) then
+         allocate (self%room, mold=self%gap)
+         ! The difference loses no digits where the pressure is close to H.
+         call self%region%gather_scaled(hardness - pressure, residual, self%room)
+         self%contact = merge(self%contact, 0.0_sp, self%room > 0.0_sp)
+      end if
       self%direction = 0.0_sp
       self%residuals = 0.0_sp
       self%change = 0.0_sp
@@ -115,6 +128,7 @@ contains
          call self%precondition(half_space)
          call self%update_direction()
          call self%find_step(half_space, step)
+         if (allocated(self%room)) call self%keep_free_points(step)
          call self%move(step, half_space)
          call self%add_overlaps(real(overlap_part*part, sp))
       end do
@@ -127,22 +141,36 @@ contains
       real(dp), intent(inout) :: pressure(:, :)   !! the pressure of `start`; its mean stays
 
       real(dp) :: total
+      integer :: i
 
       total = sum_of_field(pressure)
-      call self%region%correct(self%change, self%contact, self%scale, pressure)
-      pressure = pressure*(total/sum_of_field(pressure))
+      call self%region%correct(self%change, self%contact, [(self%is_at_hardness(i), i=1, self%region%points)], &
+                               self%scale, self%hardness, pressure)
+      call set_load(pressure, total, self%hardness)
    end subroutine add_to
 
-   !> Changes the approach so that the mean gap in contact is zero (C3), and computes the residual (C9) times G.
+   !> Whether the pressure at a point is H.
+   pure logical function is_at_hardness(self, i)
+      class(pressure_correction), intent(in) :: self
+      integer, intent(in) :: i
+
+      is_at_hardness = .false.
+      if (allocated(self%room)) is_at_hardness = self%room(i) <= self%change(i)
+   end function is_at_hardness
+
+   !> Changes the approach so that the mean gap over the free points is zero (C3), and computes the residual (C9) times G.
    subroutine shift_gap(self)
       class(pressure_correction), intent(inout) :: self
 
       real(sp) :: shift
 
       self%contact_points = nint(self%product_of(self%contact, self%contact))
-      shift = real(self%product_of(self%contact, self%gap)/self%contact_points, sp)
+      ! Without free points the approach stays: the next step finds it from all points.
+      shift = real(self%product_of(self%contact, self%gap)/max(self%contact_points, 1), sp)
       self%gap = self%gap - shift
       self%image = merge(self%gap, min(self%gap, 0.0_sp), self%contact > 0.0_sp)
+      if (allocated(self%room)) self%image = merge(max(self%gap, 0.0_sp), self%image, &
+                                                   self%contact <= 0.0_sp .and. self%room <= self%change)
       self%residual = self%scale*sqrt(self%product_of(self%image, self%image)/product(real(self%grid, dp)))
    end subroutine shift_gap
 
@@ -171,6 +199,7 @@ contains
       type(compliance_operator), intent(inout) :: half_space
 
       self%image = self%contact*self%gap
+      if (self%contact_points == 0) return
       if (self%stencil%exists .and. self%contact_points < stencil_fraction*product(real(self%grid, dp))) then
          call self%stencil%apply(self%region, self%grid, self%image)
          self%local_iterations = self%local_iterations + 1
@@ -240,17 +269,55 @@ contains
       if (curvature > 0.0_dp) step = real(self%product_of(self%residuals, self%direction)/curvature, sp)
    end subroutine find_step
 
-   !> Moves pressure and gap by a step. Points whose pressure would not stay positive leave the contact; the others are
-   !> then multiplied by a factor that restores the mean pressure (C7).
+   !> Shortens a step after which too few free points are left to restore the mean pressure (C25): then to the first
+   !> point that reaches a bound.
+   subroutine keep_free_points(self, step)
+      class(pressure_correction), intent(in) :: self
+      real(sp), intent(inout) :: step
+
+      !> The first point must reach its bound in spite of rounding.
+      real(sp), parameter :: beyond = 1.0_sp + 4*epsilon(1.0_sp)
+      real(dp) :: excess, load, room
+      real(sp) :: least, most, part, move
+      integer :: i
+
+      excess = 0.0_dp
+      load = 0.0_dp
+      room = 0.0_dp
+      part = 1.0_sp
+      do i = 1, self%region%points
+         if (self%contact(i) <= 0.0_sp) cycle
+         move = step*self%direction(i)
+         least = self%start_pressure(i) + self%change(i)
+         most = self%room(i) - self%change(i)
+         if (move >= least) then
+            excess = excess + (move - least)
+            part = min(part, least/move)
+         else if (-move >= most) then
+            excess = excess + (move + most)
+            part = min(part, -most/move)
+         else
+            load = load + (least - move)
+            room = room + (most + move)
+         end if
+      end do
+      if (.not. (excess < load .and. -excess < room)) step = max(part, 0.0_sp)*beyond*step
+   end subroutine keep_free_points
+
+   !> Moves pressure and gap by a step. Points whose pressure would not stay between zero and H leave the free ones; the
+   !> others then restore the mean pressure (C7), (C24).
    subroutine move(self, step, half_space)
       class(pressure_correction), intent(inout) :: self
       real(sp), intent(in) :: step
       type(compliance_operator), intent(inout) :: half_space
 
-      integer :: i, left
+      integer :: capped, i, left
+      logical :: has_hardness
 
       left = 0
-      !$omp parallel do num_threads(self%region%threads) reduction(+:left)
+      capped = 0
+      has_hardness = allocated(self%room)
+      !$omp parallel do num_threads(self%region%threads) reduction(+:left, capped)
       do i = 1, self%region%points
          self%gap(i) = self%gap(i) - step*self%image(i)
          self%change(i) = self%change(i) - step*self%direction(i)
@@ -260,43 +327,73 @@ contains
             self%change(i) = -self%start_pressure(i)
             self%contact(i) = 0.0_sp
             left = left + 1
+         else if (has_hardness) then
+            if (self%contact(i) > 0.0_sp .and. self%room(i) <= self%change(i)) then
+               self%image(i) = self%room(i) - self%change(i)
+               self%change(i) = self%room(i)
+               self%contact(i) = 0.0_sp
+               capped = capped + 1
+            end if
          end if
       end do
-      self%changed_points = left
-      if (left == 0) return
-      call self%restore_mean()
+      self%changed_points = left + capped
+      if (self%changed_points == 0) return
+      call self%restore_mean(capped > 0)
       call self%displace(half_space)
       self%gap = self%gap + self%image
    end subroutine move
 
-   !> Multiplies the pressure in contact by a factor, so that its mean is that of the start, and adds the changes to
-   !> `image`.
-   subroutine restore_mean(self)
+   !> Multiplies the pressure at the free points by a factor, so that its mean is that of the start, and adds the changes
+   !> to `image`. If points have lost load at H, multiplies H - p in place of p, as the others must stay below H (C24).
+   subroutine restore_mean(self, at_hardness)
       class(pressure_correction), intent(inout) :: self
+      logical, intent(in) :: at_hardness   !! whether points have just reached H
 
-      real(sp) :: excess
+      real(dp) :: excess, load
 
-      excess = real(-sum_of(self%change)/self%product_of(self%contact, self%start_pressure + self%change), sp)
-      associate (growth => self%contact*excess*(self%start_pressure + self%change))
+      excess = -sum_of(self%change)
+      if (at_hardness .and. excess > 0.0_dp) then
+         associate (room => self%contact*(self%room - self%change))
+            load = self%product_of(self%contact, room)
+            if (load > 0.0_dp) call grow(real(excess/load, sp)*room)
+         end associate
+      else
+         load = self%product_of(self%contact, self%start_pressure + self%change)
+         if (load > 0.0_dp) call grow(self%contact*real(excess/load, sp)*(self%start_pressure + self%change))
+      end if
+
+   contains
+
+      subroutine grow(growth)
+         real(sp), intent(in) :: growth(:)
+
          self%image = self%image + growth
          self%change = self%change + growth
-      end associate
+      end subroutine grow
+
    end subroutine restore_mean
 
-   !> Adds to the contact the points outside whose gap is below the mean gap in contact by more than an allowance (C8).
-   !> Smaller overlaps may be rounding: such points would enter and leave without end.
+   !> Adds to the free points those outside whose gap is below the mean gap of the free ones by more than an allowance (C8),
+   !> at H above it. Smaller overlaps may be rounding: such points would enter and leave without end.
    subroutine add_overlaps(self, allowance)
       class(pressure_correction), intent(inout) :: self
       real(sp), intent(in) :: allowance   !! over `scale`
 
-      real(sp) :: least
+      real(sp) :: least, mean, most
       integer :: entered, i
+      logical :: enters, has_hardness
 
-      least = real(self%product_of(self%contact, self%gap)/self%product_of(self%contact, self%contact), sp) - allowance
+      mean = real(self%product_of(self%contact, self%gap)/max(self%product_of(self%contact, self%contact), 1.0_dp), sp)
+      least = mean - allowance
+      most = mean + allowance
+      has_hardness = allocated(self%room)
       entered = 0
-      !$omp parallel do num_threads(self%region%threads) reduction(+:entered)
+      !$omp parallel do num_threads(self%region%threads) private(enters) reduction(+:entered)
       do i = 1, self%region%points
-         if (self%gap(i) < least .and. self%contact(i) <= 0.0_sp) then
+         if (self%contact(i) > 0.0_sp) cycle
+         enters = self%gap(i) < least
+         if (has_hardness) enters = merge(self%gap(i) > most, enters, self%room(i) <= self%change(i))
+         if (enters) then
             self%contact(i) = 1.0_sp
             entered = entered + 1
          end if
@@ -320,17 +417,8 @@ contains
       class(pressure_correction), intent(in) :: self
       real(sp), intent(inout), contiguous :: vector(:)
 
-      vector = self%contact*(vector - real(self%product_of(self%contact, vector)/self%contact_points, sp))
+      vector = self%contact*(vector - real(self%product_of(self%contact, vector)/max(self%contact_points, 1), sp))
    end subroutine subtract_mean
-
-   !> Sum of a field, column by column.
-   pure real(dp) function sum_of_field(field) result(total)
-      real(dp), intent(in) :: field(:, :)
-
-      integer :: j
-
-      total = sum([(sum(field(:, j)), j=1, size(field, 2))])
-   end function sum_of_field
 
    !> Sum of a vector.
    pure real(dp) function sum_of(a)
