@@ -13,7 +13,7 @@ module wavycon_pressure_correction
    use wavycon_kinds, only: dp, sp
    use wavycon_lapack, only: sdot
    use wavycon_local_stiffness, only: local_stiffness
-   use wavycon_pressure_load, only: set_load, sum_of_field
+   use wavycon_pressure_load, only: bounded_shift, set_load, sum_of_field
    implicit none (type, external)
    private
 
@@ -63,7 +63,7 @@ module wavycon_pressure_correction
       procedure, private :: set_extension
       procedure, private :: update_direction
       procedure, private :: find_step
-      procedure, private :: keep_free_points
+      procedure, private :: shift_below_hardness
       procedure, private :: move
       procedure, private :: restore_mean
       procedure, private :: add_overlaps
@@ -128,7 +128,6 @@ contains
          call self%precondition(half_space)
          call self%update_direction()
          call self%find_step(half_space, step)
-         if (allocated(self%room)) call self%keep_free_points(step)
          call self%move(step, half_space)
          call self%add_overlaps(real(overlap_part*part, sp))
       end do
@@ -269,108 +268,83 @@ contains
       if (curvature > 0.0_dp) step = real(self%product_of(self%residuals, self%direction)/curvature, sp)
    end subroutine find_step
 
-   !> Shortens a step after which too few free points are left to restore the mean pressure (C25): then to the first
-   !> point that reaches a bound.
-   subroutine keep_free_points(self, step)
-      class(pressure_correction), intent(in) :: self
-      real(sp), intent(inout) :: step
-
-      !> The first point must reach its bound in spite of rounding.
-      real(sp), parameter :: beyond = 1.0_sp + 4*epsilon(1.0_sp)
-      real(dp) :: excess, load, room
-      real(sp) :: least, most, part, move
-      integer :: i
-
-      excess = 0.0_dp
-      load = 0.0_dp
-      room = 0.0_dp
-      part = 1.0_sp
-      do i = 1, self%region%points
-         if (self%contact(i) <= 0.0_sp) cycle
-         move = step*self%direction(i)
-         least = self%start_pressure(i) + self%change(i)
-         most = self%room(i) - self%change(i)
-         if (move >= least) then
-            excess = excess + (move - least)
-            part = min(part, least/move)
-         else if (-move >= most) then
-            excess = excess + (move + most)
-            part = min(part, -most/move)
-         else
-            load = load + (least - move)
-            room = room + (most + move)
-         end if
-      end do
-      if (.not. (excess < load .and. -excess < room)) step = max(part, 0.0_sp)*beyond*step
-   end subroutine keep_free_points
-
-   !> Moves pressure and gap by a step. Points whose pressure would not stay between zero and H leave the free ones; the
-   !> others then restore the mean pressure (C7), (C24).
+   !> Moves pressure and gap by a step. Points whose pressure would not stay between zero and H leave the free ones. If none
+   !> is at H the others are then multiplied by a factor that restores the mean pressure (C7); otherwise the pressure at all
+   !> free points changes by the same (C24).
    subroutine move(self, step, half_space)
       class(pressure_correction), intent(inout) :: self
       real(sp), intent(in) :: step
       type(compliance_operator), intent(inout) :: half_space
 
-      integer :: capped, i, left
+      real(sp) :: most, shift
+      integer :: i, left
       logical :: has_hardness
 
-      left = 0
-      capped = 0
+      shift = self%shift_below_hardness(step)
       has_hardness = allocated(self%room)
-      !$omp parallel do num_threads(self%region%threads) reduction(+:left, capped)
+      left = 0
+      !$omp parallel do num_threads(self%region%threads) private(most) reduction(+:left)
       do i = 1, self%region%points
          self%gap(i) = self%gap(i) - step*self%image(i)
          self%change(i) = self%change(i) - step*self%direction(i)
          self%image(i) = 0.0_sp
-         if (self%contact(i) > 0.0_sp .and. self%start_pressure(i) + self%change(i) <= 0.0_sp) then
+         if (self%contact(i) <= 0.0_sp) cycle
+         if (self%start_pressure(i) + self%change(i) + shift <= 0.0_sp) then
             self%image(i) = -self%start_pressure(i) - self%change(i)
             self%change(i) = -self%start_pressure(i)
             self%contact(i) = 0.0_sp
             left = left + 1
          else if (has_hardness) then
-            if (self%contact(i) > 0.0_sp .and. self%room(i) <= self%change(i)) then
-               self%image(i) = self%room(i) - self%change(i)
+            most = self%room(i) - self%change(i)
+            if (most <= shift) then
                self%change(i) = self%room(i)
                self%contact(i) = 0.0_sp
-               capped = capped + 1
+               left = left + 1
+            else
+               self%change(i) = self%change(i) + shift
             end if
+            self%image(i) = min(most, shift)
          end if
       end do
-      self%changed_points = left + capped
-      if (self%changed_points == 0) return
-      call self%restore_mean(capped > 0)
+      self%changed_points = left
+      if (left == 0) return
+      call self%restore_mean()
       call self%displace(half_space)
       self%gap = self%gap + self%image
    end subroutine move
 
+   !> The shift of (C24) after a step; zero if no point passes H.
+   pure real(sp) function shift_below_hardness(self, step) result(shift)
+      class(pressure_correction), intent(in) :: self
+      real(sp), intent(in) :: step
+
+      real(dp), allocatable :: above(:), below(:)
+      logical :: free(self%region%points)
+
+      shift = 0.0_sp
+      if (.not. allocated(self%room)) return
+      free = self%contact > 0.0_sp
+      below = pack(self%room - self%change + step*self%direction, free)
+      if (.not. any(below <= 0.0_dp)) return
+      above = pack(self%start_pressure + self%change - step*self%direction, free)
+      shift = real(bounded_shift(above, below, 0.0_dp), sp)
+   end function shift_below_hardness
+
    !> Multiplies the pressure at the free points by a factor, so that its mean is that of the start, and adds the changes
-   !> to `image`. If points have lost load at H, multiplies H - p in place of p, as the others must stay below H (C24).
-   subroutine restore_mean(self, at_hardness)
+   !> to `image`.
+   subroutine restore_mean(self)
       class(pressure_correction), intent(inout) :: self
-      logical, intent(in) :: at_hardness   !! whether points have just reached H
 
-      real(dp) :: excess, load
+      real(dp) :: load
+      real(sp) :: excess
 
-      excess = -sum_of(self%change)
-      if (at_hardness .and. excess > 0.0_dp) then
-         associate (room => self%contact*(self%room - self%change))
-            load = self%product_of(self%contact, room)
-            if (load > 0.0_dp) call grow(real(excess/load, sp)*room)
-         end associate
-      else
-         load = self%product_of(self%contact, self%start_pressure + self%change)
-         if (load > 0.0_dp) call grow(self%contact*real(excess/load, sp)*(self%start_pressure + self%change))
-      end if
-
-   contains
-
-      subroutine grow(growth)
-         real(sp), intent(in) :: growth(:)
-
+      load = self%product_of(self%contact, self%start_pressure + self%change)
+      if (.not. load > 0.0_dp) return
+      excess = real(-sum_of(self%change)/load, sp)
+      associate (growth => self%contact*excess*(self%start_pressure + self%change))
          self%image = self%image + growth
          self%change = self%change + growth
-      end subroutine grow
-
+      end associate
    end subroutine restore_mean
 
    !> Adds to the free points those outside whose gap is below the mean gap of the free ones by more than an allowance (C8),
