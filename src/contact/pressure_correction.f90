@@ -63,7 +63,7 @@ module wavycon_pressure_correction
       procedure, private :: set_extension
       procedure, private :: update_direction
       procedure, private :: find_step
-      procedure, private :: shift_below_hardness
+      procedure, private :: find_shift
       procedure, private :: move
       procedure, private :: restore_mean
       procedure, private :: add_overlaps
@@ -278,10 +278,12 @@ contains
 
       real(sp) :: most, shift
       integer :: i, left
-      logical :: has_hardness
+      logical :: has_hardness, shifted
 
-      shift = self%shift_below_hardness(step)
       has_hardness = allocated(self%room)
+      shift = 0.0_sp
+      shifted = .false.
+      if (has_hardness) call self%find_shift(step, shift, shifted)
       left = 0
       !$omp parallel do num_threads(self%region%threads) private(most) reduction(+:left)
       do i = 1, self%region%points
@@ -308,27 +310,31 @@ contains
       end do
       self%changed_points = left
       if (left == 0) return
-      call self%restore_mean()
+      if (.not. shifted) call self%restore_mean()
       call self%displace(half_space)
       self%gap = self%gap + self%image
    end subroutine move
 
-   !> The shift of (C24) after a step; zero if no point passes H.
-   pure real(sp) function shift_below_hardness(self, step) result(shift)
+   !> The shift of (C24) after a step.
+   pure subroutine find_shift(self, step, shift, exists)
       class(pressure_correction), intent(in) :: self
       real(sp), intent(in) :: step
+      real(sp), intent(inout) :: shift   !! changed if it exists
+      logical, intent(out) :: exists     !! .false. if no point passes H
 
-      real(dp), allocatable :: above(:), below(:)
-      logical :: free(self%region%points)
+      real(dp) :: lack
+      real(sp), allocatable :: change(:)
+      logical, allocatable :: free(:)
 
-      shift = 0.0_sp
-      if (.not. allocated(self%room)) return
+      change = self%change - step*self%direction
       free = self%contact > 0.0_sp
-      below = pack(self%room - self%change + step*self%direction, free)
-      if (.not. any(below <= 0.0_dp)) return
-      above = pack(self%start_pressure + self%change - step*self%direction, free)
-      shift = real(bounded_shift(above, below, 0.0_dp), sp)
-   end function shift_below_hardness
+      exists = any(free .and. change >= self%room)
+      if (.not. exists) return
+      ! The direction is rounded: close to H its sum may be more than the points can take.
+      lack = -sum_of(change)
+      shift = real(bounded_shift(real(pack(self%start_pressure + change, free), dp), &
+                                 real(pack(self%room - change, free), dp), lack), sp)
+   end subroutine find_shift
 
    !> Multiplies the pressure at the free points by a factor, so that its mean is that of the start, and adds the changes
    !> to `image`.

@@ -18,7 +18,7 @@ contains
       real(dp), intent(in) :: hardness            !! H, huge if there is none
 
       real(dp) :: lack, shift
-      logical :: changes(size(pressure, 1), size(pressure, 2))
+      logical, allocatable :: changes(:, :)
 
       if (.not. has_points_at(hardness, pressure)) then
          pressure = pressure*(load/sum_of_field(pressure))
