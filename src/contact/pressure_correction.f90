@@ -326,8 +326,8 @@ contains
       real(sp), allocatable :: change(:)
       logical, allocatable :: free(:)
 
-      change = self%change - step*self%direction
-      free = self%contact > 0.0_sp
+      allocate (change, source=self%change - step*self%direction)
+      allocate (free, source=self%contact > 0.0_sp)
       exists = any(free .and. change >= self%room)
       if (.not. exists) return
       ! The direction is rounded: close to H its sum may be more than the points can take.

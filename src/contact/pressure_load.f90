@@ -26,7 +26,7 @@ contains
       end if
       pressure = min(pressure, hardness)
       lack = load - sum_of_field(pressure)
-      changes = pressure > 0.0_dp .and. pressure < hardness
+      allocate (changes, source=pressure > 0.0_dp .and. pressure < hardness)
       if (abs(lack) >= sum(merge(hardness - pressure, pressure, lack > 0.0_dp), changes)) changes = .true.
       shift = bounded_shift(pack(pressure, changes), pack(hardness - pressure, changes), lack)
       where (changes) pressure = min(max(pressure + shift, 0.0_dp), hardness)
