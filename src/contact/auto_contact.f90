@@ -130,7 +130,7 @@ contains
          call grid%start(surface, accuracy, keep_fields, points, residual)
          call move_alloc(grid, self%first)
          self%reason = 'the surface has neither a closed form nor expansions'
-         if (surface%has_hardness()) self%reason = 'with a hardness there is neither a closed form nor expansions'
+         if (surface%has_hardness()) self%reason = 'neither closed form nor expansions have a hardness'
          if (.not. by_accuracy) then
             self%reason = 'the points of the grid are given'
             if (all(points == surface%points)) &

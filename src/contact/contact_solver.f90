@@ -144,7 +144,7 @@ contains
       real(dp), intent(in) :: pbar_over_pstar        !! P; the status of the solution is not_finite if it is no number
       class(contact_solution), allocatable, intent(out) :: solution   !! always allocated, with a status
 
-      logical :: is_number
+      logical :: is_number, is_partial
 
       ! Comparisons with a NaN raise an exception, which Debug builds trap.
       is_number = .not. ieee_is_nan(pbar_over_pstar)
@@ -153,12 +153,16 @@ contains
          return
       end if
       if (is_number) then
-         if (pbar_over_pstar >= self%surface%hardness) then
-            call no_solution(pbar_over_pstar, self%surface, 'none', above_hardness, solution)
-            return
+         is_partial = pbar_over_pstar > 0.0_dp .and. pbar_over_pstar < 1.0_dp
+         if (self%surface%has_hardness()) then
+            if (pbar_over_pstar >= self%surface%hardness) then
+               call no_solution(pbar_over_pstar, self%surface, 'none', above_hardness, solution)
+               return
+            end if
+            is_partial = pbar_over_pstar > 0.0_dp .and. &
+                         (is_partial .or. pbar_over_pstar + self%surface%full_contact_peak > self%surface%hardness)
          end if
-         if (pbar_over_pstar > 0.0_dp .and. &
-             (pbar_over_pstar < 1.0_dp .or. self%surface%hardness - pbar_over_pstar < self%surface%full_contact_peak)) then
+         if (is_partial) then
             call self%solve_partial_contact(pbar_over_pstar, solution)
             return
          end if

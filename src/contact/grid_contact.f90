@@ -62,7 +62,7 @@ module wavycon_grid_contact
    type, extends(contact_solution) :: grid_solution
       type(grid_edge), allocatable :: edge    !! pressure and gap at the grid points; not allocated if not kept
       logical, private :: turned = .false.    !! the grid's cell is the smaller one, turned by 45 degrees
-      real(dp), private :: imprint = 0.0_dp   !! mean overlap where p = H [Delta] (C22)
+      real(dp) :: imprint = 0.0_dp            !! mean overlap where p = H [Delta] (C22)
    contains
       procedure :: fields
       procedure :: edge_curves

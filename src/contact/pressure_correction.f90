@@ -63,8 +63,9 @@ module wavycon_pressure_correction
       procedure, private :: set_extension
       procedure, private :: update_direction
       procedure, private :: find_step
-      procedure, private :: find_shift
       procedure, private :: move
+      procedure, private :: move_freely
+      procedure, private :: move_between_bounds
       procedure, private :: restore_mean
       procedure, private :: add_overlaps
       procedure, private :: is_at_hardness
@@ -268,73 +269,80 @@ contains
       if (curvature > 0.0_dp) step = real(self%product_of(self%residuals, self%direction)/curvature, sp)
    end subroutine find_step
 
-   !> Moves pressure and gap by a step. Points whose pressure would not stay between zero and H leave the free ones. If none
-   !> is at H the others are then multiplied by a factor that restores the mean pressure (C7); otherwise the pressure at all
-   !> free points changes by the same (C24).
+   !> Moves pressure and gap by a step. Points whose pressure would not stay positive leave the free ones; the others are
+   !> then multiplied by a factor that restores the mean pressure (C7). Where points pass H, (C24) takes its place.
    subroutine move(self, step, half_space)
       class(pressure_correction), intent(inout) :: self
       real(sp), intent(in) :: step
       type(compliance_operator), intent(inout) :: half_space
 
-      real(sp) :: most, shift
-      integer :: i, left
-      logical :: has_hardness, shifted
+      logical :: passes_hardness
 
-      has_hardness = allocated(self%room)
-      shift = 0.0_sp
-      shifted = .false.
-      if (has_hardness) call self%find_shift(step, shift, shifted)
-      left = 0
-      !$omp parallel do num_threads(self%region%threads) private(most) reduction(+:left)
-      do i = 1, self%region%points
-         self%gap(i) = self%gap(i) - step*self%image(i)
-         self%change(i) = self%change(i) - step*self%direction(i)
-         self%image(i) = 0.0_sp
-         if (self%contact(i) <= 0.0_sp) cycle
-         if (self%start_pressure(i) + self%change(i) + shift <= 0.0_sp) then
-            self%image(i) = -self%start_pressure(i) - self%change(i)
-            self%change(i) = -self%start_pressure(i)
-            self%contact(i) = 0.0_sp
-            left = left + 1
-         else if (has_hardness) then
-            most = self%room(i) - self%change(i)
-            if (most <= shift) then
-               self%change(i) = self%room(i)
-               self%contact(i) = 0.0_sp
-               left = left + 1
-            else
-               self%change(i) = self%change(i) + shift
-            end if
-            self%image(i) = min(most, shift)
-         end if
-      end do
-      self%changed_points = left
-      if (left == 0) return
-      if (.not. shifted) call self%restore_mean()
+      passes_hardness = .false.
+      if (allocated(self%room)) passes_hardness = any(self%contact > 0.0_sp .and. &
+                                                      self%change - step*self%direction >= self%room)
+      if (passes_hardness) then
+         call self%move_between_bounds(step)
+      else
+         call self%move_freely(step)
+         if (self%changed_points > 0) call self%restore_mean()
+      end if
+      if (self%changed_points == 0) return
       call self%displace(half_space)
       self%gap = self%gap + self%image
    end subroutine move
 
-   !> The shift of (C24) after a step.
-   pure subroutine find_shift(self, step, shift, exists)
-      class(pressure_correction), intent(in) :: self
+   !> A step that no point ends at H; `image` becomes what the pressure changes besides.
+   subroutine move_freely(self, step)
+      class(pressure_correction), intent(inout) :: self
       real(sp), intent(in) :: step
-      real(sp), intent(inout) :: shift   !! changed if it exists
-      logical, intent(out) :: exists     !! .false. if no point passes H
 
-      real(dp) :: lack
-      real(sp), allocatable :: change(:)
+      integer :: i, left
+
+      left = 0
+      !$omp parallel do num_threads(self%region%threads) reduction(+:left)
+      do i = 1, self%region%points
+         self%gap(i) = self%gap(i) - step*self%image(i)
+         self%change(i) = self%change(i) - step*self%direction(i)
+         self%image(i) = 0.0_sp
+         if (self%contact(i) > 0.0_sp .and. self%start_pressure(i) + self%change(i) <= 0.0_sp) then
+            self%image(i) = -self%start_pressure(i) - self%change(i)
+            self%change(i) = -self%start_pressure(i)
+            self%contact(i) = 0.0_sp
+            left = left + 1
+         end if
+      end do
+      self%changed_points = left
+   end subroutine move_freely
+
+   !> A step that ends at H for some points: the pressure at all free points changes by the same that restores the mean,
+   !> and then to the nearer bound if it is beyond it (C24). Close to H the step is much longer than what is left of it,
+   !> and is computed in double precision.
+   subroutine move_between_bounds(self, step)
+      class(pressure_correction), intent(inout) :: self
+      real(sp), intent(in) :: step
+
+      real(dp), allocatable :: change(:)
       logical, allocatable :: free(:)
+      real(dp) :: shift
+      integer :: i
 
-      allocate (change, source=self%change - step*self%direction)
+      allocate (change, source=self%change - real(step, dp)*self%direction)
       allocate (free, source=self%contact > 0.0_sp)
-      exists = any(free .and. change >= self%room)
-      if (.not. exists) return
-      ! The direction is rounded: close to H its sum may be more than the points can take.
-      lack = -sum_of(change)
-      shift = real(bounded_shift(real(pack(self%start_pressure + change, free), dp), &
-                                 real(pack(self%room - change, free), dp), lack), sp)
-   end subroutine find_shift
+      shift = bounded_shift(pack(self%start_pressure + change, free), pack(self%room - change, free), -sum(change))
+      self%changed_points = 0
+      do i = 1, self%region%points
+         self%gap(i) = self%gap(i) - step*self%image(i)
+         self%image(i) = 0.0_sp
+         if (.not. free(i)) cycle
+         self%change(i) = real(min(max(change(i) + shift, real(-self%start_pressure(i), dp)), &
+                                   real(self%room(i), dp)), sp)
+         self%image(i) = real(self%change(i) - change(i), sp)
+         if (self%change(i) > -self%start_pressure(i) .and. self%change(i) < self%room(i)) cycle
+         self%contact(i) = 0.0_sp
+         self%changed_points = self%changed_points + 1
+      end do
+   end subroutine move_between_bounds
 
    !> Multiplies the pressure at the free points by a factor, so that its mean is that of the start, and adds the changes
    !> to `image`.
