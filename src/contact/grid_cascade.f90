@@ -69,8 +69,8 @@ contains
       do
          last = all(grid == plan%last)
          call solve_level(surface, mean_pressure, merge(last_residual, 0.0_dp, last), answer)
-         call measure_level(surface, history, answer)
-         if (surface%has_hardness()) call measure_at_hardness(surface, history_at_hardness, answer)
+         call measure_level(surface, mean_pressure, history, answer)
+         if (surface%has_hardness()) call measure_at_hardness(surface, mean_pressure, history_at_hardness, answer)
          answer%accurate = answer%state%converged .and. all(answer%errors <= accuracy) .and. &
             all(grid >= plan%trusted)
          if (present(progress)) &
@@ -106,11 +106,9 @@ contains
       allocate (h(points(1), points(2)))
       call sample_undeformed_gap(surface, h)
       call half_space%start(surface, points)
-      if (surface%has_hardness()) then
+      answer%state%pressure = answer%state%pressure*(mean_pressure*size(h)/sum(answer%state%pressure))
+      if (any(answer%state%pressure >= surface%hardness)) &
          call set_load(answer%state%pressure, mean_pressure*size(h), surface%hardness)
-      else
-         answer%state%pressure = answer%state%pressure*(mean_pressure*size(h)/sum(answer%state%pressure))
-      end if
       call stencil%start(surface, points)
       call solve_on_grid(half_space, stencil, h, residual, iteration_limit, answer%state)
       answer%grids = answer%grids + 1
@@ -132,9 +130,10 @@ contains
    end subroutine sample_undeformed_gap
 
    !> Mean gap, contact area (C11), (C12) and peak pressure (C13) on the present grid, and their error estimates (C14)
-   !> to (C17).
-   subroutine measure_level(surface, history, answer)
+   !> to (C17). The area is at least that which carries the load at the hardness.
+   subroutine measure_level(surface, mean_pressure, history, answer)
       type(surface_type), intent(in) :: surface
+      real(dp), intent(in) :: mean_pressure
       type(change_history), intent(inout) :: history
       type(cascade_answer), intent(inout) :: answer
 
@@ -147,14 +146,16 @@ contains
       call grid_peak_pressure(edge, answer%values(3), peak_resolved)
       peak_resolved = peak_resolved .or. answer%values(3) >= surface%hardness
       answer%values(3) = min(answer%values(3), surface%hardness)
+      if (surface%has_hardness()) answer%values(2) = max(answer%values(2), mean_pressure/surface%hardness)
       call history%push(answer%values)
       answer%errors = estimate_errors(history, surface, edge, peak_resolved)
    end subroutine measure_level
 
    !> The area at which p = H, and its error estimate. H - p and minus the gap behave at its edge as gap and pressure do at
-   !> the edge of contact (C23).
-   subroutine measure_at_hardness(surface, history, answer)
+   !> the edge of contact (C23). It is at most that which carries the load.
+   subroutine measure_at_hardness(surface, mean_pressure, history, answer)
       type(surface_type), intent(in) :: surface
+      real(dp), intent(in) :: mean_pressure
       type(change_history), intent(inout) :: history
       type(cascade_answer), intent(inout) :: answer
 
@@ -163,7 +164,7 @@ contains
 
       call start_grid_edge(edge, surface%hardness - answer%state%pressure, -answer%state%gap, surface%shape%is_even(), &
                            pressure_per_gap(surface, shape(answer%state%gap)))
-      values = [0.0_dp, 1.0_dp - grid_contact_area(edge), 0.0_dp]
+      values = [0.0_dp, min(1.0_dp - grid_contact_area(edge), mean_pressure/surface%hardness), 0.0_dp]
       answer%area_at_hardness = values(2)
       call history%push(values)
       errors = history%errors()
