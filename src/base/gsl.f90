@@ -10,7 +10,6 @@ module wavycon_gsl
    public :: gsl_function
    public :: gsl_sort_index
    public :: gsl_sf_legendre_pl_array, gsl_sf_zeta, gsl_sf_hzeta
-   public :: gsl_sf_ellint_rf, gsl_sf_elljac_e, gsl_prec_double
    public :: gsl_integration_workspace_alloc, gsl_integration_workspace_free
    public :: gsl_integration_qaws_table_alloc, gsl_integration_qaws_table_free, gsl_integration_qaws
    public :: gsl_integration_fixed_jacobi, gsl_integration_fixed_alloc, gsl_integration_fixed_free
@@ -26,24 +25,7 @@ module wavycon_gsl
    !> The weight (b-x)^alpha (x-a)^beta of a fixed rule.
    type(c_ptr), protected, bind(c, name='gsl_integration_fixed_jacobi') :: gsl_integration_fixed_jacobi
 
-   !> Accuracy of elliptic integrals: some 2e-16.
-   integer(c_int), parameter :: gsl_prec_double = 0
-
    interface
-      !> Carlson's elliptic integral R_F(x, y, z); K of the complementary modulus k' is R_F(0, k'^2, 1).
-      pure real(c_double) function gsl_sf_ellint_rf(x, y, z, mode) bind(c, name='gsl_sf_ellint_RF')
-         import :: c_double, c_int
-         real(c_double), value :: x, y, z
-         integer(c_int), value :: mode
-      end function gsl_sf_ellint_rf
-
-      !> Jacobi's elliptic functions sn(u|m), cn(u|m), dn(u|m); returns 0 on success.
-      integer(c_int) function gsl_sf_elljac_e(u, m, sn, cn, dn) bind(c, name='gsl_sf_elljac_e')
-         import :: c_double, c_int
-         real(c_double), value :: u, m
-         real(c_double), intent(out) :: sn, cn, dn
-      end function gsl_sf_elljac_e
-
       !> Legendre polynomials P_0(x) .. P_lmax(x), -1 <= x <= 1; returns 0 on success.
       integer(c_int) function gsl_sf_legendre_pl_array(lmax, x, values) &
          bind(c, name='gsl_sf_legendre_Pl_array')

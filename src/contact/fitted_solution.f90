@@ -5,6 +5,7 @@ module wavycon_fitted_solution
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_solution, only: contact_solution
    use wavycon_edge_curves, only: edge_curve
+   use wavycon_equivalent_points, only: equivalent_points, point_image
    use wavycon_fitted_answer, only: fitted_answer
    use wavycon_fitted_details, only: find_fitted_details, fitted_details
    use wavycon_fitted_fields, only: fitted_fields, start_fitted_fields
@@ -114,72 +115,31 @@ contains
       real(dp), intent(in) :: offset(2)
       real(dp), allocatable, intent(out) :: pressure(:, :), displacement(:, :), gap(:, :)
 
-      real(dp), parameter :: rounding = 1e-12_dp
+      type(equivalent_points) :: grid
       type(fitted_map) :: map
-      integer :: k, l, first(2), twice_offset(2)
-      logical :: has_mirrors, is_square
+      type(point_image) :: first
+      integer :: k, l
 
       allocate (pressure(points(1), points(2)), displacement(points(1), points(2)), gap(points(1), points(2)))
-      twice_offset = nint(2*offset)
-      has_mirrors = all(abs(2*offset - twice_offset) <= rounding)
-      is_square = self%is_square .and. points(1) == points(2) .and. twice_offset(1) == twice_offset(2)
-      call start_fitted_map(map, self%fitted, self%accuracy, count_of_first())
+      call grid%start(points, offset, self%is_square, self%frame%crests)
+      call start_fitted_map(map, self%fitted, self%accuracy, grid%number_of_first())
       do l = 0, points(2) - 1
          do k = 0, points(1) - 1
-            first = first_image([k, l])
-            if (all(first == [k, l])) then
-               associate (angles => 2*pi*([k, l] + offset)/points)
-                  call map%at(on_lattice(self, angles(1), angles(2)), pressure(k + 1, l + 1), &
-                              displacement(k + 1, l + 1), gap(k + 1, l + 1))
-               end associate
-            else
-               pressure(k + 1, l + 1) = pressure(first(1) + 1, first(2) + 1)
-               displacement(k + 1, l + 1) = displacement(first(1) + 1, first(2) + 1)
-               gap(k + 1, l + 1) = gap(first(1) + 1, first(2) + 1)
-            end if
+            first = grid%first_of([k, l])
+            associate (i => first%point(1) + 1, j => first%point(2) + 1)
+               if (all(first%point == [k, l])) then
+                  associate (angles => 2*pi*([k, l] + offset)/points)
+                     call map%at(on_lattice(self, angles(1), angles(2)), pressure(i, j), displacement(i, j), gap(i, j))
+                  end associate
+               else
+                  pressure(k + 1, l + 1) = pressure(i, j)
+                  displacement(k + 1, l + 1) = displacement(i, j)
+                  gap(k + 1, l + 1) = gap(i, j)
+               end if
+            end associate
          end do
       end do
       call convert(self, pressure, gap)
-
-   contains
-
-      !> The number of points that are evaluated.
-      pure integer function count_of_first() result(n)
-         integer :: i, j
-
-         n = 0
-         do j = 0, points(2) - 1
-            do i = 0, points(1) - 1
-               if (all(first_image([i, j]) == [i, j])) n = n + 1
-            end do
-         end do
-      end function count_of_first
-
-      !> Of all points equivalent to this one, the one that the loop reaches first.
-      pure function first_image(point) result(first)
-         integer, intent(in) :: point(2)
-         integer :: first(2)
-
-         integer :: other(2)
-
-         first = point
-         if (.not. has_mirrors) return
-         first = reflected(point)
-         if (self%frame%crests == 2 .and. all(mod(points, 2) == 0)) then
-            other = reflected(point + points/2)
-            if (other(2) < first(2) .or. (other(2) == first(2) .and. other(1) < first(1))) first = other
-         end if
-      end function first_image
-
-      !> The first of the mirror images of a point and, on a square cell, of those on the other side of its diagonals.
-      pure function reflected(point)
-         integer, intent(in) :: point(2)
-         integer :: reflected(2)
-
-         reflected = min(modulo(point, points), modulo(-point - twice_offset, points))
-         if (is_square .and. reflected(2) > reflected(1)) reflected = reflected([2, 1])
-      end function reflected
-
    end subroutine on_grid
 
    !> A closed curve about each crest or, once the spots have merged, about each trough.

@@ -8,7 +8,7 @@ module wavycon_expansion_stress
    use wavycon_exterior_map, only: find_exterior
    use wavycon_expansion, only: expansion
    use wavycon_far_stress, only: far_nodes, far_stress, set_far_values, start_far_stress
-   use wavycon_fitted_tuning, only: far_bottom, far_terms, far_top, near_sources_distance, series_depth
+   use wavycon_fitted_tuning, only: far_bottom, far_top, near_clearance, series_depth
    use wavycon_kinds, only: dp
    use wavycon_shape_search, only: find_edge_in_direction, find_preimage
    use wavycon_source_density, only: find_slopes
@@ -25,6 +25,7 @@ module wavycon_expansion_stress
    !> Rules of rising fineness, before rays are taken.
    integer, parameter :: levels = 6
 
+   real(dp), public :: fa=1, fr=1
    type :: expansion_stress
       type(wave_lattice), private :: lattice
       type(expansion), private :: solution
@@ -116,7 +117,7 @@ contains
       associate (rows => stress%lattice%rows, lattice => stress%lattice)
          width = [0.5_dp, 0.5_dp*rows%spacing]
          if (rows%along_y) width = width([2, 1])
-         reach = hypot(width(1), width(2)) + near_sources_distance + abs(lattice%trough)
+         reach = hypot(width(1), width(2)) + near_clearance + stress%radius + abs(lattice%trough)
          call rows%points_within(reach, point, next)
          allocate (stress%centre(0), stress%half_turn(0))
          do island = 1, merge(lattice%troughs, 1, stress%solution%island)
@@ -125,7 +126,7 @@ contains
                if (i > 0) centre = cmplx(point(1, i), point(2, i), dp)
                if (stress%solution%island) centre = centre + merge(1, -1, island == 1)*lattice%trough
                off = hypot(max(abs(centre%re) - width(1), 0.0_dp), max(abs(centre%im) - width(2), 0.0_dp))
-               if (off > near_sources_distance) cycle
+               if (off > near_clearance + stress%radius) cycle
                stress%centre = [stress%centre, centre]
                stress%half_turn = [stress%half_turn, merge(1.0_dp, -1.0_dp, island == 1)]
             end do
@@ -190,9 +191,9 @@ contains
       complex(dp) :: at
       real(dp), allocatable :: strength(:), values(:, :, :, :), x(:), y(:), z(:)
       real(dp) :: fields(stress_fields), mean, sides(2)
-      integer :: i, j, k, m
+      integer :: i, j, k, m, terms(3)
 
-      associate (rows => self%lattice%rows, terms => far_terms)
+      associate (rows => self%lattice%rows)
          call plain_sources(self, self%radii(1), self%angles(1), place, strength)
          call start_stress_series(series, rows, place%re, place%im, strength, self%solution%island, far_top, &
                                   self%digits + 2.0_dp)
@@ -204,6 +205,7 @@ contains
          end if
          sides = [0.5_dp, 0.5_dp*rows%spacing]
          if (rows%along_y) sides = sides([2, 1])
+         terms = far_sizes(sides, self%digits - 3.0_dp)
          allocate (self%far)
          call start_far_stress(self%far, sides(1), sides(2), far_top, far_bottom, self%solution%island, terms)
          allocate (x(terms(1)), y(terms(2)), z(terms(3)), values(terms(1), terms(2), terms(3), stress_fields))
@@ -231,6 +233,28 @@ contains
          call set_far_values(self%far, mean, values)
       end associate
    end subroutine prepare_far
+
+   !> Numbers of terms: the fields are singular beyond the sides by near_clearance, and above the surface by as much.
+   pure function far_sizes(sides, digits) result(terms)
+      real(dp), intent(in) :: sides(2)
+      real(dp), intent(in) :: digits
+      integer :: terms(3)
+
+      terms(:2) = ceiling(digits/log(ellipse(2*((sides + near_clearance)/sides)**2 - 1.0_dp)))
+      ! At the surface, outside of the nodes, the polynomials have grown.
+      associate (middle => 0.5_dp*(far_bottom**2 + far_top**2), half => 0.5_dp*(far_bottom**2 - far_top**2))
+         terms(3) = ceiling(digits/log(ellipse((near_clearance**2 + middle)/half)/ellipse(middle/half)))
+      end associate
+      terms = max(terms, 4)
+   end function far_sizes
+
+   !> Sum of the half axes of Bernstein's ellipse through x > 1: a function that is analytic inside has coefficients of
+   !> Chebyshev's polynomials that fall as its powers.
+   elemental real(dp) function ellipse(x)
+      real(dp), intent(in) :: x
+
+      ellipse = x + sqrt(x**2 - 1.0_dp)
+   end function ellipse
 
    !> Makes a rule.
    subroutine prepare_rule(self, level)
@@ -301,7 +325,7 @@ contains
       radial = abs(pole + sqrt(pole - 1.0_dp)*sqrt(pole + 1.0_dp))
       radial = 2*log(max(radial, 1/radial))
       do level = 1, levels
-         if (self%angles(level)*angular >= self%digits .and. self%radii(level)*radial >= self%digits) exit
+         if (self%angles(level)*angular >= fa*self%digits .and. self%radii(level)*radial >= fr*self%digits) exit
       end do
    end function level_for
 

@@ -7,7 +7,6 @@ module wavycon_stress_rays
    use wavycon_constants, only: pi
    use wavycon_expansion, only: expansion
    use wavycon_gauss_rules, only: gauss_jacobi
-   use wavycon_gsl, only: gsl_prec_double, gsl_sf_ellint_rf, gsl_sf_elljac_e
    use wavycon_kinds, only: dp
    use wavycon_source_density, only: find_density, find_slopes, place_differences
    use wavycon_stress_kernel, only: add_gap_gradient, add_pressure, h_field, l_field, stress_fields
@@ -21,10 +20,10 @@ module wavycon_stress_rays
    end type gauss_rule
 
    type :: stress_rays
-      real(dp) :: angular_step = 0.35_dp              !! of Jacobi's amplitude
-      integer :: least_rays = 32                      !! of a turn
-      real(dp) :: least_points = 20.0_dp              !! on a ray
-      real(dp) :: points_per_unit = 2.0_dp            !! more of them for each unit of the ray's length in eta
+      real(dp) :: least_angles = 0.0_dp               !! of a quarter of a turn
+      real(dp) :: angles_per_unit = 0.0_dp            !! more of them for each unit of the quarter's length in x
+      real(dp) :: least_points = 0.0_dp               !! on a ray
+      real(dp) :: points_per_unit = 0.0_dp            !! more of them for each unit of the ray's length in eta
       type(gauss_rule), allocatable :: rules(:)       !! of 4, 8, 12, .. points
    contains
       procedure :: add_at
@@ -44,10 +43,12 @@ contains
 
       integer :: i
 
-      rays%angular_step = pi**2/digits
-      rays%least_rays = 16 + 2*degree
-      rays%least_points = 0.3_dp*digits + 0.5_dp*degree
-      rays%points_per_unit = digits/14
+      associate (share => digits/27)
+         rays%least_angles = 1.2_dp*share*(8.0_dp + 0.25_dp*degree)
+         rays%angles_per_unit = 1.2_dp*share*4.0_dp
+         rays%least_points = 1.2_dp*share*(8.0_dp + 0.25_dp*degree)
+         rays%points_per_unit = 1.2_dp*share*(0.9_dp + degree/16.0_dp)
+      end associate
       allocate (rays%rules(most_rules))
       do i = 1, most_rules
          allocate (rays%rules(i)%node(rule_step*i), rays%rules(i)%weight(rule_step*i))
@@ -65,68 +66,58 @@ contains
       real(dp), intent(inout) :: fields(stress_fields)
 
       complex(dp) :: density(1), direction, normal, slope(1), conjugate_slope(1)
-      real(dp), allocatable :: cosine(:), sine(:), weight(:)
-      real(dp) :: clustering, distance, edge, scale
+      real(dp), dimension(rule_step*most_rules) :: cosine, sine, weight
+      real(dp) :: distance, edge, kappa, scale, width
       logical :: on_surface
-      integer :: i
+      integer :: i, inwards, quarter, rule, sideways
 
       scale = solution%shape%b(0)
       distance = hypot(abs(offset), depth)
       on_surface = distance <= epsilon(1.0_dp)**2*scale
       edge = max((1.0_dp - abs(origin))*(1.0_dp + abs(origin)), at_edge)
       call find_slopes(solution%shape, 1, [origin], slope, conjugate_slope)
-      clustering = sqrt(edge)
-      if (edge <= at_edge) &
-         clustering = max(clustering, min(0.5_dp*distance/(abs(slope(1)) + abs(conjugate_slope(1))), 1.0_dp))
+      ! A place outside sees the edge vary on the scale of its distance.
+      width = sqrt(edge)
+      if (edge <= at_edge) width = max(width, 0.5_dp*distance/(abs(slope(1)) + abs(conjugate_slope(1))))
+      width = min(width, 1.0_dp)
       normal = 1.0_dp
       if (abs(origin) > 0.0_dp) normal = origin/abs(origin)
       density = 0.0_dp
       if (on_surface) call find_density(solution, 1, [origin], [edge], density)
-      call find_directions(self, min(clustering, 1.0_dp), cosine, sine, weight)
-      do i = 1, size(weight)
-         direction = normal*cmplx(cosine(i), sine(i), dp)
-         call add_ray(self, solution, origin, offset, depth, on_surface, edge, cosine(i), direction, &
-                      slope(1)*direction + conjugate_slope(1)*conjg(direction), weight(i), density(1), fields)
-      end do
+      ! The integrand is singular at complex directions of imaginary part kappa, where the map's derivative vanishes.
+      kappa = 0.5_dp*log(abs(slope(1))/max(abs(conjugate_slope(1)), tiny(1.0_dp)))
+      rule = rule_for((self%least_angles + self%angles_per_unit*asinh(0.5_dp*pi/width))*max(1.0_dp, 1.1_dp*kappa**(-0.4_dp)))
+      associate (n => size(self%rules(rule)%node))
+         call find_directions(self%rules(rule), width, cosine(:n), sine(:n), weight(:n))
+         do quarter = 1, merge(2, 4, edge <= at_edge)
+            inwards = merge(1, -1, quarter <= 2)
+            sideways = merge(1, -1, mod(quarter, 2) == 0)
+            do i = 1, n
+               direction = normal*cmplx(inwards*cosine(i), sideways*sine(i), dp)
+               call add_ray(self, solution, origin, offset, depth, on_surface, edge, inwards*cosine(i), direction, &
+                            slope(1)*direction + conjugate_slope(1)*conjg(direction), weight(i), density(1), fields)
+            end do
+         end do
+      end associate
       if (on_surface .and. .not. solution%island) &
          fields(h_field) = fields(h_field) + density(1)%re*sqrt(edge) &
          /(slope(1)%re**2 + slope(1)%im**2 - (conjugate_slope(1)%re**2 + conjugate_slope(1)%im**2))
    end subroutine add_at
 
-   !> Directions from the outward normal, and weights in the angle: equal steps of Jacobi's amplitude with the
-   !> complementary modulus k', dphi/dtau = (k'^2 + k^2 cos^2 phi)^(1/2).
-   subroutine find_directions(self, modulus, cosine, sine, weight)
-      type(stress_rays), intent(in) :: self
-      real(dp), intent(in) :: modulus                     !! k', 0 < k' <= 1
-      real(dp), allocatable, intent(out) :: cosine(:), sine(:), weight(:)
+   !> Directions from the outward normal, and weights in the angle, of one quarter between the edge's direction and the
+   !> inward normal: Gauss's rule in x, where the angle from the edge is c sinh(x).
+   pure subroutine find_directions(rule, width, cosine, sine, weight)
+      type(gauss_rule), intent(in) :: rule
+      real(dp), intent(in) :: width                                     !! c > 0
+      real(dp), intent(out), dimension(:) :: cosine, sine, weight       !! shape of the rule
 
-      real(dp) :: cn, dn, sn, quarter, u
-      integer :: i, n, status
+      real(dp) :: last, x(size(rule%node))
 
-      quarter = gsl_sf_ellint_rf(0.0_dp, modulus**2, 1.0_dp, gsl_prec_double)
-      n = max(ceiling(quarter/self%angular_step), (self%least_rays + 3)/4)
-      allocate (cosine(4*n), sine(4*n), weight(4*n))
-      associate (m => (1.0_dp - modulus)*(1.0_dp + modulus))
-         do i = 1, n
-            ! From the nearer end of the quarter: cn and dn next to its far end would lose digits.
-            u = quarter*(i - 0.5_dp)/n
-            if (2*i <= n) then
-               status = gsl_sf_elljac_e(u, m, sn, cn, dn)
-               cosine(i) = cn
-               sine(i) = sn
-               weight(i) = dn
-            else
-               status = gsl_sf_elljac_e(quarter*(n - i + 0.5_dp)/n, m, sn, cn, dn)
-               cosine(i) = modulus*sn/dn
-               sine(i) = cn/dn
-               weight(i) = modulus/dn
-            end if
-         end do
-      end associate
-      weight(:n) = weight(:n)*quarter/n
-      cosine = [cosine(:n), -cosine(:n), -cosine(:n), cosine(:n)]
-      sine = [sine(:n), sine(:n), -sine(:n), -sine(:n)]
-      weight = [weight(:n), weight(:n), weight(:n), weight(:n)]
+      last = asinh(0.5_dp*pi/width)
+      x = 0.5_dp*last*(1.0_dp + rule%node)
+      cosine = -sin(width*sinh(x))
+      sine = cos(width*sinh(x))
+      weight = 0.5_dp*last*rule%weight*width*cosh(x)
    end subroutine find_directions
 
    !> Adds a ray.
@@ -163,7 +154,6 @@ contains
          forward = half - along
          back = edge/forward
       end if
-      if (edge <= at_edge .and. along > 0.0_dp) return
       behind = min(back/(2*half), 1.0_dp)
       ahead = min(forward/(2*half), 1.0_dp)
       alpha = 2*atan2(sqrt(behind), sqrt(ahead))
@@ -182,7 +172,7 @@ contains
       width = max(width, least_scale)
       first = asinh(-r/width)
       last = asinh((length - r)/width)
-      rule = min(max(ceiling((self%least_points + self%points_per_unit*(last - first))/rule_step), 1), most_rules)
+      rule = rule_for(self%least_points + self%points_per_unit*(last - first))
       associate (nodes => self%rules(rule))
          call add_points(size(nodes%node), nodes%node, nodes%weight)
       end associate
@@ -237,5 +227,12 @@ contains
       end subroutine add_points
 
    end subroutine add_ray
+
+   !> The rule of at least as many points, or the longest.
+   pure integer function rule_for(points)
+      real(dp), intent(in) :: points
+
+      rule_for = min(max(ceiling(points/rule_step), 1), most_rules)
+   end function rule_for
 
 end module wavycon_stress_rays

@@ -280,16 +280,14 @@ module wavycon_fitted_tuning
    real(dp), parameter, public :: series_depth = 0.3_dp
       !! Depth from which stresses are Fourier series [s]. Smaller: longer series. Larger: rules over spots or islands,
       !! and a table of the far ones, to a larger depth.
-   real(dp), parameter, public :: near_sources_distance = 0.8_dp
-      !! Spots or islands with their centres this near to the cell are summed one by one [s]. Smaller: a larger table of
-      !! the others. Larger: more of them at every place.
-   real(dp), parameter, public :: far_top = 0.18_dp
+   real(dp), parameter, public :: near_clearance = 0.8_dp
+      !! Spots or islands are summed one by one within this distance from the cell [s]. Smaller: a larger table of the
+      !! others. Larger: more of them at every place.
+   real(dp), parameter, public :: far_top = 0.12_dp
       !! Least depth of the table's nodes [s]. Smaller: longer series for its values. Larger: rounding grows more
       !! towards the surface.
-   real(dp), parameter, public :: far_bottom = 0.4_dp
+   real(dp), parameter, public :: far_bottom = 0.35_dp
       !! Largest depth of the table's nodes [s]. As far_top, the other way round.
-   integer, parameter, public :: far_terms(3) = [12, 12, 9]
-      !! Terms of the table in x, y and z. Smaller: its error shows. Larger: more places.
 
    ! Geometry of shapes.
 

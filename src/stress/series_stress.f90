@@ -10,14 +10,14 @@ module wavycon_series_stress
    use wavycon_kinds, only: dp
    use wavycon_stress_fields, only: stress_fields
    use wavycon_stress_tensor, only: largest_shear, von_mises, xx, xy, xz, yy, yz, zz
-   use wavycon_stress_tuning, only: plane_points, plane_ratio, pressure_part, waves_in_depth
+   use wavycon_stress_tuning, only: octave_factor, plane_points, plane_ratio, pressure_part, waves_in_depth
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
 
    public :: series_stress, start_series_stress
 
-   integer, parameter :: number_of_sums = 9
+   integer, parameter :: number_of_sums = 11
 
    !> Waves whose factor exp(-q Z) is smaller than exp(-37) are rounding.
    real(dp), parameter :: deepest = 37.0_dp
@@ -119,13 +119,14 @@ contains
                   sums(6) = sums(6) + n_x*n_y*inner
                   sums(7) = sums(7) - k*depth*wave%im
                   sums(8) = sums(8) - q_y*depth*wave%im
-                  if (q > self%sampled_from) sums(9) = sums(9) + a + inner
+                  if (q > self%sampled_from) &
+                     sums(9:) = sums(9:) + real(octave_weights(n_x, n_y, q*depth)*wave)
                end associate
             end do
          end associate
       end do
       parts = parts_of(sums)
-      if (present(error)) error = self%pressure_error + abs(sums(9))
+      if (present(error)) error = self%pressure_error + octave_factor*norm2(sums(9:))
    end subroutine at
 
    !> The stresses from the sums (S4).
@@ -176,7 +177,8 @@ contains
                weights(1:5:2) = [1.0_dp, n_x**2, n_x*n_y]
                weights(2:6:2) = q*depth*weights(1:5:2)
                weights(7:8) = cmplx(0.0_dp, [real(k, dp), q_y]*depth, dp)
-               weights(9) = merge(1.0_dp + q*depth, 0.0_dp, q > self%sampled_from)
+               weights(9:) = (0.0_dp, 0.0_dp)
+               if (q > self%sampled_from) weights(9:) = octave_weights(n_x, n_y, q*depth)
                m = direction(1)*k + direction(2)*l
                along(:, m) = along(:, m) + weights*wave
             end do
@@ -188,9 +190,19 @@ contains
             sums = sums + real(along(:, m)*exp(cmplx(0.0_dp, m*t(i), dp)))
          end do
          parts(:, :, i) = parts_of(sums)
-         error(i) = self%pressure_error + abs(sums(9))
+         error(i) = self%pressure_error + octave_factor*norm2(sums(9:))
       end do
    end subroutine on_line
+
+   !> What the waves of zz of the last octave are multiplied by: 1, and i n along X and Y. The root of the sum of the three
+   !> squares is the amplitude of a wave where a single one passes through zero: (S5).
+   pure function octave_weights(n_x, n_y, q_z) result(weights)
+      real(dp), intent(in) :: n_x, n_y   !! direction of the wave
+      real(dp), intent(in) :: q_z        !! q Z
+      complex(dp) :: weights(3)
+
+      weights = (1.0_dp + q_z)*[(1.0_dp, 0.0_dp), cmplx(0.0_dp, n_x, dp), cmplx(0.0_dp, n_y, dp)]
+   end function octave_weights
 
    !> Computes the factors exp(-q Z) of a depth, unless they are those of the last call.
    subroutine use_depth(self, depth)
@@ -225,7 +237,7 @@ contains
       is_zero = max(abs(wave%re), abs(wave%im)) <= 0.0_dp
    end function is_zero
 
-   !> One transform for each component, and one for the error (S5). Waves that the points cannot tell from slower ones are
+   !> One transform for each component, and three for the error (S5). Waves that the points cannot tell from slower ones are
    !> added to those, so that the values are exact for any number of points.
    subroutine on_plane(self, points, offset, depth, body, stress, error)
       class(series_stress), intent(inout) :: self
@@ -238,12 +250,13 @@ contains
 
       complex(dp), allocatable :: waves(:, :, :)
       type(grid_transform) :: transform
+      real(dp), allocatable :: part(:, :)
       real(dp) :: mean(6)
       integer :: i, spectra
 
-      allocate (stress(points(1), points(2), 6), error(points(1), points(2)))
+      allocate (stress(points(1), points(2), 6), error(points(1), points(2)), part(points(1), points(2)))
       call transform%start(points, even=.false.)
-      spectra = merge(7, 6, self%sampled_from*depth < self%faintest)
+      spectra = merge(9, 6, self%sampled_from*depth < self%faintest)
       allocate (waves(points(1)/2 + 1, points(2), spectra), source=(0.0_dp, 0.0_dp))
       call add_waves(self, points, offset, depth, body%nu, waves)
       do i = 1, 6
@@ -254,22 +267,22 @@ contains
       do i = 1, 6
          if (abs(mean(i)) > 0.0_dp) stress(:, :, i) = stress(:, :, i) + mean(i)
       end do
-      if (spectra == 7) then
-         transform%waves = waves(:, :, 7)
-         call transform%backward(error)
-         error = abs(error) + self%pressure_error
-      else
-         error = self%pressure_error
-      end if
+      error = 0.0_dp
+      do i = 7, spectra
+         transform%waves = waves(:, :, i)
+         call transform%backward(part)
+         error = error + part**2
+      end do
+      error = octave_factor*sqrt(error) + self%pressure_error
    end subroutine on_plane
 
-   !> Adds the waves of the components of the stress to their spectra, and to a seventh, if there is one, those of zz that
-   !> are of the last octave.
+   !> Adds the waves of the components of the stress to their spectra, and to three more, if there are, those of zz that are
+   !> of the last octave.
    subroutine add_waves(self, points, offset, depth, nu, spectra)
       class(series_stress), intent(inout) :: self
       integer, intent(in) :: points(2)
       real(dp), intent(in) :: offset(2), depth, nu
-      complex(dp), intent(inout) :: spectra(0:, 0:, :)   !! shape (0:N_x/2, 0:N_y - 1, 6 or 7)
+      complex(dp), intent(inout) :: spectra(0:, 0:, :)   !! shape (0:N_x/2, 0:N_y - 1, 6 or 9)
 
       complex(dp) :: here(size(spectra, 3)), turn_x(0:ubound(self%wave, 1)), wave
       real(dp) :: n_x, n_y, q, q_y
@@ -294,7 +307,10 @@ contains
                here(xy) = -n_x*n_y*(1.0_dp - 2*nu - q*depth)*wave
                here(xz) = cmplx(0.0_dp, k*depth, dp)*wave
                here(yz) = cmplx(0.0_dp, q_y*depth, dp)*wave
-               if (size(here) > 6) here(7) = merge(here(zz), (0.0_dp, 0.0_dp), q > self%sampled_from)
+               if (size(here) > 6) then
+                  here(7:) = (0.0_dp, 0.0_dp)
+                  if (q > self%sampled_from) here(7:) = octave_weights(n_x, n_y, q*depth)*wave
+               end if
                call add(modulo(k, points(1)), modulo(l, points(2)), here)
                call add(modulo(-k, points(1)), modulo(-l, points(2)), conjg(here))
             end do

@@ -22,10 +22,13 @@ module wavycon_stress_tuning
    !> Refinement: the number of best places that are refined, and how close to the largest so far they must be; the gain
    !> that ends the search over the error of the stress; first distance of the points of its quadratic model over
    !> the width of the stress; the factor by which this falls; the most models.
-   integer, parameter :: refined_places = 2
-   real(dp), parameter :: close_to_largest = 0.95_dp, gain_part = 0.1_dp
+   integer, parameter :: refined_places = 3
+   real(dp), parameter :: close_to_largest = 0.75_dp, gain_part = 0.1_dp
    real(dp), parameter :: first_reach = 0.25_dp, reach_factor = 0.2_dp
    integer, parameter :: most_models = 8
+
+   !> The error of a stress near the edge of contact over the waves of a grid's last octave there.
+   real(dp), parameter :: octave_factor = 1.0_dp
 
    !> The error of a von Mises stress or a shear stress over that of the components.
    real(dp), parameter :: error_of_invariant = 2.0_dp
