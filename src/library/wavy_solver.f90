@@ -11,7 +11,8 @@ module wavycon_wavy_solver
    use wavycon_kinds, only: dp
    use wavycon_load_group, only: check_load_group, check_loads_of_surface, load_table
    use wavycon_make_scene, only: make_scene, take_loads
-   use wavycon_material_group, only: material_table
+   use wavycon_material_group, only: check_hardness, check_material_group, hardness_over_pstar, material_table, &
+                                     plane_strain_modulus
    use wavycon_method_group, only: check_method_group, method_table
    use wavycon_plain_text, only: integer_text
    use wavycon_problem_report, only: problem_report
@@ -26,7 +27,7 @@ module wavycon_wavy_solver
    implicit none (type, external)
    private
 
-   public :: wavy_solver, wavy_scales, make_solver, make_solver_of_deck
+   public :: wavy_solver, wavy_scales, make_solver, make_solver_of_deck, make_solver_of_material
 
    !> What the normalised numbers refer to.
    type, bind(c) :: wavy_scales
@@ -63,11 +64,23 @@ module wavycon_wavy_solver
 
 contains
 
-   !> Makes a solver from arguments. Errors: exit_bad_input, with all problems of `method`.
+   !> Makes a solver of elastic bodies. Errors: exit_bad_input, with all problems of `method`.
    subroutine make_solver(surface, e_star, method, keep_fields, solver, error)
       type(wavy_surface), intent(in) :: surface
       real(dp), intent(in) :: e_star        !! plane-strain modulus, > 0 [pressure]; 1/e_star = (1 - nu1^2)/e1 + ...
       character(*), intent(in) :: method    !! keys of &method, such as "solver = 'auto', accuracy = 1e-4"; may be empty
+      logical, intent(in) :: keep_fields    !! whether maps, fields, edges or details of solutions will be needed
+      type(wavy_solver), intent(out) :: solver
+      type(error_type), allocatable, intent(out) :: error
+
+      call make_solver_of_material(surface, 'e_star = '//number_words(e_star), method, keep_fields, solver, error)
+   end subroutine make_solver
+
+   !> Makes a solver from the keys of groups. Errors: exit_bad_input, with all problems of `material` and `method`.
+   subroutine make_solver_of_material(surface, material, method, keep_fields, solver, error)
+      type(wavy_surface), intent(in) :: surface
+      character(*), intent(in) :: material  !! keys of &material, such as 'e_star = 2.31e11, hardness = 2e9'
+      character(*), intent(in) :: method    !! keys of &method; may be empty
       logical, intent(in) :: keep_fields    !! whether maps, fields, edges or details of solutions will be needed
       type(wavy_solver), intent(out) :: solver
       type(error_type), allocatable, intent(out) :: error
@@ -83,9 +96,15 @@ contains
          solver%trouble = error%message
          return
       end if
-      call read_group_text(material_table(), 'e_star = '//number_words(e_star), values, text, problems)
+      call read_group_text(material_table(), material, values, text, problems)
+      if (problems%number == 0) call check_material_group(values, problems)
       if (problems%number == 0) then
-         solver%e_star = values%real('e_star')
+         solver%e_star = plane_strain_modulus(values)
+         solver%p_star = inner%full_contact_pressure(solver%e_star)
+         inner%hardness = hardness_over_pstar(values, solver%p_star)
+         call check_hardness(values, solver%p_star, problems)
+      end if
+      if (problems%number == 0) then
          call read_group_text(method_table(), method, values, text, problems)
          call check_method_group(values, kind, inner, problems)
       end if
@@ -94,10 +113,9 @@ contains
          solver%trouble = error%message
          return
       end if
-      solver%p_star = inner%full_contact_pressure(solver%e_star)
       solver%keep_fields = keep_fields
       call start_solver(inner, values, keep_fields, solver%solver)
-   end subroutine make_solver
+   end subroutine make_solver_of_material
 
    !> Makes the solver that a deck describes, with its loads, see number_of_loads and solve_load; &output has no effect.
    !> Errors: those of the program for a bad deck or height map.

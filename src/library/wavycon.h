@@ -46,6 +46,7 @@ enum {
     WAVYCON_NOT_FOUND = 11,    /* the solver has no solution for this load */
     WAVYCON_NO_MEMORY = 12,    /* for the grid that is needed; the numbers are those of a coarser one */
     WAVYCON_NOT_FINITE = 13,
+    WAVYCON_ABOVE_HARDNESS = 14, /* the mean pressure is not below the hardness */
     WAVYCON_OTHER_FAILURE = 20 /* such as iteration_limit: see wavycon_get_status */
 };
 
@@ -61,6 +62,8 @@ typedef struct wavycon_measures {
     double mean_gap_over_amplitude_error;
     double contact_area_fraction_error;
     double peak_pressure_over_pstar_error;
+    double area_at_hardness_fraction; /* of the nominal area; NaN without a hardness */
+    double load_at_hardness_fraction; /* of the load; NaN without a hardness */
     double mean_pressure; /* [pressure] */
     double mean_gap;      /* [length] */
     double approach;      /* [length] */
@@ -137,6 +140,11 @@ wavycon_surface wavycon_new_surface(wavycon_error error, const char *keys);
    keep_fields: nonzero if maps, fields or edges of solutions will be needed. */
 wavycon_solver wavycon_new_solver(wavycon_error error, wavycon_surface surface, double e_star, const char *method,
                                   int keep_fields);
+
+/* material: keys of &material of a deck, such as "e_star = 2.31e11, hardness = 2e9" [pressure], the hardness being the
+   largest contact pressure. */
+wavycon_solver wavycon_new_solver_of_material(wavycon_error error, wavycon_surface surface, const char *material,
+                                              const char *method, int keep_fields);
 
 /* The solver of a deck, with its surface and its loads. &output of the deck has no effect. */
 wavycon_solver wavycon_new_solver_of_deck(wavycon_error error, const char *path, int keep_fields);

@@ -70,7 +70,7 @@ contains
       no_stress%place = no_stress%value
    end function no_stress
 
-   !> Refines the best of the places, each farther from those before it than the width of the stress.
+   !> Refines the best of the places, each farther from those before it than twice the width of the stress.
    subroutine search(fields, body, quantity, places, widths, stresses, answer)
       class(stress_fields), intent(inout) :: fields
       type(elastic_body), intent(in) :: body
@@ -78,18 +78,20 @@ contains
       real(dp), intent(in) :: places(:, :), widths(:), stresses(:, :)   !! from start_places
       type(largest_stress), intent(out) :: answer
 
-      real(dp) :: error, gain, least_gain, parts(6, 2), values(size(widths))
+      real(dp) :: error, gain, least, least_gain, parts(6, 2), values(size(widths))
       type(largest_stress) :: other
       integer :: best, i, k
 
       do i = 1, size(widths)
          values(i) = size_of(quantity, stresses(:, i))
       end do
+      least = 0.0_dp
       least_gain = 0.0_dp
       gain = 0.0_dp
       do i = 1, min(refined_places, size(widths))
          best = maxloc(values, dim=1)
-         if (values(best) < close_to_largest*answer%value .or. values(best) < 0.0_dp) exit
+         if (i == 1) least = close_to_largest*values(best)
+         if (values(best) < least) exit
          other%value = values(best)
          other%place = places(:, best)
          call fields%at(other%place(1), other%place(2), other%place(3), parts, error)
@@ -99,7 +101,7 @@ contains
             least_gain = gain
          end if
          do k = 1, size(widths)
-            if (norm2(places(:, k) - places(:, best)) <= widths(best)) values(k) = -1.0_dp
+            if (norm2(places(:, k) - places(:, best)) <= 2*widths(best)) values(k) = -1.0_dp
          end do
       end do
       if (fields%dimension == 1) answer%place(2) = 0.0_dp

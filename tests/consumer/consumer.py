@@ -13,7 +13,8 @@ except ImportError:
 
 DOUBLES = ("pbar_over_pstar mean_gap_over_amplitude approach_over_amplitude contact_area_fraction "
            "peak_pressure_over_pstar min_pressure_over_pstar mean_gap_over_amplitude_error contact_area_fraction_error "
-           "peak_pressure_over_pstar_error mean_pressure mean_gap approach contact_area peak_pressure residual").split()
+           "peak_pressure_over_pstar_error area_at_hardness_fraction load_at_hardness_fraction "
+           "mean_pressure mean_gap approach contact_area peak_pressure residual").split()
 
 
 class Measures(ctypes.Structure):
