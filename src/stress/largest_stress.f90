@@ -117,12 +117,12 @@ contains
       real(dp), intent(in) :: width                  !! of the maximum [rad]
       real(dp), intent(in) :: enough                 !! the search ends when a model gains less [p*]; NaN: at rounding
       type(largest_stress), intent(inout) :: best    !! value and place
-      real(dp), intent(out) :: gain                  !! by the last model [p*]
+      real(dp), intent(out) :: gain                  !! by the last model, or what it promised if that is more [p*]
 
       !> Relative gains below this are rounding.
       real(dp), parameter :: rounding = 1e-14_dp
       integer, allocatable :: axes(:)
-      real(dp) :: before, least, reach, step
+      real(dp) :: before, least, promise, reach, step
       integer :: i
 
       allocate (axes, source=pack([1, 2, 3], [.true., fields%dimension > 1, .true.]))
@@ -131,9 +131,10 @@ contains
       reach = first_reach*width
       do i = 1, most_models
          before = best%value
-         call improve(fields, body, quantity, axes, reach, best, step)
-         gain = best%value - before
-         if (gain <= least .and. i > 1) exit
+         call improve(fields, body, quantity, axes, reach, best, step, promise)
+         ! A model that is too large for the stress may promise much and gain nothing: the next one is smaller.
+         gain = max(best%value - before, promise)
+         if (gain <= least) exit
          ! A place at the border of the model may be far from the maximum: the next model is as large.
          if (step < 0.9_dp*reach) reach = max(reach_factor*reach, min(step, reach))
       end do
@@ -141,7 +142,7 @@ contains
 
    !> Moves a place to the maximum of a quadratic function within a distance along each axis, or to the best of the points
    !> that the function is made from.
-   subroutine improve(fields, body, quantity, axes, reach, best, step)
+   subroutine improve(fields, body, quantity, axes, reach, best, step, promise)
       class(stress_fields), intent(inout) :: fields
       type(elastic_body), intent(in) :: body
       integer, intent(in) :: quantity
@@ -149,9 +150,10 @@ contains
       real(dp), intent(in) :: reach                  !! [rad]
       type(largest_stress), intent(inout) :: best
       real(dp), intent(out) :: step                  !! largest distance moved along an axis [rad]
+      real(dp), intent(out) :: promise               !! gain of the function's maximum; its variation if it has none [p*]
 
-      real(dp) :: curvature(size(axes), size(axes)), move(3), slope(size(axes)), start(3), value, value_here, &
-         values(-1:1)
+      real(dp) :: curvature(size(axes), size(axes)), move(3), slope(size(axes)), start(3), to_maximum(size(axes)), &
+         value, value_here, values(-1:1)
       integer :: i, j, k, l, status
 
       start = best%place
@@ -177,11 +179,13 @@ contains
          curvature(:i - 1, i) = curvature(i, :i - 1)
       end do
       curvature = -curvature
-      call dposv('U', size(axes), 1, curvature, size(axes), slope, size(axes), status)
+      to_maximum = slope
+      promise = sum(abs(slope)) + 0.5_dp*sum(abs(curvature))
+      call dposv('U', size(axes), 1, curvature, size(axes), to_maximum, size(axes), status)
       if (status == 0) then
-         if (maxval(abs(slope)) > 1.0_dp) slope = slope/maxval(abs(slope))
+         promise = 0.5_dp*dot_product(slope, to_maximum)
          move = 0.0_dp
-         move(axes) = reach*slope
+         move(axes) = reach*to_maximum/max(1.0_dp, maxval(abs(to_maximum)))
          call try(move, value)
       end if
       step = maxval(abs(best%place - abs_depth(start)))
