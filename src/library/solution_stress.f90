@@ -2,10 +2,11 @@
 module wavycon_solution_stress
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_c_binding, only: c_double
+   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_constants, only: pi
    use wavycon_deck_text, only: deck_text_type
    use wavycon_elastic_body, only: elastic_body
-   use wavycon_error, only: error_type, exit_bad_input, fatal_error
+   use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_group_text, only: read_group_text
    use wavycon_group_values, only: group_values
    use wavycon_kinds, only: dp
@@ -19,6 +20,7 @@ module wavycon_solution_stress
    use wavycon_stress_group, only: check_stress_group, make_stress_setting, stress_table
    use wavycon_stress_setting, only: stress_setting
    use wavycon_stress_tensor, only: largest_shear, von_mises
+   use wavycon_system, only: has_memory_for
    use wavycon_wavy_surface, only: number_words
    implicit none (type, external)
    private
@@ -80,7 +82,7 @@ contains
    end subroutine stress_setting_of_keys
 
    !> The stresses at n points. Errors: exit_bad_input for arrays of different sizes, and for arguments that are not
-   !> finite or out of range.
+   !> finite or out of range; exit_file_trouble without memory.
    subroutine at(self, x, y, depth, nu, lateral, stress, stress_error, error)
       class(solution_stress), intent(inout) :: self
       real(dp), intent(in) :: x(:), y(:)                      !! shape (n) [length]
@@ -99,6 +101,8 @@ contains
       if (allocated(error)) return
       if (size(y) /= size(x) .or. size(depth) /= size(x)) then
          call fatal_error(error, exit_bad_input, 'x, y and depth must have the same size')
+      else if (.not. has_memory_for(7*size(x, kind=int64))) then
+         call fatal_error(error, exit_file_trouble, 'there is not the memory for so many points')
       else if (.not. all(ieee_is_finite(x/self%length(1)) .and. ieee_is_finite(y/self%length(2)))) then
          call fatal_error(error, exit_bad_input, 'places must be finite numbers')
       else
