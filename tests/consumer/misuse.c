@@ -155,9 +155,10 @@ static void solvers(wavycon_surface surface, wavycon_solver solver, wavycon_solu
             NOTHING(wavycon_solve(error, solver, quantities[i], bad_loads[j]));
     REFUSED(wavycon_set_stress(error, NULL, "nu = 0.3"));
     REFUSED(wavycon_set_stress(error, (wavycon_solver)surface, "nu = 0.3"));
-    const char *const bad_keys[] = {NULL, "", "yield_stress = 1", "nu = 0.6", "nu = -1", "nu = NaN", "nu = 0.3, 0.3, 0.3",
-                                    "nu = 0.3, yield_stress = -1", "nu = 0.3, yield_stress = 0", "nu = 0.3, yeld = 1",
-                                    "nu = 0.3, yield_criterion = 'tresca'", "nu = 0.3 / &load yield = 1", "\x01\xff'"};
+    const char *const bad_keys[] = {NULL, "", "yield_stress = 1", "nu = 0.6", "nu = -1", "nu = NaN",
+                                    "nu = 0.3, 0.3, 0.3", "nu = 0.3, yield_stress = -1", "nu = 0.3, yield_stress = 0",
+                                    "nu = 0.3, yield_criterion = 'tresca'", "nu = 0.3, yeld = 1",
+                                    "nu = 0.3 / &load yield = 1", "\x01\xff'"};
     for (size_t i = 0; i < sizeof bad_keys/sizeof bad_keys[0]; i++)
         REFUSED(wavycon_set_stress(error, solver, bad_keys[i]));
     NOTHING(wavycon_solve(error, solver, "yield", 1));

@@ -191,19 +191,29 @@ class Consumers(unittest.TestCase):
 
     def test_programs_of_the_page(self):
         page = (self.options.sources / "src" / "library" / "README.md").read_text()
-        found = []
-        for language, suffix, compiler, before, after in (
-                ("fortran", ".f90", self.options.fortran, "program page\n", "end program page\n"),
-                ("c", ".c", self.options.c, "#include <stdio.h>\n#include <wavycon.h>\nint main(void)\n{\n", "}\n")):
-            code = page.split(f"```{language}\n")[1].split("```")[0]
-            source = self.folder / ("page" + suffix)
-            source.write_text(before + code + after)
-            run(compiler, *shlex.split(self.options.flags), source, "-o", source.with_suffix(".exe"),
-                *self.pkg_config("--cflags", "--libs"))
-            output = run(source.with_suffix(".exe"), environment=self.path_of_library())
-            found.append([float(word) for word in output.split()[:3]])
-        for one, other in zip(*found):
-            self.assertAlmostEqual(one/other, 1, delta=1e-5)
+        blocks = {language: [part.split("```")[0] for part in page.split(f"```{language}\n")[1:]]
+                  for language in ("fortran", "c", "python")}
+        self.assertEqual(["fortran", "fortran", "c", "c", "python", "python"],
+                         [language for language, parts in blocks.items() for _ in parts])
+        for number in range(2):
+            found = []
+            for language, suffix, compiler, before, after in (
+                    ("fortran", ".f90", self.options.fortran, "program page\n", "end program page\n"),
+                    ("c", ".c", self.options.c, "#include <stdio.h>\n#include <wavycon.h>\nint main(void)\n{\n", "}\n")):
+                source = self.folder / f"page{number}{suffix}"
+                source.write_text(before + blocks[language][number] + after)
+                run(compiler, *shlex.split(self.options.flags), source, "-o", source.with_suffix(".exe"),
+                    *self.pkg_config("--cflags", "--libs"))
+                found.append(run(source.with_suffix(".exe"), environment=self.path_of_library()))
+            # The first block in Python is a part of a program, the second one is whole.
+            if number == 1 and not self.is_sanitized:
+                (self.folder / "page.py").write_text(blocks["python"][1])
+                found.append(run(sys.executable, self.folder / "page.py", self.library))
+            found = [[float(word) for word in output.split()] for output in found]
+            for other in found:
+                self.assertEqual(3, len(other))
+                for one, same in zip(found[0], other):
+                    self.assertAlmostEqual(one/same, 1, delta=1e-5)
 
     def test_misuse(self):
         self.assertEqual("0 failures\n", run(self.folder / "project" / "misuse", cwd=self.folder))

@@ -27,16 +27,16 @@ static void *work(void *answer)
         wavycon_solution one = wavycon_solve(error, fitted, "contact_area_fraction", 0.2);
         wavycon_solution other = wavycon_solve(error, grid, "pbar_over_pstar", 0.1);
         wavycon_measures m = {0}, n = {0};
-        wavycon_largest_stress largest[2] = {{0}, {0}};
+        wavycon_largest_stress below_one = {0}, below_other = {0};
         r->failures += wavycon_get_measures(error, one, &m) != 0;
         r->failures += wavycon_get_measures(error, other, &n) != 0;
         r->failures += wavycon_get_map(error, other, points, points, NULL, &r->map[0][0], NULL, NULL) != 0;
         r->failures += wavycon_get_stress_plane(error, other, points, points, NULL, 0.05, 0.3, "free",
                                                 &r->stress[0][0][0], NULL) != 0;
-        r->failures += wavycon_get_largest_stress(error, one, 0.3, "free", &largest[0]) != 0;
-        r->failures += wavycon_get_largest_stress(error, other, 0.3, "free", &largest[1]) != 0;
-        r->below[2*i] = largest[0].largest_von_mises;
-        r->below[2*i + 1] = largest[1].largest_shear;
+        r->failures += wavycon_get_largest_stress(error, one, 0.3, "free", &below_one) != 0;
+        r->failures += wavycon_get_largest_stress(error, other, 0.3, "free", &below_other) != 0;
+        r->below[2*i] = below_one.largest_von_mises;
+        r->below[2*i + 1] = below_other.largest_shear;
         r->numbers[2*i] = m.pbar_over_pstar;
         r->numbers[2*i + 1] = n.contact_area_fraction;
         wavycon_delete(&other);
