@@ -46,7 +46,8 @@ module wavycon_wavy_solver
       class(contact_solver), allocatable :: solver
       real(dp) :: e_star = 1.0_dp                     !! [pressure]
       real(dp) :: p_star = 0.0_dp                     !! [pressure]
-      logical :: keep_fields = .true.
+      logical :: keep_fields = .true.                 !! in the solutions that the caller gets
+      logical :: has_fields = .true.                  !! whether the solver has them, which loads by the key yield need
       integer :: loads_by = by_pressure               !! of the deck's loads
       real(dp), allocatable :: target(:)              !! of the deck's loads, as of scene_type
       real(dp), allocatable :: mean_pressure(:)
@@ -100,6 +101,7 @@ contains
       end if
       solver%p_star = inner%full_contact_pressure(solver%e_star)
       solver%keep_fields = keep_fields
+      solver%has_fields = keep_fields
       call start_solver(inner, values, keep_fields, solver%solver)
    end subroutine make_solver
 
@@ -123,11 +125,12 @@ contains
       solver%e_star = scene%e_star
       solver%p_star = scene%p_star
       solver%keep_fields = keep_fields
+      solver%has_fields = keep_fields .or. scene%loads_by == by_yield
       solver%loads_by = scene%loads_by
       call move_alloc(scene%target, solver%target)
       if (allocated(scene%mean_pressure)) call move_alloc(scene%mean_pressure, solver%mean_pressure)
       if (allocated(scene%stress_setting)) call move_alloc(scene%stress_setting, solver%stress)
-      call start_solver(scene%surface, scene%method, keep_fields .or. scene%loads_by == by_yield, solver%solver)
+      call start_solver(scene%surface, scene%method, solver%has_fields, solver%solver)
    end subroutine make_solver_of_deck
 
    !> Whether the solver has been made.
@@ -228,8 +231,6 @@ contains
          call fatal_error(error, exit_bad_input, text%path//': this is not one load but '//integer_text(size(target)))
          return
       end if
-      if (loads_by == by_yield) call check_yield(self, error)
-      if (allocated(error)) return
       if (loads_by == by_pressure) then
          call self%solve_one(loads_by, target(1), mean_pressure(1), solution, error)
       else
@@ -256,7 +257,7 @@ contains
       end if
    end subroutine solve_load
 
-   !> Errors: as of start_solution.
+   !> Errors: as of start_solution and check_yield.
    subroutine solve_one(self, loads_by, target, mean_pressure, solution, error)
       class(wavy_solver), intent(inout) :: self
       integer, intent(in) :: loads_by                     !! a name of wavycon_scene
@@ -268,6 +269,8 @@ contains
       class(contact_solution), allocatable :: found
       real(dp) :: pressure
 
+      if (loads_by == by_yield) call check_yield(self, error)
+      if (allocated(error)) return
       call solve_target(self%solver, loads_by, target, found, self%stress)
       if (present(mean_pressure)) then
          pressure = mean_pressure
@@ -289,7 +292,7 @@ contains
       if (has_yield_stress) has_yield_stress = allocated(self%stress%yield_stress)
       if (.not. has_yield_stress) then
          call fatal_error(error, exit_bad_input, 'yield needs yield_stress, which set_stress sets')
-      else if (.not. self%keep_fields) then
+      else if (.not. self%has_fields) then
          call fatal_error(error, exit_bad_input, 'yield needs a solver that keeps the fields')
       end if
    end subroutine check_yield
