@@ -5,6 +5,7 @@
 mean_gap = '{/:Italic ḡ}'
 x_symbol = '{/:Italic x}'
 y_symbol = '{/:Italic y}'
+depth_symbol = '{/:Italic z}'
 gap_symbol = '{/:Italic g}'
 area = '{/:Italic A}'
 area_0 = '{/:Italic A}_0'

@@ -36,7 +36,7 @@ def is_light(block):
     return block.pbar_over_pstar < 0.4
 
 
-def lines(tables, beside, loads, folder):
+def lines(tables, beside, choice, folder):
     """Lines, and closed forms along lines, alone or with the lines."""
     first, solved = tables[0], tables[0].kind == "lines"
     theory = beside.get("theory_lines") if solved else first
@@ -52,7 +52,7 @@ def lines(tables, beside, loads, folder):
         return lambda table: [0.0] + [number*table.numbers.get(unit, 1.0) for name in names
                                       for number in table.column(name, blocks[name]) if number > 0]
 
-    places = matched(tables, loads, MOST_PANELS if len(tables) > 1 else MOST_CURVES)
+    places = matched(tables, choice.loads, MOST_PANELS if len(tables) > 1 else MOST_CURVES)
     facts = load_facts(first, [place[0] for place in places])
     facts += array_of("block_of", [str(place[r]) for r in range(len(tables)) for place in places])
     facts += array_of("light", [str(int(is_light(first.blocks[place[0]]))) for place in places])
@@ -80,13 +80,11 @@ def lines(tables, beside, loads, folder):
     return "lines", (430 if dimension == 1 else 710, 430), facts
 
 
-
-
-def maps(tables, beside, loads, folder):
+def maps(tables, beside, choice, folder):
     """Maps: a column of panels for each load, pressure above gap."""
     table = tables[0]
     height = len(set(table.blocks[0].columns["y"]))
-    places = shown(table, loads, MOST_CURVES if height == 1 else MOST_PANELS)
+    places = shown(table, choice.loads, MOST_CURVES if height == 1 else MOST_PANELS)
     facts = load_facts(table, places)
     facts += array_of("block_of", [str(place) for place in places])
     length = numbers_in(tables, cell_of, "cell_x", "")
@@ -134,8 +132,8 @@ def cell_of(table):
     return sides if len(set(table.blocks[0].columns["y"])) > 1 else sides[:1]
 
 
-def write_closed(table, place, path):
-    """Writes x, y, pressure and gap of a map for gnuplot's binary format. The first column and row stand once more
+def write_closed(table, place, path, names=("pressure", "gap")):
+    """Writes x, y and the named columns of a map for gnuplot's binary format. The first column and row stand once more
     behind the last: the cell is closed. Points that a picture cannot show are left out. Returns the numbers of points.
     """
     block = table.blocks[place].columns
@@ -152,7 +150,7 @@ def write_closed(table, place, path):
                 point = (j % rows)*columns + i % columns
                 numbers.extend((block["x"][point] + (cell[0] if i == columns else 0.0),
                                 block["y"][point] + (cell[1] if j == rows > 1 else 0.0),
-                                block["pressure"][point], block["gap"][point]))
+                                *(block[name][point] for name in names)))
             numbers.tofile(file)
     return len(across), len(down)
 
@@ -170,10 +168,10 @@ def edge_facts(contour, numbers, cell):
         + array_of("last_copy", [str(k) for k in high])
 
 
-def edges(tables, beside, loads, folder):
+def edges(tables, beside, choice, folder):
     """Contours: all loads on one cell, coloured by the load; in 1-D the strips of contact, one above the other."""
     table = tables[0]
-    places = shown(table, loads, MOST_EDGES)
+    places = shown(table, choice.loads, MOST_EDGES)
     load = numbers_in(tables, of_loads, "p*", "p_star")
     p_star = table.numbers.get("p*", 1.0)
     on_axis = [load[1][0]*p_star*table.blocks[place].pbar_over_pstar for place in places]
@@ -198,10 +196,10 @@ def cell_in_head(table):
     return [table.numbers[name] for name in ("cell_x", "cell_y") if name in table.numbers]
 
 
-def series(tables, beside, loads, folder):
+def series(tables, beside, choice, folder):
     """Coefficients: their sizes against the harmonic, coloured by the load."""
     table = tables[0]
-    places = shown(table, loads, MOST_CURVES)
+    places = shown(table, choice.loads, MOST_CURVES)
     sizes = [abs(number) for number in table.column("pressure_over_pstar", places) if number]
     facts = load_facts(table, places) + array_of("block_of", [str(place) for place in places])
     facts += [f"dimension = {2 if any(table.column('j')) else 1}"]

@@ -29,7 +29,7 @@ def without_bar(table):
                                              block.columns[name + "_error"]))
 
 
-def summary(tables, beside, loads, folder):
+def summary(tables, beside, choice, folder):
     """Summaries: contact area, mean gap and peak pressure against the mean pressure."""
     first = tables[0]
     load = numbers_in(tables, of_column("mean_pressure"), "p*", "p_star", may_be_wide=True)
@@ -98,7 +98,7 @@ FORMS = {"kuznetsov_mean_gap_over_amplitude": "Kuznetsov, (20)",
 IN_THEORY = {"area": "contact_area_fraction", "gap": "mean_gap_over_amplitude", "peak": "peak_pressure_over_pstar"}
 
 
-def theory(tables, beside, loads, folder):
+def theory(tables, beside, choice, folder):
     """Closed forms against the load, normalised, with the points of the summary."""
     table = tables[0]
     facts = put_range("load", table.column("pbar_over_pstar"), up_to=1.0)
@@ -133,7 +133,7 @@ DETAILS = (("contact_area_fraction", "'contact area '.area.'/'.area_0"),
            ("perimeter", "perimeter_label"))
 
 
-def details(tables, beside, loads, folder):
+def details(tables, beside, choice, folder):
     """Details: a panel for each quantity against the load, and the errors of all."""
     table = tables[0]
     wide = axis(table.column("pbar_over_pstar"))[-1]

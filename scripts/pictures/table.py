@@ -1,11 +1,12 @@
 """Reads the tables of wavycon for scripts/plot: text with a row of names, and maps in numpy's format."""
 import array
 import ast
+import copy
 import math
 import re
 import sys
 
-# A table is known by columns that no other kind has.
+# A table is known by columns that no kind before it has.
 MARKS = {"summary": ("pbar_over_pstar", "active_constraints", "mean_pressure", "status_code"),
          "lines": ("load", "line", "distance", "pbar_over_pstar", "pressure", "gap"),
          "theory_lines": ("load", "line", "distance", "pbar_over_pstar", "westergaard_pressure_over_pstar"),
@@ -13,7 +14,11 @@ MARKS = {"summary": ("pbar_over_pstar", "active_constraints", "mean_pressure", "
          "contour": ("load", "curve", "x", "y"),
          "coefficients": ("load", "i", "j", "pressure_over_pstar"),
          "theory": ("pbar_over_pstar", "hertz_contact_area_fraction", "kuznetsov_mean_gap_over_amplitude"),
-         "details": ("pbar_over_pstar", "trough_gap_over_amplitude", "elastic_energy_over_pstar_amplitude")}
+         "details": ("pbar_over_pstar", "trough_gap_over_amplitude", "elastic_energy_over_pstar_amplitude"),
+         "stress_largest": ("pbar_over_pstar", "largest_von_mises_over_pstar", "von_mises_depth"),
+         "stress_line": ("depth_over_cell_x", "stress_xx", "von_mises"),
+         "stress_section": ("distance", "depth", "stress_xx", "von_mises"),
+         "stress_planes": ("x", "y", "depth", "stress_xx", "von_mises")}
 # The labels of units if the deck gives none.
 UNLABELLED = {"pressure", "length"}
 HEAD_NUMBER = re.compile(r"(Delta|p\*|cell_x|cell_y|edge_level)\[([^]]*)\] = ([^ ,]+)")
@@ -29,7 +34,9 @@ class Block:
 
     def __init__(self, names):
         self.load = None   # its number in the deck's order
+        self.place = 0     # in the file, as gnuplot's `index` counts
         self.pbar_over_pstar = math.nan
+        self.body = 1      # the number of the body whose stresses these are
         self.columns = {name: array.array("d") for name in names}
 
     def add(self, words, names):
@@ -68,6 +75,9 @@ class Table:
             raise NotATable("this is a table of several decks; draw their summaries, with --compare in one picture")
         if not any(len(next(iter(block.columns.values()))) for block in self.blocks):
             raise NotATable("the table has no rows")
+        for block in self.blocks:
+            if block.columns.get("body"):
+                block.body = int(block.columns["body"][0])
 
     def _read_text(self):
         load, words_of_load = None, ""
@@ -89,6 +99,7 @@ class Table:
                         self.names = words
                     if words == self.names:
                         self.blocks.append(Block(words))
+                        self.blocks[-1].place = len(self.blocks) - 1
                         if load is not None:
                             self.blocks[-1].load, self.blocks[-1].pbar_over_pstar = load, float(words_of_load)
                     else:
@@ -113,19 +124,21 @@ class Table:
             header = ast.literal_eval(data[10:self.skip].decode("latin-1").strip())
             self.names = [name for name, form in header["descr"] if form[1:] == "f8"]
             self.endian = "little" if header["descr"][0][1][0] == "<" else "big"
-            loads, rows, columns = header["shape"]
+            loads, *within, rows, columns = header["shape"]   # within: of stresses, bodies and depths
         except (ValueError, SyntaxError, TypeError, KeyError, IndexError, UnicodeDecodeError):
             raise NotATable("this array is not a map of wavycon: its records have other fields") from None
         self.points = (columns, rows)
         size = len(self.names)*rows*columns
-        for load in range(loads):
-            numbers = array.array("d", data[self.skip + 8*load*size:self.skip + 8*(load + 1)*size])
+        for place in range(loads*math.prod(within)):
+            numbers = array.array("d", data[self.skip + 8*place*size:self.skip + 8*(place + 1)*size])
             if len(numbers) != size:
                 raise NotATable("the file is cut short")
             if self.endian != sys.byteorder:
                 numbers.byteswap()
             block = Block([])
-            block.load = load + 1
+            block.load, block.place = place//math.prod(within) + 1, place
+            if within:
+                block.body = place//within[1] % within[0] + 1
             block.columns = {name: numbers[i::len(self.names)] for i, name in enumerate(self.names)}
             self.blocks.append(block)
 
@@ -139,8 +152,16 @@ class Table:
         """Takes what the summary of the same run says: a map in numpy's format has no head."""
         self.numbers, self.units = summary.numbers, summary.units
         self.surface, self.method, self.title = summary.surface, summary.method, summary.title
-        for block, pbar_over_pstar in zip(self.blocks, summary.column("pbar_over_pstar")):
-            block.pbar_over_pstar = pbar_over_pstar
+        of_load = summary.column("pbar_over_pstar")
+        for block in self.blocks:
+            if block.load <= len(of_load):
+                block.pbar_over_pstar = of_load[block.load - 1]
+
+    def with_blocks(self, blocks):
+        """The same table with some of its blocks alone."""
+        part = copy.copy(self)
+        part.blocks = blocks
+        return part
 
     def label(self, name):
         """The unit of a number of the head, '' if the deck gives it no label."""

@@ -16,6 +16,15 @@ class CannotBeDrawn(ValueError):
     """There is nothing to be shown."""
 
 
+class Choice:
+    """What the command line chooses to be shown: numbers of loads and of depths, None for as many as there is room for;
+    the column of a colour map; the number of the body, None for the first.
+    """
+
+    def __init__(self, loads=None, depths=None, variable="von_mises", body=None):
+        self.loads, self.depths, self.variable, self.body = loads, depths, variable, body
+
+
 def put_range(name, numbers, **kind):
     """The range of an axis, as `axis` finds it from the numbers on it."""
     low, high, step, wide = axis(numbers, **kind)

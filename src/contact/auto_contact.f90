@@ -1,5 +1,6 @@
 !> solver = 'auto': the closed form where there is one, otherwise fitted expansions where these exist for the surface,
-!> with grids for loads at which they are not accurate enough, otherwise grids. The grid alone if its points are given.
+!> with grids for loads at which they are not accurate enough, otherwise grids. The grid alone if its points are given or
+!> the pressure is bounded by a hardness.
 module wavycon_auto_contact
    use wavycon_closed_form_contact, only: closed_form_contact, closed_form_exists
    use wavycon_contact_solution, only: contact_solution
@@ -58,7 +59,7 @@ contains
       character(:), allocatable :: words
 
       words = "the closed form where there is one, otherwise 'fitted' where its expansions exist, with 'grid' for "// &
-              "loads at which these are not accurate enough, otherwise 'grid'"
+              "loads at which these are not accurate enough, otherwise and with a hardness 'grid'"
    end function meaning
 
    function keys() result(rows)
@@ -113,12 +114,12 @@ contains
       by_accuracy = .true.
       if (present(points)) by_accuracy = all(points == 0)
       call find_frame(surface, frame)
-      if (closed_form_exists(surface) .and. by_accuracy) then
+      if (closed_form_exists(surface) .and. by_accuracy .and. .not. surface%has_hardness()) then
          allocate (closed_form)
          call closed_form%start(surface)
          call move_alloc(closed_form, self%first)
          self%reason = 'the surface is the 1-D wave, which has a closed form'
-      else if (frame%is_found() .and. by_accuracy) then
+      else if (frame%is_found() .and. by_accuracy .and. .not. surface%has_hardness()) then
          allocate (fitted, self%second)
          call fitted%start(surface, accuracy, keep_fields)
          call self%second%start(surface, accuracy, keep_fields)
@@ -129,6 +130,7 @@ contains
          call grid%start(surface, accuracy, keep_fields, points, residual)
          call move_alloc(grid, self%first)
          self%reason = 'the surface has neither a closed form nor expansions'
+         if (surface%has_hardness()) self%reason = 'neither closed form nor expansions have a hardness'
          if (.not. by_accuracy) then
             self%reason = 'the points of the grid are given'
             if (all(points == surface%points)) &

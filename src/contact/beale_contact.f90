@@ -4,7 +4,7 @@
 module wavycon_beale_contact
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use wavycon_beale, only: beale_solver
-   use wavycon_complementary_energy, only: energy_problem
+   use wavycon_complementary_energy, only: bounds_at, energy_problem
    use wavycon_constraint_points, only: choose_points
    use wavycon_contact_measures, only: measure_series, measuring_intervals
    use wavycon_contact_fields, only: contact_fields
@@ -77,6 +77,8 @@ module wavycon_beale_contact
 
    type, extends(contact_solution) :: beale_solution
       real(dp), allocatable :: x(:)                    !! amplitudes of the Fourier terms of (p - pbar)/p*
+      !> Means over the cell of gaps where p = 0 and of overlaps where p = H [Delta] (C26), from the multipliers.
+      real(dp), private :: open_gap = 0.0_dp, imprint = 0.0_dp
       type(series_setup) :: setup
    contains
       procedure :: fields
@@ -107,7 +109,7 @@ contains
             1, most_harmonics), &
          integer_key('constraint_points', 'in proportion to harmonics', &
             'equally spaced points on half a wavelength, ends included, in each direction, at which the pressure '// &
-            'is constrained to be >= 0. More than harmonics; at most 601 in 2-D. The default is 3 harmonics in 2-D '// &
+            'is constrained. More than harmonics; at most 601 in 2-D. The default is 3 harmonics in 2-D '// &
             "and 2.5 harmonics + 1 in 1-D: the paper's 27 for 9 and 26 for 10.", 2, &
             maxval(most_constraint_points)), &
          choice_key('symmetry', "'full'", &
@@ -185,7 +187,7 @@ contains
       else if (.not. values%is_bad('symmetry')) then
          terms = choose_terms(surface%dimension, harmonics, symmetry_of(values))
          call choose_points(surface%dimension, points, symmetry_of(values), k, l)
-         if (real(terms%count(), dp)*size(k) > most_elements) &
+         if (real(terms%count(), dp)*size(k)*merge(2, 1, surface%has_hardness()) > most_elements) &
             call values%complain(problems, 'constraint_points', 'harmonics = '//integer_text(harmonics)// &
                ' and constraint_points = '//integer_text(points)//' make '//integer_text(terms%count())// &
                ' unknowns and '//integer_text(size(k))//' constraints: too many for the memory. Give fewer '// &
@@ -241,7 +243,7 @@ contains
       self%surface = surface
       self%setup%turned = surface%paper_wave() == turned_paper_wave
       self%setup%terms = choose_terms(surface%dimension, harmonics, symmetry)
-      self%problem = energy_problem(self%setup%terms, constraint_points, symmetry)
+      self%problem = energy_problem(self%setup%terms, constraint_points, symmetry, surface%has_hardness())
    end subroutine start
 
    subroutine solve_partial_contact(self, pbar_over_pstar, solution)
@@ -253,18 +255,27 @@ contains
 
       allocate (own)
       call self%solve_series(pbar_over_pstar, own)
-      call measure_series(pressure_series(own), displacement_series(own), self%setup%edge_level, own%measures)
+      ! Without an imprint no point is at H, although a peak between the points may come close.
+      call measure_series(pressure_series(own), displacement_series(own), self%setup%edge_level, own%measures, &
+                          merge(self%surface%hardness, huge(1.0_dp), own%imprint > 0.0_dp))
+      ! The crest, from which the approach follows otherwise, is then not in elastic contact.
+      if (own%imprint > 0.0_dp) then
+         own%measures%mean_gap_over_amplitude = own%open_gap
+         own%measures%approach_over_amplitude = 1.0_dp - own%open_gap + own%imprint
+      end if
       call move_alloc(own, solution)
    end subroutine solve_partial_contact
 
-   !> Solves the quadratic programme (17), (18) or (26), (27) of the paper without measuring the solution.
+   !> Solves the quadratic programme (17), (18) or (26), (27) of the paper, with p <= H where the surface has a hardness,
+   !> without measuring the solution.
    subroutine solve_series(self, pbar_over_pstar, solution)
       class(beale_contact), intent(inout) :: self
-      real(dp), intent(in) :: pbar_over_pstar       !! 0 < P < 1
+      real(dp), intent(in) :: pbar_over_pstar       !! 0 < P < 1 or H
       type(beale_solution), intent(out) :: solution !! status of wavycon_qp_problem; x = 0 if no minimum was found
 
       type(qp_problem) :: problem
       type(qp_solution) :: programme
+      real(dp) :: start
       logical :: solved
 
       solution%setup = self%setup
@@ -276,17 +287,18 @@ contains
          problem = self%problem
          if (self%by_beale) then
             allocate (beale_solver :: self%solver)
-            problem%bounds = -pbar_over_pstar
+            start = pbar_over_pstar
          else
             allocate (dual_solver :: self%solver)
-            problem%bounds = -max(pbar_over_pstar, lightest_start)
+            start = max(pbar_over_pstar, min(lightest_start, 0.5_dp*self%surface%hardness))
          end if
+         problem%bounds = bounds_at(problem, start, self%surface%hardness)
          call self%solver%solve(problem, programme)
          solution%iterations = programme%pivots
-         solved = self%by_beale .or. pbar_over_pstar >= lightest_start .or. .not. allocated(programme%x)
+         solved = pbar_over_pstar >= start .or. .not. allocated(programme%x)
       end if
       if (.not. solved) then
-         call self%solver%pass_to(self%problem%bounds - pbar_over_pstar, programme)
+         call self%solver%pass_to(bounds_at(self%problem, pbar_over_pstar, self%surface%hardness), programme)
          solution%iterations = solution%iterations + programme%pivots
       end if
       if (.not. allocated(programme%x)) deallocate (self%solver)
@@ -297,6 +309,13 @@ contains
       if (.not. allocated(programme%x)) return
       solution%x = programme%x
       solution%active_constraints = size(programme%active)
+      if (.not. self%surface%has_hardness()) return
+      ! The energy per area is P plus the programme's objective times the mean square of the surface's wave.
+      associate (at_hardness => programme%active > size(self%problem%bounds)/2, &
+                 gaps => programme%multipliers/2**self%surface%dimension)
+         solution%open_gap = sum(gaps, .not. at_hardness)
+         solution%imprint = sum(gaps, at_hardness)
+      end associate
    end subroutine solve_series
 
    !> The error of a truncated series is not estimated.

@@ -75,6 +75,7 @@ contains
       character(:), allocatable :: words
 
       words = ''
+      if (surface%has_hardness()) words = 'has no solution with a hardness'
       if (.not. closed_form_exists(surface)) words = 'is for the 1-D wave'
    end function refusal
 

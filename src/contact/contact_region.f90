@@ -128,13 +128,15 @@ contains
       end do
    end subroutine scatter
 
-   !> Adds changes times a scale to a pressure at the points in contact, but makes none negative. At the other points of
-   !> the region it becomes zero.
-   subroutine correct(self, change, contact, scale, pressure)
+   !> Adds changes times a scale to a pressure at the free points, but keeps it between zero and an upper bound. At the
+   !> other points of the region it becomes one of the two.
+   subroutine correct(self, change, contact, at_bound, scale, bound, pressure)
       class(contact_region), intent(in) :: self
       real(sp), intent(in) :: change(:)            !! shape (points)
-      real(sp), intent(in) :: contact(:)           !! 1 in contact, 0 outside, shape (points)
+      real(sp), intent(in) :: contact(:)           !! 1 at free points, 0 at others, shape (points)
+      logical, intent(in) :: at_bound(:)           !! of the other points: whether at the upper bound, shape (points)
       real(dp), intent(in) :: scale
+      real(dp), intent(in) :: bound                !! of the pressure, > 0
       real(dp), intent(inout) :: pressure(:, :)    !! shape (M, N)
 
       integer :: i, j, r
@@ -144,7 +146,8 @@ contains
          do r = self%run(j), self%run(j + 1) - 1
             do i = self%first(r), self%last(r)
                associate (k => i + self%offset(r))
-                  pressure(i, j) = merge(max(0.0_dp, pressure(i, j) + scale*change(k)), 0.0_dp, contact(k) > 0.0_sp)
+                  pressure(i, j) = merge(min(bound, max(0.0_dp, pressure(i, j) + scale*change(k))), &
+                                         merge(bound, 0.0_dp, at_bound(k)), contact(k) > 0.0_sp)
                end associate
             end do
          end do

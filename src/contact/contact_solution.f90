@@ -21,7 +21,7 @@ module wavycon_contact_solution
    public :: pack_common, unpack_common
 
    !> Size of the array that pack_common makes.
-   integer, parameter, public :: packed_values = 12
+   integer, parameter, public :: packed_values = 14
 
    !> Error of the stresses under a series that is known exactly, over the peak pressure.
    real(dp), parameter :: rounding = 1e-14_dp
@@ -30,7 +30,7 @@ module wavycon_contact_solution
       real(dp) :: pbar_over_pstar = 0.0_dp    !! P >= 0, the mean pressure over p*
       type(contact_measures) :: measures
       character(12) :: solver = 'none'        !! name of the solver; 'none' if no solver was needed
-      integer :: active_constraints = 0       !! points at which the pressure is constrained to zero
+      integer :: active_constraints = 0       !! points at which the pressure is held at zero or at the hardness
       integer :: iterations = 0               !! for a quadratic programme, exchanges of variables since the last load
       real(dp) :: residual = 0.0_dp           !! relative, as each solver defines it
       character(16) :: status = ''            !! one of wavycon_contact_status, or of wavycon_qp_problem
@@ -144,7 +144,8 @@ contains
          values = [self%pbar_over_pstar, measures%mean_gap_over_amplitude, measures%approach_over_amplitude, &
                    measures%contact_area_fraction, measures%peak_pressure_over_pstar, &
                    measures%min_pressure_over_pstar, measures%mean_gap_error, measures%contact_area_error, &
-                   measures%peak_pressure_error, &
+                   measures%peak_pressure_error, measures%area_at_hardness_fraction, &
+                   measures%load_at_hardness_fraction, &
                    real([self%active_constraints, self%iterations], dp), self%residual]
       end associate
    end subroutine pack_common
@@ -159,10 +160,10 @@ contains
       if (.not. understood) return
       self%pbar_over_pstar = values(1)
       self%measures = contact_measures(values(2), values(3), values(4), values(5), values(6), values(7), values(8), &
-                                       values(9))
-      self%active_constraints = nint(values(10))
-      self%iterations = nint(values(11))
-      self%residual = values(12)
+                                       values(9), values(10), values(11))
+      self%active_constraints = nint(values(12))
+      self%iterations = nint(values(13))
+      self%residual = values(14)
    end subroutine unpack_common
 
    !> Makes the solution that stands for a failure: fields of NaN, no edge, and the largest possible error estimates.

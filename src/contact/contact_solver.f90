@@ -4,7 +4,7 @@ module wavycon_contact_solver
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_contact_measures, only: full_contact_measures
    use wavycon_contact_solution, only: contact_solution, no_solution, solution_without_contact_edge
-   use wavycon_contact_status, only: full_contact, no_load, not_finite, not_found
+   use wavycon_contact_status, only: above_hardness, full_contact, no_load, not_finite, not_found
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: key_type
    use wavycon_kinds, only: dp
@@ -78,11 +78,12 @@ module wavycon_contact_solver
          character(:), allocatable :: words
       end function words_of_solver
 
-      !> `solve_partial_contact`: solves one load between no load and full contact and measures the solution.
+      !> `solve_partial_contact`: solves one load between no load and full contact and measures the solution. With a
+      !> hardness P may exceed 1, where the pressure of full contact would exceed H.
       subroutine solve_load(self, pbar_over_pstar, solution)
          import :: contact_solution, contact_solver, dp
          class(contact_solver), intent(inout) :: self
-         real(dp), intent(in) :: pbar_over_pstar     !! 0 < P < 1
+         real(dp), intent(in) :: pbar_over_pstar     !! 0 < P < 1, or 0 < P < H
          class(contact_solution), allocatable, intent(out) :: solution   !! always allocated, with a status
       end subroutine solve_load
    end interface
@@ -137,13 +138,13 @@ contains
    end function no_advice
 
    !> Solves one load and measures the solution. No load and full contact need no solver. The status is not_found if the
-   !> solver was not started or was started on a surface that it refuses.
+   !> solver was not started or was started on a surface that it refuses, and above_hardness if P >= H.
    subroutine solve(self, pbar_over_pstar, solution)
       class(contact_solver), intent(inout) :: self
       real(dp), intent(in) :: pbar_over_pstar        !! P; the status of the solution is not_finite if it is no number
       class(contact_solution), allocatable, intent(out) :: solution   !! always allocated, with a status
 
-      logical :: is_number
+      logical :: is_number, is_partial
 
       ! Comparisons with a NaN raise an exception, which Debug builds trap.
       is_number = .not. ieee_is_nan(pbar_over_pstar)
@@ -152,7 +153,16 @@ contains
          return
       end if
       if (is_number) then
-         if (pbar_over_pstar > 0.0_dp .and. pbar_over_pstar < 1.0_dp) then
+         is_partial = pbar_over_pstar > 0.0_dp .and. pbar_over_pstar < 1.0_dp
+         if (self%surface%has_hardness()) then
+            if (pbar_over_pstar >= self%surface%hardness) then
+               call no_solution(pbar_over_pstar, self%surface, 'none', above_hardness, solution)
+               return
+            end if
+            is_partial = pbar_over_pstar > 0.0_dp .and. &
+                         (is_partial .or. pbar_over_pstar + self%surface%full_contact_peak > self%surface%hardness)
+         end if
+         if (is_partial) then
             call self%solve_partial_contact(pbar_over_pstar, solution)
             return
          end if

@@ -18,6 +18,8 @@ module wavycon_contact_status
    character(*), parameter, public :: not_accurate = 'not_accurate'
    !> The solver has no solution for this load or this surface.
    character(*), parameter, public :: not_found = 'not_found'
+   !> The mean pressure is not below the hardness: no pressure up to the hardness carries it.
+   character(*), parameter, public :: above_hardness = 'above_hardness'
    !> There is not enough memory for the grid requested; the numbers, if any, are those of a coarser grid.
    character(*), parameter, public :: no_memory = 'no_memory'
 
@@ -52,6 +54,8 @@ contains
          status_code = 12
       case (not_finite)
          status_code = 13
+      case (above_hardness)
+         status_code = 14
       case default
          status_code = 20
       end select

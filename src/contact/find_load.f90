@@ -19,7 +19,8 @@ module wavycon_find_load
    type :: root_search
       real(dp) :: target = 0.5_dp          !! t, the contact area fraction or 1 - G
       logical :: of_gap = .false.          !! whether t is 1 - G
-      real(dp) :: logit_p = 0.0_dp         !! logit P of the next solution
+      real(dp) :: most = 1.0_dp            !! the least load that certainly closes the gap or exceeds what H carries
+      real(dp) :: logit_p = 0.0_dp         !! logit P/most of the next solution
       real(dp) :: slope = 1.0_dp           !! of logit t against logit P
    end type root_search
 
@@ -54,6 +55,7 @@ contains
       integer :: level
 
       search = search_for
+      search%most = min(1.0_dp, solver%surface%hardness)
       if (search%target <= 0.0_dp .or. search%target >= 1.0_dp) then
          call solver%solve(search%target, solution)
          return
@@ -81,7 +83,7 @@ contains
       last_logit_p = search%logit_p
       last_miss = 0.0_dp
       do i = 1, most_solves
-         call solver%solve(1.0_dp/(1.0_dp + exp(-search%logit_p)), solution)
+         call solver%solve(search%most/(1.0_dp + exp(-search%logit_p)), solution)
          met = solution%measures%contact_area_fraction
          error = solution%measures%contact_area_error
          if (search%of_gap) then

@@ -70,6 +70,7 @@ contains
 
       call find_frame(surface, frame)
       words = ''
+      if (surface%has_hardness()) words = 'has no solution with a hardness'
       ! A flat surface is in full contact at every load: no expansion is needed.
       if (.not. frame%is_found() .and. surface%amplitude > 0.0_dp) words = 'has expansions for '//surfaces_with_frames()
    end function refusal

@@ -8,7 +8,7 @@ module wavycon_grid_cascade
    use wavycon_contact_measures, only: largest_errors
    use wavycon_contact_tuning, only: iteration_limit
    use wavycon_grid_edge, only: grid_contact_area, grid_edge, pressure_per_gap, start_grid_edge
-   use wavycon_grid_error, only: change_history, estimate_errors
+   use wavycon_grid_error, only: change_history, estimate_errors, unresolved_errors
    use wavycon_grid_peak, only: grid_peak_pressure
    use wavycon_grid_plan, only: finer_grid, fits_memory, grid_plan, plan_grids
    use wavycon_grid_refinement, only: refine_pressure
@@ -16,6 +16,7 @@ module wavycon_grid_cascade
    use wavycon_grid_solver, only: grid_state, solve_on_grid
    use wavycon_kinds, only: dp
    use wavycon_local_stiffness, only: local_stiffness
+   use wavycon_pressure_load, only: set_load
    use wavycon_solver_progress, only: solver_progress
    use wavycon_surface, only: surface_type
    implicit none (type, external)
@@ -26,7 +27,9 @@ module wavycon_grid_cascade
    type :: cascade_answer
       type(grid_state) :: state            !! on the finest grid; gap not allocated if the first did not fit into memory
       real(dp) :: values(3) = 0.0_dp       !! mean gap [Delta], contact area fraction, peak pressure [p*]
-      real(dp) :: errors(3) = huge(1.0_dp) !! their error estimates, in the same units, at most `largest_errors`
+      !> Their error estimates, in the same units, at most `largest_errors`. That of the area holds for `area_at_hardness` too.
+      real(dp) :: errors(3) = huge(1.0_dp)
+      real(dp) :: area_at_hardness = 0.0_dp  !! fraction of the area at which p = H
       logical :: accurate = .false.        !! whether all error estimates are within the accuracy
       logical :: out_of_memory = .false.   !! whether a grid was needed that does not fit into memory
       integer :: grids = 0
@@ -40,7 +43,7 @@ contains
    !> (`out_of_memory`) or the iteration on it does not converge (`state%converged` is false).
    subroutine solve_by_cascade(surface, mean_pressure, accuracy, points, answer, progress, residual)
       type(surface_type), intent(in) :: surface
-      real(dp), intent(in) :: mean_pressure           !! P in (0, 1)
+      real(dp), intent(in) :: mean_pressure           !! P in (0, 1), or in (0, H) if the surface has a hardness
       real(dp), intent(in) :: accuracy                !! largest error estimate allowed of the three values, >= 0
       integer, intent(in) :: points(2)                !! of the last grid, on the whole cell; zeros: to the accuracy
       type(cascade_answer), intent(out) :: answer
@@ -49,7 +52,7 @@ contains
       real(dp), intent(in), optional :: residual
 
       real(dp), allocatable :: finer(:, :)
-      type(change_history) :: history
+      type(change_history) :: history, history_at_hardness
       type(grid_plan) :: plan
       real(dp) :: last_residual
       logical :: last
@@ -62,10 +65,12 @@ contains
       answer%out_of_memory = .not. fits_memory(grid)
       if (answer%out_of_memory) return
       allocate (answer%state%pressure(grid(1), grid(2)), source=mean_pressure)
+      answer%state%hardness = surface%hardness
       do
          last = all(grid == plan%last)
          call solve_level(surface, mean_pressure, merge(last_residual, 0.0_dp, last), answer)
-         call measure_level(surface, history, answer)
+         call measure_level(surface, mean_pressure, history, answer)
+         if (surface%has_hardness()) call measure_at_hardness(surface, mean_pressure, history_at_hardness, answer)
          answer%accurate = answer%state%converged .and. all(answer%errors <= accuracy) .and. &
             all(grid >= plan%trusted)
          if (present(progress)) &
@@ -102,6 +107,8 @@ contains
       call sample_undeformed_gap(surface, h)
       call half_space%start(surface, points)
       answer%state%pressure = answer%state%pressure*(mean_pressure*size(h)/sum(answer%state%pressure))
+      if (any(answer%state%pressure >= surface%hardness)) &
+         call set_load(answer%state%pressure, mean_pressure*size(h), surface%hardness)
       call stencil%start(surface, points)
       call solve_on_grid(half_space, stencil, h, residual, iteration_limit, answer%state)
       answer%grids = answer%grids + 1
@@ -123,9 +130,10 @@ contains
    end subroutine sample_undeformed_gap
 
    !> Mean gap, contact area (C11), (C12) and peak pressure (C13) on the present grid, and their error estimates (C14)
-   !> to (C17).
-   subroutine measure_level(surface, history, answer)
+   !> to (C17). The area is at least that which carries the load at the hardness.
+   subroutine measure_level(surface, mean_pressure, history, answer)
       type(surface_type), intent(in) :: surface
+      real(dp), intent(in) :: mean_pressure
       type(change_history), intent(inout) :: history
       type(cascade_answer), intent(inout) :: answer
 
@@ -134,10 +142,35 @@ contains
 
       call start_grid_edge(edge, answer%state%pressure, answer%state%gap, surface%shape%is_even(), &
                            pressure_per_gap(surface, shape(answer%state%gap)))
-      answer%values(:2) = [answer%state%mean_gap, grid_contact_area(edge)]
+      answer%values(:2) = [answer%state%open_gap(), grid_contact_area(edge)]
       call grid_peak_pressure(edge, answer%values(3), peak_resolved)
+      peak_resolved = peak_resolved .or. answer%values(3) >= surface%hardness
+      answer%values(3) = min(answer%values(3), surface%hardness)
+      if (surface%has_hardness()) answer%values(2) = max(answer%values(2), mean_pressure/surface%hardness)
       call history%push(answer%values)
       answer%errors = estimate_errors(history, surface, edge, peak_resolved)
    end subroutine measure_level
+
+   !> The area at which p = H, and its error estimate. H - p and minus the gap behave at its edge as gap and pressure do at
+   !> the edge of contact (C23). It is at most that which carries the load.
+   subroutine measure_at_hardness(surface, mean_pressure, history, answer)
+      type(surface_type), intent(in) :: surface
+      real(dp), intent(in) :: mean_pressure
+      type(change_history), intent(inout) :: history
+      type(cascade_answer), intent(inout) :: answer
+
+      type(grid_edge) :: edge
+      real(dp) :: errors(3), values(3)
+
+      call start_grid_edge(edge, surface%hardness - answer%state%pressure, -answer%state%gap, surface%shape%is_even(), &
+                           pressure_per_gap(surface, shape(answer%state%gap)))
+      values = [0.0_dp, min(1.0_dp - grid_contact_area(edge), mean_pressure/surface%hardness), 0.0_dp]
+      answer%area_at_hardness = values(2)
+      call history%push(values)
+      errors = history%errors()
+      ! Between the points the pressure may reach H although it does so at none of them.
+      if (answer%values(3) >= surface%hardness) errors = max(errors, unresolved_errors(surface, edge, .true.))
+      answer%errors(2) = max(answer%errors(2), errors(2))
+   end subroutine measure_at_hardness
 
 end module wavycon_grid_cascade

@@ -67,6 +67,7 @@ module wavycon_grid_contact
    type, extends(contact_solution) :: grid_solution
       type(grid_edge), allocatable :: edge    !! pressure and gap at the grid points; not allocated if not kept
       logical, private :: turned = .false.    !! the grid's cell is the smaller one, turned by 45 degrees
+      real(dp) :: imprint = 0.0_dp            !! mean overlap where p = H [Delta] (C22)
    contains
       procedure :: fields
       procedure :: edge_curves
@@ -77,7 +78,7 @@ module wavycon_grid_contact
    end type grid_solution
 
    !> Numbers in the array of pack_kept between those of pack_common and the field.
-   integer, parameter :: own_values = 6
+   integer, parameter :: own_values = 7
 
 contains
 
@@ -189,13 +190,17 @@ contains
       own%solver = solver_name
       own%turned = self%turned
       own%measures = contact_measures(mean_gap_over_amplitude=answer%values(1), &
-                                      approach_over_amplitude=1.0_dp - answer%values(1), &
+                                      approach_over_amplitude=1.0_dp - answer%state%mean_gap, &
                                       contact_area_fraction=answer%values(2), &
                                       peak_pressure_over_pstar=answer%values(3), &
                                       min_pressure_over_pstar=minval(answer%state%pressure), &
                                       mean_gap_error=answer%errors(1), contact_area_error=answer%errors(2), &
-                                      peak_pressure_error=answer%errors(3))
-      own%active_constraints = count(answer%state%pressure <= 0.0_dp)
+                                      peak_pressure_error=answer%errors(3), &
+                                      area_at_hardness_fraction=answer%area_at_hardness)
+      if (self%surface%has_hardness()) own%measures%load_at_hardness_fraction = &
+         answer%area_at_hardness*self%surface%hardness/pbar_over_pstar
+      own%imprint = answer%state%imprint
+      own%active_constraints = count(answer%state%pressure <= 0.0_dp .or. answer%state%pressure >= self%surface%hardness)
       own%iterations = answer%iterations
       own%residual = answer%state%residual
       if (.not. answer%state%converged) then
@@ -224,7 +229,7 @@ contains
 
       if (.not. allocated(self%edge)) return
       allocate (own)
-      call start_grid_fields(own, surface, self%edge, self%measures%mean_gap_over_amplitude, self%turned)
+      call start_grid_fields(own, surface, self%edge, self%measures%mean_gap_over_amplitude - self%imprint, self%turned)
       call move_alloc(own, answer)
    end subroutine fields
 
@@ -294,7 +299,7 @@ contains
       allocate (grid_solution :: solution)
    end subroutine new_kept_solution
 
-   !> After the numbers of pack_common: the stiffness of `edge`, the points along x and y (zeros if the fields were not
+   !> After the numbers of pack_common: the imprint, the stiffness of `edge`, the points along x and y (zeros if the fields were not
    !> kept), whether the cell is turned, whether the grid covers a quarter of it, and the pressures and gaps.
    pure subroutine pack_kept(self, values)
       class(grid_solution), intent(in) :: self
@@ -314,7 +319,7 @@ contains
       first = packed_values + own_values
       allocate (values(first + product(points)), stat=status)
       if (status /= 0) return
-      values(:first) = [common, stiffness, real(points, dp), 0.0_dp, 0.0_dp]
+      values(:first) = [common, self%imprint, stiffness, real(points, dp), 0.0_dp, 0.0_dp]
       if (self%turned) values(first - 1) = 1.0_dp
       if (.not. allocated(self%edge)) return
       if (self%edge%even) values(first) = 1.0_dp
@@ -338,6 +343,7 @@ contains
                                    nint(product(values(first - 3:first - 2)), int64) == size(values) - first
       if (.not. understood) return
       points = nint(values(first - 3:first - 2))
+      self%imprint = values(first - 6)
       self%turned = values(first - 1) > 0.0_dp
       if (product(points) == 0) return
       field = reshape(values(first + 1:), points)

@@ -20,7 +20,8 @@ module wavycon_grid_fields
       private
       type(grid_edge) :: edge                !! pressure or -gap at the points
       type(fourier_series) :: shape          !! of the surface: 1 - h/Delta
-      real(dp) :: mean_gap = 1.0_dp          !! G
+      real(dp) :: mean_gap = 1.0_dp          !! 1 - approach
+      real(dp) :: hardness = huge(1.0_dp)    !! H, upper bound of the pressure [p*]
       logical :: turned = .false.            !! whether the angles of the grid are X + Y and X - Y
       real(dp) :: scale = 1.0_dp             !! a^(2/3) [p*^2/Delta^(2/3)]
       !> psi [p*^2] at the points of the grid and at two more beyond each side, shape (-1:M+2, -1:N+2). Not allocated
@@ -41,12 +42,13 @@ contains
       type(grid_fields), intent(out) :: fields
       type(surface_type), intent(in) :: surface
       type(grid_edge), intent(in) :: edge       !! pressure [p*] and gap [Delta] at the points
-      real(dp), intent(in) :: mean_gap          !! G
+      real(dp), intent(in) :: mean_gap          !! 1 - approach
       logical, intent(in) :: turned             !! whether the angles of the grid are X + Y and X - Y
 
       fields%shape = surface%shape
       fields%edge = edge
       fields%mean_gap = mean_gap
+      fields%hardness = surface%hardness
       fields%turned = turned
    end subroutine start_grid_fields
 
@@ -180,7 +182,7 @@ contains
       pressure = 0.0_dp
       gap = 0.0_dp
       if (psi > 0.0_dp) then
-         pressure = sqrt(psi)
+         pressure = min(sqrt(psi), fields%hardness)
       else
          gap = sqrt(-psi/fields%scale)**3
       end if

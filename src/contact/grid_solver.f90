@@ -1,4 +1,5 @@
-!> Minimises the complementary energy 1/2 (p, Sp) + (p, h) over the pressures p >= 0 of given mean on a grid.
+!> Minimises the complementary energy 1/2 (p, Sp) + (p, h) over the pressures 0 <= p <= H of given mean on a grid. H is
+!> the hardness; elastic bodies have none.
 !>
 !> Each step computes the gap of the present pressure at all points, in double precision, and verifies the conditions of
 !> contact there. It then selects the points in and near the contact, and corrects the pressure at these points in single
@@ -23,15 +24,20 @@ module wavycon_grid_solver
    real(dp), parameter :: rounding = 32*epsilon(1.0_dp), most_rounding = 1e-12_dp
 
    type :: grid_state
-      real(dp), allocatable :: pressure(:, :)   !! p/p*, >= 0, shape (m, n)
-      real(dp), allocatable :: gap(:, :)        !! gap/Delta; in contact its deviation from zero, shape (m, n)
-      real(dp) :: mean_gap = 1.0_dp             !! G
+      real(dp), allocatable :: pressure(:, :)   !! p/p*, 0 <= p <= H, shape (m, n)
+      !> gap/Delta, negative where the surfaces overlap: at free points its deviation from zero, shape (m, n)
+      real(dp), allocatable :: gap(:, :)
+      real(dp) :: hardness = huge(1.0_dp)       !! H/p*, huge if there is none
+      real(dp) :: mean_gap = 1.0_dp             !! 1 - approach; without a hardness G
+      real(dp) :: imprint = 0.0_dp              !! mean over the cell of the overlap where p = H [Delta] (C22)
       real(dp) :: residual = huge(1.0_dp)       !! root mean square of the violated conditions on the gap, over G (C9)
       integer :: corrections = 0                !! steps
       integer :: iterations = 0                 !! of all corrections
       integer :: local_iterations = 0           !! those of them preconditioned by the stencil
       integer :: plain_iterations = 0           !! those without extension of the gap
       logical :: converged = .false.
+   contains
+      procedure :: open_gap
    end type grid_state
 
 contains
@@ -43,7 +49,8 @@ contains
       real(dp), intent(in) :: undeformed_gap(:, :)   !! h/Delta, shape (m, n)
       real(dp), intent(in) :: residual               !! the largest allowed (C9), > 0; 0: that of (C10)
       integer, intent(in) :: most_iterations
-      type(grid_state), intent(inout) :: state       !! on entry `pressure` is the start, >= 0; its mean P in (0, 1) stays
+      !> On entry `hardness` is set and `pressure` is the start, 0 <= p <= H; its mean P in (0, H) stays.
+      type(grid_state), intent(inout) :: state
 
       type(pressure_correction) :: correction
       logical(c_bool), allocatable :: inside(:, :)
@@ -58,7 +65,7 @@ contains
       do
          touched = any(state%pressure > 0.0_dp, dim=1)
          call compute_gap(half_space, undeformed_gap, touched, state)
-         allowed = residual*abs(state%mean_gap)
+         allowed = residual*size_of_gaps(state)
          if (residual <= 0.0_dp) allowed = edge_tolerance*gap_at_edge(state, touched)
          allowed = max(allowed, rounding)
          state%converged = state%residual <= allowed .or. &
@@ -66,7 +73,7 @@ contains
          last_residual = state%residual
          if (state%converged .or. state%iterations >= most_iterations) exit
          call find_region(state, inside)
-         call correction%start(inside, stencil, state%pressure, state%gap, state%residual)
+         call correction%start(inside, stencil, state%pressure, state%gap, state%residual, state%hardness)
          ! The correction needs its memory; the next step computes it anew.
          deallocate (state%gap)
          call correction%improve(half_space, max(correction_part, correction_margin*allowed/state%residual), &
@@ -78,24 +85,54 @@ contains
          state%local_iterations = state%local_iterations + correction%local_iterations
          state%plain_iterations = state%plain_iterations + correction%plain_iterations
       end do
-      state%residual = state%residual/max(abs(state%mean_gap), rounding)
+      state%residual = state%residual/max(size_of_gaps(state), rounding)
    end subroutine solve_on_grid
 
-   !> The gap h + Sp - approach (C1), whose mean in contact is zero (C3), and the residual times G. The approach is that
-   !> of the present mean gap and a change: the change is a mean of small gaps and loses no digits.
+   !> The mean gap of surfaces that touch where they overlap, G [Delta]: zero if no point is open.
+   pure real(dp) function open_gap(self)
+      class(grid_state), intent(in) :: self   !! solved
+
+      open_gap = self%mean_gap + self%imprint
+      if (self%hardness >= huge(self%hardness)) return
+      if (.not. any(self%pressure <= 0.0_dp)) open_gap = 0.0_dp
+   end function open_gap
+
+   !> The mean of |gap| [Delta]: G without a hardness.
+   pure real(dp) function size_of_gaps(state)
+      type(grid_state), intent(in) :: state
+
+      size_of_gaps = abs(state%mean_gap + 2*state%imprint)
+   end function size_of_gaps
+
+   !> Whether a pressure lies between its bounds: the gap is zero there.
+   elemental logical function is_free(pressure, hardness)
+      real(dp), intent(in) :: pressure, hardness
+
+      is_free = pressure > 0.0_dp .and. pressure < hardness
+   end function is_free
+
+   !> By how much a gap violates (C1) or (C21).
+   elemental real(dp) function violation(gap, pressure, hardness)
+      real(dp), intent(in) :: gap, pressure, hardness
+
+      violation = merge(merge(gap, max(gap, 0.0_dp), pressure < hardness), min(gap, 0.0_dp), pressure > 0.0_dp)
+   end function violation
+
+   !> The gap h + Sp - approach (C1), whose mean over the free points is zero (C3), and the residual times G. The approach
+   !> is that of the present mean gap and a change: the change is a mean of small gaps and loses no digits.
    subroutine compute_gap(half_space, undeformed_gap, touched, state)
       type(compliance_operator), intent(inout) :: half_space
       real(dp), intent(in) :: undeformed_gap(:, :)
       logical, intent(in) :: touched(:)   !! whether a column of the grid has points in contact, shape (n)
       type(grid_state), intent(inout) :: state
 
-      real(dp) :: approach, change, sums(size(touched))
+      real(dp) :: approach, change, overlaps(size(touched)), sums(size(touched))
       integer :: counts(size(touched)), j, threads
 
       threads = threads_for(size(undeformed_gap))
       if (.not. allocated(state%gap)) allocate (state%gap, mold=undeformed_gap)
       approach = 1.0_dp - state%mean_gap
-      associate (gap => state%gap, p => state%pressure, h => undeformed_gap)
+      associate (gap => state%gap, p => state%pressure, h => undeformed_gap, hardness => state%hardness)
          do j = 1, size(gap, 2)
             if (touched(j)) gap(:, j) = p(:, j)
          end do
@@ -106,26 +143,43 @@ contains
             sums(j) = 0.0_dp
             counts(j) = 0
             if (.not. touched(j)) cycle
-            sums(j) = sum(gap(:, j), p(:, j) > 0.0_dp)
-            counts(j) = count(p(:, j) > 0.0_dp)
+            sums(j) = sum(gap(:, j), is_free(p(:, j), hardness))
+            counts(j) = count(is_free(p(:, j), hardness))
          end do
-         change = sum(sums)/sum(counts)
+         if (any(counts > 0)) then
+            change = sum(sums)/sum(counts)
+         else
+            change = middle_between(minval(gap, p <= 0.0_dp), maxval(gap, p >= hardness))
+         end if
          !$omp parallel do num_threads(threads)
          do j = 1, size(gap, 2)
             gap(:, j) = gap(:, j) - change
+            overlaps(j) = 0.0_dp
             if (touched(j)) then
-               sums(j) = sum(merge(gap(:, j), min(gap(:, j), 0.0_dp), p(:, j) > 0.0_dp)**2)
+               sums(j) = sum(violation(gap(:, j), p(:, j), hardness)**2)
+               if (hardness < huge(hardness)) overlaps(j) = sum(max(-gap(:, j), 0.0_dp), p(:, j) >= hardness)
             else
                sums(j) = sum(min(gap(:, j), 0.0_dp)**2)
             end if
          end do
+         state%imprint = sum(overlaps)/size(gap)
          state%mean_gap = 1.0_dp - (approach + change)
          state%residual = sqrt(sum(sums)/size(gap))
       end associate
    end subroutine compute_gap
 
-   !> Root mean square of the gap at the points next to the contact, times the square root of the part of all points that
-   !> are in contact [Delta], (C10); zero if all points are in contact.
+   !> Where no point is free, the approach may lie anywhere between the least gap at points that are open and the largest
+   !> at points at the hardness.
+   pure real(dp) function middle_between(open, capped) result(middle)
+      real(dp), intent(in) :: open     !! huge if no point is open
+      real(dp), intent(in) :: capped
+
+      middle = capped
+      if (open < huge(open)) middle = 0.5_dp*(open + capped)
+   end function middle_between
+
+   !> Root mean square of the gap at the points next to the free ones, times the square root of the part of all points that
+   !> are free [Delta], (C10); zero if all points are.
    pure real(dp) function gap_at_edge(state, touched) result(gap)
       type(grid_state), intent(in) :: state
       logical, intent(in) :: touched(:)
@@ -139,23 +193,23 @@ contains
       squares = 0.0_dp
       edge_points = 0
       contact_points = 0
-      associate (p => state%pressure)
+      associate (p => state%pressure, hardness => state%hardness)
          do j = 1, n
             if (.not. any(touched(max(j - 1, 1):min(j + 1, n)))) cycle
-            beside = p(:, max(j - 1, 1)) > 0.0_dp .or. p(:, min(j + 1, n)) > 0.0_dp
-            beside(2:) = beside(2:) .or. p(:m - 1, j) > 0.0_dp
-            beside(:m - 1) = beside(:m - 1) .or. p(2:, j) > 0.0_dp
-            beside = beside .and. .not. p(:, j) > 0.0_dp
+            beside = is_free(p(:, max(j - 1, 1)), hardness) .or. is_free(p(:, min(j + 1, n)), hardness)
+            beside(2:) = beside(2:) .or. is_free(p(:m - 1, j), hardness)
+            beside(:m - 1) = beside(:m - 1) .or. is_free(p(2:, j), hardness)
+            beside = beside .and. .not. is_free(p(:, j), hardness)
             squares = squares + sum(merge(state%gap(:, j)**2, 0.0_dp, beside))
             edge_points = edge_points + count(beside)
-            contact_points = contact_points + count(p(:, j) > 0.0_dp)
+            contact_points = contact_points + count(is_free(p(:, j), hardness))
          end do
       end associate
       gap = sqrt(squares/max(edge_points, 1)*contact_points/(real(m, dp)*n))
    end function gap_at_edge
 
-   !> The points that may be in contact after the next correction: those in contact or with a negative gap, and those
-   !> within some steps of them.
+   !> The points that may be free after the next correction: those that are free or whose gap has the wrong sign, and
+   !> those within some steps of them.
    pure subroutine find_region(state, inside)
       type(grid_state), intent(in) :: state
       logical(c_bool), allocatable, intent(inout) :: inside(:, :)   !! shape (m, n)
@@ -168,7 +222,8 @@ contains
       n = size(state%gap, 2)
       if (.not. allocated(inside)) allocate (inside(m, n))
       do j = 1, n
-         near(:, j) = state%pressure(:, j) > 0.0_dp .or. state%gap(:, j) < 0.0_dp
+         near(:, j) = is_free(state%pressure(:, j), state%hardness) .or. &
+                      abs(violation(state%gap(:, j), state%pressure(:, j), state%hardness)) > 0.0_dp
          occupied(j) = any(near(:, j))
          if (.not. occupied(j)) cycle
          inside(:, j) = near(:, j)

@@ -13,6 +13,7 @@ module wavycon_pressure_correction
    use wavycon_kinds, only: dp, sp
    use wavycon_lapack, only: sdot
    use wavycon_local_stiffness, only: local_stiffness
+   use wavycon_pressure_load, only: bounded_shift, set_load, sum_of_field
    implicit none (type, external)
    private
 
@@ -39,11 +40,13 @@ module wavycon_pressure_correction
       integer, private :: preconditioner = extended
       logical, private :: has_resumed = .false. !! whether the preconditioner was `restricted` and is `extended` again
       real(dp), private :: descent = 0.0_dp     !! (gap, z) of the last direction
+      real(dp), private :: hardness = huge(1.0_dp)
       real(sp), allocatable, private :: start_pressure(:)
+      real(sp), allocatable, private :: room(:)        !! H - p of the start; not allocated without a hardness
       real(sp), allocatable, private :: change(:)      !! of the pressure since the start
       real(sp), allocatable, private :: gap(:)
-      real(sp), allocatable, private :: contact(:)     !! 1 in contact, 0 outside
-      real(sp), allocatable, private :: residuals(:)   !! r: the gap in contact, zero outside, of the last iteration
+      real(sp), allocatable, private :: contact(:)     !! 1 at free points, 0 at those with p = 0 or p = H
+      real(sp), allocatable, private :: residuals(:)   !! r: the gap at free points, zero elsewhere, of the last iteration
       real(sp), allocatable, private :: direction(:)   !! d
       real(sp), allocatable, private :: image(:)       !! in turn r, z, d, Sd
       real(sp), allocatable, private :: field(:, :)    !! a vector on the grid, for transforms
@@ -61,8 +64,11 @@ module wavycon_pressure_correction
       procedure, private :: update_direction
       procedure, private :: find_step
       procedure, private :: move
+      procedure, private :: move_freely
+      procedure, private :: move_between_bounds
       procedure, private :: restore_mean
       procedure, private :: add_overlaps
+      procedure, private :: is_at_hardness
       procedure, private :: displace
       procedure, private :: product_of
       procedure, private :: subtract_mean
@@ -70,14 +76,16 @@ module wavycon_pressure_correction
 
 contains
 
-   subroutine start(self, inside, stencil, pressure, gap, residual)
+   subroutine start(self, inside, stencil, pressure, gap, residual, hardness)
       class(pressure_correction), intent(out) :: self
       logical(c_bool), intent(in) :: inside(:, :) !! the points in and near the contact
       type(local_stiffness), intent(in) :: stencil
-      real(dp), intent(in) :: pressure(:, :)      !! p/p* >= 0, shape (M, N); zero outside the region
-      real(dp), intent(in) :: gap(:, :)           !! its gap/Delta, whose mean in contact is zero
+      real(dp), intent(in) :: pressure(:, :)      !! p/p*, shape (M, N); 0 or H outside the region
+      real(dp), intent(in) :: gap(:, :)           !! its gap/Delta, whose mean over the free points is zero
       real(dp), intent(in) :: residual            !! root mean square of the violated conditions [Delta]
+      real(dp), intent(in) :: hardness            !! H/p*, > p or huge
 
+      self%hardness = hardness
       self%scale = residual
       self%grid = shape(inside)
       self%stencil = stencil
@@ -89,6 +97,12 @@ contains
       call self%region%gather_scaled(pressure, residual, self%start_pressure)
       call self%region%gather_scaled(gap, residual, self%gap)
       self%contact = merge(1.0_sp, 0.0_sp, self%start_pressure > 0.0_sp)
+      if (hardness < huge(hardness)) then
+         allocate (self%room, mold=self%gap)
+         ! The difference loses no digits where the pressure is close to H.
+         call self%region%gather_scaled(hardness - pressure, residual, self%room)
+         self%contact = merge(self%contact, 0.0_sp, self%room > 0.0_sp)
+      end if
       self%direction = 0.0_sp
       self%residuals = 0.0_sp
       self%change = 0.0_sp
@@ -127,22 +141,36 @@ contains
       real(dp), intent(inout) :: pressure(:, :)   !! the pressure of `start`; its mean stays
 
       real(dp) :: total
+      integer :: i
 
       total = sum_of_field(pressure)
-      call self%region%correct(self%change, self%contact, self%scale, pressure)
-      pressure = pressure*(total/sum_of_field(pressure))
+      call self%region%correct(self%change, self%contact, [(self%is_at_hardness(i), i=1, self%region%points)], &
+                               self%scale, self%hardness, pressure)
+      call set_load(pressure, total, self%hardness)
    end subroutine add_to
 
-   !> Changes the approach so that the mean gap in contact is zero (C3), and computes the residual (C9) times G.
+   !> Whether the pressure at a point is H.
+   pure logical function is_at_hardness(self, i)
+      class(pressure_correction), intent(in) :: self
+      integer, intent(in) :: i
+
+      is_at_hardness = .false.
+      if (allocated(self%room)) is_at_hardness = self%room(i) <= self%change(i)
+   end function is_at_hardness
+
+   !> Changes the approach so that the mean gap over the free points is zero (C3), and computes the residual (C9) times G.
    subroutine shift_gap(self)
       class(pressure_correction), intent(inout) :: self
 
       real(sp) :: shift
 
       self%contact_points = nint(self%product_of(self%contact, self%contact))
-      shift = real(self%product_of(self%contact, self%gap)/self%contact_points, sp)
+      ! Without free points the approach stays: the next step finds it from all points.
+      shift = real(self%product_of(self%contact, self%gap)/max(self%contact_points, 1), sp)
       self%gap = self%gap - shift
       self%image = merge(self%gap, min(self%gap, 0.0_sp), self%contact > 0.0_sp)
+      if (allocated(self%room)) self%image = merge(max(self%gap, 0.0_sp), self%image, &
+                                                   self%contact <= 0.0_sp .and. self%room <= self%change)
       self%residual = self%scale*sqrt(self%product_of(self%image, self%image)/product(real(self%grid, dp)))
    end subroutine shift_gap
 
@@ -171,6 +199,7 @@ contains
       type(compliance_operator), intent(inout) :: half_space
 
       self%image = self%contact*self%gap
+      if (self%contact_points == 0) return
       if (self%stencil%exists .and. self%contact_points < stencil_fraction*product(real(self%grid, dp))) then
          call self%stencil%apply(self%region, self%grid, self%image)
          self%local_iterations = self%local_iterations + 1
@@ -240,12 +269,33 @@ contains
       if (curvature > 0.0_dp) step = real(self%product_of(self%residuals, self%direction)/curvature, sp)
    end subroutine find_step
 
-   !> Moves pressure and gap by a step. Points whose pressure would not stay positive leave the contact; the others are
-   !> then multiplied by a factor that restores the mean pressure (C7).
+   !> Moves pressure and gap by a step. Points whose pressure would not stay positive leave the free ones; the others are
+   !> then multiplied by a factor that restores the mean pressure (C7). Where points pass H, (C24) takes its place.
    subroutine move(self, step, half_space)
       class(pressure_correction), intent(inout) :: self
       real(sp), intent(in) :: step
       type(compliance_operator), intent(inout) :: half_space
+
+      logical :: passes_hardness
+
+      passes_hardness = .false.
+      if (allocated(self%room)) passes_hardness = any(self%contact > 0.0_sp .and. &
+                                                      self%change - step*self%direction >= self%room)
+      if (passes_hardness) then
+         call self%move_between_bounds(step)
+      else
+         call self%move_freely(step)
+         if (self%changed_points > 0) call self%restore_mean()
+      end if
+      if (self%changed_points == 0) return
+      call self%displace(half_space)
+      self%gap = self%gap + self%image
+   end subroutine move
+
+   !> A step that no point ends at H; `image` becomes what the pressure changes besides.
+   subroutine move_freely(self, step)
+      class(pressure_correction), intent(inout) :: self
+      real(sp), intent(in) :: step
 
       integer :: i, left
 
@@ -263,40 +313,75 @@ contains
          end if
       end do
       self%changed_points = left
-      if (left == 0) return
-      call self%restore_mean()
-      call self%displace(half_space)
-      self%gap = self%gap + self%image
-   end subroutine move
+   end subroutine move_freely
 
-   !> Multiplies the pressure in contact by a factor, so that its mean is that of the start, and adds the changes to
-   !> `image`.
+   !> A step that ends at H for some points: the pressure at all free points changes by the same that restores the mean,
+   !> and then to the nearer bound if it is beyond it (C24). Close to H the step is much longer than what is left of it,
+   !> and is computed in double precision.
+   subroutine move_between_bounds(self, step)
+      class(pressure_correction), intent(inout) :: self
+      real(sp), intent(in) :: step
+
+      real(dp), allocatable :: change(:)
+      logical, allocatable :: free(:)
+      real(dp) :: shift
+      integer :: i
+
+      allocate (change, source=self%change - real(step, dp)*self%direction)
+      allocate (free, source=self%contact > 0.0_sp)
+      shift = bounded_shift(pack(self%start_pressure + change, free), pack(self%room - change, free), -sum(change))
+      self%changed_points = 0
+      do i = 1, self%region%points
+         self%gap(i) = self%gap(i) - step*self%image(i)
+         self%image(i) = 0.0_sp
+         if (.not. free(i)) cycle
+         self%change(i) = real(min(max(change(i) + shift, real(-self%start_pressure(i), dp)), &
+                                   real(self%room(i), dp)), sp)
+         self%image(i) = real(self%change(i) - change(i), sp)
+         if (self%change(i) > -self%start_pressure(i) .and. self%change(i) < self%room(i)) cycle
+         self%contact(i) = 0.0_sp
+         self%changed_points = self%changed_points + 1
+      end do
+   end subroutine move_between_bounds
+
+   !> Multiplies the pressure at the free points by a factor, so that its mean is that of the start, and adds the changes
+   !> to `image`.
    subroutine restore_mean(self)
       class(pressure_correction), intent(inout) :: self
 
+      real(dp) :: load
       real(sp) :: excess
 
-      excess = real(-sum_of(self%change)/self%product_of(self%contact, self%start_pressure + self%change), sp)
+      load = self%product_of(self%contact, self%start_pressure + self%change)
+      if (.not. load > 0.0_dp) return
+      excess = real(-sum_of(self%change)/load, sp)
       associate (growth => self%contact*excess*(self%start_pressure + self%change))
          self%image = self%image + growth
          self%change = self%change + growth
       end associate
    end subroutine restore_mean
 
-   !> Adds to the contact the points outside whose gap is below the mean gap in contact by more than an allowance (C8).
-   !> Smaller overlaps may be rounding: such points would enter and leave without end.
+   !> Adds to the free points those outside whose gap is below the mean gap of the free ones by more than an allowance (C8),
+   !> at H above it. Smaller overlaps may be rounding: such points would enter and leave without end.
    subroutine add_overlaps(self, allowance)
       class(pressure_correction), intent(inout) :: self
       real(sp), intent(in) :: allowance   !! over `scale`
 
-      real(sp) :: least
+      real(sp) :: least, mean, most
       integer :: entered, i
+      logical :: enters, has_hardness
 
-      least = real(self%product_of(self%contact, self%gap)/self%product_of(self%contact, self%contact), sp) - allowance
+      mean = real(self%product_of(self%contact, self%gap)/max(self%product_of(self%contact, self%contact), 1.0_dp), sp)
+      least = mean - allowance
+      most = mean + allowance
+      has_hardness = allocated(self%room)
       entered = 0
-      !$omp parallel do num_threads(self%region%threads) reduction(+:entered)
+      !$omp parallel do num_threads(self%region%threads) private(enters) reduction(+:entered)
       do i = 1, self%region%points
-         if (self%gap(i) < least .and. self%contact(i) <= 0.0_sp) then
+         if (self%contact(i) > 0.0_sp) cycle
+         enters = self%gap(i) < least
+         if (has_hardness) enters = merge(self%gap(i) > most, enters, self%room(i) <= self%change(i))
+         if (enters) then
             self%contact(i) = 1.0_sp
             entered = entered + 1
          end if
@@ -320,17 +405,8 @@ contains
       class(pressure_correction), intent(in) :: self
       real(sp), intent(inout), contiguous :: vector(:)
 
-      vector = self%contact*(vector - real(self%product_of(self%contact, vector)/self%contact_points, sp))
+      vector = self%contact*(vector - real(self%product_of(self%contact, vector)/max(self%contact_points, 1), sp))
    end subroutine subtract_mean
-
-   !> Sum of a field, column by column.
-   pure real(dp) function sum_of_field(field) result(total)
-      real(dp), intent(in) :: field(:, :)
-
-      integer :: j
-
-      total = sum([(sum(field(:, j)), j=1, size(field, 2))])
-   end function sum_of_field
 
    !> Sum of a vector.
    pure real(dp) function sum_of(a)

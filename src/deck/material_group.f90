@@ -1,16 +1,20 @@
-!> The &material group: the stiffness of the two bodies.
+!> The &material group: the stiffness of the two bodies, and the pressure at which they yield.
 module wavycon_material_group
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: key_group, key_group_type, real_key
    use wavycon_kinds, only: dp
+   use wavycon_plain_text, only: short_number
    use wavycon_problems, only: problem_list_type
    implicit none (type, external)
    private
 
-   public :: material_table, check_material_group, is_another_way, plane_strain_modulus
+   public :: material_table, check_material_group, check_hardness, hardness_over_pstar, is_another_way, plane_strain_modulus
 
    !> The keys that give the stiffness in place of e_star.
    character(3), parameter :: moduli(*) = ['e1 ', 'nu1', 'e2 ', 'nu2']
+
+   !> Largest ratio of hardness and p*: a hardness farther away is most likely a mistake of units.
+   real(dp), parameter :: most_hardness = 1.0e6_dp
 
 contains
 
@@ -25,7 +29,10 @@ contains
          real_key('nu1', '', '-', "Poisson's ratio of the first body.", above=-1.0_dp, most=0.5_dp), &
          real_key('e2', '', 'pressure', &
             "Young's modulus of the second body; needs nu2. Without it the second body is rigid.", above=0.0_dp), &
-         real_key('nu2', '', '-', "Poisson's ratio of the second body.", above=-1.0_dp, most=0.5_dp)])
+         real_key('nu2', '', '-', "Poisson's ratio of the second body.", above=-1.0_dp, most=0.5_dp), &
+         real_key('hardness', '', 'unit of e_star', &
+            'Largest contact pressure: where it is reached the softer body flows and is left with an imprint. Without it '// &
+            'the bodies stay elastic. Mean pressures must be lower.', above=0.0_dp)])
    end function material_table
 
    !> Reports moduli without their Poisson's ratios, and moduli beside e_star. Leaves e_star out of the resolved deck
@@ -47,6 +54,35 @@ contains
       end do
       if (values%has('e1')) call values%leave_out('e_star')
    end subroutine check_material_group
+
+   !> Reports a hardness on a flat surface, and one so far from p* that its unit is most likely wrong.
+   subroutine check_hardness(values, p_star, problems)
+      type(group_values), intent(in) :: values             !! of a &material group without problems
+      real(dp), intent(in) :: p_star                       !! p* [pressure]; 0: the surface is flat
+      type(problem_list_type), intent(inout) :: problems
+
+      real(dp) :: hardness
+
+      if (.not. values%has('hardness')) return
+      hardness = values%real('hardness')
+      if (p_star <= 0.0_dp) then
+         call values%complain(problems, 'hardness', &
+            'the surface is flat: its pressure is the mean pressure, and a hardness means nothing')
+      else if (hardness > most_hardness*p_star .or. hardness < p_star/most_hardness) then
+         call values%complain(problems, 'hardness', 'hardness = '//short_number(hardness)//' is not within a factor of '// &
+            short_number(most_hardness)//' of p* = '//short_number(p_star)// &
+            '. Do its unit and that of e_star agree, and those of the lengths?')
+      end if
+   end subroutine check_hardness
+
+   !> The hardness over p*; huge if there is none.
+   pure real(dp) function hardness_over_pstar(values, p_star) result(hardness)
+      type(group_values), intent(in) :: values   !! of a &material group without problems
+      real(dp), intent(in) :: p_star             !! p* [pressure]
+
+      hardness = huge(hardness)
+      if (values%has('hardness') .and. p_star > 0.0_dp) hardness = values%real('hardness')/p_star
+   end function hardness_over_pstar
 
    !> Whether two keys of &material give the stiffness in different ways: e_star, or the moduli of the bodies.
    pure logical function is_another_way(key, other)

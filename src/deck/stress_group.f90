@@ -15,7 +15,7 @@ module wavycon_stress_group
    !> Most depths of a list or a range.
    integer, parameter :: most_depths = 10000
 
-   !> The keys that give the depths, in one of three ways.
+   !> The keys of a range of depths, and the two that give a list of them.
    character(18), parameter :: range_keys(*) = [character(18) :: 'depth_from', 'depth_to', 'depth_steps']
    character(18), parameter :: lists(*) = [character(18) :: 'depths', 'depths_over_cell_x']
 
@@ -33,11 +33,13 @@ contains
             "'y' or the 'diagonal' of the cell.", [character(8) :: 'none', 'x', 'y', 'diagonal']), &
          logical_key('planes', '.false.', 'A table of the stresses on the planes at the given depths, with the points '// &
             'and in the format of maps.'), &
-         real_key('depths', '', 'length', 'Depths of planes, and of the points of line and section.', least=0.0_dp, &
+         real_key('depths', '', 'length', 'Depths of the planes; also of the points of line and section unless a range '// &
+            'is given.', least=0.0_dp, &
             most_values=most_depths), &
          real_key('depths_over_cell_x', '', '-', 'The same over the side of the cell along x, which is the wavelength '// &
             'of a wave.', least=0.0_dp, most_values=most_depths), &
-         real_key('depth_from', '0.0', '-', 'First depth of a range in equal steps, over the side of the cell along x.', &
+         real_key('depth_from', '0.0', '-', 'First depth of a range in equal steps, over the side of the cell along x, for '// &
+            'line and section; also for the planes unless depths are given.', &
             least=0.0_dp), &
          real_key('depth_to', '1.0', '-', 'Last depth of the range.', least=0.0_dp), &
          integer_key('depth_steps', '65', 'Number of depths of the range, both ends included.', 1, most_depths), &
@@ -69,9 +71,8 @@ contains
          call load%complain(problems, 'yield', 'yield needs yield_stress in &stress')
       end if
       if (values%place == 0) return
-      has_range = any([(values%has(trim(range_keys(k))), k=1, size(range_keys))])
-      if (count([has_range, (values%has(trim(lists(k))), k=1, size(lists))]) > 1) call problems%add(values%place, &
-         'depths are given in more than one way: give depths, depths_over_cell_x, or depth_from, depth_to and depth_steps')
+      has_range = gives_range(values)
+      call values%forbid(problems, trim(lists(1)), trim(lists(2)), 'give one of them')
       if (.not. has_range .and. any([(values%has(trim(lists(k))), k=1, size(lists))])) then
          do k = 1, size(range_keys)
             call values%leave_out(trim(range_keys(k)))
@@ -88,6 +89,15 @@ contains
          'yield_criterion', 'yield_criterion needs yield_stress beside it')
       if (.not. values%has('yield_stress')) call values%leave_out('yield_criterion')
    end subroutine check_stress_group
+
+   !> Whether the deck gives a range of depths.
+   pure logical function gives_range(values)
+      type(group_values), intent(in) :: values
+
+      integer :: k
+
+      gives_range = any([(values%has(trim(range_keys(k))), k=1, size(range_keys))])
+   end function gives_range
 
    !> Sets Poisson's ratios to those of &material, or reports that there are none or that they contradict each other.
    subroutine take_ratios(values, material, problems)
@@ -107,15 +117,11 @@ contains
       end if
    end subroutine take_ratios
 
-   !> Whether two keys of &stress give the depths in different ways.
+   !> Whether two keys of &stress give a list of depths in different ways.
    pure logical function is_another_way(key, other)
       character(*), intent(in) :: key, other
 
-      if (any(lists == key)) then
-         is_another_way = key /= other .and. (any(lists == other) .or. any(range_keys == other))
-      else
-         is_another_way = any(range_keys == key) .and. any(lists == other)
-      end if
+      is_another_way = any(lists == key) .and. any(lists == other) .and. key /= other
    end function is_another_way
 
    !> What the group asks for. A rigid body has no stresses, and a body that is like the other is left out.

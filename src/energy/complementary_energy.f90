@@ -6,7 +6,7 @@
 !>     f' = 1/2 sum_k w_k c_k x_k^2 - x_1    (eqs. 17, 26)   with   sum_k x_k t_k >= -P at the points (18, 27),
 !>
 !> w_k the weight, c_k the compliance of term t_k, x_1 the amplitude of the term of the surface's shape.
-!> The unconstrained minimum x_1 = 1 is full contact. Numbers (E..) are the equations of README.md in this directory.
+!> The unconstrained minimum x_1 = 1 is full contact. A hardness H adds  -sum_k x_k t_k >= P - H.  Numbers (E..) are the equations of README.md in this directory.
 module wavycon_complementary_energy
    use wavycon_constraint_points, only: choose_points, term_values
    use wavycon_cosine_rows, only: cosine_rows
@@ -16,18 +16,20 @@ module wavycon_complementary_energy
    implicit none (type, external)
    private
 
-   public :: energy_problem
+   public :: bounds_at, energy_problem
 
    !> With more elements the products with the matrix of the constraints take longer than those by `cosine_rows`.
    integer, parameter :: largest_matrix = 500000
 
 contains
 
-   !> The quadratic programme of some terms at zero load. Its bounds are b = 0, at the load P they are b = -P.
-   type(qp_problem) function energy_problem(terms, points_per_side, symmetry) result(problem)
+   !> The quadratic programme of some terms at zero load. Its bounds are b = 0, at the load P they are b = -P. With a
+   !> hardness as many constraints follow, with b = P - H: `bounds_at` has them all.
+   type(qp_problem) function energy_problem(terms, points_per_side, symmetry, has_hardness) result(problem)
       type(fourier_terms), intent(in) :: terms
       integer, intent(in) :: points_per_side   !! N >= 2 constraint points on [0, pi]
       integer, intent(in) :: symmetry          !! that of the terms
+      logical, intent(in), optional :: has_hardness   !! absent: there is none
 
       integer, allocatable :: k(:), l(:)
       integer :: t, n
@@ -41,9 +43,23 @@ contains
       problem%linear(terms%fundamental()) = 1.0_dp
       call choose_points(terms%dimension, points_per_side, symmetry, k, l)
       problem%normals = term_values(terms, points_per_side, k, l)
-      allocate (problem%bounds(size(k)), source=0.0_dp)
       if (terms%dimension == 2 .and. size(problem%normals) > largest_matrix) &
          allocate (problem%rows, source=cosine_rows(terms, points_per_side, k, l))
+      if (present(has_hardness)) then
+         if (has_hardness) problem%normals = reshape([problem%normals, -problem%normals], [n, 2*size(k)])
+      end if
+      allocate (problem%bounds(size(problem%normals, 2)), source=0.0_dp)
    end function energy_problem
+
+   !> The bounds b of a problem at a load.
+   pure function bounds_at(problem, pbar_over_pstar, hardness) result(bounds)
+      type(qp_problem), intent(in) :: problem      !! of energy_problem
+      real(dp), intent(in) :: pbar_over_pstar      !! P
+      real(dp), intent(in) :: hardness             !! H/p*, huge if the problem has none
+      real(dp) :: bounds(size(problem%bounds))
+
+      bounds = -pbar_over_pstar
+      if (hardness < huge(hardness)) bounds(size(bounds)/2 + 1:) = pbar_over_pstar - hardness
+   end function bounds_at
 
 end module wavycon_complementary_energy

@@ -21,11 +21,11 @@ module wavycon_cosine_rows
 
 contains
 
-   !> sum_k x_k t_k at the points.
+   !> sum_k x_k t_k at the points; the same with the opposite sign follows if `values` is twice as long.
    subroutine of(self, x, values)
       class(cosine_rows), intent(in) :: self
       real(dp), intent(in) :: x(:)         !! amplitudes of the terms
-      real(dp), intent(out) :: values(:)   !! shape (m)
+      real(dp), intent(out) :: values(:)   !! shape (m) or (2 m)
 
       type(fourier_series) :: series
       real(dp), allocatable :: grid(:, :)
@@ -33,9 +33,10 @@ contains
 
       call self%terms%coefficients(x, series%c)
       call series%evaluate_on_grid(self%points_per_side - 1, grid)
-      do p = 1, size(values)
+      do p = 1, size(self%k)
          values(p) = grid(self%k(p), self%l(p))
       end do
+      if (size(values) > size(self%k)) values(size(self%k) + 1:) = -values(:size(self%k))
    end subroutine of
 
 end module wavycon_cosine_rows

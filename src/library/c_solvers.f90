@@ -5,7 +5,7 @@ module wavycon_c_solvers
       not_a_handle, put_text, text_at
    use wavycon_deck_run, only: run_deck
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
-   use wavycon_wavy_solver, only: make_solver, make_solver_of_deck, wavy_scales
+   use wavycon_wavy_solver, only: make_solver, make_solver_of_deck, make_solver_of_material, wavy_scales
    implicit none (type, external)
    private
 
@@ -36,6 +36,34 @@ contains
       end if
       handle = close_new(error, made, trouble)
    end function new_solver
+
+   type(c_ptr) function new_solver_of_material(error, surface, material, method, keep_fields) result(handle) &
+      bind(c, name='wavycon_new_solver_of_material')
+      type(c_ptr), value :: error, surface, material, method
+      integer(c_int), value :: keep_fields
+
+      type(error_type), allocatable :: trouble
+      type(handle_type), pointer :: from
+      type(handle_type), pointer :: made
+      character(:), allocatable :: keys, text
+
+      call begin_call()
+      call text_at(material, keys)
+      call text_at(method, text)
+      from => handle_at(surface)
+      allocate (made)
+      allocate (made%solver)
+      if (.not. allocated(keys)) then
+         call fatal_error(trouble, exit_bad_input, 'material is NULL')
+      else if (.not. allocated(text)) then
+         call fatal_error(trouble, exit_bad_input, 'method is NULL')
+      else if (.not. has_surface(from)) then
+         call fatal_error(trouble, exit_bad_input, not_a_handle//'surface')
+      else
+         call make_solver_of_material(from%surface, keys, text, keep_fields /= 0, made%solver, trouble)
+      end if
+      handle = close_new(error, made, trouble)
+   end function new_solver_of_material
 
    type(c_ptr) function new_solver_of_deck(error, path, keep_fields) result(handle) &
       bind(c, name='wavycon_new_solver_of_deck')
@@ -125,6 +153,23 @@ contains
       end if
       get_number_of_loads = close_call(error, trouble)
    end function get_number_of_loads
+
+   integer(c_int) function set_stress(error, solver, keys) bind(c, name='wavycon_set_stress')
+      type(c_ptr), value :: error, solver, keys
+
+      type(error_type), allocatable :: trouble
+      type(handle_type), pointer :: contents
+      character(:), allocatable :: text
+
+      call begin_call()
+      call find_solver(solver, contents, trouble)
+      call check_pointers([c_associated(keys)], trouble)
+      if (.not. allocated(trouble)) then
+         call text_at(keys, text)
+         call contents%solver%set_stress(text, trouble)
+      end if
+      set_stress = close_call(error, trouble)
+   end function set_stress
 
    type(c_ptr) function solve(error, solver, quantity, value) result(handle) bind(c, name='wavycon_solve')
       type(c_ptr), value :: error, solver, quantity

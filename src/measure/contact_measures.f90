@@ -13,13 +13,18 @@ module wavycon_contact_measures
 
    type :: contact_measures
       real(dp) :: mean_gap_over_amplitude = 1.0_dp       !! G: eqs. (19), (28)
-      real(dp) :: approach_over_amplitude = 0.0_dp       !! of the mean planes, delta'/Delta = 1 - G
+      !> Of the mean planes of the elastic bodies, delta'/Delta: 1 - G, and with a hardness more by the mean depth of imprints.
+      real(dp) :: approach_over_amplitude = 0.0_dp
       real(dp) :: contact_area_fraction = 0.0_dp         !! of the nominal area; 1 by definition from P = 1 on
       real(dp) :: peak_pressure_over_pstar = 0.0_dp      !! largest
       real(dp) :: min_pressure_over_pstar = 0.0_dp       !! smallest; negative between the points of a series
       real(dp) :: mean_gap_error = 0.0_dp                !! error estimate of the mean gap, in its unit
       real(dp) :: contact_area_error = 0.0_dp            !! likewise of the contact area
       real(dp) :: peak_pressure_error = 0.0_dp           !! likewise of the peak pressure
+      !> Where the pressure is the hardness: fraction of the nominal area, and of the load. With a hardness
+      !> contact_area_error holds for this area too.
+      real(dp) :: area_at_hardness_fraction = 0.0_dp
+      real(dp) :: load_at_hardness_fraction = 0.0_dp
    end type contact_measures
 
    !> Grid intervals on half a wavelength for areas and extremes: so many a harmonic, and at least so many.
@@ -66,54 +71,56 @@ contains
    end function unmeasured
 
    !> Measures the series of a pressure and its displacement, eqs. (19), (28) of Johnson, Greenwood & Higginson (1985).
-   !> The edge of contact is the isobar p = edge_level p*.
-   subroutine measure_series(pressure, displacement, edge_level, measures)
+   !> The edge of contact is the isobar p = edge_level p*. Mean gap and approach are those of a crest in elastic contact.
+   subroutine measure_series(pressure, displacement, edge_level, measures, hardness)
       type(fourier_series), intent(in) :: pressure       !! p/p*
       type(fourier_series), intent(in) :: displacement   !! (u - ubar)/Delta
       real(dp), intent(in) :: edge_level                !! over p*
       type(contact_measures), intent(out) :: measures
+      !> H/p*, huge or absent: there is none. The edge of the area where p = H is the isobar as far below H as that of
+      !> contact is above zero, but at least H/2.
+      real(dp), intent(in), optional :: hardness
+
+      real(dp) :: extremes(2)
 
       ! The crest, phi = theta = 0, is in contact and h = 0 there: the approach is the displacement.
       measures%approach_over_amplitude = sum(displacement%c)
       measures%mean_gap_over_amplitude = 1.0_dp - measures%approach_over_amplitude
-      if (size(pressure%c, 2) == 1) then
-         call measure_line(pressure, edge_level, measures)
-      else
-         call measure_plane(pressure, edge_level, measures)
-      end if
+      call measure_isobar(pressure, edge_level, measures%contact_area_fraction, extremes)
+      measures%min_pressure_over_pstar = extremes(1)
+      measures%peak_pressure_over_pstar = extremes(2)
+      if (.not. present(hardness)) return
+      if (.not. hardness < huge(hardness)) return
+      call measure_isobar(pressure, max(hardness - edge_level, 0.5_dp*hardness), measures%area_at_hardness_fraction, &
+                          extremes)
+      measures%load_at_hardness_fraction = hardness*measures%area_at_hardness_fraction/pressure%c(0, 0)
    end subroutine measure_series
 
-   subroutine measure_plane(pressure, edge_level, measures)
+   !> The area within an isobar, and the extreme pressures.
+   subroutine measure_isobar(pressure, level, area, extremes)
       type(fourier_series), intent(in) :: pressure
-      real(dp), intent(in) :: edge_level
-      type(contact_measures), intent(inout) :: measures
-
-      type(isobar_grid) :: grid
-
-      call start_isobar_grid(grid, pressure, edge_level, measuring_intervals(ubound(pressure%c, 1)))
-      measures%contact_area_fraction = grid%area_fraction()
-      measures%peak_pressure_over_pstar = maxval(grid%pressure) + edge_level
-      measures%min_pressure_over_pstar = minval(grid%pressure) + edge_level
-   end subroutine measure_plane
-
-   subroutine measure_line(pressure, edge_level, measures)
-      type(fourier_series), intent(in) :: pressure
-      real(dp), intent(in) :: edge_level
-      type(contact_measures), intent(inout) :: measures
+      real(dp), intent(in) :: level           !! over p*
+      real(dp), intent(out) :: area           !! fraction of the nominal area
+      real(dp), intent(out) :: extremes(2)    !! least and largest pressure over p*
 
       real(dp), allocatable :: edges(:), values(:, :)
       real(dp) :: line(0:ubound(pressure%c, 1))
+      type(isobar_grid) :: grid
       integer :: intervals
 
       intervals = measuring_intervals(ubound(pressure%c, 1))
+      if (size(pressure%c, 2) > 1) then
+         call start_isobar_grid(grid, pressure, level, intervals)
+         area = grid%area_fraction()
+         extremes = [minval(grid%pressure), maxval(grid%pressure)] + level
+         return
+      end if
       call pressure%evaluate_on_grid(intervals, values)
-      measures%peak_pressure_over_pstar = maxval(values)
-      measures%min_pressure_over_pstar = minval(values)
-
+      extremes = [minval(values), maxval(values)]
       line = pressure%c(:, 0)
-      line(0) = line(0) - edge_level
+      line(0) = line(0) - level
       call line_zeros(line, intervals, edges)
-      measures%contact_area_fraction = length_inside(edges, sum(line) >= 0.0_dp, 0.0_dp, pi)/pi
-   end subroutine measure_line
+      area = length_inside(edges, sum(line) >= 0.0_dp, 0.0_dp, pi)/pi
+   end subroutine measure_isobar
 
 end module wavycon_contact_measures

@@ -6,7 +6,7 @@ module wavycon_run_log
    use wavycon_map_statistics, only: map_statistics
    use wavycon_plain_text, only: escaped, integer_text, short_number
    use wavycon_results, only: results_type
-   use wavycon_scene, only: target_words
+   use wavycon_scene, only: scene_type, target_words
    use wavycon_stress_lines, only: heading_of_stresses, line_of_stress
    use wavycon_surface, only: surface_type
    use wavycon_solver_progress, only: solver_progress
@@ -103,13 +103,23 @@ contains
             short_number(scene%map%rms)//' ['//scene%length_unit//']')
          if (allocated(scene%map)) call show_broken_borders(self, scene%map, scene%length_unit)
          if (scene%has_units) call show_steep_slopes(self, scene%surface%rms_slope(), allocated(scene%map))
-         call self%say('material  E* = '//short_number(scene%e_star)//' ['//scene%pressure_unit//'], p* = '// &
-                       short_number(scene%p_star)//' ['//scene%pressure_unit//']')
+         call self%say('material  '//material_words(scene))
          call self%say('loads     '//integer_text(size(scene%target))//', '//target_words(scene%loads_by)// &
                        ' from '//short_number(minval(scene%target))//' to '//short_number(maxval(scene%target)))
          call self%say('method    '//results%solver%name()//', '//results%solver%describe())
       end associate
    end subroutine show_scene
+
+   !> Modulus, p* and, if there is one, hardness.
+   pure function material_words(scene) result(words)
+      type(scene_type), intent(in) :: scene
+      character(:), allocatable :: words
+
+      words = 'E* = '//short_number(scene%e_star)//' ['//scene%pressure_unit//'], p* = '//short_number(scene%p_star)// &
+              ' ['//scene%pressure_unit//']'
+      if (scene%surface%has_hardness()) words = words//', hardness = '// &
+         short_number(scene%surface%hardness*scene%p_star)//' ['//scene%pressure_unit//']'
+   end function material_words
 
    !> Warns of a map whose opposite borders do not fit together.
    subroutine show_broken_borders(self, map, length_unit)

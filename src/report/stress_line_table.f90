@@ -62,7 +62,7 @@ contains
       integer :: body, i, load
 
       associate (scene => results%scene)
-         call stress_depths(scene, depths)
+         call stress_depths(scene, .false., depths)
          allocate (parts(6, 2, size(depths)), errors(size(depths)), rows(size(columns) - 2, size(depths)))
          call results%open_table('stress_line', columns, file, in_blocks=.true.)
          do load = 1, size(results%loads)

@@ -67,7 +67,7 @@ contains
       real(dp) :: offset(2)
 
       points = map_points(results)
-      call stress_depths(results%scene, depths)
+      call stress_depths(results%scene, .true., depths)
       as_text = is_text(results%scene%output%text('map_format'), points)
       if (as_text) then
          call results%open_table('stress_planes', columns, file, in_blocks=.true.)

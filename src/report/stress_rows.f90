@@ -33,17 +33,22 @@ contains
                         stress_pressure(stress), error]
    end function stress_numbers
 
-   !> The depths that a deck gives [length].
-   subroutine stress_depths(scene, depths)
+   !> The depths of a table: those of planes are the list of depths, if there is one, and those of line and section the
+   !> range, if there is one.
+   subroutine stress_depths(scene, of_planes, depths)
       type(scene_type), intent(in) :: scene   !! with a group &stress
-      real(dp), allocatable, intent(out) :: depths(:)
+      logical, intent(in) :: of_planes
+      real(dp), allocatable, intent(out) :: depths(:)   !! [length]
 
       integer :: i, intervals, steps
+      logical :: by_list, has_range
 
       associate (stress => scene%stress)
-         if (stress%has('depths')) then
+         has_range = stress%has('depth_from') .or. stress%has('depth_to') .or. stress%has('depth_steps')
+         by_list = of_planes .or. .not. has_range
+         if (by_list .and. stress%has('depths')) then
             depths = stress%reals('depths')
-         else if (stress%has('depths_over_cell_x')) then
+         else if (by_list .and. stress%has('depths_over_cell_x')) then
             depths = scene%surface%length(1)*stress%reals('depths_over_cell_x')
          else
             steps = stress%integer('depth_steps')

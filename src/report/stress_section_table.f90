@@ -78,7 +78,7 @@ contains
 
       number = findloc(['x       ', 'diagonal', 'y       '] == results%scene%stress%text('section'), .true., dim=1)
       call start_surface_line(line, results, number)
-      call stress_depths(results%scene, depths)
+      call stress_depths(results%scene, .false., depths)
       allocate (t, source=[(maxval(line%angle(:, k) - line%angle(:, 0)), k=0, ubound(line%angle, 2))])
       allocate (parts(6, 2, size(t), size(depths)), errors(size(t), size(depths)))
       call results%open_table('stress_section', columns, file, in_blocks=.true.)

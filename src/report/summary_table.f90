@@ -12,11 +12,12 @@ module wavycon_summary_table
 
    public :: summary_table, summary_row
 
-   !> The errors are estimates; NaN if the solver has none.
+   !> The errors are estimates; NaN if the solver has none. Without a hardness nothing is at the hardness: NaN.
    character(45), parameter, public :: summary_columns(*) = [character(45) :: &
       'load[-]', 'pbar_over_pstar[-]', 'mean_gap_over_amplitude[-]', 'approach_over_amplitude[-]', &
       'contact_area_fraction[-]', 'peak_pressure_over_pstar[-]', 'min_pressure_over_pstar[-]', &
       'mean_gap_over_amplitude_error[-]', 'contact_area_fraction_error[-]', 'peak_pressure_over_pstar_error[-]', &
+      'area_at_hardness_fraction[-]', 'load_at_hardness_fraction[-]', &
       'mean_pressure[pressure]', 'mean_gap[length]', 'approach[length]', 'contact_area[area]', &
       'peak_pressure[pressure]', 'active_constraints[-]', 'iterations[-]', 'residual[-]', 'solver[-]', &
       'status_code[-]', 'status[-]']
@@ -76,19 +77,22 @@ contains
       integer, intent(in) :: load
       character(narrowest) :: words(size(summary_columns))
 
-      real(dp) :: errors(3)
+      real(dp) :: at_hardness(2), errors(3)
 
       associate (scene => results%scene, solution => results%loads(load)%solution, &
                  measures => results%loads(load)%solution%measures)
          errors = not_a_number()
          if (results%solver%has_error_estimates()) &
             errors = [measures%mean_gap_error, measures%contact_area_error, measures%peak_pressure_error]
+         at_hardness = not_a_number()
+         if (scene%surface%has_hardness()) &
+            at_hardness = [measures%area_at_hardness_fraction, measures%load_at_hardness_fraction]
          words = [character(narrowest) :: &
                   integer_text(load), &
                   number_words([solution%pbar_over_pstar, &
                                 measures%mean_gap_over_amplitude, measures%approach_over_amplitude, &
                                 measures%contact_area_fraction, measures%peak_pressure_over_pstar, &
-                                measures%min_pressure_over_pstar, errors, results%mean_pressure(load), &
+                                measures%min_pressure_over_pstar, errors, at_hardness, results%mean_pressure(load), &
                                 scene%surface%amplitude*measures%mean_gap_over_amplitude, &
                                 scene%surface%amplitude*measures%approach_over_amplitude, &
                                 product(scene%surface%length(:scene%surface%dimension))* &

@@ -5,13 +5,12 @@
 !> directory. Depths are mirrored at the surface, so that the search may end on it.
 module wavycon_largest_stress
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
-   use wavycon_constants, only: pi
    use wavycon_elastic_body, only: elastic_body
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dsyev
    use wavycon_stress_fields, only: stress_fields
    use wavycon_stress_tensor, only: largest_shear, von_mises
-   use wavycon_stress_tuning, only: close_to_largest, error_of_invariant, first_reach, gain_part, most_models, &
+   use wavycon_stress_tuning, only: close_to_largest, error_of_invariant, first_reach, gain_part, most_models, search_accuracy, &
       reach_factor, refined_places
    implicit none (type, external)
    private
@@ -20,9 +19,6 @@ module wavycon_largest_stress
 
    !> The quantities that can be searched for.
    integer, parameter, public :: by_von_mises = 1, by_shear = 2
-
-   !> Relative differences of stresses below this are rounding.
-   real(dp), parameter :: rounding = 1e-14_dp
 
    type :: largest_stress
       real(dp) :: value = 0.0_dp        !! [p*]
@@ -74,7 +70,7 @@ contains
       no_stress%place = no_stress%value
    end function no_stress
 
-   !> Refines the best of the places.
+   !> Refines the best of the places, each farther from those before it than twice the width of the stress.
    subroutine search(fields, body, quantity, places, widths, stresses, answer)
       class(stress_fields), intent(inout) :: fields
       type(elastic_body), intent(in) :: body
@@ -82,49 +78,38 @@ contains
       real(dp), intent(in) :: places(:, :), widths(:), stresses(:, :)   !! from start_places
       type(largest_stress), intent(out) :: answer
 
-      real(dp) :: error, gain, least_gain, parts(6, 2), values(size(widths))
+      real(dp) :: error, gain, least, least_gain, least_gain_needed, parts(6, 2), values(size(widths))
       type(largest_stress) :: other
-      integer :: best, i
+      integer :: best, i, k
 
       do i = 1, size(widths)
          values(i) = size_of(quantity, stresses(:, i))
       end do
+      least = 0.0_dp
       least_gain = 0.0_dp
       gain = 0.0_dp
       do i = 1, min(refined_places, size(widths))
          best = maxloc(values, dim=1)
-         if (values(best) < close_to_largest*answer%value) exit
+         if (i == 1) least = close_to_largest*values(best)
+         if (values(best) < least) exit
          other%value = values(best)
          other%place = places(:, best)
          call fields%at(other%place(1), other%place(2), other%place(3), parts, error)
-         call refine(fields, body, quantity, widths(best), gain_part*error, other, gain)
+         least_gain_needed = search_accuracy*other%value
+         if (.not. ieee_is_nan(error)) least_gain_needed = min(gain_part*error, least_gain_needed)
+         call refine(fields, body, quantity, widths(best), least_gain_needed, other, gain)
          if (i == 1 .or. other%value > answer%value) then
             answer = other
             least_gain = gain
          end if
-         ! Places about the same maximum are not refined again.
-         where (distances(fields, places, places(:, best)) < widths(best)) values = -1.0_dp
-         if (all(values < 0.0_dp)) exit
+         do k = 1, size(widths)
+            if (norm2(places(:, k) - places(:, best)) <= 2*widths(best)) values(k) = -1.0_dp
+         end do
       end do
       if (fields%dimension == 1) answer%place(2) = 0.0_dp
       call fields%at(answer%place(1), answer%place(2), answer%place(3), parts, answer%error)
       answer%error = error_of_invariant*answer%error + least_gain
    end subroutine search
-
-   !> The distances of places from a place, across the borders of the cell.
-   pure function distances(fields, places, place)
-      class(stress_fields), intent(in) :: fields
-      real(dp), intent(in) :: places(:, :), place(3)   !! X, Y, Z [rad]
-      real(dp) :: distances(size(places, 2))
-
-      integer :: i
-
-      do i = 1, size(places, 2)
-         associate (d => places(:, i) - place)
-            distances(i) = norm2([modulo(d(1) + pi, 2*pi) - pi, fields%side_ratio*(modulo(d(2) + pi, 2*pi) - pi), d(3)])
-         end associate
-      end do
-   end function distances
 
    !> Improves a place by quadratic models.
    subroutine refine(fields, body, quantity, width, enough, best, gain)
@@ -132,32 +117,33 @@ contains
       type(elastic_body), intent(in) :: body
       integer, intent(in) :: quantity
       real(dp), intent(in) :: width                  !! of the maximum [rad]
-      real(dp), intent(in) :: enough                 !! the search ends when a model gains less [p*]; NaN: at rounding
+      real(dp), intent(in) :: enough                 !! the search ends when a model gains less [p*]
       type(largest_stress), intent(inout) :: best    !! value and place
-      real(dp), intent(out) :: gain                  !! by the last model [p*]
+      real(dp), intent(out) :: gain                  !! by the last model, or what it promised if that is more [p*]
 
+      !> Relative gains below this are rounding.
+      real(dp), parameter :: rounding = 1e-14_dp
       integer, allocatable :: axes(:)
-      real(dp) :: before, least, reach, step
+      real(dp) :: before, least, promise, reach, step
       integer :: i
 
       allocate (axes, source=pack([1, 2, 3], [.true., fields%dimension > 1, .true.]))
-      least = rounding*best%value
-      if (.not. ieee_is_nan(enough)) least = max(enough, least)
+      least = max(enough, rounding*best%value)
       reach = first_reach*width
       do i = 1, most_models
          before = best%value
-         call improve(fields, body, quantity, axes, reach, best, step)
-         gain = best%value - before
-         ! A lucky model is followed by one that gains nothing: the error of a model counts too, see (S6).
-         if (max(gain, (reach/width)**4*best%value) <= least) exit
+         call improve(fields, body, quantity, axes, reach, best, step, promise)
+         ! A model that is too large for the stress may promise much and gain nothing: the next one is smaller.
+         gain = max(best%value - before, promise)
+         if (gain <= least) exit
          ! A place at the border of the model may be far from the maximum: the next model is as large.
-         if (step < 0.9_dp*reach) reach = reach_factor*reach
+         if (step < 0.9_dp*reach) reach = max(reach_factor*reach, min(step, reach))
       end do
    end subroutine refine
 
    !> Moves a place to the maximum of a quadratic function within a distance along each axis, or to the best of the points
    !> that the function is made from.
-   subroutine improve(fields, body, quantity, axes, reach, best, step)
+   subroutine improve(fields, body, quantity, axes, reach, best, step, promise)
       class(stress_fields), intent(inout) :: fields
       type(elastic_body), intent(in) :: body
       integer, intent(in) :: quantity
@@ -165,15 +151,18 @@ contains
       real(dp), intent(in) :: reach                  !! [rad]
       type(largest_stress), intent(inout) :: best
       real(dp), intent(out) :: step                  !! largest distance moved along an axis [rad]
+      real(dp), intent(out) :: promise               !! gain of the function's maximum, and its variation along axes without one [p*]
 
-      real(dp) :: curvature(size(axes), size(axes)), move(3), slope(size(axes)), start(3), value, value_here, &
-         values(-1:1)
-      integer :: i, j, k, l
+      !> Changes of the stress by rounding, over the stress.
+      real(dp), parameter :: rounding = 1e-14_dp
+      real(dp) :: axis(size(axes), size(axes)), curvature(size(axes)), move(3), slope(size(axes)), start(3), &
+         to_maximum(size(axes)), value, value_here, values(-1:1), work(3*3)
+      integer :: i, j, k, l, status
 
       start = best%place
       value_here = best%value
       ! The directions are in the order of `axes`, depth last: points of one depth follow each other.
-      curvature = 0.0_dp
+      axis = 0.0_dp
       do i = 1, size(axes)
          do k = -1, 1, 2
             move = 0.0_dp
@@ -183,17 +172,28 @@ contains
                do l = -1, 1, 2
                   move(axes(j)) = l*reach
                   call try(move, value)
-                  curvature(i, j) = curvature(i, j) + 0.25_dp*k*l*value
+                  axis(i, j) = axis(i, j) - 0.25_dp*k*l*value
                end do
                move(axes(j)) = 0.0_dp
             end do
          end do
          slope(i) = 0.5_dp*(values(1) - values(-1))
-         curvature(i, i) = values(1) - 2*value_here + values(-1)
-         curvature(:i - 1, i) = curvature(i, :i - 1)
+         axis(i, i) = 2*value_here - values(1) - values(-1)
+      end do
+      call dsyev('V', 'L', size(axes), axis, size(axes), curvature, work, size(work), status)
+      slope = matmul(slope, axis)
+      to_maximum = 0.0_dp
+      promise = 0.0_dp
+      do i = 1, size(axes)
+         if (curvature(i) > rounding*value_here) then
+            to_maximum = to_maximum + axis(:, i)*(slope(i)/curvature(i))
+            promise = promise + 0.5_dp*slope(i)**2/curvature(i)
+         else if (max(abs(slope(i)), abs(curvature(i))) > rounding*value_here) then
+            promise = promise + abs(slope(i)) + 0.5_dp*abs(curvature(i))
+         end if
       end do
       move = 0.0_dp
-      move(axes) = reach*step_to_maximum(slope, -curvature, rounding*value_here)
+      move(axes) = reach*to_maximum/max(1.0_dp, maxval(abs(to_maximum)))
       call try(move, value)
       step = maxval(abs(best%place - abs_depth(start)))
 
@@ -215,34 +215,6 @@ contains
       end subroutine try
 
    end subroutine improve
-
-   !> The maximum of g.d - (1/2) d.C d for |d_i| <= 1, along the principal axes of C. Where the function is not curved
-   !> downwards along an axis the step goes to the end on the side of the slope, or is zero if there is no slope.
-   pure function step_to_maximum(slope, curvature, least) result(step)
-      real(dp), intent(in) :: slope(:)          !! g, shape (n)
-      real(dp), intent(in) :: curvature(:, :)   !! C, symmetric, shape (n, n)
-      real(dp), intent(in) :: least             !! a smaller slope is none
-      real(dp) :: step(size(slope))
-
-      real(dp) :: along, axes(size(slope), size(slope)), values(size(slope)), work(3*size(slope))
-      integer :: i, status
-
-      step = 0.0_dp
-      axes = curvature
-      call dsyev('V', 'U', size(slope), axes, size(slope), values, work, size(work), status)
-      if (status /= 0) return
-      do i = 1, size(slope)
-         along = dot_product(axes(:, i), slope)
-         if (abs(along) <= least) cycle
-         if (values(i) > abs(along)) then
-            along = along/values(i)
-         else
-            along = sign(1.0_dp, along)
-         end if
-         step = step + along*axes(:, i)
-      end do
-      if (maxval(abs(step)) > 1.0_dp) step = step/maxval(abs(step))
-   end function step_to_maximum
 
    !> A place, mirrored at the surface if it is outside the body.
    pure function abs_depth(place)

@@ -125,7 +125,7 @@ contains
                   sums(7) = sums(7) - k*depth*wave%im
                   sums(8) = sums(8) - q_y*depth*wave%im
                   if (q > self%sampled_from) &
-                     sums(9:) = sums(9:) + (1.0_dp + q*depth)*[a, n_x*wave%im, n_y*wave%im]
+                     sums(9:) = sums(9:) + real(octave_weights(n_x, n_y, q*depth)*wave)
                end associate
             end do
          end associate

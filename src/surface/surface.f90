@@ -27,7 +27,9 @@ module wavycon_surface
       real(dp) :: stiffness = 1.0_dp            !! pressure [p*] over displacement [Delta] of a wave, times wavelength
       real(dp) :: full_contact_peak = 1.0_dp    !! largest p - pbar in full contact [p*]; the least is -1
       real(dp) :: crest_curvature = 1.0_dp      !! largest sum of the two curvatures over 4 pi^2 Delta [1/length^2]
+      real(dp) :: hardness = huge(1.0_dp)       !! H, the largest pressure that it bears [p*]; huge: it stays elastic
    contains
+      procedure :: has_hardness
       procedure :: full_contact_pressure
       procedure :: undeformed_gap_over_amplitude
       procedure :: rms_slope
@@ -105,6 +107,13 @@ contains
       call transform%sample(waves, values)
       surface%crest_curvature = maxval(values)
    end function surface_of_points
+
+   !> Whether the pressure has an upper bound.
+   elemental logical function has_hardness(self)
+      class(surface_type), intent(in) :: self
+
+      has_hardness = self%hardness < huge(self%hardness)
+   end function has_hardness
 
    !> p* [pressure], the mean pressure that just closes the gap everywhere: pi E* Delta/lambda for the 1-D wave (eq. 7),
    !> sqrt2 times that for the 2-D wave (eq. 22); for any surface the largest tension, pbar - p, in full contact.

@@ -19,6 +19,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT/"scripts"/"pictures"))
 import facts  # noqa: E402
 import fields  # noqa: E402
+import stresses  # noqa: E402
 import variables  # noqa: E402
 from axes import Scale, axis, chosen, marked_up  # noqa: E402
 from table import NotATable, Table  # noqa: E402
@@ -43,6 +44,13 @@ DECKS = {
           "&load pbar_over_pstar = 0.05, 0.4 /\n&method solver = 'auto' /\n&output " + TABLES + " /",
     "sweep": "&surface kind = 'wave_1d' /\n&load sweep_from = 0.05, sweep_to = 0.95, sweep_steps = 19 /\n"
              "&method solver = 'auto' /\n&output lines = t, contours = t, line_points = 16 /",
+    "stress": WAVE.replace("0, 0.1", "0.1") + "&stress nu = 0.3, line = t, section = 'x', planes = t,\n"
+              "depths_over_cell_x = 0, 0.05, 0.2 /\n&method solver = 'grid' /\n&output contours = t, map_points = 8 /",
+    "bodies": "&scene pressure_unit = 'Pa', length_unit = 'm' /\n"
+              "&surface kind = 'wave_1d', amplitude = 1e-6, wavelength = 1e-3 /\n"
+              "&material e1 = 210e9, nu1 = 0.3, e2 = 70e9, nu2 = 0.33 /\n&load pbar_over_pstar = 0.1, 0.6 /\n"
+              "&stress line = t, section = 'x', planes = t, depth_steps = 9, yield_stress = 1e9, 2e8 /\n"
+              "&method solver = 'auto' /\n&output map_points = 16, map_format = 'npy' /",
     "unsolved": "&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0.1, 0.22861 /\n"
                 "&method solver = 'fitted', accuracy = 1e-12 /",
 }
@@ -86,8 +94,8 @@ class Plot(unittest.TestCase):
     def test_every_table_in_every_format(self):
         kinds = set()
         for path in sorted(self.folder.glob("*.dat")) + sorted(self.folder.glob("*.npy")):
-            if path.name.startswith("sweep"):
-                continue
+            if path.name.startswith(("sweep", "bodies")):
+                continue   # they have more than can be shown, which is said
             kinds.add(Table(path).kind)
             for form, start in SOUND_START.items():
                 with self.subTest(table=path.name, format=form):
@@ -216,6 +224,53 @@ class Plot(unittest.TestCase):
         self.assertIn("none of the loads 99", self.plot("--loads", "99", "sweep.lines.dat", status=3)[1])
         self.assertIn("numbers of loads", self.plot("--loads", "a", "sweep.lines.dat", status=1)[1])
 
+    def test_stresses(self):
+        for kind, words in {"largest": ("von Mises stress σvM/p*", "shear stress τmax/p*", "depth z", "mean pressure p̄/p*"),
+                            "line": ("σxx/p*", "σzz/p*", "σvM/p*", "τmax/p*", "depth z", "p̄/p* = 0.5"),
+                            "section": ("depth z", "distance", "von Mises stress σvM/p*", "p̄/p* = 0.1"),
+                            "planes": ("z = 0.05", "von Mises stress", "p̄/p* = 0.1")}.items():
+            shown = self.drawn(f"stress.stress_{kind}.dat", name=f"stress.stress_{kind}.svg")
+            for word in words:
+                self.assertIn(word, shown)
+            self.assertNotIn("over yield", shown)
+            # By symmetry there is no shear stress below the crest.
+            self.assertNotIn("σxz", shown)
+        self.assertIn("σxz/p*", self.drawn("--variable", "stress_xz", "stress.stress_section.dat"))
+        shown = self.drawn("--depths", "3", "--loads=2", "stress.stress_planes.dat")
+        self.assertIn("z = 0.2", shown)
+        self.assertNotIn("z = 0.05", shown)
+        for words, complaint in ((("--variable", "stress_ab", "stress.stress_section.dat"), "no stress 'stress_ab'"),
+                                 (("--depths", "4", "stress.stress_planes.dat"), "none of the depths 4"),
+                                 (("--body", "2", "stress.stress_line.dat"), "no stresses of body 2"),
+                                 (("--body", "2", "stress.stress_largest.dat"), "no stresses of body 2")):
+            self.assertIn(complaint, self.plot(*words, status=3)[1])
+        self.assertIn("--body needs", self.plot("--body", "3", "stress.stress_line.dat", status=1)[1])
+
+    def test_stresses_of_two_bodies(self):
+        shown = self.drawn("bodies.stress_largest.dat")
+        for word in ("first body", "second body", "(MPa)", "(µm)", "over yield stress"):
+            self.assertIn(word, shown)
+        self.assertNotIn("first body", self.drawn("--body", "2", "bodies.stress_largest.dat"))
+        for name in ("bodies.stress_line.dat", "bodies.stress_section.dat", "bodies.stress_planes.npy"):
+            self.assertIn("--body 2 shows the second", self.plot("--format", "svg", name)[1])
+        self.assertIn("(MPa)", self.drawn("--body", "2", "--depths", "1,9", "bodies.stress_planes.npy"))
+        # Loads, bodies and depths of both formats are the same.
+        text = (self.folder/"bodies.nml").read_text().replace("'npy'", "'text'")
+        (self.folder/"bodies.nml").write_text(text)
+        subprocess.run([self.program, "bodies.nml", "--quiet", "--output", "bad"], cwd=self.folder, check=True)
+        binary, text = (Table(self.folder/name) for name in ("bodies.stress_planes.npy", "bad/bodies.stress_planes.dat"))
+        self.assertEqual([(block.load, block.body, block.columns["depth"][0]) for block in text.blocks],
+                         [(block.load, block.body, block.columns["depth"][0]) for block in binary.blocks])
+        self.assertEqual(2*2*9, len(binary.blocks))
+
+    def test_compared_stresses(self):
+        for kind in ("line", "largest"):
+            shown = self.drawn("--compare", f"stress.stress_{kind}.dat", f"stress.stress_{kind}.dat",
+                               name=f"stress.stress_{kind}.compare.svg")
+            self.assertIn("σvM/p*", shown)
+        section = "stress.stress_section.dat"
+        self.assertIn("can be compared", self.plot("--compare", section, section, status=3)[1])
+
     def test_files_that_are_no_tables(self):
         head = (self.folder/"auto.summary.dat").read_text().splitlines()[:7]
         contents = {"text.dat": b"Once upon a time.\n1 2 3\n", "numbers.dat": b"1 2 3\n4 5 6\n", "nothing.dat": b"",
@@ -317,6 +372,26 @@ class Numbers(unittest.TestCase):
                 self.assertEqual([1 + offset/4, 2*offset/3, 0.0, 0.0], points[4])
                 self.assertEqual([offset/4, 2 + 2*offset/3, 0.0, 0.0], points[15])
                 self.assertEqual([1 + (0 + offset)/4, 2*(1 + offset)/3, 1.0, -1.0], points[9])
+
+    def test_sections_are_resampled(self):
+        """Depths that are unequally spaced, in any order, become equally spaced ones."""
+        rows = {0.0: (1.0, 2.0), 0.1: (3.0, 4.0), 0.4: (9.0, 1.0)}
+        block = {"distance": [], "depth": [], "von_mises": []}
+        for depth in (0.1, 0.0, 0.4):
+            for distance, value in zip((0.0, 0.5), rows[depth]):
+                for name, number in (("distance", distance), ("depth", depth), ("von_mises", value)):
+                    block[name].append(number)
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder)/"map1-1"
+            columns, count = stresses.write_section(block, "von_mises", path)
+            numbers = memoryview(path.read_bytes()).cast("d").tolist()
+        self.assertEqual((2, 2*3*count), (columns, len(numbers)))
+        for k in range(0, len(numbers), 3):
+            distance, depth, value = numbers[k:k + 3]
+            i, (low, high) = int(2*distance), (0.0, 0.1) if depth < 0.1 else (0.1, 0.4)
+            expected = rows[low][i] + (rows[high][i] - rows[low][i])*(depth - low)/(high - low)
+            self.assertAlmostEqual(expected, value, delta=1e-12)
+        self.assertEqual([0.5, 0.4, 1.0], [round(number, 12) for number in numbers[-3:]])
 
     def test_a_table_needs_names(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -39,6 +39,8 @@ TOLERANCES = {
         "mean_gap_over_amplitude_error": SOLVED,  # estimates are differences of the numbers above, on two grids
         "contact_area_fraction_error": SOLVED,
         "peak_pressure_over_pstar_error": SOLVED,
+        "area_at_hardness_fraction": EDGE,
+        "load_at_hardness_fraction": EDGE,
         "mean_pressure": ARITHMETIC,
         "mean_gap": SOLVED,
         "approach": SOLVED,
