@@ -56,11 +56,11 @@ contains
    end function stress_table
 
    !> Sets the defaults that depend on &material and reports what is missing or contradicts.
-   subroutine check_stress_group(values, material, load, surface, problems)
+   subroutine check_stress_group(values, material, load, problems, surface)
       type(group_values), intent(inout) :: values
       type(group_values), intent(in) :: material, load
-      type(surface_type), allocatable, intent(in) :: surface   !! not allocated if its keys are bad
       type(problem_list_type), intent(inout) :: problems
+      type(surface_type), intent(in), optional :: surface   !! absent if it is not known, or its keys are bad
 
       logical :: has_range
       integer :: k
@@ -81,7 +81,7 @@ contains
          call values%complain(problems, 'planes', 'planes needs depths, depths_over_cell_x or a range of depths')
       end if
       if (.not. material%any_bad() .and. .not. values%is_bad('nu')) call take_ratios(values, material, problems)
-      if (allocated(surface)) then
+      if (present(surface)) then
          if (surface%dimension == 1 .and. any(values%text('section') == ['y       ', 'diagonal'])) &
             call values%complain(problems, 'section', "the surface does not change along y: section must be 'none' or 'x'")
       end if
