@@ -8,10 +8,10 @@ module wavycon_expansion_stress
    use wavycon_exterior_map, only: find_exterior
    use wavycon_expansion, only: expansion
    use wavycon_far_stress, only: far_nodes, far_stress, set_far_values, start_far_stress
-   use wavycon_fitted_tuning, only: far_bottom, far_top, near_clearance, series_depth
+   use wavycon_fitted_tuning, only: far_bottom, far_top, near_clearance, rule_angles_factor, &
+      rule_angles_per_degree, rule_fineness, rule_radii_factor, rule_radii_per_degree, series_depth
    use wavycon_kinds, only: dp
    use wavycon_shape_search, only: find_edge_in_direction, find_preimage
-   use wavycon_source_density, only: find_slopes
    use wavycon_stress_kernel, only: add_gap, add_pressure, stress_fields
    use wavycon_stress_rays, only: start_stress_rays, stress_rays
    use wavycon_stress_series, only: add_wave, start_stress_series, stress_series
@@ -25,12 +25,12 @@ module wavycon_expansion_stress
    !> Rules of rising fineness, before rays are taken.
    integer, parameter :: levels = 6
 
-   real(dp), public :: fa=1, fr=1
    type :: expansion_stress
       type(wave_lattice), private :: lattice
       type(expansion), private :: solution
       real(dp), private :: digits = 0.0_dp                   !! natural logarithm of 1/accuracy
       real(dp), private :: radius = 0.0_dp                   !! of the shape [s]
+      real(dp), private :: stretch = 0.0_dp                  !! largest derivative of its map, about [s]
       complex(dp), allocatable, private :: centre(:)         !! of the spots or islands near the cell [s]
       real(dp), allocatable, private :: half_turn(:)         !! 1, or -1 if turned by half a turn
       ! Made when first needed.
@@ -55,16 +55,22 @@ contains
       type(expansion), intent(in) :: solution
       real(dp), intent(in) :: accuracy             !! of the stresses over the peak pressure
 
-      real(dp), parameter :: finer = 1.6_dp
+      integer, parameter :: least_angles = 24, least_radii = 8
       integer :: i
 
       stress%lattice = lattice
       stress%solution = solution
       stress%digits = -log(min(max(accuracy, 1e-13_dp), 1e-2_dp)) + 2.0_dp
       stress%radius = 1.02_dp*solution%shape%radius()
+      associate (b => solution%shape%b, fold => solution%shape%fold)
+         stress%stretch = b(0)*(1.0_dp + (fold + 1)*solution%shape%clustering) &
+            + sum([((fold*i - 1)*abs(b(i)), i=1, ubound(b, 1))])
+      end associate
       associate (degree => solution%basis%degree)
-         stress%angles = [(ceiling(max(24.0_dp, 1.5_dp*degree)*finer**i), i=0, levels - 1)]
-         stress%radii = [(ceiling(max(8.0_dp, 0.5_dp*degree + 2)*finer**i), i=0, levels - 1)]
+         stress%angles = ceiling(max(least_angles, ceiling(rule_angles_per_degree*degree)) &
+                                 *rule_fineness**[(i, i=0, levels - 1)])
+         stress%radii = ceiling(max(least_radii, ceiling(rule_radii_per_degree*degree) + 2) &
+                                *rule_fineness**[(i, i=0, levels - 1)])
       end associate
       call find_centres(stress)
    end subroutine start_expansion_stress
@@ -196,7 +202,7 @@ contains
       associate (rows => self%lattice%rows)
          call plain_sources(self, self%radii(1), self%angles(1), place, strength)
          call start_stress_series(series, rows, place%re, place%im, strength, self%solution%island, far_top, &
-                                  self%digits + 2.0_dp)
+                                  self%digits + 9.0_dp)
          mean = -sum(strength)/rows%spacing
          ! Of one spot or island from its centre.
          if (self%solution%island) then
@@ -205,7 +211,7 @@ contains
          end if
          sides = [0.5_dp, 0.5_dp*rows%spacing]
          if (rows%along_y) sides = sides([2, 1])
-         terms = far_sizes(sides, self%digits - 3.0_dp)
+         terms = far_sizes(sides, self%digits - 1.0_dp)
          allocate (self%far)
          call start_far_stress(self%far, sides(1), sides(2), far_top, far_bottom, self%solution%island, terms)
          allocate (x(terms(1)), y(terms(2)), z(terms(3)), values(terms(1), terms(2), terms(3), stress_fields))
@@ -273,14 +279,18 @@ contains
       real(dp), intent(in) :: depth
       real(dp), intent(inout) :: fields(stress_fields)
 
-      complex(dp) :: conjugate_slope(1), edge, origin, slope(1), v
-      real(dp) :: own(stress_fields), stretch
+      real(dp), parameter :: far_from_disc = 1.5_dp
+      complex(dp) :: edge, origin, v
+      real(dp) :: own(stress_fields)
       integer :: level
       logical :: inside, found
 
       own = 0.0_dp
-      level = level_for(self, abs(z)/self%radius, depth/self%radius)
-      if (level > 1) then
+      inside = .false.
+      origin = 1.0_dp
+      if (hypot(abs(z), depth) > far_from_disc*self%radius) then
+         level = level_for(self, abs(z)/self%radius, depth/self%radius)
+      else
          call find_preimage(self%solution%shape, z, origin, found)
          inside = found .and. abs(origin) <= 1.0_dp
          v = origin
@@ -289,9 +299,7 @@ contains
             if (.not. found) call find_edge_in_direction(self%solution%shape, z, v, edge)
             origin = v/abs(v)
          end if
-         call find_slopes(self%solution%shape, 1, [origin], slope, conjugate_slope)
-         stretch = abs(slope(1)) + abs(conjugate_slope(1))
-         level = level_for(self, abs(v), depth/stretch)
+         level = level_for(self, abs(v), depth/self%stretch)
       end if
       if (level <= levels) then
          call self%prepare_rule(level)
@@ -325,7 +333,8 @@ contains
       radial = abs(pole + sqrt(pole - 1.0_dp)*sqrt(pole + 1.0_dp))
       radial = 2*log(max(radial, 1/radial))
       do level = 1, levels
-         if (self%angles(level)*angular >= fa*self%digits .and. self%radii(level)*radial >= fr*self%digits) exit
+         if (self%angles(level)*angular >= rule_angles_factor*self%digits .and. &
+             self%radii(level)*radial >= rule_radii_factor*self%digits) exit
       end do
    end function level_for
 

@@ -165,8 +165,8 @@ contains
       real(dp), intent(in) :: depth                       !! between 0 and the lowest node [s]
       real(dp), intent(inout) :: fields(stress_fields)
 
-      real(dp) :: of_x(0:self%n(1) - 1), of_y(0:self%n(2) - 1), of_z(0:self%n(3), 2), plane(0:self%n(2) - 1, 0:self%n(3), &
-                  stress_fields), value
+      real(dp) :: of_x(0:self%n(1) - 1), of_y(0:self%n(2) - 1), of_z(0:self%n(3), 2), &
+                  plane(0:self%n(2) - 1, 0:self%n(3), stress_fields), value
       integer :: f, i, k, rest
 
       of_x = chebyshev_polynomials(2*(x/self%width)**2 - 1.0_dp, self%n(1))

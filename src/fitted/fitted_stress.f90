@@ -18,7 +18,8 @@ module wavycon_fitted_stress
       real(dp), private :: accuracy = 0.0_dp
       real(dp), private :: peak_pressure = 0.0_dp                  !! of the answer [pi E* Delta/s]
       real(dp), private :: misfit_decay(2) = 1.0_dp
-      type(expansion_stress), allocatable, private :: of_degree(:) !! of the answer's expansion and those of lower degrees
+      type(expansion_stress), allocatable, private :: of_degree(:)
+         !! of the answer's expansion and those of lower degrees, shape (0:.)
    contains
       procedure :: at
    end type fitted_stress

@@ -6,6 +6,8 @@
 module wavycon_stress_rays
    use wavycon_constants, only: pi
    use wavycon_expansion, only: expansion
+   use wavycon_fitted_tuning, only: ray_angles_of_strain, ray_angles_per_unit, ray_points, ray_points_per_degree, &
+      ray_points_per_unit, ray_points_per_unit_and_degree
    use wavycon_gauss_rules, only: gauss_jacobi
    use wavycon_kinds, only: dp
    use wavycon_source_density, only: find_density, find_slopes, place_differences
@@ -20,11 +22,10 @@ module wavycon_stress_rays
    end type gauss_rule
 
    type :: stress_rays
-      real(dp) :: least_angles = 0.0_dp               !! of a quarter of a turn
-      real(dp) :: angles_per_unit = 0.0_dp            !! more of them for each unit of the quarter's length in x
-      real(dp) :: least_points = 0.0_dp               !! on a ray
-      real(dp) :: points_per_unit = 0.0_dp            !! more of them for each unit of the ray's length in eta
-      type(gauss_rule), allocatable :: rules(:)       !! of 4, 8, 12, .. points
+      real(dp), private :: least_points = 0.0_dp               !! on a ray, and directions in a quarter of a turn
+      real(dp), private :: angles_per_unit = 0.0_dp            !! more directions for each unit of a quarter in x
+      real(dp), private :: points_per_unit = 0.0_dp            !! more points for each unit of a ray in eta
+      type(gauss_rule), allocatable, private :: rules(:)       !! of 4, 8, 12, .. points
    contains
       procedure :: add_at
    end type stress_rays
@@ -43,11 +44,10 @@ contains
 
       integer :: i
 
-      associate (share => digits/27)
-         rays%least_angles = 1.2_dp*share*(8.0_dp + 0.25_dp*degree)
-         rays%angles_per_unit = 1.2_dp*share*4.0_dp
-         rays%least_points = 1.2_dp*share*(8.0_dp + 0.25_dp*degree)
-         rays%points_per_unit = 1.2_dp*share*(0.9_dp + degree/16.0_dp)
+      associate (share => digits/27.0_dp)
+         rays%least_points = share*(ray_points + ray_points_per_degree*degree)
+         rays%angles_per_unit = share*ray_angles_per_unit
+         rays%points_per_unit = share*(ray_points_per_unit + ray_points_per_unit_and_degree*degree)
       end associate
       allocate (rays%rules(most_rules))
       do i = 1, most_rules
@@ -86,7 +86,8 @@ contains
       if (on_surface) call find_density(solution, 1, [origin], [edge], density)
       ! The integrand is singular at complex directions of imaginary part kappa, where the map's derivative vanishes.
       kappa = 0.5_dp*log(abs(slope(1))/max(abs(conjugate_slope(1)), tiny(1.0_dp)))
-      rule = rule_for((self%least_angles + self%angles_per_unit*asinh(0.5_dp*pi/width))*max(1.0_dp, 1.1_dp*kappa**(-0.4_dp)))
+      rule = rule_for((self%least_points + self%angles_per_unit*asinh(0.5_dp*pi/width)) &
+                      *max(1.0_dp, ray_angles_of_strain*kappa**(-0.4_dp)))
       associate (n => size(self%rules(rule)%node))
          call find_directions(self%rules(rule), width, cosine(:n), sine(:n), weight(:n))
          do quarter = 1, merge(2, 4, edge <= at_edge)

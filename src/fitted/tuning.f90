@@ -289,6 +289,33 @@ module wavycon_fitted_tuning
    real(dp), parameter, public :: far_bottom = 0.35_dp
       !! Largest depth of the table's nodes [s]. As far_top, the other way round.
 
+   real(dp), parameter, public :: rule_angles_per_degree = 2.0_dp
+      !! Angles of the coarsest rule over the disc, over the degree. Smaller: the expansion is not resolved near
+      !! merging. Larger: more points for every spot or island near by.
+   real(dp), parameter, public :: rule_radii_per_degree = 0.5_dp
+      !! The same of its radii.
+   real(dp), parameter, public :: rule_fineness = 1.6_dp
+      !! Factor from one rule to the next. Smaller: more rules to make. Larger: rules finer than needed.
+   real(dp), parameter, public :: rule_angles_factor = 1.3_dp
+      !! Angles that a place needs, over those that it would need above a round disc. Smaller: the rule's error shows.
+      !! Larger: finer rules, or rays, than needed.
+   real(dp), parameter, public :: rule_radii_factor = 1.5_dp
+      !! The same of radii.
+   real(dp), parameter, public :: ray_points = 9.6_dp
+      !! Points on a ray, and directions in a quarter of a turn, at an accuracy of 2e-12, beside the following. Smaller:
+      !! the quadrature's error shows next to spots and islands. Larger: slower rays.
+   real(dp), parameter, public :: ray_points_per_degree = 0.3_dp
+      !! More of both for each degree.
+   real(dp), parameter, public :: ray_angles_per_unit = 4.8_dp
+      !! More directions for each factor of e in the distance from the edge.
+   real(dp), parameter, public :: ray_points_per_unit = 1.08_dp
+      !! More points for each factor of e in the distance from the place.
+   real(dp), parameter, public :: ray_points_per_unit_and_degree = 0.075_dp
+      !! The same for each degree.
+   real(dp), parameter, public :: ray_angles_of_strain = 1.1_dp
+      !! Factor on the number of directions where the map is far from conformal, README.md (F63). Smaller: the
+      !! quadrature's error shows at tips. Larger: slower rays.
+
    ! Geometry of shapes.
 
    integer, parameter, public :: radius_points = 8

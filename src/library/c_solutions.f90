@@ -9,6 +9,8 @@ module wavycon_c_solutions
    implicit none (type, external)
    private
 
+   public :: find_solution
+
 contains
 
    integer(c_int) function get_measures(error, solution, measures) bind(c, name='wavycon_get_measures')

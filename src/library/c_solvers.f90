@@ -154,6 +154,23 @@ contains
       get_number_of_loads = close_call(error, trouble)
    end function get_number_of_loads
 
+   integer(c_int) function set_stress(error, solver, keys) bind(c, name='wavycon_set_stress')
+      type(c_ptr), value :: error, solver, keys
+
+      type(error_type), allocatable :: trouble
+      type(handle_type), pointer :: contents
+      character(:), allocatable :: text
+
+      call begin_call()
+      call find_solver(solver, contents, trouble)
+      call check_pointers([c_associated(keys)], trouble)
+      if (.not. allocated(trouble)) then
+         call text_at(keys, text)
+         call contents%solver%set_stress(text, trouble)
+      end if
+      set_stress = close_call(error, trouble)
+   end function set_stress
+
    type(c_ptr) function solve(error, solver, quantity, value) result(handle) bind(c, name='wavycon_solve')
       type(c_ptr), value :: error, solver, quantity
       real(c_double), value :: value

@@ -1,4 +1,5 @@
-!> Solutions of the public interface: measures, status, fields and the edge of contact, in the user's units.
+!> Solutions of the public interface: measures, status, fields, the edge of contact and the stresses below it, in the
+!> user's units.
 module wavycon_wavy_solution
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_c_binding, only: c_double, c_int
@@ -12,6 +13,7 @@ module wavycon_wavy_solution
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, exit_fine, exit_not_converged, fatal_error
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: integer_text
+   use wavycon_solution_stress, only: solution_stress, wavy_largest_stress
    use wavycon_surface, only: surface_type
    use wavycon_system, only: has_memory_for
    implicit none (type, external)
@@ -21,6 +23,9 @@ module wavycon_wavy_solution
 
    !> Most points of a map.
    integer(int64), parameter, public :: most_map_points = 8192_int64**2
+
+   !> Numbers of double precision that a map takes a point: fields or stresses, the work space of transforms and copies.
+   integer(int64), parameter :: numbers_of_fields = 8, numbers_of_stresses = 28
 
    !> The numbers of a load, named as the columns of the summary table. Errors are estimates; NaN if the solver has
    !> none.
@@ -59,6 +64,7 @@ module wavycon_wavy_solution
       class(contact_solution), allocatable :: solution
       type(surface_type), allocatable :: surface          !! allocated if the fields were kept
       class(contact_fields), allocatable :: fields        !! allocated at their first use
+      type(solution_stress), allocatable :: stresses      !! allocated at their first use
       type(wavy_measures) :: numbers
       real(dp) :: length(2) = 1.0_dp                      !! L_x, L_y [length]
       real(dp) :: amplitude = 0.0_dp                      !! Delta [length]
@@ -74,7 +80,12 @@ module wavycon_wavy_solution
       procedure :: at
       procedure :: edges
       procedure :: details
+      generic :: stress => stress_at_point, stress_at_points
+      procedure :: stress_plane
+      procedure :: largest_stress
+      procedure, private :: stress_at_point, stress_at_points
       procedure, private :: prepare_fields
+      procedure, private :: prepare_stresses
    end type wavy_solution
 
 contains
@@ -181,7 +192,7 @@ contains
       first = 0.0_dp
       if (present(offset)) first = offset
       call self%prepare_fields(error)
-      if (.not. allocated(error)) call check_points(points, self%surface%dimension, first, error)
+      if (.not. allocated(error)) call check_points(points, self%surface%dimension, first, numbers_of_fields, error)
       if (allocated(error)) return
       if (self%p_star > 0.0_dp) then
          call self%fields%on_grid(points, first, pressure, displacement, gap)
@@ -264,22 +275,140 @@ contains
       if (found) call self%solution%details(answer, found)
    end subroutine details
 
+   !> The stress at one point in a body: xx, yy, zz, xy, xz, yz, tension positive, z into the body. NaN for a load
+   !> without a solution. Errors: exit_bad_input for a solution that was not made or has no fields, and for arguments
+   !> that are not finite or out of range; exit_file_trouble without memory.
+   subroutine stress_at_point(self, x, y, depth, nu, lateral, stress, error, stress_error)
+      class(wavy_solution), intent(inout) :: self
+      real(dp), intent(in) :: x, y                   !! [length]
+      real(dp), intent(in) :: depth                  !! >= 0 [length]
+      real(dp), intent(in) :: nu                     !! Poisson's ratio of the body, -1 < nu <= 1/2
+      !> Lateral stresses of the mean pressure: 'constrained', 'free' or 'hydrostatic', as the key of &stress.
+      character(*), intent(in) :: lateral
+      real(dp), intent(out) :: stress(6)             !! [pressure]
+      type(error_type), allocatable, intent(out) :: error
+      !> Estimate of the largest error of a component [pressure]; NaN if the solver has none.
+      real(dp), intent(out), optional :: stress_error
+
+      real(dp), allocatable :: errors(:), stresses(:, :)
+
+      stress = 0.0_dp
+      if (present(stress_error)) stress_error = 0.0_dp
+      call self%stress_at_points([x], [y], [depth], nu, lateral, stresses, error, errors)
+      if (allocated(error)) return
+      stress = stresses(:, 1)
+      if (present(stress_error)) stress_error = errors(1)
+   end subroutine stress_at_point
+
+   !> The stress at n points, likewise. Errors also: exit_bad_input for arrays of different sizes.
+   subroutine stress_at_points(self, x, y, depth, nu, lateral, stress, error, stress_error)
+      class(wavy_solution), intent(inout) :: self
+      real(dp), intent(in) :: x(:), y(:), depth(:)                 !! shape (n) [length]
+      real(dp), intent(in) :: nu
+      character(*), intent(in) :: lateral
+      real(dp), allocatable, intent(out) :: stress(:, :)           !! shape (6, n) [pressure]
+      type(error_type), allocatable, intent(out) :: error
+      real(dp), allocatable, intent(out), optional :: stress_error(:)   !! shape (n) [pressure]
+
+      real(dp), allocatable :: errors(:)
+
+      call self%prepare_stresses(error)
+      if (.not. allocated(error)) call self%stresses%at(x, y, depth, nu, lateral, stress, errors, error)
+      if (present(stress_error)) call move_alloc(errors, stress_error)
+   end subroutine stress_at_points
+
+   !> The stress at the points of `map`, at one depth. It is faster than `stress` at as many points. Errors: as of
+   !> `stress`, and exit_bad_input for a bad number of points.
+   subroutine stress_plane(self, points, depth, nu, lateral, stress, error, stress_error, offset)
+      class(wavy_solution), intent(inout) :: self
+      integer, intent(in) :: points(2)                             !! N_x, N_y >= 1; N_y = 1 for a profile
+      real(dp), intent(in) :: depth                                !! >= 0 [length]
+      real(dp), intent(in) :: nu                                   !! as of `stress`
+      character(*), intent(in) :: lateral
+      real(dp), allocatable, intent(out) :: stress(:, :, :)        !! shape (6, N_x, N_y) [pressure]
+      type(error_type), allocatable, intent(out) :: error
+      real(dp), allocatable, intent(out), optional :: stress_error(:, :)   !! shape (N_x, N_y) [pressure]
+      real(dp), intent(in), optional :: offset(2)                  !! of the first point, in steps; 0 if absent
+
+      real(dp), allocatable :: errors(:, :)
+      real(dp) :: first(2)
+
+      first = 0.0_dp
+      if (present(offset)) first = offset
+      call self%prepare_stresses(error)
+      if (.not. allocated(error)) call check_points(points, self%surface%dimension, first, numbers_of_stresses, error)
+      if (allocated(error)) return
+      if (self%surface%dimension == 1) first(2) = 0.0_dp
+      call self%stresses%on_plane(points, first, depth, nu, lateral, stress, errors, error)
+      if (present(stress_error)) call move_alloc(errors, stress_error)
+   end subroutine stress_plane
+
+   !> The largest von Mises stress and the largest shear stress in a body, and where they are. Errors: as of `stress`.
+   subroutine largest_stress(self, nu, lateral, largest, error)
+      class(wavy_solution), intent(inout) :: self
+      real(dp), intent(in) :: nu                        !! as of `stress`
+      character(*), intent(in) :: lateral
+      type(wavy_largest_stress), intent(out) :: largest
+      type(error_type), allocatable, intent(out) :: error
+
+      call self%prepare_stresses(error)
+      if (.not. allocated(error)) call self%stresses%largest(nu, lateral, largest, error)
+   end subroutine largest_stress
+
    !> Makes the fields, once. Errors: exit_bad_input if there are none.
    subroutine prepare_fields(self, error)
       class(wavy_solution), intent(inout) :: self
       type(error_type), allocatable, intent(out) :: error
 
       if (allocated(self%fields)) return
-      if (.not. allocated(self%solution)) then
-         call fatal_error(error, exit_bad_input, 'there is no solution: no load has been solved')
-      else if (.not. allocated(self%surface)) then
-         call fatal_error(error, exit_bad_input, 'there are no fields: the solver was made without them')
-      else if (is_failure(self%solution)) then
+      call check_kept(self, error)
+      if (allocated(error)) return
+      if (is_failure(self%solution)) then
          call fatal_error(error, exit_bad_input, 'there are no fields: the status of the solution is '//self%status())
       else
          call self%solution%fields(self%surface, self%fields)
       end if
    end subroutine prepare_fields
+
+   !> Makes the stresses, once. Errors: exit_bad_input if the fields were not kept; exit_file_trouble without memory.
+   subroutine prepare_stresses(self, error)
+      class(wavy_solution), intent(inout) :: self
+      type(error_type), allocatable, intent(out) :: error
+
+      !> Series, their waves and copies of them, in numbers a point of the grid.
+      integer(int64), parameter :: numbers = 8
+      integer :: points(2)
+      real(dp) :: offset(2)
+
+      if (allocated(self%stresses)) return
+      call check_kept(self, error)
+      points = 0
+      if (.not. allocated(error)) then
+         if (.not. is_failure(self%solution)) call self%own_points(points, offset, error)
+      end if
+      if (allocated(error)) return
+      if (.not. has_memory_for(numbers*product(int(points, int64)))) then
+         call fatal_error(error, exit_file_trouble, 'there is not the memory for the stresses')
+         return
+      end if
+      allocate (self%stresses)
+      self%stresses%length = self%length
+      self%stresses%p_star = self%p_star
+      self%stresses%mean_pressure = self%numbers%mean_pressure
+      if (self%p_star > 0.0_dp) call self%solution%stresses(self%surface, self%stresses%fields)
+   end subroutine prepare_stresses
+
+   !> Errors: exit_bad_input if there is no solution or its fields were not kept.
+   subroutine check_kept(solution, error)
+      class(wavy_solution), intent(in) :: solution
+      type(error_type), allocatable, intent(out) :: error
+
+      if (.not. allocated(solution%solution)) then
+         call fatal_error(error, exit_bad_input, 'there is no solution: no load has been solved')
+      else if (.not. allocated(solution%surface)) then
+         call fatal_error(error, exit_bad_input, 'there are no fields: the solver was made without them')
+      end if
+   end subroutine check_kept
 
    !> Whether a solution stands for a failure and has no numbers.
    pure logical function is_failure(solution)
@@ -292,14 +421,12 @@ contains
       end select
    end function is_failure
 
-   !> Checks the points of a map. Errors: exit_bad_input.
-   subroutine check_points(points, dimension, offset, error)
+   !> Checks the points of a map. Errors: exit_bad_input, and exit_file_trouble without memory.
+   subroutine check_points(points, dimension, offset, numbers, error)
       integer, intent(in) :: points(2), dimension
       real(dp), intent(in) :: offset(2)
+      integer(int64), intent(in) :: numbers    !! of double precision that a point needs
       type(error_type), allocatable, intent(out) :: error
-
-      !> The three fields and the work space of transforms, in numbers a point.
-      integer(int64), parameter :: numbers = 8
 
       if (any(points < 1) .or. product(int(points, int64)) > most_map_points) then
          call fatal_error(error, exit_bad_input, 'a map needs 1 or more points a side and at most '// &

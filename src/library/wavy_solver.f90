@@ -18,9 +18,11 @@ module wavycon_wavy_solver
    use wavycon_problem_report, only: problem_report
    use wavycon_problems, only: problem_list_type
    use wavycon_read_deck, only: read_deck
-   use wavycon_scene, only: by_pressure, scene_type
+   use wavycon_scene, only: by_pressure, by_yield, scene_type
+   use wavycon_solution_stress, only: stress_setting_of_keys
    use wavycon_solve_target, only: solve_target
    use wavycon_solver_list, only: start_solver
+   use wavycon_stress_setting, only: stress_setting
    use wavycon_surface, only: surface_type
    use wavycon_wavy_solution, only: start_solution, wavy_solution
    use wavycon_wavy_surface, only: copy_surface, number_words, wavy_surface
@@ -45,10 +47,12 @@ module wavycon_wavy_solver
       class(contact_solver), allocatable :: solver
       real(dp) :: e_star = 1.0_dp                     !! [pressure]
       real(dp) :: p_star = 0.0_dp                     !! [pressure]
-      logical :: keep_fields = .true.
+      logical :: keep_fields = .true.                 !! in the solutions that the caller gets
+      logical :: has_fields = .true.                  !! whether the solver has them, which loads by the key yield need
       integer :: loads_by = by_pressure               !! of the deck's loads
       real(dp), allocatable :: target(:)              !! of the deck's loads, as of scene_type
       real(dp), allocatable :: mean_pressure(:)
+      type(stress_setting), allocatable :: stress     !! of the deck's &stress or of set_stress
       character(:), allocatable :: trouble            !! why it could not be made
    contains
       procedure :: is_made
@@ -57,6 +61,7 @@ module wavycon_wavy_solver
       procedure :: why_chosen
       procedure :: scales
       procedure :: number_of_loads
+      procedure :: set_stress
       procedure :: solve
       procedure :: solve_load
       procedure, private :: solve_one
@@ -114,6 +119,7 @@ contains
          return
       end if
       solver%keep_fields = keep_fields
+      solver%has_fields = keep_fields
       call start_solver(inner, values, keep_fields, solver%solver)
    end subroutine make_solver_of_material
 
@@ -137,10 +143,12 @@ contains
       solver%e_star = scene%e_star
       solver%p_star = scene%p_star
       solver%keep_fields = keep_fields
+      solver%has_fields = keep_fields .or. scene%loads_by == by_yield
       solver%loads_by = scene%loads_by
       call move_alloc(scene%target, solver%target)
       if (allocated(scene%mean_pressure)) call move_alloc(scene%mean_pressure, solver%mean_pressure)
-      call start_solver(scene%surface, scene%method, keep_fields, solver%solver)
+      if (allocated(scene%stress_setting)) call move_alloc(scene%stress_setting, solver%stress)
+      call start_solver(scene%surface, scene%method, solver%has_fields, solver%solver)
    end subroutine make_solver_of_deck
 
    !> Whether the solver has been made.
@@ -196,11 +204,26 @@ contains
       if (allocated(self%target)) number_of_loads = size(self%target)
    end function number_of_loads
 
+   !> Sets what loads by the key yield need. Errors: exit_bad_input if the solver has not been made, and with all
+   !> problems of `keys`.
+   subroutine set_stress(self, keys, error)
+      class(wavy_solver), intent(inout) :: self
+      !> Keys of &stress, such as "nu = 0.3, yield_stress = 1e9"; those of tables have no effect.
+      character(*), intent(in) :: keys
+      type(error_type), allocatable, intent(out) :: error
+
+      type(stress_setting), allocatable :: setting
+
+      call check_made(self, error)
+      if (.not. allocated(error)) call stress_setting_of_keys(keys, self%p_star, setting, error)
+      if (.not. allocated(error)) call move_alloc(setting, self%stress)
+   end subroutine set_stress
+
    !> Solves one load. A load that cannot be solved as requested is no error, but the status of the solution. Errors:
    !> exit_bad_input for a quantity that is none or a value that it cannot have.
    subroutine solve(self, quantity, value, solution, error)
       class(wavy_solver), intent(inout) :: self
-      character(*), intent(in) :: quantity   !! a key of &load, such as pbar_over_pstar, mean_pressure, mean_gap
+      character(*), intent(in) :: quantity   !! a key of &load, such as pbar_over_pstar, mean_pressure, mean_gap, yield
       real(dp), intent(in) :: value          !! in the unit of that key
       type(wavy_solution), intent(out) :: solution
       type(error_type), allocatable, intent(out) :: error
@@ -252,11 +275,11 @@ contains
       end if
    end subroutine solve_load
 
-   !> Errors: as of start_solution.
+   !> Errors: as of start_solution and check_yield.
    subroutine solve_one(self, loads_by, target, mean_pressure, solution, error)
       class(wavy_solver), intent(inout) :: self
       integer, intent(in) :: loads_by                     !! a name of wavycon_scene
-      real(dp), intent(in) :: target                      !! P, G or the contact area fraction
+      real(dp), intent(in) :: target                      !! as of scene_type
       real(dp), intent(in), optional :: mean_pressure     !! [pressure], if it is given
       type(wavy_solution), intent(out) :: solution
       type(error_type), allocatable, intent(out) :: error
@@ -264,7 +287,9 @@ contains
       class(contact_solution), allocatable :: found
       real(dp) :: pressure
 
-      call solve_target(self%solver, loads_by, target, found)
+      if (loads_by == by_yield) call check_yield(self, error)
+      if (allocated(error)) return
+      call solve_target(self%solver, loads_by, target, found, self%stress)
       if (present(mean_pressure)) then
          pressure = mean_pressure
       else
@@ -273,6 +298,22 @@ contains
       call start_solution(found, self%solver%surface, self%p_star, pressure, self%keep_fields, &
                           self%solver%has_error_estimates(), solution, error)
    end subroutine solve_one
+
+   !> Errors: exit_bad_input if the solver cannot find loads by the key yield.
+   subroutine check_yield(self, error)
+      class(wavy_solver), intent(in) :: self
+      type(error_type), allocatable, intent(out) :: error
+
+      logical :: has_yield_stress
+
+      has_yield_stress = allocated(self%stress)
+      if (has_yield_stress) has_yield_stress = allocated(self%stress%yield_stress)
+      if (.not. has_yield_stress) then
+         call fatal_error(error, exit_bad_input, 'yield needs yield_stress, which set_stress sets')
+      else if (.not. self%has_fields) then
+         call fatal_error(error, exit_bad_input, 'yield needs a solver that keeps the fields')
+      end if
+   end subroutine check_yield
 
    !> Errors: exit_bad_input if the solver has not been made, with the reason.
    subroutine check_made(self, error)

@@ -23,6 +23,8 @@ module wavycon
    use wavycon_line_crack
    use wavycon_near_closure
    use wavycon_penny_crack
+   use wavycon_solution_stress, only: wavy_largest_stress
+   use wavycon_stress_tensor, only: largest_shear, principal_stresses, von_mises
    use wavycon_threads, only: set_threads
    use wavycon_version, only: revision, version
    use wavycon_wavy_solution, only: wavy_edge, wavy_measures, wavy_solution

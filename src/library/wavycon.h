@@ -85,6 +85,23 @@ typedef struct wavycon_scales {
     int dimension; /* 1 for a profile, otherwise 2 */
 } wavycon_scales;
 
+/* The largest stresses of a load in one body, named as the columns of the table of largest stresses. Errors are
+   estimates, NaN if the solver has none. */
+typedef struct wavycon_largest_stress {
+    double largest_von_mises_over_pstar;
+    double largest_von_mises_over_pstar_error;
+    double largest_shear_over_pstar;
+    double largest_shear_over_pstar_error;
+    double largest_von_mises; /* [pressure] */
+    double von_mises_x;       /* its place, in the cell, and its depth [length] */
+    double von_mises_y;
+    double von_mises_depth;
+    double largest_shear; /* [pressure] */
+    double shear_x;       /* its place, in the cell, and its depth [length] */
+    double shear_y;
+    double shear_depth;
+} wavycon_largest_stress;
+
 /* Errors and the library ------------------------------------------------------------------------------------------ */
 
 /* A new error object, without an error. */
@@ -157,8 +174,13 @@ int wavycon_get_scales(wavycon_error error, wavycon_solver solver, wavycon_scale
 /* The number of loads of the deck; 0 without a deck. */
 int wavycon_get_number_of_loads(wavycon_error error, wavycon_solver solver, int *loads);
 
-/* Solves one load. quantity: a key of &load, "pbar_over_pstar", "mean_pressure", "mean_gap_over_amplitude", "mean_gap"
-   or "contact_area_fraction". Loads from high to low are solved fastest. */
+/* Sets what loads by "yield" need: keys of &stress, such as "nu = 0.3, yield_stress = 1e9"; those of tables have no
+   effect. The solver of a deck has those of the deck. */
+int wavycon_set_stress(wavycon_error error, wavycon_solver solver, const char *keys);
+
+/* Solves one load. quantity: a key of &load, "pbar_over_pstar", "mean_pressure", "mean_gap_over_amplitude", "mean_gap",
+   "contact_area_fraction", or, with keep_fields and after wavycon_set_stress, "yield", the largest equivalent stress
+   over the yield stress: 1 for first yield. Loads from high to low are solved fastest. */
 wavycon_solution wavycon_solve(wavycon_error error, wavycon_solver solver, const char *quantity, double value);
 
 /* Solves a load of the deck, 0 <= load < the number of its loads. */
@@ -200,6 +222,34 @@ int wavycon_get_fields_at(wavycon_error error, wavycon_solution solution, double
 int wavycon_get_number_of_edges(wavycon_error error, wavycon_solution solution, int *edges);
 int wavycon_get_edge_points(wavycon_error error, wavycon_solution solution, int edge, int *points);
 int wavycon_get_edge(wavycon_error error, wavycon_solution solution, int edge, int points, double *x, double *y);
+
+/* Stresses -------------------------------------------------------------------------------------------------------- */
+
+/* All stresses are tension positive, in one of the two bodies, whose Poisson's ratio is nu, -1 < nu <= 0.5, and z, the
+   depth, points into that body. The six components of a point stand together: xx, yy, zz, xy, xz, yz.
+   lateral: the lateral stresses of the mean pressure pbar, as the key of &stress: "constrained", -nu pbar/(1 - nu),
+   "free", 0, or "hydrostatic", -pbar. Loads without a solution have NaN. The solver must keep the fields. */
+
+/* Stresses at points: x, y and depth >= 0 are arrays [points], stress is an array [points][6] of the caller.
+   stress_error: an array [points] for estimates of the largest error of a component, NaN if the solver has none; may
+   be NULL. Many points at one depth are found faster by wavycon_get_stress_plane. */
+int wavycon_get_stress(wavycon_error error, wavycon_solution solution, int points, const double *x, const double *y,
+                       const double *depth, double nu, const char *lateral, double *stress, double *stress_error);
+
+/* Stresses at the points of wavycon_get_map at one depth: stress is an array [points_y][points_x][6], stress_error an
+   array [points_y][points_x] or NULL. */
+int wavycon_get_stress_plane(wavycon_error error, wavycon_solution solution, int points_x, int points_y,
+                             const double *offset, double depth, double nu, const char *lateral, double *stress,
+                             double *stress_error);
+
+/* The largest von Mises stress and the largest shear stress, and where they are, found by search. */
+int wavycon_get_largest_stress(wavycon_error error, wavycon_solution solution, double nu, const char *lateral,
+                               wavycon_largest_stress *largest);
+
+/* Of stresses, an array [points][6]: von_mises[points], the largest shear stress of all planes shear[points], the
+   principal stresses principal[points][3], largest first. An array may be NULL: not wanted. */
+int wavycon_get_invariants(wavycon_error error, int points, const double *stress, double *von_mises, double *shear,
+                           double *principal);
 
 #ifdef __cplusplus
 }

@@ -126,7 +126,7 @@ contains
          end associate
       end do
       parts = parts_of(sums)
-      if (present(error)) error = self%pressure_error + octave_factor*norm2(sums(9:))
+      if (present(error)) error = error_of(self, sums(9:))
    end subroutine at
 
    !> The stresses from the sums (S4).
@@ -177,7 +177,7 @@ contains
                weights(1:5:2) = [1.0_dp, n_x**2, n_x*n_y]
                weights(2:6:2) = q*depth*weights(1:5:2)
                weights(7:8) = cmplx(0.0_dp, [real(k, dp), q_y]*depth, dp)
-               weights(9:) = (0.0_dp, 0.0_dp)
+               weights(9:) = 0.0_dp
                if (q > self%sampled_from) weights(9:) = octave_weights(n_x, n_y, q*depth)
                m = direction(1)*k + direction(2)*l
                along(:, m) = along(:, m) + weights*wave
@@ -190,14 +190,21 @@ contains
             sums = sums + real(along(:, m)*exp(cmplx(0.0_dp, m*t(i), dp)))
          end do
          parts(:, :, i) = parts_of(sums)
-         error(i) = self%pressure_error + octave_factor*norm2(sums(9:))
+         error(i) = error_of(self, sums(9:))
       end do
    end subroutine on_line
 
-   !> What the waves of zz of the last octave are multiplied by: 1, and i n along X and Y. The root of the sum of the three
-   !> squares is the amplitude of a wave where a single one passes through zero: (S5).
+   !> The error (S5).
+   pure real(dp) function error_of(stress, octave)
+      class(series_stress), intent(in) :: stress
+      real(dp), intent(in) :: octave(3)   !! sums over the waves of the last octave, with the weights below
+
+      error_of = stress%pressure_error + octave_factor*norm2(octave)
+   end function error_of
+
+   !> The weights of a wave of the last octave in (S5), to its sign.
    pure function octave_weights(n_x, n_y, q_z) result(weights)
-      real(dp), intent(in) :: n_x, n_y   !! direction of the wave
+      real(dp), intent(in) :: n_x, n_y   !! its direction
       real(dp), intent(in) :: q_z        !! q Z
       complex(dp) :: weights(3)
 
@@ -273,11 +280,11 @@ contains
          call transform%backward(part)
          error = error + part**2
       end do
-      error = octave_factor*sqrt(error) + self%pressure_error
+      error = self%pressure_error + octave_factor*sqrt(error)
    end subroutine on_plane
 
-   !> Adds the waves of the components of the stress to their spectra, and to three more, if there are, those of zz that are
-   !> of the last octave.
+   !> Adds the waves of the components of the stress to their spectra, and to three more, if there are, those of
+   !> the last octave for the error (S5).
    subroutine add_waves(self, points, offset, depth, nu, spectra)
       class(series_stress), intent(inout) :: self
       integer, intent(in) :: points(2)
@@ -307,10 +314,8 @@ contains
                here(xy) = -n_x*n_y*(1.0_dp - 2*nu - q*depth)*wave
                here(xz) = cmplx(0.0_dp, k*depth, dp)*wave
                here(yz) = cmplx(0.0_dp, q_y*depth, dp)*wave
-               if (size(here) > 6) then
-                  here(7:) = (0.0_dp, 0.0_dp)
-                  if (q > self%sampled_from) here(7:) = octave_weights(n_x, n_y, q*depth)*wave
-               end if
+               here(7:) = (0.0_dp, 0.0_dp)
+               if (q > self%sampled_from .and. size(here) > 6) here(7:) = octave_weights(n_x, n_y, q*depth)*wave
                call add(modulo(k, points(1)), modulo(l, points(2)), here)
                call add(modulo(-k, points(1)), modulo(-l, points(2)), conjg(here))
             end do

@@ -28,7 +28,7 @@ module wavycon_stress_tuning
    integer, parameter :: most_models = 8
 
    !> The error of a stress near the edge of contact over the waves of a grid's last octave there.
-   real(dp), parameter :: octave_factor = 1.0_dp
+   real(dp), parameter :: octave_factor = 2.0_dp
 
    !> The error of a von Mises stress or a shear stress over that of the components.
    real(dp), parameter :: error_of_invariant = 2.0_dp

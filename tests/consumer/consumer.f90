@@ -1,7 +1,7 @@
 !> A steel surface with waves 1 mm long and 1 um in amplitude against a rigid flat: lengths in m, pressures in Pa.
 program consumer
-   use wavycon, only: dp, error_type, make_solver, make_wave_2d, wavy_edge, wavy_measures, wavy_solution, wavy_solver, &
-      wavy_surface
+   use wavycon, only: dp, error_type, largest_shear, make_solver, make_wave_2d, principal_stresses, von_mises, &
+      wavy_edge, wavy_largest_stress, wavy_measures, wavy_solution, wavy_solver, wavy_surface
    implicit none (type, external)
 
    type(error_type), allocatable :: error
@@ -10,7 +10,9 @@ program consumer
    type(wavy_solution) :: solution
    type(wavy_measures) :: m
    type(wavy_edge), allocatable :: edges(:)
-   real(dp), allocatable :: pressure(:, :), gap(:, :), displacement(:, :)
+   type(wavy_largest_stress) :: largest
+   real(dp), allocatable :: pressure(:, :), gap(:, :), displacement(:, :), stress(:, :), stress_error(:), plane(:, :, :)
+   real(dp), parameter :: nu = 0.3_dp, depths(2) = [1e-4_dp, 3e-4_dp], crest(2) = 0.0_dp
    real(dp), parameter :: e_star = 210e9_dp/(1 - 0.3_dp**2), loads(*) = [0.9_dp, 0.5_dp, 0.2_dp]
    integer :: i
 
@@ -27,4 +29,25 @@ program consumer
    call solution%map([48, 32], pressure, gap, displacement, error)
    call solution%edges(edges, error)
    print '(3es24.16, i4)', maxval(pressure), pressure(2, 3), gap(24, 3), size(edges)
+
+   ! The stresses of this load below a crest, on a plane, the largest ones, and the load at which steel yields.
+   call solution%stress(crest, crest, depths, nu, 'constrained', stress, error, stress_error)
+   if (allocated(error)) error stop error%message
+   do i = 1, 2
+      print '(12es24.16)', stress(:, i), stress_error(i), von_mises(stress(:, i)), largest_shear(stress(:, i)), &
+         principal_stresses(stress(:, i))
+   end do
+   call solution%stress_plane([48, 32], depths(1), nu, 'constrained', plane, error)
+   if (allocated(error)) error stop error%message
+   print '(6es24.16)', plane(:, 8, 5)
+   call solution%largest_stress(nu, 'constrained', largest, error)
+   if (allocated(error)) error stop error%message
+   print '(6es24.16)', largest%largest_von_mises, largest%von_mises_x, largest%von_mises_y, largest%von_mises_depth, &
+      largest%largest_von_mises_over_pstar_error, largest%largest_shear
+   call make_solver(surface, e_star, "solver = 'auto', accuracy = 1e-4", .true., solver, error)
+   call solver%set_stress("nu = 0.3, yield_stress = 1e9", error)
+   call solver%solve('yield', 1.0_dp, solution, error)
+   if (allocated(error)) error stop error%message
+   m = solution%measures()
+   print '(2es24.16, 1x, a)', m%mean_pressure, m%contact_area_fraction, solution%status()
 end program consumer

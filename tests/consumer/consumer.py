@@ -22,6 +22,13 @@ class Measures(ctypes.Structure):
                 + [(name, c_int) for name in ("active_constraints", "iterations", "status_code")])
 
 
+class LargestStress(ctypes.Structure):
+    _fields_ = [(name, c_double) for name in (
+        "largest_von_mises_over_pstar", "largest_von_mises_over_pstar_error", "largest_shear_over_pstar",
+        "largest_shear_over_pstar_error", "largest_von_mises", "von_mises_x", "von_mises_y", "von_mises_depth",
+        "largest_shear", "shear_x", "shear_y", "shear_depth")]
+
+
 lib = ctypes.CDLL(sys.argv[1])
 for name, arguments in {
         "new_error": [], "new_wave_2d": [c_void_p, c_double, c_double, c_double],
@@ -29,6 +36,10 @@ for name, arguments in {
         "solve": [c_void_p, c_void_p, c_char_p, c_double]}.items():
     getattr(lib, "wavycon_" + name).restype = c_void_p
     getattr(lib, "wavycon_" + name).argtypes = arguments
+lib.wavycon_get_stress.argtypes = [c_void_p]*2 + [c_int] + [c_void_p]*3 + [c_double, c_char_p] + [c_void_p]*2
+lib.wavycon_get_stress_plane.argtypes = ([c_void_p]*2 + [c_int]*2 + [c_void_p, c_double, c_double, c_char_p]
+                                         + [c_void_p]*2)
+lib.wavycon_get_largest_stress.argtypes = [c_void_p]*2 + [c_double, c_char_p, c_void_p]
 
 
 def check():
@@ -67,5 +78,31 @@ lib.wavycon_get_map(error, solution, 48, 32, None, to_pressure, to_gap, None)
 check()
 lib.wavycon_get_number_of_edges(error, solution, byref(edges))
 print(*(f"{number:24.16e}" for number in (max(max(row) for row in pressure), pressure[2][1], gap[2][23])), edges.value)
-for handle in (solution, solver, surface, error):
+
+# The stresses of this load below a crest, on a plane, the largest ones, and the load at which steel yields.
+nu, crest, depths = 0.3, (c_double*2)(0, 0), (c_double*2)(1e-4, 3e-4)
+(stress, to_stress), (plane, to_plane), (principal, to_principal) = field(2, 6), field(32*48, 6), field(2, 3)
+errors, von_mises, shear, largest = (c_double*2)(), (c_double*2)(), (c_double*2)(), LargestStress()
+lib.wavycon_get_stress(error, solution, 2, crest, crest, depths, nu, b"constrained", to_stress, errors)
+check()
+lib.wavycon_get_invariants(error, 2, to_stress, von_mises, shear, to_principal)
+check()
+for i in range(2):
+    print(*(f"{number:24.16e}" for number in (*stress[i], errors[i], von_mises[i], shear[i], *principal[i])))
+lib.wavycon_get_stress_plane(error, solution, 48, 32, None, depths[0], nu, b"constrained", to_plane, None)
+check()
+print(*(f"{number:24.16e}" for number in plane[4*48 + 7]))
+lib.wavycon_get_largest_stress(error, solution, nu, b"constrained", byref(largest))
+check()
+print(*(f"{number:24.16e}" for number in (
+    largest.largest_von_mises, largest.von_mises_x, largest.von_mises_y, largest.von_mises_depth,
+    largest.largest_von_mises_over_pstar_error, largest.largest_shear)))
+steel = c_void_p(lib.wavycon_new_solver(error, surface, 210e9/(1 - 0.3**2), b"solver = 'auto', accuracy = 1e-4", 1))
+lib.wavycon_set_stress(error, steel, b"nu = 0.3, yield_stress = 1e9")
+yielding = c_void_p(lib.wavycon_solve(error, steel, b"yield", 1))
+check()
+lib.wavycon_get_measures(error, yielding, byref(m))
+lib.wavycon_get_status(error, yielding, status, ctypes.c_size_t(len(status)))
+print(f"{m.mean_pressure:24.16e} {m.contact_area_fraction:24.16e}", status.value.decode())
+for handle in (yielding, steel, solution, solver, surface, error):
     lib.wavycon_delete(byref(handle))

@@ -153,6 +153,21 @@ static void solvers(wavycon_surface surface, wavycon_solver solver, wavycon_solu
     for (size_t i = 0; i < sizeof quantities/sizeof quantities[0]; i++)
         for (size_t j = 0; j < sizeof bad_loads/sizeof bad_loads[0]; j++)
             NOTHING(wavycon_solve(error, solver, quantities[i], bad_loads[j]));
+    REFUSED(wavycon_set_stress(error, NULL, "nu = 0.3"));
+    REFUSED(wavycon_set_stress(error, (wavycon_solver)surface, "nu = 0.3"));
+    const char *const bad_keys[] = {NULL, "", "yield_stress = 1", "nu = 0.6", "nu = -1", "nu = NaN",
+                                    "nu = 0.3, 0.3, 0.3", "nu = 0.3, yield_stress = -1", "nu = 0.3, yield_stress = 0",
+                                    "nu = 0.3, yield_criterion = 'tresca'", "nu = 0.3, yeld = 1",
+                                    "nu = 0.3 / &load yield = 1", "\x01\xff'"};
+    for (size_t i = 0; i < sizeof bad_keys/sizeof bad_keys[0]; i++)
+        REFUSED(wavycon_set_stress(error, solver, bad_keys[i]));
+    NOTHING(wavycon_solve(error, solver, "yield", 1));
+    FINE(wavycon_set_stress(error, solver, "nu = 0.3"));
+    NOTHING(wavycon_solve(error, solver, "yield", 1));
+    FINE(wavycon_set_stress(error, solver, "nu = 0.3, yield_stress = 2"));
+    const double bad_ratios[] = {NAN, INFINITY, -INFINITY, -1, 0};
+    for (size_t i = 0; i < sizeof bad_ratios/sizeof bad_ratios[0]; i++)
+        NOTHING(wavycon_solve(error, solver, "yield", bad_ratios[i]));
     REFUSED(wavycon_set_threads(error, 0));
     REFUSED(wavycon_set_threads(error, -1));
     REFUSED(wavycon_set_threads(error, 1000000));
@@ -246,6 +261,72 @@ static void solutions(wavycon_surface surface, wavycon_solution solution, wavyco
     REFUSED(wavycon_get_number_of_edges(error, without_fields, &edges));
 }
 
+static void stresses(wavycon_surface surface, wavycon_solution solution, wavycon_solution without_fields)
+{
+    enum { points = 3 };
+    const double x[points] = {0, 0.1, 0.2}, bad[] = {NAN, INFINITY, -INFINITY}, nans[2] = {0, NAN};
+    const double bad_ratios[] = {NAN, INFINITY, -INFINITY, -1, 0.51, 1e300};
+    const char *const bad_laterals[] = {NULL, "", "fixed", "free'", "free', nu = 0.2", "\x01\xff"};
+    const int bad_points[] = {0, -1, -2147483647};
+    double stress[16][6], errors[16], other[points], principal[points][3];
+    wavycon_largest_stress largest;
+    wavycon_solution const bad_solutions[] = {NULL, (wavycon_solution)surface, (wavycon_solution)error, without_fields};
+    for (int i = 0; i < 4; i++) {
+        REFUSED(wavycon_get_stress(error, bad_solutions[i], points, x, x, x, 0.3, "free", stress[0], errors));
+        REFUSED(wavycon_get_stress_plane(error, bad_solutions[i], 4, 4, NULL, 0, 0.3, "free", stress[0], errors));
+        REFUSED(wavycon_get_largest_stress(error, bad_solutions[i], 0.3, "free", &largest));
+    }
+    for (size_t i = 0; i < sizeof bad_ratios/sizeof bad_ratios[0]; i++) {
+        REFUSED(wavycon_get_stress(error, solution, points, x, x, x, bad_ratios[i], "free", stress[0], errors));
+        REFUSED(wavycon_get_stress_plane(error, solution, 4, 4, NULL, 0, bad_ratios[i], "free", stress[0], errors));
+        REFUSED(wavycon_get_largest_stress(error, solution, bad_ratios[i], "free", &largest));
+    }
+    for (size_t i = 0; i < sizeof bad_laterals/sizeof bad_laterals[0]; i++) {
+        REFUSED(wavycon_get_stress(error, solution, points, x, x, x, 0.3, bad_laterals[i], stress[0], errors));
+        REFUSED(wavycon_get_stress_plane(error, solution, 4, 4, NULL, 0, 0.3, bad_laterals[i], stress[0], errors));
+        REFUSED(wavycon_get_largest_stress(error, solution, 0.3, bad_laterals[i], &largest));
+    }
+    for (int i = 0; i < 3; i++) {
+        REFUSED(wavycon_get_stress(error, solution, bad_points[i], x, x, x, 0.3, "free", stress[0], errors));
+        REFUSED(wavycon_get_stress_plane(error, solution, bad_points[i], 4, NULL, 0, 0.3, "free", stress[0], errors));
+        REFUSED(wavycon_get_stress_plane(error, solution, 4, bad_points[i], NULL, 0, 0.3, "free", stress[0], errors));
+        REFUSED(wavycon_get_invariants(error, bad_points[i], stress[0], other, other, principal[0]));
+        REFUSED(wavycon_get_stress(error, solution, 1, &bad[i], x, x, 0.3, "free", stress[0], errors));
+        REFUSED(wavycon_get_stress(error, solution, 1, x, &bad[i], x, 0.3, "free", stress[0], errors));
+        REFUSED(wavycon_get_stress(error, solution, 1, x, x, &bad[i], 0.3, "free", stress[0], errors));
+        REFUSED(wavycon_get_stress_plane(error, solution, 4, 4, NULL, bad[i], 0.3, "free", stress[0], errors));
+    }
+    const double negative = -1e-3, far = 1e300;
+    REFUSED(wavycon_get_stress(error, solution, 1, x, x, &negative, 0.3, "free", stress[0], errors));
+    REFUSED(wavycon_get_stress_plane(error, solution, 4, 4, NULL, negative, 0.3, "free", stress[0], errors));
+    REFUSED(wavycon_get_stress_plane(error, solution, 2147483647, 2147483647, NULL, 0, 0.3, "free", stress[0], errors));
+    REFUSED(wavycon_get_stress_plane(error, solution, 4, 4, nans, 0, 0.3, "free", stress[0], errors));
+    REFUSED(wavycon_get_stress(error, solution, points, NULL, x, x, 0.3, "free", stress[0], errors));
+    REFUSED(wavycon_get_stress(error, solution, points, x, NULL, x, 0.3, "free", stress[0], errors));
+    REFUSED(wavycon_get_stress(error, solution, points, x, x, NULL, 0.3, "free", stress[0], errors));
+    REFUSED(wavycon_get_stress(error, solution, points, x, x, x, 0.3, "free", NULL, errors));
+    REFUSED(wavycon_get_stress_plane(error, solution, 4, 4, NULL, 0, 0.3, "free", NULL, errors));
+    REFUSED(wavycon_get_largest_stress(error, solution, 0.3, "free", NULL));
+    REFUSED(wavycon_get_invariants(error, points, NULL, other, other, principal[0]));
+    FINE(wavycon_get_stress_plane(error, solution, 4, 4, NULL, 0.1, 0.3, "free", stress[0], NULL));
+    FINE(wavycon_get_stress_plane(error, solution, 4, 4, NULL, 0.1, 0.3, "free", stress[0], errors));
+    FINE(wavycon_get_stress(error, solution, 1, &far, &far, &far, 0.3, "free", stress[1], NULL));
+    wavycon_measures measures;
+    FINE(wavycon_get_measures(error, solution, &measures));
+    check(fabs(stress[1][2] + measures.mean_pressure) <= 1e-14*measures.mean_pressure, "far below", __LINE__);
+    FINE(wavycon_get_stress(error, solution, points, x, x, x, 0.3, "free", stress[0], NULL));
+    FINE(wavycon_get_stress(error, solution, points, x, x, x, 0.3, "free", stress[0], errors));
+    check(errors[0] >= 0 && errors[points - 1] >= 0, "errors of all points", __LINE__);
+    FINE(wavycon_get_invariants(error, points, stress[0], NULL, NULL, NULL));
+    FINE(wavycon_get_invariants(error, points, stress[0], other, NULL, principal[0]));
+    check(other[2] > 0 && principal[2][0] >= principal[2][1] && principal[2][1] >= principal[2][2], "order", __LINE__);
+    stress[0][3] = NAN;
+    FINE(wavycon_get_invariants(error, points, stress[0], other, errors, principal[0]));
+    check(isnan(other[0]) && isnan(errors[0]) && isnan(principal[0][2]) && other[1] > 0, "no number", __LINE__);
+    FINE(wavycon_get_largest_stress(error, solution, 0.3, "free", &largest));
+    check(largest.largest_von_mises > 0 && largest.shear_depth >= 0, "first and last numbers", __LINE__);
+}
+
 /* The message is that of the call that failed, not of those that then got NULL. */
 static void chains(void)
 {
@@ -253,7 +334,8 @@ static void chains(void)
     wavycon_measures measures;
     wavycon_surface surface = wavycon_new_wave_1d(error, -5, 1);
     wavycon_solver solver = wavycon_new_solver(error, surface, 1, "", 0);
-    wavycon_solution solution = wavycon_solve(error, solver, "pbar_over_pstar", 0.2);
+    wavycon_set_stress(error, solver, "nu = 0.3, yield_stress = 1");
+    wavycon_solution solution = wavycon_solve(error, solver, "yield", 1);
     REFUSED(wavycon_get_measures(error, solution, &measures));
     wavycon_get_error_message(error, message, sizeof message);
     check(strstr(message, "'-5'") != NULL, "the message of the first call of a chain", __LINE__);
@@ -304,6 +386,7 @@ int main(void)
     wavycon_delete(&solver);
     wavycon_delete(&bare);
     solutions(surface, solution, without_fields);
+    stresses(surface, solution, without_fields);
     chains();
     errors_and_texts(surface, solution);
     wavycon_delete(&without_fields);

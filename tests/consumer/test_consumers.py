@@ -17,17 +17,28 @@ import tempfile
 import unittest
 
 HERE = pathlib.Path(__file__).resolve().parent
-DECK = f"""&surface kind = 'wave_2d', amplitude = 1e-6, wavelength = 1e-3 /
+WAVE = f"""&surface kind = 'wave_2d', amplitude = 1e-6, wavelength = 1e-3 /
 &material e_star = {210e9/(1 - 0.3**2)!r} /
-&load pbar_over_pstar = 0.9, 0.5, 0.2 /
 &method solver = 'auto', accuracy = 1e-4 /
-&output contours = .true. /
+"""
+DECK = WAVE + """&load pbar_over_pstar = 0.9, 0.5, 0.2 /
+&stress nu = 0.3, line = .true., planes = .true., depths = 1e-4, 3e-4 /
+&output contours = .true., map_points = 48, 32 /
+"""
+YIELD_DECK = WAVE + """&load yield = 1 /
+&stress nu = 0.3, yield_stress = 1e9 /
 """
 COLUMNS = ["pbar_over_pstar", "mean_gap", "contact_area_fraction", "peak_pressure", "peak_pressure_over_pstar_error"]
+STRESSES = ["stress_xx", "stress_yy", "stress_zz", "stress_xy", "stress_xz", "stress_yz"]
+INVARIANTS = ["von_mises", "largest_shear", "principal_1", "principal_2", "principal_3"]
+LARGEST = ["largest_von_mises", "von_mises_x", "von_mises_y", "von_mises_depth", "largest_von_mises_over_pstar_error",
+           "largest_shear"]
 # Seconds after which a command counts as hanging; the slowest take a few.
 LONGEST = 240
 # Half a unit of the last of the 16 digits that tables have.
 DIGITS = 1e-15
+# Von Mises, shear and principal stresses of a stress in units and of one in p*: rounding, of numbers of both signs.
+INVARIANT_DIGITS = 1e-14
 # Of a Fortran main program the variables live as long as the process, which the address sanitizer takes for leaks.
 ENVIRONMENT = dict(os.environ, OPENBLAS_NUM_THREADS="1", ASAN_OPTIONS="detect_leaks=0")
 
@@ -46,9 +57,9 @@ def run(*command, **options):
 def numbers(output):
     """The words of a consumer's lines, the numbers among them read."""
     rows = [line.split() for line in output.splitlines()]
-    if [len(row) for row in rows] != [6, 6, 6, 4]:
+    if [len(row) for row in rows] != [6, 6, 6, 4, 12, 12, 6, 6, 3]:
         raise AssertionError(f"this is not what a consumer prints:\n{output}")
-    return [[*map(float, row[:-1]), row[-1]] for row in rows]
+    return [[float(word) if "." in word else word for word in row] for row in rows]
 
 
 def rows_of(path):
@@ -78,8 +89,9 @@ class Consumers(unittest.TestCase):
                 f"CMAKE_PREFIX_PATH={cls.prefix}", *cls.compilers())
             run(options.cmake, "--build", cls.folder / name)
         # The program that the digits are compared with is the installed one.
-        (cls.folder / "deck.nml").write_text(DECK)
-        run(cls.prefix / "bin" / "wavycon", "deck.nml", "--output", ".", "--quiet", cwd=cls.folder)
+        for name, deck in (("deck", DECK), ("yield", YIELD_DECK)):
+            (cls.folder / f"{name}.nml").write_text(deck)
+            run(cls.prefix / "bin" / "wavycon", f"{name}.nml", "--output", ".", "--quiet", cwd=cls.folder)
         cls.expected = numbers(run(cls.folder / "project" / "consumer_fortran"))
 
     @classmethod
@@ -97,13 +109,17 @@ class Consumers(unittest.TestCase):
     def path_of_library(self):
         return {name: str(self.lib) for name in ("LD_LIBRARY_PATH", "DYLD_LIBRARY_PATH")}
 
+    def check_row(self, row, columns, values):
+        """Checks numbers against columns of a table."""
+        for column, value in zip(columns, values):
+            self.assertLessEqual(abs(float(row[column]) - value), DIGITS*abs(value), column)
+
     def test_digits_of_the_deck(self):
         table = rows_of(self.folder / "deck.summary.dat")
         self.assertEqual(3, len(table))
         for row, values in zip(table, self.expected):
             self.assertEqual(row["status"], values[-1])
-            for column, value in zip(COLUMNS, values):
-                self.assertLessEqual(abs(float(row[column]) - value), DIGITS*abs(value), column)
+            self.check_row(row, COLUMNS, values)
         highest, in_contact, open_gap, edges = self.expected[3]
         contour = rows_of(self.folder / "deck.contour.dat")
         self.assertEqual(len({row["curve"] for row in contour if row.get("load") == "3"}), int(edges))
@@ -111,6 +127,29 @@ class Consumers(unittest.TestCase):
         self.assertLessEqual(abs(highest - self.expected[2][3]), 1e-6*highest)
         self.assertGreater(in_contact, 0)
         self.assertGreater(open_gap, 0)
+
+    def test_digits_of_the_stresses(self):
+        below = [row for row in rows_of(self.folder / "deck.stress_line.dat") if row.get("load") == "3"]
+        self.assertEqual(2, len(below))
+        for row, values in zip(below, self.expected[4:6]):
+            self.check_row(row, STRESSES + ["stress_error"], values[:7])
+            for column, value in zip(INVARIANTS, values[7:]):
+                self.assertLessEqual(abs(float(row[column]) - value), INVARIANT_DIGITS*abs(values[2]), column)
+        plane = [row for row in rows_of(self.folder / "deck.stress_planes.dat")
+                 if row.get("load") == "3" and float(row["depth"]) == 1e-4]
+        self.assertEqual(48*32, len(plane))
+        self.check_row(plane[4*48 + 7], STRESSES, self.expected[6])
+        self.check_row(rows_of(self.folder / "deck.stress_largest.dat")[2], LARGEST, self.expected[7])
+        # A pressure of 200 MPa on average and 1100 MPa at the crest.
+        self.assertLess(self.expected[4][2], -2e8)
+        self.assertGreater(self.expected[7][0], 1e8)
+
+    def test_digits_of_first_yield(self):
+        first, = rows_of(self.folder / "yield.summary.dat")
+        self.check_row(first, ["mean_pressure", "contact_area_fraction"], self.expected[8][:2])
+        self.assertEqual(first["status"], self.expected[8][-1])
+        largest, = rows_of(self.folder / "yield.stress_largest.dat")
+        self.assertAlmostEqual(float(largest["largest_von_mises"])/1e9, 1, delta=1e-4)
 
     def test_fortran_with_the_shared_library(self):
         self.assertEqual(self.expected, numbers(run(self.folder / "project" / "consumer_fortran_shared")))
@@ -152,19 +191,29 @@ class Consumers(unittest.TestCase):
 
     def test_programs_of_the_page(self):
         page = (self.options.sources / "src" / "library" / "README.md").read_text()
-        found = []
-        for language, suffix, compiler, before, after in (
-                ("fortran", ".f90", self.options.fortran, "program page\n", "end program page\n"),
-                ("c", ".c", self.options.c, "#include <stdio.h>\n#include <wavycon.h>\nint main(void)\n{\n", "}\n")):
-            code = page.split(f"```{language}\n")[1].split("```")[0]
-            source = self.folder / ("page" + suffix)
-            source.write_text(before + code + after)
-            run(compiler, *shlex.split(self.options.flags), source, "-o", source.with_suffix(".exe"),
-                *self.pkg_config("--cflags", "--libs"))
-            output = run(source.with_suffix(".exe"), environment=self.path_of_library())
-            found.append([float(word) for word in output.split()[:3]])
-        for one, other in zip(*found):
-            self.assertAlmostEqual(one/other, 1, delta=1e-5)
+        blocks = {language: [part.split("```")[0] for part in page.split(f"```{language}\n")[1:]]
+                  for language in ("fortran", "c", "python")}
+        self.assertEqual(["fortran", "fortran", "c", "c", "python", "python"],
+                         [language for language, parts in blocks.items() for _ in parts])
+        for number in range(2):
+            found = []
+            for language, suffix, compiler, before, after in (
+                    ("fortran", ".f90", self.options.fortran, "program page\n", "end program page\n"),
+                    ("c", ".c", self.options.c, "#include <stdio.h>\n#include <wavycon.h>\nint main(void)\n{\n", "}\n")):
+                source = self.folder / f"page{number}{suffix}"
+                source.write_text(before + blocks[language][number] + after)
+                run(compiler, *shlex.split(self.options.flags), source, "-o", source.with_suffix(".exe"),
+                    *self.pkg_config("--cflags", "--libs"))
+                found.append(run(source.with_suffix(".exe"), environment=self.path_of_library()))
+            # The first block in Python is a part of a program, the second one is whole.
+            if number == 1 and not self.is_sanitized:
+                (self.folder / "page.py").write_text(blocks["python"][1])
+                found.append(run(sys.executable, self.folder / "page.py", self.library))
+            found = [[float(word) for word in output.split()[:3]] for output in found]
+            for other in found:
+                self.assertEqual(3, len(other))
+                for one, same in zip(found[0], other):
+                    self.assertAlmostEqual(one/same, 1, delta=1e-5)
 
     def test_misuse(self):
         self.assertEqual("0 failures\n", run(self.folder / "project" / "misuse", cwd=self.folder))

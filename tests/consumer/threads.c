@@ -11,6 +11,8 @@ typedef struct results {
     int failures;
     double numbers[2*repeats];
     double map[points][points];
+    double stress[points][points][6];
+    double below[2*repeats];
 } results;
 
 static void *work(void *answer)
@@ -25,9 +27,16 @@ static void *work(void *answer)
         wavycon_solution one = wavycon_solve(error, fitted, "contact_area_fraction", 0.2);
         wavycon_solution other = wavycon_solve(error, grid, "pbar_over_pstar", 0.1);
         wavycon_measures m = {0}, n = {0};
+        wavycon_largest_stress below_one = {0}, below_other = {0};
         r->failures += wavycon_get_measures(error, one, &m) != 0;
         r->failures += wavycon_get_measures(error, other, &n) != 0;
         r->failures += wavycon_get_map(error, other, points, points, NULL, &r->map[0][0], NULL, NULL) != 0;
+        r->failures += wavycon_get_stress_plane(error, other, points, points, NULL, 0.05, 0.3, "free",
+                                                &r->stress[0][0][0], NULL) != 0;
+        r->failures += wavycon_get_largest_stress(error, one, 0.3, "free", &below_one) != 0;
+        r->failures += wavycon_get_largest_stress(error, other, 0.3, "free", &below_other) != 0;
+        r->below[2*i] = below_one.largest_von_mises;
+        r->below[2*i + 1] = below_other.largest_shear;
         r->numbers[2*i] = m.pbar_over_pstar;
         r->numbers[2*i + 1] = n.contact_area_fraction;
         wavycon_delete(&other);
@@ -60,7 +69,7 @@ int main(void)
         failures += memcmp(&all[i], &all[number_of_threads], sizeof all[i]) != 0;
     failures += all[number_of_threads].failures;
     for (int i = 0; i < 2*repeats; i++)
-        failures += !(all[number_of_threads].numbers[i] > 0);
+        failures += !(all[number_of_threads].numbers[i] > 0 && all[number_of_threads].below[i] > 0);
     printf("%d failures\n", failures);
     return failures != 0;
 }
