@@ -58,7 +58,8 @@ def page_examples(language):
 
 
 def run_page_decks(program, folder):
-    """Runs the decks of these examples in a folder."""
+    """Runs the decks of these examples in a folder, where they also find the reference values."""
     for deck in page_examples("fortran"):
         (folder / "deck.nml").write_text(deck)
         subprocess.run([program, "deck.nml", "--quiet"], cwd=folder, check=True)
+    (folder / "outputs" / "reference").symlink_to(PAGE.parent / "reference")
