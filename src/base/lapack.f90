@@ -6,7 +6,6 @@ module wavycon_lapack
 
    public :: dgemm, dgemv, dger, drot, dsymv, dsyr, dtrsm, dtrsv, sdot        ! BLAS
    public :: dgels, dgeqp3, dgglse, dlarfg, dlartg, dorgqr, dpotrf, dsyev     ! LAPACK
-   public :: dposv                                                           ! LAPACK
 
    interface
       pure subroutine dgemv(trans, m, n, alpha, a, lda, x, incx, beta, y, incy)
@@ -125,14 +124,6 @@ module wavycon_lapack
          real(dp), intent(out) :: work(*)
          integer, intent(out) :: info
       end subroutine dgels
-
-      pure subroutine dposv(uplo, n, nrhs, a, lda, b, ldb, info)
-         import :: dp
-         character, intent(in) :: uplo
-         integer, intent(in) :: n, nrhs, lda, ldb
-         real(dp), intent(inout) :: a(lda, *), b(ldb, *)
-         integer, intent(out) :: info
-      end subroutine dposv
 
       pure subroutine dsyev(jobz, uplo, n, a, lda, w, work, lwork, info)
          import :: dp

@@ -7,10 +7,10 @@ module wavycon_largest_stress
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
    use wavycon_elastic_body, only: elastic_body
    use wavycon_kinds, only: dp
-   use wavycon_lapack, only: dposv
+   use wavycon_lapack, only: dsyev
    use wavycon_stress_fields, only: stress_fields
    use wavycon_stress_tensor, only: largest_shear, von_mises
-   use wavycon_stress_tuning, only: close_to_largest, error_of_invariant, first_reach, gain_part, most_models, &
+   use wavycon_stress_tuning, only: close_to_largest, error_of_invariant, first_reach, gain_part, most_models, search_accuracy, &
       reach_factor, refined_places
    implicit none (type, external)
    private
@@ -78,7 +78,7 @@ contains
       real(dp), intent(in) :: places(:, :), widths(:), stresses(:, :)   !! from start_places
       type(largest_stress), intent(out) :: answer
 
-      real(dp) :: error, gain, least, least_gain, parts(6, 2), values(size(widths))
+      real(dp) :: error, gain, least, least_gain, least_gain_needed, parts(6, 2), values(size(widths))
       type(largest_stress) :: other
       integer :: best, i, k
 
@@ -95,7 +95,9 @@ contains
          other%value = values(best)
          other%place = places(:, best)
          call fields%at(other%place(1), other%place(2), other%place(3), parts, error)
-         call refine(fields, body, quantity, widths(best), gain_part*error, other, gain)
+         least_gain_needed = search_accuracy*other%value
+         if (.not. ieee_is_nan(error)) least_gain_needed = min(gain_part*error, least_gain_needed)
+         call refine(fields, body, quantity, widths(best), least_gain_needed, other, gain)
          if (i == 1 .or. other%value > answer%value) then
             answer = other
             least_gain = gain
@@ -115,7 +117,7 @@ contains
       type(elastic_body), intent(in) :: body
       integer, intent(in) :: quantity
       real(dp), intent(in) :: width                  !! of the maximum [rad]
-      real(dp), intent(in) :: enough                 !! the search ends when a model gains less [p*]; NaN: at rounding
+      real(dp), intent(in) :: enough                 !! the search ends when a model gains less [p*]
       type(largest_stress), intent(inout) :: best    !! value and place
       real(dp), intent(out) :: gain                  !! by the last model, or what it promised if that is more [p*]
 
@@ -126,8 +128,7 @@ contains
       integer :: i
 
       allocate (axes, source=pack([1, 2, 3], [.true., fields%dimension > 1, .true.]))
-      least = rounding*best%value
-      if (.not. ieee_is_nan(enough)) least = max(enough, least)
+      least = max(enough, rounding*best%value)
       reach = first_reach*width
       do i = 1, most_models
          before = best%value
@@ -150,16 +151,18 @@ contains
       real(dp), intent(in) :: reach                  !! [rad]
       type(largest_stress), intent(inout) :: best
       real(dp), intent(out) :: step                  !! largest distance moved along an axis [rad]
-      real(dp), intent(out) :: promise               !! gain of the function's maximum; its variation if it has none [p*]
+      real(dp), intent(out) :: promise               !! gain of the function's maximum, and its variation along axes without one [p*]
 
-      real(dp) :: curvature(size(axes), size(axes)), move(3), slope(size(axes)), start(3), to_maximum(size(axes)), &
-         value, value_here, values(-1:1)
+      !> Changes of the stress by rounding, over the stress.
+      real(dp), parameter :: rounding = 1e-14_dp
+      real(dp) :: axis(size(axes), size(axes)), curvature(size(axes)), move(3), slope(size(axes)), start(3), &
+         to_maximum(size(axes)), value, value_here, values(-1:1), work(3*3)
       integer :: i, j, k, l, status
 
       start = best%place
       value_here = best%value
       ! The directions are in the order of `axes`, depth last: points of one depth follow each other.
-      curvature = 0.0_dp
+      axis = 0.0_dp
       do i = 1, size(axes)
          do k = -1, 1, 2
             move = 0.0_dp
@@ -169,25 +172,29 @@ contains
                do l = -1, 1, 2
                   move(axes(j)) = l*reach
                   call try(move, value)
-                  curvature(i, j) = curvature(i, j) + 0.25_dp*k*l*value
+                  axis(i, j) = axis(i, j) - 0.25_dp*k*l*value
                end do
                move(axes(j)) = 0.0_dp
             end do
          end do
          slope(i) = 0.5_dp*(values(1) - values(-1))
-         curvature(i, i) = values(1) - 2*value_here + values(-1)
-         curvature(:i - 1, i) = curvature(i, :i - 1)
+         axis(i, i) = 2*value_here - values(1) - values(-1)
       end do
-      curvature = -curvature
-      to_maximum = slope
-      promise = sum(abs(slope)) + 0.5_dp*sum(abs(curvature))
-      call dposv('U', size(axes), 1, curvature, size(axes), to_maximum, size(axes), status)
-      if (status == 0) then
-         promise = 0.5_dp*dot_product(slope, to_maximum)
-         move = 0.0_dp
-         move(axes) = reach*to_maximum/max(1.0_dp, maxval(abs(to_maximum)))
-         call try(move, value)
-      end if
+      call dsyev('V', 'L', size(axes), axis, size(axes), curvature, work, size(work), status)
+      slope = matmul(slope, axis)
+      to_maximum = 0.0_dp
+      promise = 0.0_dp
+      do i = 1, size(axes)
+         if (curvature(i) > rounding*value_here) then
+            to_maximum = to_maximum + axis(:, i)*(slope(i)/curvature(i))
+            promise = promise + 0.5_dp*slope(i)**2/curvature(i)
+         else if (max(abs(slope(i)), abs(curvature(i))) > rounding*value_here) then
+            promise = promise + abs(slope(i)) + 0.5_dp*abs(curvature(i))
+         end if
+      end do
+      move = 0.0_dp
+      move(axes) = reach*to_maximum/max(1.0_dp, maxval(abs(to_maximum)))
+      call try(move, value)
       step = maxval(abs(best%place - abs_depth(start)))
 
    contains

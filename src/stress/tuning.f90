@@ -20,10 +20,11 @@ module wavycon_stress_tuning
    real(dp), parameter :: depths_of_cell(*) = [0.03_dp, 0.07_dp, 0.12_dp, 0.2_dp]
 
    !> Refinement: the number of best places that are refined, and how close to the best place their stress must be; the gain
-   !> that ends the search over the error of the stress; first distance of the points of its quadratic model over
+   !> that ends the search over the error of the stress, at most over the stress; first distance of the points of its quadratic model over
    !> the width of the stress; the factor by which this falls; the most models.
    integer, parameter :: refined_places = 3
-   real(dp), parameter :: close_to_largest = 0.75_dp, gain_part = 0.1_dp
+   real(dp), parameter :: close_to_largest = 0.75_dp, gain_part = 0.1_dp, &
+                          search_accuracy = 1e-6_dp
    real(dp), parameter :: first_reach = 0.25_dp, reach_factor = 0.2_dp
    integer, parameter :: most_models = 8
 
