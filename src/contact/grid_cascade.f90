@@ -107,8 +107,10 @@ contains
       call sample_undeformed_gap(surface, h)
       call half_space%start(surface, points)
       answer%state%pressure = answer%state%pressure*(mean_pressure*size(h)/sum(answer%state%pressure))
-      if (any(answer%state%pressure >= surface%hardness)) &
-         call set_load(answer%state%pressure, mean_pressure*size(h), surface%hardness)
+      if (surface%has_hardness()) then
+         if (any(answer%state%pressure >= surface%hardness)) &
+            call set_load(answer%state%pressure, mean_pressure*size(h), surface%hardness)
+      end if
       call stencil%start(surface, points)
       call solve_on_grid(half_space, stencil, h, residual, iteration_limit, answer%state)
       answer%grids = answer%grids + 1

@@ -68,7 +68,6 @@ module wavycon_pressure_correction
       procedure, private :: move_between_bounds
       procedure, private :: restore_mean
       procedure, private :: add_overlaps
-      procedure, private :: is_at_hardness
       procedure, private :: displace
       procedure, private :: product_of
       procedure, private :: subtract_mean
@@ -140,23 +139,15 @@ contains
       class(pressure_correction), intent(in) :: self
       real(dp), intent(inout) :: pressure(:, :)   !! the pressure of `start`; its mean stays
 
+      logical, allocatable :: at_hardness(:)
       real(dp) :: total
-      integer :: i
 
+      allocate (at_hardness(self%region%points), source=.false.)
+      if (allocated(self%room)) at_hardness = self%room <= self%change
       total = sum_of_field(pressure)
-      call self%region%correct(self%change, self%contact, [(self%is_at_hardness(i), i=1, self%region%points)], &
-                               self%scale, self%hardness, pressure)
+      call self%region%correct(self%change, self%contact, at_hardness, self%scale, self%hardness, pressure)
       call set_load(pressure, total, self%hardness)
    end subroutine add_to
-
-   !> Whether the pressure at a point is H.
-   pure logical function is_at_hardness(self, i)
-      class(pressure_correction), intent(in) :: self
-      integer, intent(in) :: i
-
-      is_at_hardness = .false.
-      if (allocated(self%room)) is_at_hardness = self%room(i) <= self%change(i)
-   end function is_at_hardness
 
    !> Changes the approach so that the mean gap over the free points is zero (C3), and computes the residual (C9) times G.
    subroutine shift_gap(self)
