@@ -118,8 +118,8 @@ contains
       violation = merge(merge(gap, max(gap, 0.0_dp), pressure < hardness), min(gap, 0.0_dp), pressure > 0.0_dp)
    end function violation
 
-   !> The gap h + Sp - approach (C1), whose mean over the free points is zero (C3), and the residual times G. The approach
-   !> is that of the present mean gap and a change: the change is a mean of small gaps and loses no digits.
+   !> The gap h + Sp - approach (C1), whose mean over the free points is zero (C3), and the residual times G. The
+   !> approach is that of the present mean gap and a change: the change is a mean of small gaps and loses no digits.
    subroutine compute_gap(half_space, undeformed_gap, touched, state)
       type(compliance_operator), intent(inout) :: half_space
       real(dp), intent(in) :: undeformed_gap(:, :)
@@ -168,8 +168,8 @@ contains
       end associate
    end subroutine compute_gap
 
-   !> Where no point is free, the approach may lie anywhere between the least gap at points that are open and the largest
-   !> at points at the hardness.
+   !> Where no point is free, the approach may lie anywhere between the least gap at points that are open and the
+   !> largest at points at the hardness.
    pure real(dp) function middle_between(open, capped) result(middle)
       real(dp), intent(in) :: open     !! huge if no point is open
       real(dp), intent(in) :: capped
@@ -178,8 +178,8 @@ contains
       if (open < huge(open)) middle = 0.5_dp*(open + capped)
    end function middle_between
 
-   !> Root mean square of the gap at the points next to the free ones, times the square root of the part of all points that
-   !> are free [Delta], (C10); zero if all points are.
+   !> Root mean square of the gap at the points next to the free ones, times the square root of the part of all points
+   !> that are free [Delta], (C10); zero if all points are.
    pure real(dp) function gap_at_edge(state, touched) result(gap)
       type(grid_state), intent(in) :: state
       logical, intent(in) :: touched(:)

@@ -46,7 +46,7 @@ module wavycon_pressure_correction
       real(sp), allocatable, private :: change(:)      !! of the pressure since the start
       real(sp), allocatable, private :: gap(:)
       real(sp), allocatable, private :: contact(:)     !! 1 at free points, 0 at those with p = 0 or p = H
-      real(sp), allocatable, private :: residuals(:)   !! r: the gap at free points, zero elsewhere, of the last iteration
+      real(sp), allocatable, private :: residuals(:)   !! r: the gap at free points, 0 elsewhere, of the last iteration
       real(sp), allocatable, private :: direction(:)   !! d
       real(sp), allocatable, private :: image(:)       !! in turn r, z, d, Sd
       real(sp), allocatable, private :: field(:, :)    !! a vector on the grid, for transforms
@@ -149,7 +149,8 @@ contains
       call set_load(pressure, total, self%hardness)
    end subroutine add_to
 
-   !> Changes the approach so that the mean gap over the free points is zero (C3), and computes the residual (C9) times G.
+   !> Changes the approach so that the mean gap over the free points is zero (C3), and computes the residual (C9) times
+   !> G.
    subroutine shift_gap(self)
       class(pressure_correction), intent(inout) :: self
 
@@ -260,8 +261,8 @@ contains
       if (curvature > 0.0_dp) step = real(self%product_of(self%residuals, self%direction)/curvature, sp)
    end subroutine find_step
 
-   !> Moves pressure and gap by a step. Points whose pressure would not stay positive leave the free ones; the others are
-   !> then multiplied by a factor that restores the mean pressure (C7). Where points pass H, (C24) takes its place.
+   !> Moves pressure and gap by a step. Points whose pressure would not stay positive leave the free ones; the others
+   !> are then multiplied by a factor that restores the mean pressure (C7). Where points pass H, (C24) takes its place.
    subroutine move(self, step, half_space)
       class(pressure_correction), intent(inout) :: self
       real(sp), intent(in) :: step
@@ -335,8 +336,8 @@ contains
       end do
    end subroutine move_between_bounds
 
-   !> Multiplies the pressure at the free points by a factor, so that its mean is that of the start, and adds the changes
-   !> to `image`.
+   !> Multiplies the pressure at the free points by a factor, so that its mean is that of the start, and adds the
+   !> changes to `image`.
    subroutine restore_mean(self)
       class(pressure_correction), intent(inout) :: self
 
@@ -352,8 +353,8 @@ contains
       end associate
    end subroutine restore_mean
 
-   !> Adds to the free points those outside whose gap is below the mean gap of the free ones by more than an allowance (C8),
-   !> at H above it. Smaller overlaps may be rounding: such points would enter and leave without end.
+   !> Adds to the free points those outside whose gap is below the mean gap of the free ones by more than an allowance
+   !> (C8), at H above it. Smaller overlaps may be rounding: such points would enter and leave without end.
    subroutine add_overlaps(self, allowance)
       class(pressure_correction), intent(inout) :: self
       real(sp), intent(in) :: allowance   !! over `scale`
