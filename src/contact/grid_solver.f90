@@ -101,7 +101,7 @@ contains
    pure real(dp) function size_of_gaps(state)
       type(grid_state), intent(in) :: state
 
-      size_of_gaps = abs(state%mean_gap + 2*state%imprint)
+      size_of_gaps = abs(state%open_gap() + state%imprint)
    end function size_of_gaps
 
    !> Whether a pressure lies between its bounds: the gap is zero there.
@@ -146,7 +146,7 @@ contains
             sums(j) = sum(gap(:, j), is_free(p(:, j), hardness))
             counts(j) = count(is_free(p(:, j), hardness))
          end do
-         if (any(counts > 0)) then
+         if (hardness >= huge(hardness) .or. any(counts > 0)) then
             change = sum(sums)/sum(counts)
          else
             change = middle_between(minval(gap, p <= 0.0_dp), maxval(gap, p >= hardness))

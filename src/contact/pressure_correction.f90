@@ -347,10 +347,18 @@ contains
       load = self%product_of(self%contact, self%start_pressure + self%change)
       if (.not. load > 0.0_dp) return
       excess = real(-sum_of(self%change)/load, sp)
-      associate (growth => self%contact*excess*(self%start_pressure + self%change))
-         self%image = self%image + growth
-         self%change = self%change + growth
-      end associate
+      if (excess > -1.0_sp) then
+         associate (growth => self%contact*excess*(self%start_pressure + self%change))
+            self%image = self%image + growth
+            self%change = self%change + growth
+         end associate
+      else
+         ! The step is so much longer than the pressure that what is left of it would be rounded to zero.
+         associate (rest => real(sum_of(self%start_pressure)/load, sp)*(self%start_pressure + self%change))
+            self%image = self%image + self%contact*(rest - self%start_pressure - self%change)
+            self%change = merge(rest - self%start_pressure, self%change, self%contact > 0.0_sp)
+         end associate
+      end if
    end subroutine restore_mean
 
    !> Adds to the free points those outside whose gap is below the mean gap of the free ones by more than an allowance
