@@ -15,7 +15,7 @@ for lateral in constrained hydrostatic; do
          --set scene.case="yield_$lateral-${nu%,*}"
    done
 done
-draw_figure 640 460 "p_star_here = $(header_value yield summary 'p*[pressure]')" <<'END'
+draw_figure 640 480 "p_star_here = $(header_value yield summary 'p*[pressure]')" <<'END'
 loads = '0.02 0.15 0.4 0.9'
 ratios = '0 0.15 0.3 0.5'
 section = table('yield', 'stress_section')
@@ -45,17 +45,18 @@ set border 15 lw 0.7
 set tics out nomirror
 set xrange [-0.5:0.5]
 set yrange [0.5:0]
-set xtics ('−0.4' -0.4, '0' 0, '0.4' 0.4)
-set xlabel '{/:Italic x}/'.lambda
-set bmargin at screen 0.725
+set bmargin at screen 0.74
 set tmargin at screen 0.935
 do for [i = 1:words(loads)] {
-   set lmargin at screen 0.09 + 0.203*(i - 1)
-   set rmargin at screen 0.09 + 0.203*(i - 1) + 0.185
+   set lmargin at screen 0.1 + 0.2*(i - 1)
+   set rmargin at screen 0.1 + 0.2*(i - 1) + 0.182
+   set xtics ('−0.4' -0.4, '0' 0, '0.4' 0.4)
+   set xlabel '{/:Italic x}/'.lambda offset 0, 0.3
    set title load.' = '.word(loads, i) offset 0, -0.3 font ',12'
-   if (i == 1) { set ylabel '{/:Italic z}/'.lambda; set ytics 0.25 format '%g' } else { unset ylabel; set format y '' }
+   set ytics 0.25 format (i == 1 ? '%g' : '')
+   if (i == 1) { set ylabel '{/:Italic z}/'.lambda }
    if (i == words(loads)) {
-      set colorbox user origin 0.895, 0.725 size 0.012, 0.21
+      set colorbox user origin 0.893, 0.74 size 0.012, 0.195
       set cbtics 0.4 font ',11' offset -0.6, 0
       set cblabel stress offset -0.8, 0
    } else {
@@ -69,6 +70,12 @@ do for [i = 1:words(loads)] {
         largest using (column('load') == i ? 0 : NaN):'von_mises_depth' with points pt 2 ps mark lw 1.5 lc rgb red
    # These files have no names of columns.
    unset datafile columnheaders
+   unset title
+   unset xlabel
+   unset ylabel
+   set xtics ('' -0.4, '' 0, '' 0.4)
+   set format y ''
+   unset colorbox
    plot for [side in '-1 1'] isolines(i) using (side*$1):2 with lines lc rgb '#303338' lw 0.5
 }
 set datafile columnheaders
@@ -98,16 +105,16 @@ set xrange [0:1]
 set xtics 0.2 format '%.1f'
 set mxtics 2
 set xlabel load
-set bmargin at screen 0.125
-set tmargin at screen 0.545
+set bmargin at screen 0.145
+set tmargin at screen 0.555
 do for [i = 1:2] {
    lateral = word('constrained hydrostatic', i)
-   set lmargin at screen 0.09 + 0.475*(i - 1)
-   set rmargin at screen 0.09 + 0.475*(i - 1) + 0.405
+   set lmargin at screen 0.1 + 0.475*(i - 1)
+   set rmargin at screen 0.1 + 0.475*(i - 1) + 0.4
    most = i == 1 ? 2.0 : 1.0
    set yrange [0:most]
    set ytics most/4 format '%g'
-   if (i == 1) { set ylabel 'largest '.stress } else { unset ylabel }
+   if (i == 1) { set ylabel 'largest '.stress offset 0.8, 0 } else { unset ylabel }
    set title "lateral stress '".lateral."'" offset 0, -0.4 font ',13'
    if (i == 1) { set key top left samplen 2.5 font ',11' } else { set key bottom right samplen 2.5 font ',11' }
    plot for [k = 1:i == 1 ? words(ratios) : 0] NaN with lines ls 30 + k dt solid \

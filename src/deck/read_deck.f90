@@ -105,8 +105,8 @@ contains
       call make_surface(deck%surface_values, deck%surface, deck%map, error)
    end subroutine read_surface
 
-   !> Checks &material and &load and, where these and the surface have no problems, hardness and loads against p* and Delta.
-   !> Sets the hardness of the surface.
+   !> Checks &material and &load and, where these and the surface have no problems, hardness and loads against p* and
+   !> Delta. Sets the hardness of the surface.
    subroutine check_material_and_loads(deck, problems)
       type(deck_type), intent(inout) :: deck   !! after read_surface
       type(problem_list_type), intent(inout) :: problems

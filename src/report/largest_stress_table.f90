@@ -98,8 +98,12 @@ contains
       subroutine put_largest(largest)
          type(largest_stress), intent(in) :: largest
 
+         !> A place this far below 0 is at 0 but for rounding: not on the far side of the cell.
+         real(dp), parameter :: rounding = 1e-6_dp   ! [rad]
+
          associate (scene => results%scene, length => results%scene%surface%length)
-            call file%add([scene%p_star*largest%value, length*modulo(largest%place(:2), 2*pi)/(2*pi), &
+            call file%add([scene%p_star*largest%value, &
+                           length*max(0.0_dp, modulo(largest%place(:2) + rounding, 2*pi) - rounding)/(2*pi), &
                            length(1)*largest%place(3)/(2*pi)])
          end associate
       end subroutine put_largest

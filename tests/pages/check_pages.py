@@ -21,14 +21,18 @@ MOST_LINES = 110  # of README.md
 DECK_PAGES = ("README.md", "inputs/README.md", "outputs/README.md")
 # Headings of outputs/README.md, each with the table that it explains.
 SECTIONS = {"summary": "The summary", "lines": "Lines", "theory_lines": "Closed forms along lines", "map": "Map",
-            "contour": "Contours", "coefficients": "Coefficients", "theory": "Theory", "details": "Details"}
+            "contour": "Contours", "coefficients": "Coefficients", "theory": "Theory", "details": "Details",
+            "stress_largest": "Largest stresses", "stress_line": "Stresses below the crest",
+            "stress_section": "Stresses on a section", "stress_planes": "Stresses on planes"}
 # Decks that together write every table, in both dimensions.
 ALL_TABLES = "lines = t, map = t, contours = t, coefficients = t, theory = t, line_points = 8, map_points = 8"
 TABLE_DECKS = {
     "line": f"&surface kind = 'wave_1d' /\n&load pbar_over_pstar = 0.5 /\n&output {ALL_TABLES} /\n",
     "plane": f"&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0.5 /\n&output {ALL_TABLES} /\n",
     "expansion": "&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0.5 /\n"
-                 "&method solver = 'fitted' /\n&output details = t /\n"}
+                 "&method solver = 'fitted' /\n&output details = t /\n",
+    "stresses": "&surface kind = 'wave_1d' /\n&load pbar_over_pstar = 0.5 /\n&method solver = 'auto' /\n"
+                "&stress nu = 0.3, line = t, section = 'x', planes = t, depths = 0, 0.1 /\n&output map_points = 8 /\n"}
 # Columns of the log that rounding may change.
 ROUNDED = ("error",)
 

@@ -26,9 +26,15 @@ EDGE = (0.0, 1e-8)
 CLOSED_FORM = (0.0, 1e-10)
 # Products and sums of a few numbers of the deck.
 ARITHMETIC = (0.0, 1e-12)
+# Stresses; L is the largest of all stresses of the table, as some components vanish but for rounding.
+STRESS = (0.0, 1e-9)
+# Where a stress is largest: it changes with the square of the distance, so that the place moves by the root of rounding.
+PLACE = (1e-8, 1e-5)
 # Integers that do not depend on rounding.
 COUNTED = (0.0, 0.0)
 
+STRESSES = (*(f"stress_{name}" for name in ("xx", "yy", "zz", "xy", "xz", "yz", "pressure", "error")),
+            "principal_1", "principal_2", "principal_3", "von_mises", "largest_shear")
 TOLERANCES = {
     "summary": {
         "mean_gap_over_amplitude": SOLVED,
@@ -58,6 +64,13 @@ TOLERANCES = {
     "map": {"x": ARITHMETIC, "y": ARITHMETIC, "pressure": SOLVED, "gap": SOLVED, "displacement": SOLVED},
     "contour": {"x_min": EDGE, "x_max": EDGE, "y_min": EDGE, "y_max": EDGE},
     "theory": {},
+    "stress_largest": {"body": COUNTED, "nu": ARITHMETIC,
+                       "mean_pressure": SOLVED, "stress_over_yield_stress": SOLVED, "stress_over_yield_stress_error": SOLVED,
+                       **{f"largest_{name}{ending}": tolerance for name in ("von_mises", "shear") for ending, tolerance
+                          in (("_over_pstar", SOLVED), ("_over_pstar_error", SOLVED), ("", SOLVED))},
+                       **{f"{name}_{axis}": PLACE for name in ("von_mises", "shear") for axis in ("x", "y", "depth")}},
+    **{kind: {"body": COUNTED, **{name: ARITHMETIC for name in ("distance", "x", "y", "depth", "depth_over_cell_x")},
+              **{name: STRESS for name in STRESSES}} for kind in ("stress_line", "stress_section", "stress_planes")},
 }
 # Of the columns that all tables have.
 COMMON = {"load": COUNTED, "pbar_over_pstar": ARITHMETIC, "status_code": COUNTED}
@@ -90,11 +103,11 @@ def shortened(word):
 
 
 def excerpt_of(path):
-    """The excerpt of a table: all of a short one, a sample of the rows of lines and maps, the extents of contours."""
+    """The excerpt of a table: all of a short one, a sample of the rows of a field, the extents of contours."""
     kind = path.name.split(".")[-2]
     table = Table(path)
     head, columns, units = [], table.columns, table.units
-    if kind in ("lines", "theory_lines", "map"):
+    if kind in ("lines", "theory_lines", "map", "stress_line", "stress_section", "stress_planes"):
         # An odd step, which is no multiple of the rows of a map.
         step = (len(table.lines) // SAMPLE) | 1
         head = [f"{len(table.lines)} rows in {table.blocks} blocks, 1 of {step} is here"]
@@ -160,7 +173,9 @@ def differences(new, reference):
         if tolerance is None:
             continue
         absolute, of_largest = tolerance
-        allowed = absolute + of_largest*largest(row[place] for row in reference.rows)
+        alike = [place] if tolerance is not STRESS else [k for k, name in enumerate(reference.columns)
+                                                         if tolerance_of(new.kind, name) is STRESS]
+        allowed = absolute + of_largest*largest(row[k] for row in reference.rows for k in alike)
         bad = [row for row, (ours, theirs) in enumerate(zip(new.rows, reference.rows))
                if not agrees(ours[place], theirs[place], allowed)]
         if bad:

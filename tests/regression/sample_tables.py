@@ -21,6 +21,9 @@ DECKS = {
     "file": f"&surface kind = 'file', file = 'heights.txt' /\n{LOADS}&output {ALL} /\n",
     "units": "&scene title = 'With [labels] # of units', pressure_unit = 'N/mm^2', length_unit = 'mm' /\n"
              f"&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0.3 /\n&output {ALL} /\n",
+    "stress": "&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0, 0.3 /\n&method solver = 'grid', grid_points = 16 /\n"
+              "&stress nu = 0.3, 0.2, yield_stress = 1, line = t, section = 'diagonal', planes = t, depths = 0, 0.1 /\n"
+              "&output line_points = 8, map_points = 8 /\n",
     "no_edge": "&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0, 1 /\n&output contours = t /\n",
     "flat": f"&surface kind = 'wave_2d', amplitude = 0 /\n&load mean_pressure = 0, 1 /\n&output {ALL} /\n",
 }
@@ -44,13 +47,9 @@ def make_tables(program, folder):
 
 
 def blocks_of(table):
-    """The records of each block: a table of blocks begins a new one with each load."""
-    if table.blocks <= 1:
-        return [table.records()]
-    found = {}
-    for record in table.records():
-        found.setdefault(record["load"], []).append(record)
-    return list(found.values())
+    """The records of each block."""
+    records = table.records()
+    return [records[start:end] for start, end in zip(table.starts, [*table.starts[1:], len(records)])]
 
 
 def page_examples(language):
@@ -59,7 +58,8 @@ def page_examples(language):
 
 
 def run_page_decks(program, folder):
-    """Runs the decks of these examples in a folder."""
+    """Runs the decks of these examples in a folder, where they also find the reference values."""
     for deck in page_examples("fortran"):
         (folder / "deck.nml").write_text(deck)
         subprocess.run([program, "deck.nml", "--quiet"], cwd=folder, check=True)
+    (folder / "outputs" / "reference").symlink_to(PAGE.parent / "reference")

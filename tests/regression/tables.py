@@ -3,7 +3,8 @@ import pathlib
 
 
 class Table:
-    """Names and units of the columns, and lines of words; `blocks` counts what gnuplot's `index` counts.
+    """Names and units of the columns, and lines of words; `blocks` counts what gnuplot's `index` counts, and `starts` are
+    the numbers of their first lines.
 
     The last line of '#' above the first row of names holds the units. In a table of blocks the row of names is repeated
     at the head of each block.
@@ -11,7 +12,7 @@ class Table:
 
     def __init__(self, path):
         self.path = pathlib.Path(path)
-        self.columns, self.units, self.lines, self.blocks = [], [], [], 0
+        self.columns, self.units, self.lines, self.starts = [], [], [], []
         blanks = 2
         for line in self.path.read_text(encoding="utf-8").splitlines():
             words = line.split()
@@ -25,12 +26,16 @@ class Table:
                 if (blanks >= 2) != (words == self.columns):
                     raise ValueError(f"{self.path}: names of columns must stand above each block, and there alone")
                 if blanks >= 2:
-                    self.blocks += 1
+                    self.starts.append(len(self.lines))
                 else:
                     self.lines.append(line)
                 blanks = 0
         if not self.columns or len(self.columns) != len(self.units) or len(set(self.columns)) != len(self.columns):
             raise ValueError(f"{self.path}: each column must have a name and a unit")
+
+    @property
+    def blocks(self):
+        return len(self.starts)
 
     def rows(self, step=1):
         """The words of each line, or of one line in so many."""

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The published reference values: recomputed, against grids and other methods, and for consistency."""
+import math
 import pathlib
 import subprocess
 import sys
@@ -162,6 +163,96 @@ class Hexagonal(ReferenceTable, unittest.TestCase):
     by_grids = (1e-3, (0.1, 0.6, 0.72, 0.8)), (1e-4, (0.01, 0.3, 0.95))
     smooth = (8, 40), (40, 64), (76, 96)
     merging_loads = 5e-4, 1e-4, 1e-4
+
+
+class Yield(unittest.TestCase):
+    """The largest von Mises stresses and their places."""
+    surfaces = {"wave_2d": "kind = 'wave_2d'", "rectangular": "kind = 'wave_2d', wavelength_y = 2",
+                "hexagonal": "kind = 'hexagonal'"}
+    laterals = "constrained", "hydrostatic"
+    ratios = tuple(i/20 for i in range(11))
+    loads = (0.001, 0.002, 0.005, 0.01, 0.02, 0.03, 0.05, 0.07, 0.1, *(i/20 for i in range(3, 21)))
+    # Largest stress of a Hertzian contact over its peak pressure, and the part of a load of 0.001 p* that is beyond Hertz.
+    hertz, beyond_hertz = {0.25: 0.643, 0.3: 0.620}, 3e-3
+    name = "largest_von_mises_over_pstar"
+
+    @classmethod
+    def setUpClass(cls):
+        cls.table = {(row["surface"], row["lateral"], float(row["nu"]), float(row["pbar_over_pstar"])): row
+                     for row in Table(REFERENCE / "yield.dat").records()}
+
+    def place(self, key):
+        return [float(self.table[key][name]) for name in ("x_over_cell_x", "y_over_cell_y", "depth_over_cell_x")]
+
+    def test_rows_and_bounds(self):
+        self.assertEqual({(surface, lateral, nu, load) for surface in self.surfaces for lateral in self.laterals
+                          for nu in self.ratios for load in self.loads}, set(self.table))
+        for key, row in self.table.items():
+            value, error = pair(row, self.name)
+            self.assertGreater(error, 0.0)
+            self.assertLess(error, self.most_error(key)*value, key)
+            for number in self.place(key):
+                self.assertTrue(0.0 <= number < 1.0, key)
+
+    def most_error(self, key):
+        """Ten digits; fewer where expansions are next to merging."""
+        near = {"wave_2d": (0.2, 0.4), "rectangular": (0.15, 0.6), "hexagonal": (0.6, 0.8)}[key[0]]
+        return 1e-8 if near[0] <= key[3] <= near[1] else 1e-9
+
+    def test_full_contact(self):
+        """Below the crest of the square wave, or on its surface between crests and troughs."""
+        for lateral in self.laterals:
+            for nu in self.ratios:
+                key = "wave_2d", lateral, nu, 1.0
+                value, error = pair(self.table[key], self.name)
+                mean = (1 - 2*nu)/(1 - nu) if lateral == "constrained" else 0.0
+                below = 1.5*math.exp(-2*(1 + nu)/3) + mean
+                between = math.sqrt(mean**2 + 0.75*(1 - 2*nu)**2)
+                self.assertLessEqual(abs(value - max(below, between)), error + 1e-15)
+                x, y, depth = self.place(key)
+                if below > between:
+                    expected = 2*(1 + nu)/3/(2*math.pi*math.sqrt(2))
+                    self.assertAlmostEqual(expected, depth, delta=2e-6)
+                    self.assertIn((x % 0.5, y % 0.5), ((0.0, 0.0),))
+                else:
+                    self.assertEqual((0.25, 0.25, 0.0), (x % 0.5, y % 0.5, depth))
+
+    def test_light_load(self):
+        for surface in ("wave_2d", "hexagonal"):
+            peak = published(surface)[0.001]["peak_pressure_over_pstar"][0]
+            for nu, ratio in self.hertz.items():
+                value, _ = pair(self.table[surface, "hydrostatic", nu, 0.001], self.name)
+                self.assertAlmostEqual(ratio, value/peak, delta=self.beyond_hertz)
+
+    def test_incompressible(self):
+        """With nu = 1/2 a body that is constrained is under hydrostatic pressure."""
+        for surface in self.surfaces:
+            for load in self.loads:
+                values = [pair(self.table[surface, lateral, 0.5, load], self.name) for lateral in self.laterals]
+                self.assertLessEqual(abs(values[0][0] - values[1][0]), values[0][1] + values[1][1])
+
+    def test_recomputed(self):
+        """By expansions of other degrees, and by grids."""
+        for solver, accuracy, loads, place_error in (("fitted", 1e-7, (0.002, 0.1, 0.5, 0.95), 1e-3),
+                                                     ("grid", 1e-3, (0.05, 0.6), 0.02)):
+            for surface, keys in self.surfaces.items():
+                for lateral in self.laterals:
+                    self.recompute(surface, keys, lateral, solver, accuracy, loads, place_error)
+
+    def recompute(self, surface, keys, lateral, solver, accuracy, loads, place_error):
+        deck = (f"&surface {keys} /\n&load pbar_over_pstar = {', '.join(map(str, loads))} /\n"
+                f"&stress nu = 0.05, 0.4, lateral = '{lateral}' /\n&method solver = '{solver}', accuracy = {accuracy} /\n")
+        with tempfile.TemporaryDirectory() as scratch:
+            (pathlib.Path(scratch) / "case.nml").write_text(deck)
+            subprocess.run([ReferenceTable.program, "case.nml", "--quiet", "--output", "."], cwd=scratch, check=True)
+            records = Table(pathlib.Path(scratch) / "case.stress_largest.dat").records()
+        self.assertEqual(2*len(loads), len(records))
+        for record in records:
+            key = surface, lateral, float(record["nu"]), float(record["pbar_over_pstar"])
+            expected, bound = pair(self.table[key], self.name)
+            value, error = pair(record, self.name)
+            self.assertLessEqual(abs(value - expected), error + bound, (solver, key))
+            self.assertAlmostEqual(self.place(key)[2], float(record["von_mises_depth"]), delta=place_error)
 
 
 def simpson(values, step):

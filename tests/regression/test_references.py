@@ -18,6 +18,14 @@ SUMMARY = """\
 """
 MAP = "# wavycon\n# [-] [length] [length]\n# load 1: pbar/p* = 0.5, converged\nload x gap\n" + "".join(
     f"1 {i} {i*1e-3}\n" for i in range(1000))
+STRESS_LINE = """\
+# wavycon
+# [-] [pressure] [pressure]
+# load 1: pbar/p* = 0.5, converged
+load stress_zz stress_xy
+1 -1e9 1e-8
+1 -5e8 -2e-8
+"""
 CONTOUR = """\
 # wavycon
 # [-]  [-]  [length] [length]
@@ -89,6 +97,11 @@ class References(unittest.TestCase):
         self.assertEqual([], self.words("a.map.dat", MAP))
         self.assertIn("gap differs", self.words("a.map.dat", MAP, ("1 0 0.0\n", "1 0 1e-6\n"))[0])
         self.assertIn("it begins with", self.words("a.map.dat", MAP, ("1 1 0.001\n", ""))[0])
+
+    def test_stresses_are_compared_with_the_largest(self):
+        self.assertEqual([], self.words("a.stress_line.dat", STRESS_LINE, ("-2e-8", "3e-7"), ("-1e9", "-1.0000000005e9")))
+        self.assertIn("stress_xy differs", self.words("a.stress_line.dat", STRESS_LINE, ("-2e-8", "3"))[0])
+        self.assertIn("stress_zz differs", self.words("a.stress_line.dat", STRESS_LINE, ("-5e8", "-5.0000001e8"))[0])
 
     def test_of_contours_the_extents_count(self):
         self.assertEqual([["1", "-1", "1", "0", "1"], ["2", "2", "2", "0", "0"]],
