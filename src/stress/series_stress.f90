@@ -276,7 +276,7 @@ contains
          error = ieee_value(error, ieee_quiet_nan)
          return
       end if
-      number = merge(9, 6, self%sampled_from*depth < self%faintest)
+      number = merge(9, 6, depth < self%faintest/self%sampled_from)
       call transform_waves(self, points, offset, depth, body, number, fields)
       allocate (error(points(1), points(2)), source=0.0_dp)
       do i = 7, number
