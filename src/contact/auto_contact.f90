@@ -1,6 +1,6 @@
 !> solver = 'auto': the closed form where there is one, otherwise fitted expansions where these exist for the surface,
-!> with grids for loads at which they are not accurate enough, otherwise grids. The grid alone if its points are given or
-!> the pressure is bounded by a hardness.
+!> with grids for loads at which they are not accurate enough, otherwise grids. The grid alone if its points are given
+!> or the pressure is bounded by a hardness.
 module wavycon_auto_contact
    use wavycon_closed_form_contact, only: closed_form_contact, closed_form_exists
    use wavycon_contact_solution, only: contact_solution

@@ -77,7 +77,7 @@ module wavycon_beale_contact
 
    type, extends(contact_solution) :: beale_solution
       real(dp), allocatable :: x(:)                    !! amplitudes of the Fourier terms of (p - pbar)/p*
-      !> Means over the cell of gaps where p = 0 and of overlaps where p = H [Delta] (C26), from the multipliers.
+      !> Means over the cell of gaps where p = 0 and of overlaps where p = H [Delta] (C25), from the multipliers.
       real(dp), private :: open_gap = 0.0_dp, imprint = 0.0_dp
       type(series_setup) :: setup
    contains
@@ -266,8 +266,8 @@ contains
       call move_alloc(own, solution)
    end subroutine solve_partial_contact
 
-   !> Solves the quadratic programme (17), (18) or (26), (27) of the paper, with p <= H where the surface has a hardness,
-   !> without measuring the solution.
+   !> Solves the quadratic programme (17), (18) or (26), (27) of the paper, with p <= H where the surface has a
+   !> hardness, without measuring the solution.
    subroutine solve_series(self, pbar_over_pstar, solution)
       class(beale_contact), intent(inout) :: self
       real(dp), intent(in) :: pbar_over_pstar       !! 0 < P < 1 or H

@@ -3,7 +3,6 @@
 !> Every solver extends `contact_solution`; callers use a solution without regard to its solver. Positions of fields and
 !> edges are the angles X, Y of the surface's cell.
 module wavycon_contact_solution
-   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use wavycon_contact_details, only: contact_details
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_measures, only: contact_measures, unmeasured
@@ -204,7 +203,6 @@ contains
       type(series_stress), allocatable :: own
 
       call self%coefficients(surface, pressure)
-      if (.not. self%is_good()) pressure%c = ieee_value(1.0_dp, ieee_quiet_nan)
       allocate (own)
       call start_series_stress(own, surface, pressure, self%pbar_over_pstar, &
                                pressure_error=rounding*self%measures%peak_pressure_over_pstar, is_sampled=.false.)

@@ -27,7 +27,8 @@ module wavycon_grid_cascade
    type :: cascade_answer
       type(grid_state) :: state            !! on the finest grid; gap not allocated if the first did not fit into memory
       real(dp) :: values(3) = 0.0_dp       !! mean gap [Delta], contact area fraction, peak pressure [p*]
-      !> Their error estimates, in the same units, at most `largest_errors`. That of the area holds for `area_at_hardness` too.
+      !> Their error estimates, in the same units, at most `largest_errors`. That of the area holds for
+      !> `area_at_hardness` too.
       real(dp) :: errors(3) = huge(1.0_dp)
       real(dp) :: area_at_hardness = 0.0_dp  !! fraction of the area at which p = H
       logical :: accurate = .false.        !! whether all error estimates are within the accuracy
@@ -107,8 +108,10 @@ contains
       call sample_undeformed_gap(surface, h)
       call half_space%start(surface, points)
       answer%state%pressure = answer%state%pressure*(mean_pressure*size(h)/sum(answer%state%pressure))
-      if (any(answer%state%pressure >= surface%hardness)) &
-         call set_load(answer%state%pressure, mean_pressure*size(h), surface%hardness)
+      if (surface%has_hardness()) then
+         if (any(answer%state%pressure >= surface%hardness)) &
+            call set_load(answer%state%pressure, mean_pressure*size(h), surface%hardness)
+      end if
       call stencil%start(surface, points)
       call solve_on_grid(half_space, stencil, h, residual, iteration_limit, answer%state)
       answer%grids = answer%grids + 1
@@ -151,8 +154,8 @@ contains
       answer%errors = estimate_errors(history, surface, edge, peak_resolved)
    end subroutine measure_level
 
-   !> The area at which p = H, and its error estimate. H - p and minus the gap behave at its edge as gap and pressure do at
-   !> the edge of contact (C23). It is at most that which carries the load.
+   !> The area at which p = H, and its error estimate. H - p and minus the gap behave at its edge as gap and pressure
+   !> do at the edge of contact (C23). It is at most that which carries the load.
    subroutine measure_at_hardness(surface, mean_pressure, history, answer)
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: mean_pressure

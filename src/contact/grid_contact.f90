@@ -200,7 +200,8 @@ contains
       if (self%surface%has_hardness()) own%measures%load_at_hardness_fraction = &
          answer%area_at_hardness*self%surface%hardness/pbar_over_pstar
       own%imprint = answer%state%imprint
-      own%active_constraints = count(answer%state%pressure <= 0.0_dp .or. answer%state%pressure >= self%surface%hardness)
+      own%active_constraints = count(answer%state%pressure <= 0.0_dp) + &
+                               count(answer%state%pressure >= self%surface%hardness)
       own%iterations = answer%iterations
       own%residual = answer%state%residual
       if (.not. answer%state%converged) then
@@ -299,8 +300,9 @@ contains
       allocate (grid_solution :: solution)
    end subroutine new_kept_solution
 
-   !> After the numbers of pack_common: the imprint, the stiffness of `edge`, the points along x and y (zeros if the fields were not
-   !> kept), whether the cell is turned, whether the grid covers a quarter of it, and the pressures and gaps.
+   !> After the numbers of pack_common: the imprint, the stiffness of `edge`, the points along x and y (zeros if the
+   !> fields were not kept), whether the cell is turned, whether the grid covers a quarter of it, and the pressures and
+   !> gaps.
    pure subroutine pack_kept(self, values)
       class(grid_solution), intent(in) :: self
       real(dp), allocatable, intent(out) :: values(:)

@@ -101,7 +101,7 @@ contains
    pure real(dp) function size_of_gaps(state)
       type(grid_state), intent(in) :: state
 
-      size_of_gaps = abs(state%mean_gap + 2*state%imprint)
+      size_of_gaps = abs(state%open_gap() + state%imprint)
    end function size_of_gaps
 
    !> Whether a pressure lies between its bounds: the gap is zero there.
@@ -118,8 +118,8 @@ contains
       violation = merge(merge(gap, max(gap, 0.0_dp), pressure < hardness), min(gap, 0.0_dp), pressure > 0.0_dp)
    end function violation
 
-   !> The gap h + Sp - approach (C1), whose mean over the free points is zero (C3), and the residual times G. The approach
-   !> is that of the present mean gap and a change: the change is a mean of small gaps and loses no digits.
+   !> The gap h + Sp - approach (C1), whose mean over the free points is zero (C3), and the residual times G. The
+   !> approach is that of the present mean gap and a change: the change is a mean of small gaps and loses no digits.
    subroutine compute_gap(half_space, undeformed_gap, touched, state)
       type(compliance_operator), intent(inout) :: half_space
       real(dp), intent(in) :: undeformed_gap(:, :)
@@ -146,7 +146,7 @@ contains
             sums(j) = sum(gap(:, j), is_free(p(:, j), hardness))
             counts(j) = count(is_free(p(:, j), hardness))
          end do
-         if (any(counts > 0)) then
+         if (hardness >= huge(hardness) .or. any(counts > 0)) then
             change = sum(sums)/sum(counts)
          else
             change = middle_between(minval(gap, p <= 0.0_dp), maxval(gap, p >= hardness))
@@ -168,8 +168,8 @@ contains
       end associate
    end subroutine compute_gap
 
-   !> Where no point is free, the approach may lie anywhere between the least gap at points that are open and the largest
-   !> at points at the hardness.
+   !> Where no point is free, the approach may lie anywhere between the least gap at points that are open and the
+   !> largest at points at the hardness.
    pure real(dp) function middle_between(open, capped) result(middle)
       real(dp), intent(in) :: open     !! huge if no point is open
       real(dp), intent(in) :: capped
@@ -178,12 +178,13 @@ contains
       if (open < huge(open)) middle = 0.5_dp*(open + capped)
    end function middle_between
 
-   !> Root mean square of the gap at the points next to the free ones, times the square root of the part of all points that
-   !> are free [Delta], (C10); zero if all points are.
+   !> Root mean square of the gap at the points next to the free ones, times the square root of the part of all points
+   !> that are free [Delta], (C10); zero if all points are.
    pure real(dp) function gap_at_edge(state, touched) result(gap)
       type(grid_state), intent(in) :: state
       logical, intent(in) :: touched(:)
 
+      logical(c_bool), allocatable :: free(:, :)
       logical(c_bool) :: beside(size(state%gap, 1))
       real(dp) :: squares
       integer :: contact_points, edge_points, j, m, n
@@ -193,18 +194,21 @@ contains
       squares = 0.0_dp
       edge_points = 0
       contact_points = 0
-      associate (p => state%pressure, hardness => state%hardness)
-         do j = 1, n
-            if (.not. any(touched(max(j - 1, 1):min(j + 1, n)))) cycle
-            beside = is_free(p(:, max(j - 1, 1)), hardness) .or. is_free(p(:, min(j + 1, n)), hardness)
-            beside(2:) = beside(2:) .or. is_free(p(:m - 1, j), hardness)
-            beside(:m - 1) = beside(:m - 1) .or. is_free(p(2:, j), hardness)
-            beside = beside .and. .not. is_free(p(:, j), hardness)
-            squares = squares + sum(merge(state%gap(:, j)**2, 0.0_dp, beside))
-            edge_points = edge_points + count(beside)
-            contact_points = contact_points + count(is_free(p(:, j), hardness))
-         end do
-      end associate
+      allocate (free(m, n))
+      do j = 1, n
+         free(:, j) = .false.
+         if (touched(j)) free(:, j) = is_free(state%pressure(:, j), state%hardness)
+      end do
+      do j = 1, n
+         if (.not. any(touched(max(j - 1, 1):min(j + 1, n)))) cycle
+         beside = free(:, max(j - 1, 1)) .or. free(:, min(j + 1, n))
+         beside(2:) = beside(2:) .or. free(:m - 1, j)
+         beside(:m - 1) = beside(:m - 1) .or. free(2:, j)
+         beside = beside .and. .not. free(:, j)
+         squares = squares + sum(merge(state%gap(:, j)**2, 0.0_dp, beside))
+         edge_points = edge_points + count(beside)
+         contact_points = contact_points + count(free(:, j))
+      end do
       gap = sqrt(squares/max(edge_points, 1)*contact_points/(real(m, dp)*n))
    end function gap_at_edge
 
@@ -215,15 +219,18 @@ contains
       logical(c_bool), allocatable, intent(inout) :: inside(:, :)   !! shape (m, n)
 
       logical(c_bool) :: near(size(state%gap, 1), size(state%gap, 2))
-      logical :: occupied(size(state%gap, 2))
+      logical :: has_hardness, occupied(size(state%gap, 2))
       integer :: j, k, m, n
 
       m = size(state%gap, 1)
       n = size(state%gap, 2)
+      has_hardness = state%hardness < huge(state%hardness)
       if (.not. allocated(inside)) allocate (inside(m, n))
       do j = 1, n
-         near(:, j) = is_free(state%pressure(:, j), state%hardness) .or. &
-                      abs(violation(state%gap(:, j), state%pressure(:, j), state%hardness)) > 0.0_dp
+         near(:, j) = state%pressure(:, j) > 0.0_dp .or. state%gap(:, j) < 0.0_dp
+         if (has_hardness) then
+            where (state%pressure(:, j) >= state%hardness) near(:, j) = state%gap(:, j) > 0.0_dp
+         end if
          occupied(j) = any(near(:, j))
          if (.not. occupied(j)) cycle
          inside(:, j) = near(:, j)

@@ -46,7 +46,7 @@ module wavycon_pressure_correction
       real(sp), allocatable, private :: change(:)      !! of the pressure since the start
       real(sp), allocatable, private :: gap(:)
       real(sp), allocatable, private :: contact(:)     !! 1 at free points, 0 at those with p = 0 or p = H
-      real(sp), allocatable, private :: residuals(:)   !! r: the gap at free points, zero elsewhere, of the last iteration
+      real(sp), allocatable, private :: residuals(:)   !! r: the gap at free points, 0 elsewhere, of the last iteration
       real(sp), allocatable, private :: direction(:)   !! d
       real(sp), allocatable, private :: image(:)       !! in turn r, z, d, Sd
       real(sp), allocatable, private :: field(:, :)    !! a vector on the grid, for transforms
@@ -68,7 +68,6 @@ module wavycon_pressure_correction
       procedure, private :: move_between_bounds
       procedure, private :: restore_mean
       procedure, private :: add_overlaps
-      procedure, private :: is_at_hardness
       procedure, private :: displace
       procedure, private :: product_of
       procedure, private :: subtract_mean
@@ -140,25 +139,18 @@ contains
       class(pressure_correction), intent(in) :: self
       real(dp), intent(inout) :: pressure(:, :)   !! the pressure of `start`; its mean stays
 
+      logical, allocatable :: at_hardness(:)
       real(dp) :: total
-      integer :: i
 
+      allocate (at_hardness(self%region%points), source=.false.)
+      if (allocated(self%room)) at_hardness = self%room <= self%change
       total = sum_of_field(pressure)
-      call self%region%correct(self%change, self%contact, [(self%is_at_hardness(i), i=1, self%region%points)], &
-                               self%scale, self%hardness, pressure)
+      call self%region%correct(self%change, self%contact, at_hardness, self%scale, self%hardness, pressure)
       call set_load(pressure, total, self%hardness)
    end subroutine add_to
 
-   !> Whether the pressure at a point is H.
-   pure logical function is_at_hardness(self, i)
-      class(pressure_correction), intent(in) :: self
-      integer, intent(in) :: i
-
-      is_at_hardness = .false.
-      if (allocated(self%room)) is_at_hardness = self%room(i) <= self%change(i)
-   end function is_at_hardness
-
-   !> Changes the approach so that the mean gap over the free points is zero (C3), and computes the residual (C9) times G.
+   !> Changes the approach so that the mean gap over the free points is zero (C3), and computes the residual (C9) times
+   !> G.
    subroutine shift_gap(self)
       class(pressure_correction), intent(inout) :: self
 
@@ -269,8 +261,8 @@ contains
       if (curvature > 0.0_dp) step = real(self%product_of(self%residuals, self%direction)/curvature, sp)
    end subroutine find_step
 
-   !> Moves pressure and gap by a step. Points whose pressure would not stay positive leave the free ones; the others are
-   !> then multiplied by a factor that restores the mean pressure (C7). Where points pass H, (C24) takes its place.
+   !> Moves pressure and gap by a step. Points whose pressure would not stay positive leave the free ones; the others
+   !> are then multiplied by a factor that restores the mean pressure (C7). Where points pass H, (C24) takes its place.
    subroutine move(self, step, half_space)
       class(pressure_correction), intent(inout) :: self
       real(sp), intent(in) :: step
@@ -344,8 +336,8 @@ contains
       end do
    end subroutine move_between_bounds
 
-   !> Multiplies the pressure at the free points by a factor, so that its mean is that of the start, and adds the changes
-   !> to `image`.
+   !> Multiplies the pressure at the free points by a factor, so that its mean is that of the start, and adds the
+   !> changes to `image`.
    subroutine restore_mean(self)
       class(pressure_correction), intent(inout) :: self
 
@@ -355,14 +347,22 @@ contains
       load = self%product_of(self%contact, self%start_pressure + self%change)
       if (.not. load > 0.0_dp) return
       excess = real(-sum_of(self%change)/load, sp)
-      associate (growth => self%contact*excess*(self%start_pressure + self%change))
-         self%image = self%image + growth
-         self%change = self%change + growth
-      end associate
+      if (excess > -1.0_sp) then
+         associate (growth => self%contact*excess*(self%start_pressure + self%change))
+            self%image = self%image + growth
+            self%change = self%change + growth
+         end associate
+      else
+         ! The step is so much longer than the pressure that what is left of it would be rounded to zero.
+         associate (rest => real(sum_of(self%start_pressure)/load, sp)*(self%start_pressure + self%change))
+            self%image = self%image + self%contact*(rest - self%start_pressure - self%change)
+            self%change = merge(rest - self%start_pressure, self%change, self%contact > 0.0_sp)
+         end associate
+      end if
    end subroutine restore_mean
 
-   !> Adds to the free points those outside whose gap is below the mean gap of the free ones by more than an allowance (C8),
-   !> at H above it. Smaller overlaps may be rounding: such points would enter and leave without end.
+   !> Adds to the free points those outside whose gap is below the mean gap of the free ones by more than an allowance
+   !> (C8), at H above it. Smaller overlaps may be rounding: such points would enter and leave without end.
    subroutine add_overlaps(self, allowance)
       class(pressure_correction), intent(inout) :: self
       real(sp), intent(in) :: allowance   !! over `scale`

@@ -10,8 +10,8 @@ module wavycon_pressure_load
 contains
 
    !> Changes a pressure so that its sum is that of a load. Without points at H the pressure is multiplied by a factor.
-   !> Otherwise all points between zero and H change by the same, within these bounds, and the others too where that is not
-   !> enough.
+   !> Otherwise all points between zero and H change by the same, within these bounds, and the others too where that is
+   !> not enough.
    pure subroutine set_load(pressure, load, hardness)
       real(dp), intent(inout) :: pressure(:, :)   !! p, >= 0; more than H becomes H
       real(dp), intent(in) :: load                !! sum of the pressures, > 0 and < H times their number
@@ -39,7 +39,8 @@ contains
       if (has_points_at) has_points_at = any(pressure >= hardness)
    end function has_points_at
 
-   !> The shift s for which the sum of min(max(s, -above), below) is a given one: the sum grows with s, in straight pieces.
+   !> The shift s for which the sum of min(max(s, -above), below) is a given one: the sum grows with s, in straight
+   !> pieces.
    pure real(dp) function bounded_shift(above, below, total) result(shift)
       real(dp), intent(in) :: above(:), below(:)   !! above + below > 0, of the same size
       real(dp), intent(in) :: total                !! between the sums of -above and of below

@@ -8,7 +8,8 @@ module wavycon_material_group
    implicit none (type, external)
    private
 
-   public :: material_table, check_material_group, check_hardness, hardness_over_pstar, is_another_way, plane_strain_modulus
+   public :: material_table, check_material_group, check_hardness, hardness_over_pstar, is_another_way, &
+      plane_strain_modulus
 
    !> The keys that give the stiffness in place of e_star.
    character(3), parameter :: moduli(*) = ['e1 ', 'nu1', 'e2 ', 'nu2']
@@ -31,8 +32,8 @@ contains
             "Young's modulus of the second body; needs nu2. Without it the second body is rigid.", above=0.0_dp), &
          real_key('nu2', '', '-', "Poisson's ratio of the second body.", above=-1.0_dp, most=0.5_dp), &
          real_key('hardness', '', 'unit of e_star', &
-            'Largest contact pressure: where it is reached the softer body flows and is left with an imprint. Without it '// &
-            'the bodies stay elastic. Mean pressures must be lower.', above=0.0_dp)])
+            'Largest contact pressure: where it is reached the softer body flows and is left with an imprint. '// &
+            'Without it the bodies stay elastic. Mean pressures must be lower.', above=0.0_dp)])
    end function material_table
 
    !> Reports moduli without their Poisson's ratios, and moduli beside e_star. Leaves e_star out of the resolved deck
@@ -69,7 +70,8 @@ contains
          call values%complain(problems, 'hardness', &
             'the surface is flat: its pressure is the mean pressure, and a hardness means nothing')
       else if (hardness > most_hardness*p_star .or. hardness < p_star/most_hardness) then
-         call values%complain(problems, 'hardness', 'hardness = '//short_number(hardness)//' is not within a factor of '// &
+         call values%complain(problems, 'hardness', &
+            'hardness = '//short_number(hardness)//' is not within a factor of '// &
             short_number(most_hardness)//' of p* = '//short_number(p_star)// &
             '. Do its unit and that of e_star agree, and those of the lengths?')
       end if

@@ -80,7 +80,7 @@ contains
       if (present(settings)) call name_case(deck%scene, settings, problems)
       call read_surface(deck, problems, error)
       call check_material_and_loads(deck, problems)
-      call check_stress_group(deck%stress, deck%material, deck%load, problems)
+      call check_stress_group(deck%stress, deck%material, deck%load, problems, deck%surface)
       call check_method_group(deck%method, deck%surface_values%text('kind'), deck%surface, problems)
       call check_output_group(deck%output, deck%scene%text('case'), deck%method, deck%surface, problems)
       ! Problems of the deck are reported rather than an error of its height map: the path of the map may be one of
@@ -105,8 +105,8 @@ contains
       call make_surface(deck%surface_values, deck%surface, deck%map, error)
    end subroutine read_surface
 
-   !> Checks &material and &load and, where these and the surface have no problems, hardness and loads against p* and Delta.
-   !> Sets the hardness of the surface.
+   !> Checks &material and &load and, where these and the surface have no problems, hardness and loads against p* and
+   !> Delta. Sets the hardness of the surface.
    subroutine check_material_and_loads(deck, problems)
       type(deck_type), intent(inout) :: deck   !! after read_surface
       type(problem_list_type), intent(inout) :: problems

@@ -6,6 +6,7 @@ module wavycon_stress_group
    use wavycon_kinds, only: dp
    use wavycon_problems, only: problem_list_type
    use wavycon_stress_setting, only: stress_setting
+   use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
 
@@ -55,10 +56,11 @@ contains
    end function stress_table
 
    !> Sets the defaults that depend on &material and reports what is missing or contradicts.
-   subroutine check_stress_group(values, material, load, problems)
+   subroutine check_stress_group(values, material, load, problems, surface)
       type(group_values), intent(inout) :: values
       type(group_values), intent(in) :: material, load
       type(problem_list_type), intent(inout) :: problems
+      type(surface_type), intent(in), optional :: surface   !! absent if it is not known, or its keys are bad
 
       logical :: has_range
       integer :: k
@@ -79,6 +81,10 @@ contains
          call values%complain(problems, 'planes', 'planes needs depths, depths_over_cell_x or a range of depths')
       end if
       if (.not. material%any_bad() .and. .not. values%is_bad('nu')) call take_ratios(values, material, problems)
+      if (present(surface)) then
+         if (surface%dimension == 1 .and. any(values%text('section') == ['y       ', 'diagonal'])) &
+            call values%complain(problems, 'section', "the surface does not change along y: section must be 'none' or 'x'")
+      end if
       if (values%has('yield_criterion') .and. .not. values%has('yield_stress')) call values%complain(problems, &
          'yield_criterion', 'yield_criterion needs yield_stress beside it')
       if (.not. values%has('yield_stress')) call values%leave_out('yield_criterion')

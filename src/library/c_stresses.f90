@@ -21,7 +21,7 @@ contains
       character(:), allocatable :: lateral_text
       type(error_type), allocatable :: trouble
       type(handle_type), pointer :: contents
-      real(c_double), pointer :: from_depth(:), from_x(:), from_y(:), to_error(:), to_stress(:, :)
+      real(c_double), pointer, contiguous :: from_depth(:), from_x(:), from_y(:), to_error(:), to_stress(:, :)
       real(dp), allocatable :: errors(:), stresses(:, :)
 
       call begin_call()
@@ -56,7 +56,7 @@ contains
       character(:), allocatable :: lateral_text
       type(error_type), allocatable :: trouble
       type(handle_type), pointer :: contents
-      real(c_double), pointer :: from_offset(:), to_error(:, :), to_stress(:, :, :)
+      real(c_double), pointer, contiguous :: from_offset(:), to_error(:, :), to_stress(:, :, :)
       real(dp), allocatable :: errors(:, :), stresses(:, :, :)
       real(dp) :: first(2)
 
@@ -115,7 +115,7 @@ contains
       integer(c_int), value :: points
 
       type(error_type), allocatable :: trouble
-      real(c_double), pointer :: from(:, :), principal(:, :), shear(:), yielding(:)
+      real(c_double), pointer, contiguous :: from(:, :), principal(:, :), shear(:), yielding(:)
       integer :: i
 
       call begin_call()

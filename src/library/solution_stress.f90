@@ -180,11 +180,9 @@ contains
          call find_largest_stress(self%fields, body, by_von_mises, yielding)
          call find_largest_stress(self%fields, body, by_shear, shear)
          answer = wavy_largest_stress( &
-            yielding%value, yielding%error, shear%value, shear%error, &
-            self%p_star*yielding%value, self%length(1)*modulo(yielding%place(1), 2*pi)/(2*pi), &
-            self%length(2)*modulo(yielding%place(2), 2*pi)/(2*pi), self%length(1)*yielding%place(3)/(2*pi), &
-            self%p_star*shear%value, self%length(1)*modulo(shear%place(1), 2*pi)/(2*pi), &
-            self%length(2)*modulo(shear%place(2), 2*pi)/(2*pi), self%length(1)*shear%place(3)/(2*pi))
+            yielding%value, yielding%error, shear%value, shear%error, self%p_star*yielding%value, &
+            place(self, 1, yielding), place(self, 2, yielding), self%length(1)*yielding%place(3)/(2*pi), &
+            self%p_star*shear%value, place(self, 1, shear), place(self, 2, shear), self%length(1)*shear%place(3)/(2*pi))
       else
          call self%uniform(body, stress, stress_error)
          none = ieee_value(1.0_dp, ieee_quiet_nan)
@@ -192,6 +190,17 @@ contains
                                       largest_shear=largest_shear(stress))
       end if
    end subroutine largest
+
+   !> The place of a largest stress along x (1) or y (2), in the cell [length].
+   pure real(dp) function place(stress, axis, largest)
+      class(solution_stress), intent(in) :: stress
+      integer, intent(in) :: axis
+      type(largest_stress), intent(in) :: largest
+
+      ! Builds that trap exceptions do not survive the modulo of a NaN.
+      place = largest%place(axis)
+      if (stress%exist()) place = stress%length(axis)*modulo(place, 2*pi)/(2*pi)
+   end function place
 
    !> The body of a Poisson's ratio and lateral stresses. Errors: exit_bad_input, with the messages of decks.
    subroutine find_body(nu, lateral, body, error)

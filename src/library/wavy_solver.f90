@@ -74,7 +74,7 @@ contains
       type(wavy_surface), intent(in) :: surface
       real(dp), intent(in) :: e_star        !! plane-strain modulus, > 0 [pressure]; 1/e_star = (1 - nu1^2)/e1 + ...
       character(*), intent(in) :: method    !! keys of &method, such as "solver = 'auto', accuracy = 1e-4"; may be empty
-      logical, intent(in) :: keep_fields    !! whether maps, fields, edges or details of solutions will be needed
+      logical, intent(in) :: keep_fields    !! whether maps, fields, edges, details or stresses will be needed
       type(wavy_solver), intent(out) :: solver
       type(error_type), allocatable, intent(out) :: error
 

@@ -154,7 +154,7 @@ wavycon_surface wavycon_new_surface(wavycon_error error, const char *keys);
 
 /* e_star: plane-strain modulus of the pair, 1/e_star = (1 - nu1^2)/e1 + (1 - nu2^2)/e2 [pressure].
    method: keys of &method of a deck, such as "solver = 'auto', accuracy = 1e-4"; "" for the defaults.
-   keep_fields: nonzero if maps, fields or edges of solutions will be needed. */
+   keep_fields: nonzero if maps, fields, edges or stresses of solutions will be needed. */
 wavycon_solver wavycon_new_solver(wavycon_error error, wavycon_surface surface, double e_star, const char *method,
                                   int keep_fields);
 

@@ -13,7 +13,8 @@ module wavycon_contact_measures
 
    type :: contact_measures
       real(dp) :: mean_gap_over_amplitude = 1.0_dp       !! G: eqs. (19), (28)
-      !> Of the mean planes of the elastic bodies, delta'/Delta: 1 - G, and with a hardness more by the mean depth of imprints.
+      !> Of the mean planes of the elastic bodies, delta'/Delta: 1 - G, and with a hardness more by the mean depth of
+      !> imprints.
       real(dp) :: approach_over_amplitude = 0.0_dp
       real(dp) :: contact_area_fraction = 0.0_dp         !! of the nominal area; 1 by definition from P = 1 on
       real(dp) :: peak_pressure_over_pstar = 0.0_dp      !! largest
@@ -71,7 +72,8 @@ contains
    end function unmeasured
 
    !> Measures the series of a pressure and its displacement, eqs. (19), (28) of Johnson, Greenwood & Higginson (1985).
-   !> The edge of contact is the isobar p = edge_level p*. Mean gap and approach are those of a crest in elastic contact.
+   !> The edge of contact is the isobar p = edge_level p*. Mean gap and approach are those of a crest in elastic
+   !> contact.
    subroutine measure_series(pressure, displacement, edge_level, measures, hardness)
       type(fourier_series), intent(in) :: pressure       !! p/p*
       type(fourier_series), intent(in) :: displacement   !! (u - ubar)/Delta

@@ -2,7 +2,7 @@
 !>
 !> Equations (S1) to (S5) of README.md in this directory.
 module wavycon_series_stress
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
    use wavycon_constants, only: pi, sqrt3
    use wavycon_elastic_body, only: elastic_body
    use wavycon_fourier_series, only: fourier_series
@@ -99,6 +99,11 @@ contains
       real(dp) :: q, q_y, sums(number_of_sums)
       integer :: k, l, last(2)
 
+      if (.not. self%exist) then
+         parts = ieee_value(parts, ieee_quiet_nan)
+         if (present(error)) error = ieee_value(error, ieee_quiet_nan)
+         return
+      end if
       call self%use_depth(depth)
       last = ubound(self%decay) - 1
       turn_x(:last(1)) = [(exp(cmplx(0.0_dp, k*x, dp)), k=0, last(1))]
@@ -126,7 +131,7 @@ contains
          end associate
       end do
       parts = parts_of(sums)
-      if (present(error)) error = error_of(self, sums(9:))
+      if (present(error)) error = error_of(self, parts, sums(9:))
    end subroutine at
 
    !> The stresses from the sums (S4).
@@ -160,6 +165,11 @@ contains
       real(dp) :: n_x, n_y, q, q_y, sums(number_of_sums)
       integer :: i, k, l, last(2), m
 
+      if (.not. self%exist) then
+         parts = ieee_value(parts, ieee_quiet_nan)
+         error = ieee_value(error, ieee_quiet_nan)
+         return
+      end if
       call self%use_depth(depth)
       last = ubound(self%decay) - 1
       turn_x(:last(1)) = [(exp(cmplx(0.0_dp, k*start(1), dp)), k=0, last(1))]
@@ -190,16 +200,18 @@ contains
             sums = sums + real(along(:, m)*exp(cmplx(0.0_dp, m*t(i), dp)))
          end do
          parts(:, :, i) = parts_of(sums)
-         error(i) = error_of(self, sums(9:))
+         error(i) = error_of(self, parts(:, :, i), sums(9:))
       end do
    end subroutine on_line
 
    !> The error (S5).
-   pure real(dp) function error_of(stress, octave)
+   pure real(dp) function error_of(stress, parts, octave)
       class(series_stress), intent(in) :: stress
+      real(dp), intent(in) :: parts(6, 2)
       real(dp), intent(in) :: octave(3)   !! sums over the waves of the last octave, with the weights below
 
       error_of = stress%pressure_error + octave_factor*norm2(octave)
+      if (error_of < parts(zz, 1) - stress%pbar_over_pstar) error_of = parts(zz, 1) - stress%pbar_over_pstar
    end function error_of
 
    !> The weights of a wave of the last octave in (S5), to its sign.
@@ -241,7 +253,7 @@ contains
    pure logical function is_zero(wave)
       complex(dp), intent(in) :: wave
 
-      is_zero = max(abs(wave%re), abs(wave%im)) <= 0.0_dp
+      is_zero = abs(wave%re) <= 0.0_dp .and. abs(wave%im) <= 0.0_dp
    end function is_zero
 
    !> One transform for each component, and three for the error (S5). Waves that the points cannot tell from slower ones are
@@ -255,33 +267,57 @@ contains
       real(dp), allocatable, intent(out) :: stress(:, :, :)
       real(dp), allocatable, intent(out) :: error(:, :)
 
+      real(dp), allocatable :: fields(:, :, :)
+      integer :: i, number
+
+      if (.not. self%exist) then
+         allocate (stress(points(1), points(2), 6), error(points(1), points(2)))
+         stress = ieee_value(stress, ieee_quiet_nan)
+         error = ieee_value(error, ieee_quiet_nan)
+         return
+      end if
+      number = merge(9, 6, self%sampled_from*depth < self%faintest)
+      call transform_waves(self, points, offset, depth, body, number, fields)
+      allocate (error(points(1), points(2)), source=0.0_dp)
+      do i = 7, number
+         error = error + fields(:, :, i)**2
+      end do
+      error = self%pressure_error + octave_factor*sqrt(error)
+      where (error < fields(:, :, zz)) error = fields(:, :, zz)
+      if (number == 6) then
+         call move_alloc(fields, stress)
+      else
+         allocate (stress, source=fields(:, :, :6))
+      end if
+   end subroutine on_plane
+
+   !> The six components on a plane and, if asked for, the three sums of (S5).
+   subroutine transform_waves(self, points, offset, depth, body, number, fields)
+      class(series_stress), intent(inout) :: self
+      integer, intent(in) :: points(2)
+      real(dp), intent(in) :: offset(2), depth
+      type(elastic_body), intent(in) :: body
+      integer, intent(in) :: number                          !! of fields, 6 or 9
+      real(dp), allocatable, intent(out) :: fields(:, :, :)  !! shape (N_x, N_y, number)
+
       complex(dp), allocatable :: waves(:, :, :)
       type(grid_transform) :: transform
-      real(dp), allocatable :: part(:, :)
       real(dp) :: mean(6)
-      integer :: i, spectra
+      integer :: i
 
-      allocate (stress(points(1), points(2), 6), error(points(1), points(2)), part(points(1), points(2)))
+      allocate (fields(points(1), points(2), number))
+      allocate (waves(points(1)/2 + 1, points(2), number), source=(0.0_dp, 0.0_dp))
       call transform%start(points, even=.false.)
-      spectra = merge(9, 6, self%sampled_from*depth < self%faintest)
-      allocate (waves(points(1)/2 + 1, points(2), spectra), source=(0.0_dp, 0.0_dp))
       call add_waves(self, points, offset, depth, body%nu, waves)
-      do i = 1, 6
+      do i = 1, number
          transform%waves = waves(:, :, i)
-         call transform%backward(stress(:, :, i))
+         call transform%backward(fields(:, :, i))
       end do
       mean = body%stress(reshape([(0.0_dp, i=1, 12)], [6, 2]), self%pbar_over_pstar)
       do i = 1, 6
-         if (abs(mean(i)) > 0.0_dp) stress(:, :, i) = stress(:, :, i) + mean(i)
+         if (abs(mean(i)) > 0.0_dp) fields(:, :, i) = fields(:, :, i) + mean(i)
       end do
-      error = 0.0_dp
-      do i = 7, spectra
-         transform%waves = waves(:, :, i)
-         call transform%backward(part)
-         error = error + part**2
-      end do
-      error = self%pressure_error + octave_factor*sqrt(error)
-   end subroutine on_plane
+   end subroutine transform_waves
 
    !> Adds the waves of the components of the stress to their spectra, and to three more, if there are, those of
    !> the last octave for the error (S5).
@@ -343,7 +379,7 @@ contains
       real(dp), allocatable, intent(out) :: widths(:)
       real(dp), allocatable, intent(out) :: stresses(:, :)
 
-      real(dp), allocatable :: depth(:), error(:, :), shear(:, :), stress(:, :, :), yielding(:, :)
+      real(dp), allocatable :: depth(:), shear(:, :), stress(:, :, :), yielding(:, :)
       real(dp) :: least, step
       integer :: i, k, l, points(2)
 
@@ -356,7 +392,7 @@ contains
       do i = 1, size(depth)
          points = plane_of(depth(i))
          if (self%dimension == 1) points(2) = 1
-         call self%on_plane(points, [0.0_dp, 0.0_dp], depth(i), body, stress, error)
+         call transform_waves(self, points, [0.0_dp, 0.0_dp], depth(i), body, 6, stress)
          allocate (yielding(points(1), points(2)), shear(points(1), points(2)), source=0.0_dp)
          do l = 1, points(2)
             do k = 1, points(1)

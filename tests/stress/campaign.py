@@ -25,12 +25,13 @@ import honest_estimates
 import names
 import quadratic_programmes
 import random_scenes
+import random_stresses
 import same_contact
 import valgrind_runs
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 MOST_SHOWN = 20  # failures of a part that are printed
-PARTS = ("qp", "loads", "solvers", "decks", "faults", "builds", "valgrind")
+PARTS = ("qp", "loads", "solvers", "stresses", "decks", "faults", "builds", "valgrind")
 
 
 def qp(settings, results):
@@ -55,6 +56,12 @@ def solvers(settings, results):
             (same_contact.alone_and_again, settings.program, 3)):
         with work_folder() as work:
             yield campaign(program, settings.seed, kinds, 1 if settings.quick else scenes, work, results)
+
+
+def stresses(settings, results):
+    kinds = random_scenes.QUICK if settings.quick else random_scenes.KINDS
+    with work_folder() as work:
+        yield random_stresses.campaign(settings.program, settings.seed, kinds, 1 if settings.quick else 8, work, results)
 
 
 def decks(settings, results):

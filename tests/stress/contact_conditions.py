@@ -29,6 +29,11 @@ def hard_case(stream, kind):
     return with_residual(stream, hard_scene(stream, kind), hard_loads(stream, 3), "solver = 'grid'")
 
 
+def hardness(stream):
+    """A random hardness over the mean pressure, as a word."""
+    return repr(1.0 + 10.0**stream.uniform(-6.0, 1.5))
+
+
 def with_residual(stream, scene, loads, method):
     residual = stream.choice(RESIDUALS)
     return scene.files(loads, method + (f", residual = {residual!r}" if residual else "")), residual
@@ -82,26 +87,30 @@ def expansion_complaints(line, accuracy):
     return words, worst if noise <= accuracy else 0.0
 
 
-CASES = {"grid": grid_case, "hard": hard_case, "fitted": fitted_case}
+CASES = {"grid": grid_case, "hard": hard_case, "fitted": fitted_case,
+         "grid with a hardness": grid_case, "hard with a hardness": hard_case}
 
 
 def campaign(program, seed, kinds, scenes, work, failures):
-    """So many scenes of each kind on grids, as many of each kind of hard map, and as many of each kind that expansions
-    can solve. Runs stress_scenes."""
+    """So many scenes of each kind on grids, as many of each kind of hard map, both also with a hardness, and as many of
+    each kind that expansions can solve. Runs stress_scenes."""
     part = Part("conditions of contact")
     grid_worst = expansion_worst = 0.0
     unanswered = blunt = most = 0
     # The short form has few kinds.
     hard = HARD if len(kinds) > len(QUICK) else QUICK_HARD
-    cases = [(kind, "grid", number) for kind in kinds for number in range(scenes)]
-    cases += [(kind, "hard", number) for kind in hard for number in range(scenes)]
+    cases = [(kind, solver, number) for solver in ("grid", "grid with a hardness") for kind in kinds
+             for number in range(scenes)]
+    cases += [(kind, solver, number) for solver in ("hard", "hard with a hardness") for kind in hard
+              for number in range(scenes)]
     cases += [(kind, "fitted", number) for kind in kinds if kind in FITTED for number in range(scenes)]
     for kind, solver, number in cases:
-        name = f"conditions-{solver}-{kind.replace(' ', '-')}-{number}"
+        name = f"conditions-{solver}-{kind}-{number}".replace(" ", "-")
         stream = random.Random(f"{seed} {name}")
         files, requested = CASES[solver](stream, kind)
         write(files, work/name)
-        outcome = run([program, "deck.nml", seed, SAMPLES], work/name, patience=PATIENCE)
+        more = [hardness(stream)] if "hardness" in solver else []
+        outcome = run([program, "deck.nml", seed, SAMPLES, *more], work/name, patience=PATIENCE)
         failed = False
         if outcome.status or RUNTIME_WORDS.search(outcome.stderr):
             words = outcome.stderr.decode(errors="replace").strip()

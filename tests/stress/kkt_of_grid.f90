@@ -21,12 +21,13 @@ module stress_kkt_of_grid
    type :: grid_kkt
       logical :: well_formed = .false.         !! there are finite pressures and gaps, and some contact
       real(dp) :: load = huge(1.0_dp)          !! of the mean pressure [P]
-      real(dp) :: residual = huge(1.0_dp)      !! root mean square of gaps in contact and overlaps elsewhere [Delta]
-      real(dp) :: complementarity = huge(1.0_dp)   !! mean of |pressure times gap| [p* Delta]
+      !> Root mean square of gaps in contact, where p = H only those above zero, and of overlaps elsewhere [Delta].
+      real(dp) :: residual = huge(1.0_dp)
+      real(dp) :: complementarity = huge(1.0_dp)   !! mean of |pressure times gap| where p < H [p* Delta]
       real(dp) :: gap = huge(1.0_dp)           !! largest error of the gaps reported, out of contact [Delta]
       real(dp) :: depth = huge(1.0_dp)         !! of the surface's lowest point below its highest [Delta]
-      !> Root mean square of the gap at the points beside the contact, times the square root of the part of all points
-      !> in contact [Delta]: the default tolerance is a part of it.
+      !> Root mean square of the gap at the points beside those with 0 < p < H, times the square root of the part of all
+      !> points that these are [Delta]: the default tolerance is a part of it.
       real(dp) :: edge_gap = huge(1.0_dp)
    end type grid_kkt
 
@@ -38,13 +39,14 @@ contains
       type(grid_solution), intent(in) :: solution   !! with its edge, of a grid that carries all waves of the surface
 
       real(qp), allocatable :: pressure(:, :), gap(:, :)
-      logical, allocatable :: beside(:, :), contact(:, :)
+      logical, allocatable :: beside(:, :), contact(:, :), free(:, :)
       real(qp) :: told, undeformed
       integer :: i, j, m, n
 
       if (.not. allocated(solution%edge)) return
       associate (field => solution%edge%pressure_or_gap)
-         kkt%well_formed = all(abs(field) <= huge(1.0_dp)) .and. any(field > 0.0_dp)
+         kkt%well_formed = all(abs(field) <= huge(1.0_dp)) .and. any(field > 0.0_dp) .and. &
+                           all(field <= surface%hardness)
          if (.not. kkt%well_formed) return
          m = size(field, 1)
          n = size(field, 2)
@@ -57,6 +59,7 @@ contains
             end do
          end do
          contact = pressure > 0.0_qp
+         free = contact .and. pressure < surface%hardness
          kkt%load = relative(sum(pressure)/size(pressure), solution%pbar_over_pstar)
 
          call displace(surface, pressure, gap)
@@ -65,14 +68,15 @@ contains
             do i = 1, m
                undeformed = undeformed_gap(surface, solution%edge, i, j)
                kkt%depth = max(kkt%depth, real(abs(undeformed), dp))
-               gap(i, j) = gap(i, j) + undeformed - (1.0_qp - solution%measures%mean_gap_over_amplitude)
+               gap(i, j) = gap(i, j) + undeformed - solution%measures%approach_over_amplitude
             end do
          end do
-         kkt%residual = real(sqrt(sum(merge(gap, min(gap, 0.0_qp), contact)**2)/size(gap)), dp)
-         kkt%complementarity = real(sum(abs(pressure*gap))/size(gap), dp)
-         beside = .not. contact .and. (cshift(contact, 1, 1) .or. cshift(contact, -1, 1) &
-                                       .or. cshift(contact, 1, 2) .or. cshift(contact, -1, 2))
-         kkt%edge_gap = real(sqrt(sum(gap**2, beside)/max(count(beside), 1)*count(contact)/size(gap)), dp)
+         kkt%residual = real(sqrt((sum(merge(gap, min(gap, 0.0_qp), contact)**2, free .or. .not. contact) &
+                                   + sum(max(gap, 0.0_qp)**2, contact .and. .not. free))/size(gap)), dp)
+         kkt%complementarity = real(sum(abs(pressure*gap), free .or. .not. contact)/size(gap), dp)
+         beside = .not. free .and. (cshift(free, 1, 1) .or. cshift(free, -1, 1) &
+                                    .or. cshift(free, 1, 2) .or. cshift(free, -1, 2))
+         kkt%edge_gap = real(sqrt(sum(gap**2, beside)/max(count(beside), 1)*count(free)/size(gap)), dp)
          kkt%gap = 0.0_dp
          do j = 1, n
             do i = 1, m

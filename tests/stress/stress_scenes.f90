@@ -1,7 +1,8 @@
 !> Solves the loads of a deck as the program does, and checks the contact conditions of every solution. Prints a line
 !> for each load, of a grid, of an expansion, or of neither if no solution was needed or found.
 !>
-!> usage: stress_scenes DECK SEED SAMPLES   expansions are checked at so many random points
+!> usage: stress_scenes DECK SEED SAMPLES [HARDNESS]   expansions are checked at so many random points; the hardness, over
+!> the mean pressure of each load, takes the place of that of the deck
 program stress_scenes
    use command_words, only: number, word
    use stress_kkt_of_expansion, only: check_expansion, expansion_kkt
@@ -13,6 +14,7 @@ program stress_scenes
    use wavycon_error, only: error_type
    use wavycon_fitted_solution, only: fitted_solution
    use wavycon_grid_contact, only: grid_solution
+   use wavycon_kinds, only: dp
    use wavycon_read_deck, only: read_deck
    use wavycon_make_scene, only: make_scene
    use wavycon_solver_list, only: start_solver
@@ -27,14 +29,22 @@ program stress_scenes
    type(grid_kkt) :: of_grid
    type(scene_type) :: scene
    class(contact_solver), allocatable :: solver
+   character(:), allocatable :: ratio_word
+   real(dp) :: ratio
    integer :: i
 
-   if (command_argument_count() /= 3) error stop 'usage: stress_scenes DECK SEED SAMPLES'
+   if (all(command_argument_count() /= [3, 4])) error stop 'usage: stress_scenes DECK SEED SAMPLES [HARDNESS]'
    call read_deck(word(1), deck, error)
    call stop_on(error)
    call make_scene(deck, scene)
    call start_solver(scene%surface, scene%method, .true., solver)
    do i = 1, size(scene%target)
+      if (command_argument_count() > 3) then
+         ratio_word = word(4)
+         read (ratio_word, *) ratio
+         scene%surface%hardness = ratio*scene%target(i)
+         call start_solver(scene%surface, scene%method, .true., solver)
+      end if
       call solver%solve(scene%target(i), solution)
       select type (solution)
       type is (fitted_solution)
@@ -50,7 +60,8 @@ program stress_scenes
          of_grid = check_grid(scene%surface, solution)
          write (*, '(a, "|", es24.16, "|", a, 8("|", es23.15e3), "|", i0)') 'grid', scene%target(i), &
             trim(solution%status), of_grid%load, of_grid%residual, of_grid%complementarity, of_grid%gap, solution%residual, &
-            solution%measures%mean_gap_over_amplitude, of_grid%edge_gap, of_grid%depth, solution%iterations
+            solution%measures%mean_gap_over_amplitude + solution%imprint, of_grid%edge_gap, of_grid%depth, &
+            solution%iterations
       class default
          write (*, '(a, "|", es24.16, "|", a)') 'none', scene%target(i), trim(solution%status)
       end select
