@@ -200,7 +200,8 @@ def largest(tables, beside, choice, folder):
                 break
             numbers.append(1.0)
         labels.append(label)
-        limits.append(axis(numbers, may_be_wide=wide))
+        # From 0, so that what differs by rounding looks equal.
+        limits.append(axis([0.0] + numbers, may_be_wide=wide))
         factors += found[1]
     facts += array_of("label_of", labels) + array_of("factor_of", [repr(factor) for factor in factors])
     for word, k in (("low", 0), ("high", 1), ("step", 2)):
