@@ -11,7 +11,7 @@ module wavycon_expansion_stress
    use wavycon_fitted_tuning, only: far_bottom, far_top, near_clearance, rule_angles_factor, &
       rule_angles_per_degree, rule_fineness, rule_radii_factor, rule_radii_per_degree, series_depth
    use wavycon_kinds, only: dp
-   use wavycon_shape_search, only: find_edge_in_direction, find_preimage
+   use wavycon_shape_search, only: distance_from_edge, find_edge_in_direction, find_preimage
    use wavycon_stress_kernel, only: add_gap, add_pressure, stress_fields
    use wavycon_stress_rays, only: start_stress_rays, stress_rays
    use wavycon_stress_series, only: add_wave, start_stress_series, stress_series
@@ -27,7 +27,7 @@ module wavycon_expansion_stress
 
    type :: expansion_stress
       type(wave_lattice), private :: lattice
-      type(expansion), private :: solution
+      type(expansion) :: solution
       real(dp), private :: digits = 0.0_dp                   !! natural logarithm of 1/accuracy
       real(dp), private :: radius = 0.0_dp                   !! of the shape [s]
       real(dp), private :: stretch = 0.0_dp                  !! largest derivative of its map, about [s]
@@ -41,6 +41,7 @@ module wavycon_expansion_stress
       integer, private :: radii(levels) = 0, angles(levels) = 0
    contains
       procedure :: fields_at
+      procedure :: distance_from_edges
       procedure, private :: prepare_series
       procedure, private :: prepare_far
       procedure, private :: prepare_rule
@@ -60,7 +61,7 @@ contains
 
       stress%lattice = lattice
       stress%solution = solution
-      stress%digits = -log(min(max(accuracy, 1e-13_dp), 1e-2_dp)) + 2.0_dp
+      stress%digits = -log(min(max(accuracy, 1e-15_dp), 1e-2_dp)) + 2.0_dp
       stress%radius = 1.02_dp*solution%shape%radius()
       associate (b => solution%shape%b, fold => solution%shape%fold)
          stress%stretch = b(0)*(1.0_dp + (fold + 1)*solution%shape%clustering) &
@@ -110,6 +111,22 @@ contains
          end do
       end if
    end subroutine fields_at
+
+   !> Distance on the surface from the nearest edge of a spot or island [s].
+   pure real(dp) function distance_from_edges(self, place) result(distance)
+      class(expansion_stress), intent(in) :: self
+      complex(dp), intent(in) :: place                    !! from a crest [s]
+
+      complex(dp) :: z
+      integer :: i
+
+      z = self%lattice%rows%reduced(place)
+      distance = huge(distance)
+      do i = 1, size(self%centre)
+         if (abs(z - self%centre(i)) - self%radius > distance) cycle
+         distance = min(distance, abs(distance_from_edge(self%solution%shape, self%half_turn(i)*(z - self%centre(i)))))
+      end do
+   end function distance_from_edges
 
    !> Centres of the spots or islands within a distance of the rectangle that places are reduced to.
    subroutine find_centres(stress)

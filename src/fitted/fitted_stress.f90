@@ -5,6 +5,7 @@ module wavycon_fitted_stress
    use wavycon_error_estimate, only: at_point, error_estimate
    use wavycon_expansion_stress, only: expansion_stress, start_expansion_stress
    use wavycon_fitted_answer, only: fitted_answer
+   use wavycon_fitted_tuning, only: stress_error_safety
    use wavycon_kinds, only: dp
    use wavycon_stress_kernel, only: stress_fields, stress_parts
    use wavycon_wave_lattice, only: wave_lattice
@@ -14,14 +15,16 @@ module wavycon_fitted_stress
    public :: fitted_stress, start_fitted_stress
 
    type :: fitted_stress
-      type(wave_lattice), private :: lattice
       real(dp), private :: accuracy = 0.0_dp
-      real(dp), private :: peak_pressure = 0.0_dp                  !! of the answer [pi E* Delta/s]
+      real(dp), private :: peak_pressure = 0.0_dp         !! of the answer [pi E* Delta/s]
       real(dp), private :: misfit_decay(2) = 1.0_dp
+      real(dp), private :: relative_error = 0.0_dp        !! the larger one of peak pressure and of area
+      real(dp), private :: edge_error = 0.0_dp            !! of the edge's place, a mean [s]
       type(expansion_stress), allocatable, private :: of_degree(:)
          !! of the answer's expansion and those of lower degrees, shape (0:.)
    contains
       procedure :: at
+      procedure, private :: error_at
    end type fitted_stress
 
    !> Expansions of lower degrees that errors are estimated from.
@@ -36,9 +39,9 @@ contains
       type(fitted_answer), intent(in) :: answer    !! with a solution, status <= fitted_less_exact
       real(dp), intent(in) :: accuracy             !! of the integrals, over the answer's peak pressure, > 0
 
+      real(dp) :: area, area_error
       integer :: i
 
-      stress%lattice = lattice
       stress%accuracy = accuracy
       stress%peak_pressure = answer%peak_pressure
       stress%misfit_decay = answer%misfit_decay
@@ -47,9 +50,17 @@ contains
       do i = 1, ubound(stress%of_degree, 1)
          call start_expansion_stress(stress%of_degree(i), lattice, answer%previous(i), accuracy)
       end do
+      ! The area of one spot or island, and its error.
+      area = answer%solution%shape%area()
+      area_error = answer%area_error*lattice%area
+      if (answer%island) area_error = area_error/lattice%troughs
+      stress%relative_error = max(answer%peak_error/answer%peak_pressure, area_error/area)
+      stress%edge_error = area_error/answer%perimeter
    end subroutine start_fitted_stress
 
    !> The stresses at a place, less those of the mean pressure.
+   !>
+   !> N.B. On the surface inside an island the pressure is what the equations leave, not 0.
    subroutine at(self, place, depth, parts, error)
       class(fitted_stress), intent(inout) :: self
       complex(dp), intent(in) :: place             !! x + i y from a crest [s]
@@ -59,23 +70,42 @@ contains
       real(dp), intent(out), optional :: error
          !! estimate of the largest error of a component for 0 <= nu <= 1/2 [pi E* Delta/s]
 
-      real(dp) :: difference(2), estimate(1), fields(stress_fields), older(6, 2, 0:most_lower)
-      integer :: i
+      real(dp) :: fields(stress_fields)
 
       call self%of_degree(0)%fields_at(place, depth, fields)
       call stress_parts(fields, parts)
-      if (.not. present(error)) return
-      older(:, :, 0) = parts
+      if (present(error)) error = self%error_at(place, depth, parts)
+   end subroutine at
+
+   !> The estimate, README.md (F64): from the stresses of lower degrees, the errors of peak pressure and area, and, next
+   !> to the edge, the error of its place.
+   real(dp) function error_at(self, place, depth, parts) result(error)
+      class(fitted_stress), intent(inout) :: self
+      complex(dp), intent(in) :: place
+      real(dp), intent(in) :: depth
+      real(dp), intent(in) :: parts(6, 2)          !! at the place
+
+      !> Stresses for nu = 0 and nu = 1/2 from the parts.
+      real(dp), parameter :: at_limits(2, 2) = reshape([1.0_dp, 0.0_dp, 1.0_dp, 0.5_dp], [2, 2])
+      real(dp) :: difference(2), distance, estimate(1), fields(stress_fields), newer(6, 2), older(6, 2)
+      integer :: i
+
       difference = huge(1.0_dp)
+      newer = parts
       do i = 1, ubound(self%of_degree, 1)
          call self%of_degree(i)%fields_at(place, depth, fields)
-         call stress_parts(fields, older(:, :, i))
-         associate (change => older(:, :, i) - older(:, :, i - 1))
-            difference(i) = maxval(abs(matmul(change, reshape([1.0_dp, 0.0_dp, 1.0_dp, 0.5_dp], [2, 2]))))
-         end associate
+         call stress_parts(fields, older)
+         difference(i) = maxval(abs(matmul(newer - older, at_limits)))
+         newer = older
       end do
       call error_estimate(difference(1:1), difference(2:2), at_point(self%misfit_decay), [self%peak_pressure], estimate)
-      error = estimate(1) + self%accuracy*self%peak_pressure
-   end subroutine at
+      error = stress_error_safety*estimate(1) + self%accuracy*self%peak_pressure &
+         + self%relative_error*maxval(abs(matmul(parts, at_limits)))
+      associate (solution => self%of_degree(0))
+         distance = hypot(solution%distance_from_edges(place), depth)
+         error = error + self%peak_pressure/sqrt(solution%solution%shape%b(0)) &
+            *self%edge_error/(sqrt(distance + self%edge_error) + sqrt(distance))
+      end associate
+   end function error_at
 
 end module wavycon_fitted_stress

@@ -17,6 +17,8 @@ module wavycon_stress_rays
 
    public :: stress_rays, start_stress_rays
 
+   integer, parameter :: rule_step = 4, most_rules = 64
+
    type :: gauss_rule
       real(dp), allocatable :: node(:), weight(:)     !! Legendre's, -1 to 1
    end type gauss_rule
@@ -25,12 +27,10 @@ module wavycon_stress_rays
       real(dp), private :: least_points = 0.0_dp               !! on a ray, and directions in a quarter of a turn
       real(dp), private :: angles_per_unit = 0.0_dp            !! more directions for each unit of a quarter in x
       real(dp), private :: points_per_unit = 0.0_dp            !! more points for each unit of a ray in eta
-      type(gauss_rule), allocatable, private :: rules(:)       !! of 4, 8, 12, .. points
+      type(gauss_rule), private :: rules(most_rules)           !! of 4, 8, 12, .. points, made when first needed
    contains
       procedure :: add_at
    end type stress_rays
-
-   integer, parameter :: rule_step = 4, most_rules = 40
 
    !> Distance of w_0 from the edge that counts as none.
    real(dp), parameter :: at_edge = 1e-16_dp
@@ -42,23 +42,16 @@ contains
       integer, intent(in) :: degree              !! of the expansion
       real(dp), intent(in) :: digits             !! natural logarithm of 1/accuracy
 
-      integer :: i
-
       associate (share => digits/27.0_dp)
          rays%least_points = share*(ray_points + ray_points_per_degree*degree)
          rays%angles_per_unit = share*ray_angles_per_unit
          rays%points_per_unit = share*(ray_points_per_unit + ray_points_per_unit_and_degree*degree)
       end associate
-      allocate (rays%rules(most_rules))
-      do i = 1, most_rules
-         allocate (rays%rules(i)%node(rule_step*i), rays%rules(i)%weight(rule_step*i))
-         call gauss_jacobi(0.0_dp, 0.0_dp, rays%rules(i)%node, rays%rules(i)%weight)
-      end do
    end subroutine start_stress_rays
 
    !> Adds the fields of a spot or island at a place.
    subroutine add_at(self, solution, origin, offset, depth, fields)
-      class(stress_rays), intent(in) :: self
+      class(stress_rays), intent(inout) :: self
       type(expansion), intent(in) :: solution
       complex(dp), intent(in) :: origin                   !! w_0, |w_0| <= 1
       complex(dp), intent(in) :: offset                   !! the place as seen from z(w_0) [s]
@@ -86,8 +79,8 @@ contains
       if (on_surface) call find_density(solution, 1, [origin], [edge], density)
       ! The integrand is singular at complex directions of imaginary part kappa, where the map's derivative vanishes.
       kappa = 0.5_dp*log(abs(slope(1))/max(abs(conjugate_slope(1)), tiny(1.0_dp)))
-      rule = rule_for((self%least_points + self%angles_per_unit*asinh(0.5_dp*pi/width)) &
-                      *max(1.0_dp, ray_angles_of_strain*kappa**(-0.4_dp)))
+      rule = rule_for(self, (self%least_points + self%angles_per_unit*asinh(0.5_dp*pi/width)) &
+                      *max(1.0_dp, ray_angles_of_strain/sqrt(kappa)))
       associate (n => size(self%rules(rule)%node))
          call find_directions(self%rules(rule), width, cosine(:n), sine(:n), weight(:n))
          do quarter = 1, merge(2, 4, edge <= at_edge)
@@ -128,7 +121,7 @@ contains
    !> places; sigma = r + m sinh(eta) moves them to eta = +-i pi/2.
    subroutine add_ray(self, solution, origin, offset, depth, on_surface, edge, cosine, direction, stretch, weight, &
                       density_at_origin, fields)
-      type(stress_rays), intent(in) :: self
+      type(stress_rays), intent(inout) :: self
       type(expansion), intent(in) :: solution
       complex(dp), intent(in) :: origin, offset
       real(dp), intent(in) :: depth
@@ -173,7 +166,7 @@ contains
       width = max(width, least_scale)
       first = asinh(-r/width)
       last = asinh((length - r)/width)
-      rule = rule_for(self%least_points + self%points_per_unit*(last - first))
+      rule = rule_for(self, self%least_points + self%points_per_unit*(last - first))
       associate (nodes => self%rules(rule))
          call add_points(size(nodes%node), nodes%node, nodes%weight)
       end associate
@@ -185,7 +178,7 @@ contains
          real(dp), intent(in) :: node(n), node_weight(n)
 
          complex(dp), dimension(n) :: density, difference, step, w
-         real(dp), dimension(n) :: at_t, eta, root, sigma, t
+         real(dp), dimension(n) :: at_t, eta, root, sigma, strength, strength_y, t, x, y
          real(dp) :: own(stress_fields), squared_stretch
          complex(dp) :: kernel
 
@@ -202,11 +195,15 @@ contains
          at_t = weight*0.5_dp*(last - first)*node_weight*width*cosh(eta)*root
          density = density*(at_t*root*t)
          difference = offset - difference
+         x = difference%re
+         y = difference%im
+         strength = density%re
          own = 0.0_dp
          if (solution%island) then
-            call add_gap_gradient(n, difference%re, difference%im, depth, density%re, density%im, own)
+            strength_y = density%im
+            call add_gap_gradient(n, x, y, depth, strength, strength_y, own)
          else
-            call add_pressure(n, difference%re, difference%im, depth, density%re, own)
+            call add_pressure(n, x, y, depth, strength, own)
          end if
          if (on_surface) then
             ! Less 1/t times the value at t = 0, of which the integral to a small circle in z is known.
@@ -230,10 +227,16 @@ contains
    end subroutine add_ray
 
    !> The rule of at least as many points, or the longest.
-   pure integer function rule_for(points)
+   integer function rule_for(self, points)
+      type(stress_rays), intent(inout) :: self
       real(dp), intent(in) :: points
 
       rule_for = min(max(ceiling(points/rule_step), 1), most_rules)
+      associate (rule => self%rules(rule_for))
+         if (allocated(rule%node)) return
+         allocate (rule%node(rule_step*rule_for), rule%weight(rule_step*rule_for))
+         call gauss_jacobi(0.0_dp, 0.0_dp, rule%node, rule%weight)
+      end associate
    end function rule_for
 
 end module wavycon_stress_rays

@@ -301,20 +301,23 @@ module wavycon_fitted_tuning
       !! Larger: finer rules, or rays, than needed.
    real(dp), parameter, public :: rule_radii_factor = 1.5_dp
       !! The same of radii.
-   real(dp), parameter, public :: ray_points = 9.6_dp
+   real(dp), parameter, public :: ray_points = 12.0_dp
       !! Points on a ray, and directions in a quarter of a turn, at an accuracy of 2e-12, beside the following. Smaller:
       !! the quadrature's error shows next to spots and islands. Larger: slower rays.
    real(dp), parameter, public :: ray_points_per_degree = 0.3_dp
       !! More of both for each degree.
    real(dp), parameter, public :: ray_angles_per_unit = 4.8_dp
       !! More directions for each factor of e in the distance from the edge.
-   real(dp), parameter, public :: ray_points_per_unit = 1.08_dp
+   real(dp), parameter, public :: ray_points_per_unit = 1.5_dp
       !! More points for each factor of e in the distance from the place.
-   real(dp), parameter, public :: ray_points_per_unit_and_degree = 0.075_dp
+   real(dp), parameter, public :: ray_points_per_unit_and_degree = 0.07_dp
       !! The same for each degree.
    real(dp), parameter, public :: ray_angles_of_strain = 1.1_dp
       !! Factor on the number of directions where the map is far from conformal, README.md (F63). Smaller: the
       !! quadrature's error shows at tips. Larger: slower rays.
+   real(dp), parameter, public :: stress_error_safety = 2.0_dp
+      !! Factor on what the differences of degrees say of stresses. Smaller: estimates below the true error. Larger:
+      !! estimates that are too large.
 
    ! Geometry of shapes.
 

@@ -10,7 +10,7 @@ module wavycon_solution_stress
    use wavycon_group_text, only: read_group_text
    use wavycon_group_values, only: group_values
    use wavycon_kinds, only: dp
-   use wavycon_largest_stress, only: by_shear, by_von_mises, find_largest_stress, largest_stress
+   use wavycon_largest_stress, only: find_largest_stresses, largest_stress
    use wavycon_load_group, only: load_table
    use wavycon_material_group, only: material_table
    use wavycon_plain_text, only: quoted
@@ -177,8 +177,7 @@ contains
       call find_body(nu, lateral, body, error)
       if (allocated(error)) return
       if (allocated(self%fields)) then
-         call find_largest_stress(self%fields, body, by_von_mises, yielding)
-         call find_largest_stress(self%fields, body, by_shear, shear)
+         call find_largest_stresses(self%fields, body, yielding, shear)
          answer = wavy_largest_stress( &
             yielding%value, yielding%error, shear%value, shear%error, self%p_star*yielding%value, &
             place(self, 1, yielding), place(self, 2, yielding), self%length(1)*yielding%place(3)/(2*pi), &

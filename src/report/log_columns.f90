@@ -1,5 +1,6 @@
 !> Numbers and words in the columns of the log.
 module wavycon_log_columns
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
@@ -20,7 +21,10 @@ contains
       real(dp), parameter :: least = 1.0e-3_dp
       character(20) :: buffer
 
-      if ((abs(number) >= least .and. abs(number) < 10.0_dp**(width - 8)) .or. .not. abs(number) > 0) then
+      ! Comparisons with a NaN raise an exception, which Debug builds trap.
+      if (ieee_is_nan(number)) then
+         text = at_right('NaN', width)
+      else if ((abs(number) >= least .and. abs(number) < 10.0_dp**(width - 8)) .or. .not. abs(number) > 0) then
          write (buffer, '(f20.6)') number
          text = at_right(trim(adjustl(buffer)), width)
       else

@@ -97,6 +97,7 @@ contains
 
       complex(dp) :: turn_x(0:ubound(self%wave, 1)), wave
       real(dp) :: q, q_y, sums(number_of_sums)
+      logical :: with_error
       integer :: k, l, last(2)
 
       if (.not. self%exist) then
@@ -107,6 +108,7 @@ contains
       call self%use_depth(depth)
       last = ubound(self%decay) - 1
       turn_x(:last(1)) = [(exp(cmplx(0.0_dp, k*x, dp)), k=0, last(1))]
+      with_error = present(error) .and. self%sampled_from*depth < self%faintest
       sums = 0.0_dp
       do l = -last(2), last(2)
          q_y = l/self%side_ratio
@@ -115,21 +117,22 @@ contains
                if (is_zero(self%wave(k, l))) cycle
                wave = self%decay(k, abs(l))*self%wave(k, l)*turn_x(k)*turn_y
                q = sqrt(k**2 + q_y**2)
-               associate (a => wave%re, n_x => k/q, n_y => q_y/q, inner => q*depth*wave%re)
+               associate (a => wave%re, b => wave%im, of_x => k*wave%re/q**2, x => real(k, dp))
                   sums(1) = sums(1) + a
-                  sums(2) = sums(2) + inner
-                  sums(3) = sums(3) + n_x**2*a
-                  sums(4) = sums(4) + n_x**2*inner
-                  sums(5) = sums(5) + n_x*n_y*a
-                  sums(6) = sums(6) + n_x*n_y*inner
-                  sums(7) = sums(7) - k*depth*wave%im
-                  sums(8) = sums(8) - q_y*depth*wave%im
-                  if (q > self%sampled_from) &
-                     sums(9:) = sums(9:) + real(octave_weights(n_x, n_y, q*depth)*wave)
+                  sums(2) = sums(2) + q*a
+                  sums(3) = sums(3) + x*of_x
+                  sums(4) = sums(4) + q*(x*of_x)
+                  sums(5) = sums(5) + q_y*of_x
+                  sums(6) = sums(6) + q*(q_y*of_x)
+                  sums(7) = sums(7) - x*b
+                  sums(8) = sums(8) - q_y*b
                end associate
+               if (.not. with_error .or. q <= self%sampled_from) cycle
+               sums(9:) = sums(9:) + real(octave_weights(k/q, q_y/q, q*depth)*wave)
             end do
          end associate
       end do
+      sums([2, 4, 6, 7, 8]) = depth*sums([2, 4, 6, 7, 8])
       parts = parts_of(sums)
       if (present(error)) error = error_of(self, parts, sums(9:))
    end subroutine at
@@ -276,7 +279,7 @@ contains
          error = ieee_value(error, ieee_quiet_nan)
          return
       end if
-      number = merge(9, 6, self%sampled_from*depth < self%faintest)
+      number = merge(9, 6, depth < self%faintest/self%sampled_from)
       call transform_waves(self, points, offset, depth, body, number, fields)
       allocate (error(points(1), points(2)), source=0.0_dp)
       do i = 7, number

@@ -110,6 +110,13 @@ static void solvers(wavycon_surface surface, wavycon_solver solver, wavycon_solu
     NOTHING(wavycon_new_solver(error, surface, 1, "solver = 'none'", 1));
     NOTHING(wavycon_new_solver(error, surface, 1, "solver = 'closed_form'", 1));
     NOTHING(wavycon_new_solver(error, surface, 1, "accuracy = NaN", 1));
+    NOTHING(wavycon_new_solver_of_material(error, NULL, "", "", 1));
+    NOTHING(wavycon_new_solver_of_material(error, surface, NULL, "", 1));
+    NOTHING(wavycon_new_solver_of_material(error, surface, "", NULL, 1));
+    NOTHING(wavycon_new_solver_of_material(error, surface, "hardness = -1", "", 1));
+    NOTHING(wavycon_new_solver_of_material(error, surface, "hardness = 1e300", "", 1));
+    NOTHING(wavycon_new_solver_of_material(error, surface, "e1 = 1", "", 1));
+    NOTHING(wavycon_new_solver_of_material(error, surface, "hardness = 1", "solver = 'fitted'", 1));
     NOTHING(wavycon_new_solver(error, surface, 1, "solver = 'grid', grid_points = 7", 1));
     NOTHING(wavycon_new_solver(error, surface, 1, "/", 1));
     NOTHING(wavycon_new_solver(error, surface, 1, "solver = 'grid' &load pbar_over_pstar = 0.2", 1));
