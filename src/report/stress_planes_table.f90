@@ -103,6 +103,7 @@ contains
       type(output_file), intent(inout) :: file
 
       real(dp), allocatable :: errors(:, :), rows(:, :), stress(:, :, :)
+      real(dp) :: here(6)
       integer :: k, l
 
       allocate (rows(size(columns) - 2, points(1)))
@@ -111,8 +112,9 @@ contains
                               errors)
          do l = 1, points(2)
             do k = 1, points(1)
+               here = stress(k, l, :)
                rows(:, k) = [scene%surface%length*([k, l] - 1 + offset)/points, depth, &
-                             stress_numbers(stress(k, l, :), errors(k, l), scene%p_star)]
+                             stress_numbers(here, errors(k, l), scene%p_star)]
             end do
             if (as_text) then
                if (l > 1) call file%put('')
