@@ -1,15 +1,18 @@
 !> <case>.stress_planes.dat or .npy: stresses on planes below the whole cell, a block for each load, body and depth.
 module wavycon_stress_planes_table
+   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_column_text, only: column_name
    use wavycon_error, only: error_type
    use wavycon_kinds, only: dp
    use wavycon_map_table, only: is_text, map_offset, map_points
    use wavycon_npy_header, only: npy_header
    use wavycon_output_file, only: output_file
+   use wavycon_plain_text, only: integer_text
    use wavycon_results, only: results_type
    use wavycon_stress_fields, only: stress_fields
    use wavycon_stress_rows, only: angle_of_depth, number_of_bodies, stress_columns, stress_depths, stress_numbers
    use wavycon_stress_table, only: stress_table_type
+   use wavycon_system, only: has_memory_for
    implicit none (type, external)
    private
 
@@ -17,6 +20,9 @@ module wavycon_stress_planes_table
 
    character(32), parameter :: columns(*) = [character(32) :: &
       'load[-]', 'body[-]', 'x[length]', 'y[length]', 'depth[length]', stress_columns]
+
+   !> Numbers for each point of a plane: stresses, error, their spectra, and those of the solution.
+   integer(int64), parameter :: numbers_a_point = 20
 
    type, extends(stress_table_type) :: stress_planes_table
    contains
@@ -62,6 +68,8 @@ contains
          call file%put_raw(npy_header(column_name(columns(3:)), &
                                       [size(results%loads), number_of_bodies(results), size(depths), points(2), points(1)]))
       end if
+      if (.not. has_memory_for(numbers_a_point*product(int(points, int64)))) call file%note_trouble( &
+         'there is not enough memory for planes of '//integer_text(points(1))//' x '//integer_text(points(2))//' points')
       if (file%is_open()) offset = map_offset(results, points)
       do load = 1, size(results%loads)
          if (.not. file%is_open()) exit
