@@ -32,6 +32,7 @@ module wavycon_grid_contact
    use wavycon_series_stress, only: series_stress, start_series_stress
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type
+   use wavycon_system, only: has_memory_for
    use wavycon_turned_series, only: to_difference_angles
    implicit none (type, external)
    private
@@ -261,7 +262,7 @@ contains
    end subroutine edge_curves
 
    !> Of the series that interpolates the pressures at the points. Its error is that of the peak pressure and the part of
-   !> the series' last octave.
+   !> the series' last octave. Without the memory for the series there are no stresses.
    subroutine stresses(self, surface, answer)
       class(grid_solution), intent(in) :: self
       type(surface_type), intent(in) :: surface
@@ -270,10 +271,18 @@ contains
       type(fourier_series) :: pressure
       type(grid_transform) :: transform
       type(series_stress), allocatable :: own
+      !> Of the whole cell: pressures, series, waves; twice as many from a turned cell.
+      integer(int64), parameter :: numbers_a_point = 8
       real(dp) :: error
       real(dp), allocatable :: values(:, :)
 
       if (.not. allocated(self%edge)) return
+      allocate (own)
+      if (.not. has_memory_for(numbers_a_point*product(int(self%edge%period, int64)))) then
+         own%exist = .false.
+         call move_alloc(own, answer)
+         return
+      end if
       values = max(self%edge%pressure_or_gap, 0.0_dp)
       ! If all points are in contact below full contact, they miss a gap; with it closed the pressure there is P - 1.
       error = self%measures%peak_pressure_error
@@ -282,7 +291,6 @@ contains
       call transform%series(values, pressure)
       deallocate (values)
       if (self%turned) pressure = to_difference_angles(pressure)
-      allocate (own)
       call start_series_stress(own, surface, pressure, self%pbar_over_pstar, &
                                pressure_error=error, is_sampled=.true.)
       call move_alloc(own, answer)

@@ -1,6 +1,7 @@
 !> Finds the largest stresses of all loads of a scene.
 module wavycon_find_stresses
    use wavycon_largest_stress, only: find_largest_stresses
+   use wavycon_plain_text, only: integer_text
    use wavycon_results, only: results_type
    use wavycon_run_log, only: run_log
    use wavycon_stress_fields, only: stress_fields
@@ -24,6 +25,8 @@ contains
          allocate (results%shear(size(setting%body), size(results%loads)))
          do load = 1, size(results%loads)
             call results%loads(load)%solution%stresses(results%scene%surface, fields)
+            if (results%loads(load)%solution%is_good() .and. .not. fields%exist) call log%say( &
+               'note: there is not enough memory for the stresses of load '//integer_text(load))
             do body = 1, size(setting%body)
                call find_largest_stresses(fields, setting%body(body), results%von_mises(body, load), &
                                           results%shear(body, load))

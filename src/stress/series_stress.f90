@@ -3,6 +3,7 @@
 !> Equations (S1) to (S5) of README.md in this directory.
 module wavycon_series_stress
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
+   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_constants, only: pi, sqrt3
    use wavycon_elastic_body, only: elastic_body
    use wavycon_fourier_series, only: fourier_series
@@ -12,6 +13,7 @@ module wavycon_series_stress
    use wavycon_stress_tensor, only: largest_shear, von_mises, xx, xy, xz, yy, yz, zz
    use wavycon_stress_tuning, only: octave_factor, plane_points, plane_ratio, pressure_part, waves_in_depth
    use wavycon_surface, only: surface_type
+   use wavycon_system, only: has_memory_for
    implicit none (type, external)
    private
 
@@ -390,6 +392,8 @@ contains
       real(dp), allocatable, intent(out) :: widths(:)
       real(dp), allocatable, intent(out) :: stresses(:, :)
 
+      !> Of a plane: stresses and their spectra, and two measures.
+      integer(int64), parameter :: numbers_a_point = 16
       real(dp), allocatable :: depth(:), shear(:, :), stress(:, :, :), yielding(:, :)
       real(dp) :: here(6), least, step
       integer :: i, k, l, points(2)
@@ -403,6 +407,9 @@ contains
       do i = 1, size(depth)
          points = plane_of(depth(i))
          if (self%dimension == 1) points(2) = 1
+         do while (.not. has_memory_for(numbers_a_point*product(int(points, int64))))
+            points = (points + 1)/2
+         end do
          call transform_waves(self, points, [0.0_dp, 0.0_dp], depth(i), body, 6, stress)
          allocate (yielding(points(1), points(2)), shear(points(1), points(2)), source=0.0_dp)
          do l = 1, points(2)
