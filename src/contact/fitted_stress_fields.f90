@@ -20,7 +20,8 @@ module wavycon_fitted_stress_fields
    type, extends(stress_fields) :: fitted_stress_fields
       private
       type(fitted_frame) :: frame
-      type(wave_lattice) :: lattice
+      complex(dp) :: trough = 0.0_dp, saddle = 0.0_dp   !! of the lattice [s]
+      logical :: is_square = .false.                    !! whether x and y are equivalent on the lattice
       type(fitted_answer) :: answer
       type(fitted_stress) :: fitted
       real(dp) :: length(2) = 1.0_dp      !! sides of the surface's cell [length]
@@ -45,7 +46,9 @@ contains
       fields%side_ratio = surface%length(2)/surface%length(1)
       fields%length = surface%length
       fields%frame = frame
-      fields%lattice = lattice
+      fields%trough = lattice%trough
+      fields%saddle = lattice%saddle
+      fields%is_square = lattice%square
       fields%answer = answer
       call start_fitted_stress(fields%fitted, lattice, answer, accuracy)
    end subroutine start_fitted_stress_fields
@@ -85,7 +88,7 @@ contains
       integer :: k, l
 
       allocate (stress(points(1), points(2), 6), error(points(1), points(2)))
-      call grid%start(points, offset, self%lattice%square, self%frame%crests)
+      call grid%start(points, offset, self%is_square, self%frame%crests)
       do l = 0, points(2) - 1
          do k = 0, points(1) - 1
             first = grid%first_of([k, l])
@@ -149,7 +152,7 @@ contains
 
       associate (shape => self%answer%solution%shape)
          centre = (0.0_dp, 0.0_dp)
-         if (self%answer%island) centre = self%lattice%trough
+         if (self%answer%island) centre = self%trough
          directions = 2*shape%fold
          allocate (edge(directions/2 + 1))
          edge(:) = [(shape%place(exp(cmplx(0.0_dp, 2*pi*i/directions, dp))), i=0, directions/2)]
@@ -157,11 +160,11 @@ contains
       end associate
       allocate (at_surface, source=[(centre + edge_ratios(i)*edge, i=1, size(edge_ratios))])
       if (self%answer%island) then
-         at_surface = [at_surface, (0.0_dp, 0.0_dp), self%lattice%saddle, 0.5_dp*self%lattice%saddle, &
-                       0.5_dp*self%lattice%trough, 0.25_dp*self%lattice%trough]
+         at_surface = [at_surface, (0.0_dp, 0.0_dp), self%saddle, 0.5_dp*self%saddle, &
+                       0.5_dp*self%trough, 0.25_dp*self%trough]
          below = [radius*depths_of_spot, depths_of_cell]
       else
-         at_surface = [at_surface, (0.0_dp, 0.0_dp), self%lattice%saddle]
+         at_surface = [at_surface, (0.0_dp, 0.0_dp), self%saddle]
          below = radius*depths_of_spot
       end if
       n = size(at_surface)

@@ -9,7 +9,7 @@ module wavycon_largest_stress_table
    use wavycon_output_file, only: output_file
    use wavycon_results, only: not_a_number, results_type
    use wavycon_stress_rows, only: number_of_bodies
-   use wavycon_table, only: table_type
+   use wavycon_stress_table, only: stress_table_type
    implicit none (type, external)
    private
 
@@ -25,12 +25,10 @@ module wavycon_largest_stress_table
       'largest_shear[pressure]', 'shear_x[length]', 'shear_y[length]', 'shear_depth[length]', &
       'status_code[-]', 'status[-]']
 
-   type, extends(table_type) :: largest_stress_table
+   type, extends(stress_table_type) :: largest_stress_table
    contains
       procedure, nopass :: key
       procedure, nopass :: meaning
-      procedure, nopass :: group
-      procedure :: needs_fields
       procedure, nopass :: write => write_largest_stress_table
    end type largest_stress_table
 
@@ -47,19 +45,6 @@ contains
 
       words = 'The largest von Mises stress and the largest shear stress of each load.'
    end function meaning
-
-   pure function group() result(words)
-      character(:), allocatable :: words
-
-      words = 'stress'
-   end function group
-
-   pure logical function needs_fields(self)
-      class(largest_stress_table), intent(in) :: self
-
-      associate (unused => self); end associate
-      needs_fields = .true.
-   end function needs_fields
 
    !> Errors: exit_file_trouble.
    subroutine write_largest_stress_table(results, error)

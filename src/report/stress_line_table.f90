@@ -6,7 +6,7 @@ module wavycon_stress_line_table
    use wavycon_results, only: results_type
    use wavycon_stress_fields, only: stress_fields
    use wavycon_stress_rows, only: angle_of_depth, number_of_bodies, stress_columns, stress_depths, stress_numbers
-   use wavycon_table, only: table_type
+   use wavycon_stress_table, only: stress_table_type
    implicit none (type, external)
    private
 
@@ -15,12 +15,10 @@ module wavycon_stress_line_table
    character(32), parameter :: columns(*) = [character(32) :: &
       'load[-]', 'body[-]', 'depth[length]', 'depth_over_cell_x[-]', stress_columns]
 
-   type, extends(table_type) :: stress_line_table
+   type, extends(stress_table_type) :: stress_line_table
    contains
       procedure, nopass :: key
       procedure, nopass :: meaning
-      procedure, nopass :: group
-      procedure :: needs_fields
       procedure, nopass :: write => write_stress_line_table
    end type stress_line_table
 
@@ -37,19 +35,6 @@ contains
 
       words = 'Stresses on the line below the crest.'
    end function meaning
-
-   pure function group() result(words)
-      character(:), allocatable :: words
-
-      words = 'stress'
-   end function group
-
-   pure logical function needs_fields(self)
-      class(stress_line_table), intent(in) :: self
-
-      associate (unused => self); end associate
-      needs_fields = .true.
-   end function needs_fields
 
    !> Errors: exit_file_trouble.
    subroutine write_stress_line_table(results, error)

@@ -9,7 +9,7 @@ module wavycon_stress_planes_table
    use wavycon_results, only: results_type
    use wavycon_stress_fields, only: stress_fields
    use wavycon_stress_rows, only: angle_of_depth, number_of_bodies, stress_columns, stress_depths, stress_numbers
-   use wavycon_table, only: table_type
+   use wavycon_stress_table, only: stress_table_type
    implicit none (type, external)
    private
 
@@ -18,12 +18,10 @@ module wavycon_stress_planes_table
    character(32), parameter :: columns(*) = [character(32) :: &
       'load[-]', 'body[-]', 'x[length]', 'y[length]', 'depth[length]', stress_columns]
 
-   type, extends(table_type) :: stress_planes_table
+   type, extends(stress_table_type) :: stress_planes_table
    contains
       procedure, nopass :: key
       procedure, nopass :: meaning
-      procedure, nopass :: group
-      procedure :: needs_fields
       procedure, nopass :: write => write_stress_planes_table
    end type stress_planes_table
 
@@ -40,19 +38,6 @@ contains
 
       words = 'Stresses on planes.'
    end function meaning
-
-   pure function group() result(words)
-      character(:), allocatable :: words
-
-      words = 'stress'
-   end function group
-
-   pure logical function needs_fields(self)
-      class(stress_planes_table), intent(in) :: self
-
-      associate (unused => self); end associate
-      needs_fields = .true.
-   end function needs_fields
 
    !> Errors: exit_file_trouble.
    subroutine write_stress_planes_table(results, error)
@@ -103,6 +88,7 @@ contains
       type(output_file), intent(inout) :: file
 
       real(dp), allocatable :: errors(:, :), rows(:, :), stress(:, :, :)
+      real(dp) :: here(6)
       integer :: k, l
 
       allocate (rows(size(columns) - 2, points(1)))
@@ -111,8 +97,9 @@ contains
                               errors)
          do l = 1, points(2)
             do k = 1, points(1)
+               here = stress(k, l, :)
                rows(:, k) = [scene%surface%length*([k, l] - 1 + offset)/points, depth, &
-                             stress_numbers(stress(k, l, :), errors(k, l), scene%p_star)]
+                             stress_numbers(here, errors(k, l), scene%p_star)]
             end do
             if (as_text) then
                if (l > 1) call file%put('')

@@ -8,8 +8,8 @@ module wavycon_stress_section_table
    use wavycon_scene, only: scene_type
    use wavycon_stress_fields, only: stress_fields
    use wavycon_stress_rows, only: angle_of_depth, number_of_bodies, stress_columns, stress_depths, stress_numbers
+   use wavycon_stress_table, only: stress_table_type
    use wavycon_surface_lines, only: start_surface_line, surface_line
-   use wavycon_table, only: table_type
    implicit none (type, external)
    private
 
@@ -18,13 +18,11 @@ module wavycon_stress_section_table
    character(32), parameter :: columns(*) = [character(32) :: &
       'load[-]', 'body[-]', 'distance[length]', 'x[length]', 'y[length]', 'depth[length]', stress_columns]
 
-   type, extends(table_type) :: stress_section_table
+   type, extends(stress_table_type) :: stress_section_table
    contains
       procedure, nopass :: key
       procedure, nopass :: meaning
-      procedure, nopass :: group
       procedure :: is_requested
-      procedure :: needs_fields
       procedure, nopass :: write => write_stress_section_table
    end type stress_section_table
 
@@ -42,12 +40,6 @@ contains
       words = 'Stresses on a vertical section through the crest.'
    end function meaning
 
-   pure function group() result(words)
-      character(:), allocatable :: words
-
-      words = 'stress'
-   end function group
-
    logical function is_requested(self, scene)
       class(stress_section_table), intent(in) :: self
       type(scene_type), intent(in) :: scene
@@ -56,13 +48,6 @@ contains
       is_requested = allocated(scene%stress_setting)
       if (is_requested) is_requested = scene%stress%text('section') /= 'none'
    end function is_requested
-
-   pure logical function needs_fields(self)
-      class(stress_section_table), intent(in) :: self
-
-      associate (unused => self); end associate
-      needs_fields = .true.
-   end function needs_fields
 
    !> Errors: exit_file_trouble.
    subroutine write_stress_section_table(results, error)

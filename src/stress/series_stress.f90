@@ -108,7 +108,7 @@ contains
       call self%use_depth(depth)
       last = ubound(self%decay) - 1
       turn_x(:last(1)) = [(exp(cmplx(0.0_dp, k*x, dp)), k=0, last(1))]
-      with_error = present(error) .and. self%sampled_from*depth < self%faintest
+      with_error = present(error) .and. octave_reaches(self)
       sums = 0.0_dp
       do l = -last(2), last(2)
          q_y = l/self%side_ratio
@@ -214,7 +214,7 @@ contains
       real(dp), intent(in) :: octave(3)   !! sums over the waves of the last octave, with the weights below
 
       error_of = stress%pressure_error + octave_factor*norm2(octave)
-      if (error_of < parts(zz, 1) - stress%pbar_over_pstar) error_of = parts(zz, 1) - stress%pbar_over_pstar
+      if (.not. ieee_is_nan(error_of)) error_of = max(error_of, parts(zz, 1) - stress%pbar_over_pstar)
    end function error_of
 
    !> The weights of a wave of the last octave in (S5), to its sign.
@@ -252,6 +252,13 @@ contains
       self%decay_depth = depth
    end subroutine use_depth
 
+   !> Whether waves of the last octave reach the depth in use.
+   pure logical function octave_reaches(stress)
+      class(series_stress), intent(in) :: stress
+
+      octave_reaches = norm2((ubound(stress%decay) - 1)*[1.0_dp, 1.0_dp/stress%side_ratio]) > stress%sampled_from
+   end function octave_reaches
+
    !> Series on turned cells have many such waves.
    pure logical function is_zero(wave)
       complex(dp), intent(in) :: wave
@@ -279,14 +286,15 @@ contains
          error = ieee_value(error, ieee_quiet_nan)
          return
       end if
-      number = merge(9, 6, depth < self%faintest/self%sampled_from)
+      call self%use_depth(depth)
+      number = merge(9, 6, octave_reaches(self))
       call transform_waves(self, points, offset, depth, body, number, fields)
       allocate (error(points(1), points(2)), source=0.0_dp)
       do i = 7, number
          error = error + fields(:, :, i)**2
       end do
       error = self%pressure_error + octave_factor*sqrt(error)
-      where (error < fields(:, :, zz)) error = fields(:, :, zz)
+      if (.not. ieee_is_nan(self%pressure_error)) error = max(error, fields(:, :, zz))
       if (number == 6) then
          call move_alloc(fields, stress)
       else
@@ -383,7 +391,7 @@ contains
       real(dp), allocatable, intent(out) :: stresses(:, :)
 
       real(dp), allocatable :: depth(:), shear(:, :), stress(:, :, :), yielding(:, :)
-      real(dp) :: least, step
+      real(dp) :: here(6), least, step
       integer :: i, k, l, points(2)
 
       step = pi/max(plane_points/2.0_dp, real(maxval(ubound(self%wave)), dp))
@@ -399,14 +407,17 @@ contains
          allocate (yielding(points(1), points(2)), shear(points(1), points(2)), source=0.0_dp)
          do l = 1, points(2)
             do k = 1, points(1)
-               yielding(k, l) = von_mises(stress(k, l, :))
+               here = stress(k, l, :)
+               yielding(k, l) = von_mises(here)
             end do
          end do
          ! A shear stress is between 1/2 and 1/sqrt3 of the von Mises stress: below this bound it is not the largest.
          least = 0.5_dp*sqrt3*maxval(yielding)
          do l = 1, points(2)
             do k = 1, points(1)
-               if (yielding(k, l) >= least) shear(k, l) = largest_shear(stress(k, l, :))
+               if (yielding(k, l) < least) cycle
+               here = stress(k, l, :)
+               shear(k, l) = largest_shear(here)
             end do
          end do
          call take(2*i - 1, maxloc(yielding))

@@ -1,5 +1,6 @@
 !> What a scene asks of the stresses: the bodies and when they yield.
 module wavycon_stress_setting
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_elastic_body, only: elastic_body
    use wavycon_kinds, only: dp
    use wavycon_largest_stress, only: by_shear, by_von_mises, find_largest_stress, largest_stress
@@ -46,7 +47,10 @@ contains
       do i = 1, size(self%body)
          call find_largest_stress(fields, self%body(i), merge(by_shear, by_von_mises, self%by_shear), largest)
          of_body = self%over_yield_stress(i, largest%value, largest%value)
-         if (of_body < ratio) cycle
+         ! A build that traps exceptions does not survive a comparison with NaN, which is the stress without a solution.
+         if (.not. ieee_is_nan(of_body)) then
+            if (of_body < ratio) cycle
+         end if
          ratio = of_body
          error = self%over_yield_stress(i, largest%error, largest%error)
       end do
