@@ -178,10 +178,13 @@ contains
       if (allocated(error)) return
       if (allocated(self%fields)) then
          call find_largest_stresses(self%fields, body, yielding, shear)
-         answer = wavy_largest_stress( &
-            yielding%value, yielding%error, shear%value, shear%error, self%p_star*yielding%value, &
-            place(self, 1, yielding), place(self, 2, yielding), self%length(1)*yielding%place(3)/(2*pi), &
-            self%p_star*shear%value, place(self, 1, shear), place(self, 2, shear), self%length(1)*shear%place(3)/(2*pi))
+         associate (place => [self%length, self%length(1)]*yielding%place_in_cell(), &
+                    shear_place => [self%length, self%length(1)]*shear%place_in_cell())
+            answer = wavy_largest_stress( &
+               yielding%value, yielding%error, shear%value, shear%error, &
+               self%p_star*yielding%value, place(1), place(2), place(3), &
+               self%p_star*shear%value, shear_place(1), shear_place(2), shear_place(3))
+         end associate
       else
          call self%uniform(body, stress, stress_error)
          none = ieee_value(1.0_dp, ieee_quiet_nan)
@@ -189,17 +192,6 @@ contains
                                       largest_shear=largest_shear(stress))
       end if
    end subroutine largest
-
-   !> The place of a largest stress along x (1) or y (2), in the cell [length].
-   pure real(dp) function place(stress, axis, largest)
-      class(solution_stress), intent(in) :: stress
-      integer, intent(in) :: axis
-      type(largest_stress), intent(in) :: largest
-
-      ! Builds that trap exceptions do not survive the modulo of a NaN.
-      place = largest%place(axis)
-      if (stress%exist()) place = stress%length(axis)*modulo(place, 2*pi)/(2*pi)
-   end function place
 
    !> The body of a Poisson's ratio and lateral stresses. Errors: exit_bad_input, with the messages of decks.
    subroutine find_body(nu, lateral, body, error)

@@ -1,7 +1,5 @@
 !> <case>.stress_largest.dat: the largest von Mises stress and the largest shear stress of each load and body.
 module wavycon_largest_stress_table
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-   use wavycon_constants, only: pi
    use wavycon_contact_status, only: status_code
    use wavycon_error, only: error_type
    use wavycon_kinds, only: dp
@@ -84,17 +82,8 @@ contains
       subroutine put_largest(largest)
          type(largest_stress), intent(in) :: largest
 
-         !> A place this far below 0 is at 0 but for rounding: not on the far side of the cell.
-         real(dp), parameter :: rounding = 1e-6_dp   ! [rad]
-
-         real(dp) :: place(3)
-
-         place = largest%place
-         ! Comparisons with a NaN raise an exception, which Debug builds trap.
-         if (.not. ieee_is_nan(largest%value)) &
-            place(:2) = max(0.0_dp, modulo(place(:2) + rounding, 2*pi) - rounding)
          associate (scene => results%scene, length => results%scene%surface%length)
-            call file%add([scene%p_star*largest%value, length*place(:2)/(2*pi), length(1)*place(3)/(2*pi)])
+            call file%add([scene%p_star*largest%value, [length, length(1)]*largest%place_in_cell()])
          end associate
       end subroutine put_largest
 

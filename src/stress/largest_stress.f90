@@ -5,6 +5,7 @@
 !> directory. Depths are mirrored at the surface, so that the search may end on it.
 module wavycon_largest_stress
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
+   use wavycon_constants, only: pi
    use wavycon_elastic_body, only: elastic_body
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dsyev
@@ -24,6 +25,8 @@ module wavycon_largest_stress
       real(dp) :: value = 0.0_dp        !! [p*]
       real(dp) :: error = 0.0_dp        !! estimate of its error [p*]; NaN if there is none
       real(dp) :: place(3) = 0.0_dp     !! X, Y, Z [rad]
+   contains
+      procedure :: place_in_cell
    end type largest_stress
 
 contains
@@ -62,6 +65,23 @@ contains
          answer = no_stress()
       end if
    end subroutine find_largest_stress
+
+   !> The place over the sides of the cell, X and Y from 0 to 1, and Z over L_x. NaN if there is no solution.
+   pure function place_in_cell(self) result(place)
+      class(largest_stress), intent(in) :: self
+      real(dp) :: place(3)
+
+      !> A place so close to 0 is at 0 but for rounding: not on the far side of the cell.
+      real(dp), parameter :: rounding = 1e-6_dp   ! [rad]
+
+      place = self%place
+      ! Comparisons with a NaN raise an exception, which Debug builds trap.
+      if (ieee_is_nan(self%value)) return
+      place(:2) = modulo(place(:2) + rounding, 2*pi) - rounding
+      if (abs(place(1)) <= rounding) place(1) = 0.0_dp
+      if (abs(place(2)) <= rounding) place(2) = 0.0_dp
+      place = place/(2*pi)
+   end function place_in_cell
 
    !> Of a load without a solution.
    pure type(largest_stress) function no_stress()
