@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Installs the other programs from the Python package index, each into a virtual environment of its own.
 
-usage: peer_install.py DIRECTORY
+usage: peer_install.py DIRECTORY [PROGRAM ...]
 
-Prints the name of a Python with numpy, which is installed into DIRECTORY if necessary.
+Prints the name of a Python with numpy and, if they are named, with some of the programs together, which are installed
+into DIRECTORY if necessary.
 """
 import glob
 import os
@@ -48,12 +49,14 @@ def offer_eigen(directory):
 
 
 def main():
-    if len(sys.argv) != 2:
+    programs = sys.argv[2:]
+    if len(sys.argv) < 2 or not all(name in PEERS for name in programs):
         sys.exit(__doc__.split('\n\n')[1])
-    python = virtual_environment.python_with(os.path.join(sys.argv[1], 'numpy'), ['numpy'], ['numpy'], ['python3'],
-                                             BINARIES)
+    python = virtual_environment.python_with(
+        os.path.join(sys.argv[1], '-'.join(programs) or 'numpy'), ['numpy'] + [PEERS[name][0] for name in programs],
+        ['numpy'] + [IMPORTS[name] for name in programs], ['python3'], BINARIES)
     if not python:
-        sys.exit('peer_install: numpy could not be installed')
+        sys.exit(f"peer_install: {' and '.join(programs) or 'numpy'} could not be installed")
     print(python)
 
 
