@@ -151,6 +151,7 @@ contains
          else
             change = middle_between(minval(gap, p <= 0.0_dp), maxval(gap, p >= hardness))
          end if
+         if (hardness < huge(hardness)) call reduce_violation(gap, p, hardness, change)
          !$omp parallel do num_threads(threads)
          do j = 1, size(gap, 2)
             gap(:, j) = gap(:, j) - change
@@ -167,6 +168,34 @@ contains
          state%residual = sqrt(sum(sums)/size(gap))
       end associate
    end subroutine compute_gap
+
+   !> Changes the approach to that of the least residual: the mean over the free points and those that it violates. A few
+   !> free points alone may have a gap that makes many others violate their conditions.
+   pure subroutine reduce_violation(gap, pressure, hardness, change)
+      real(dp), intent(in) :: gap(:, :), pressure(:, :), hardness
+      real(dp), intent(inout) :: change   !! of the approach [Delta]
+
+      !> The residual is a piecewise quadratic function of the approach; Newton's method ends in a few steps.
+      integer, parameter :: most_steps = 20
+      real(dp) :: next, total
+      integer :: j, points, step
+
+      do step = 1, most_steps
+         total = 0.0_dp
+         points = 0
+         do j = 1, size(gap, 2)
+            associate (counts => abs(violation(gap(:, j) - change, pressure(:, j), hardness)) > 0.0_dp &
+                       .or. is_free(pressure(:, j), hardness))
+               total = total + sum(gap(:, j), counts)
+               points = points + count(counts)
+            end associate
+         end do
+         if (points == 0) exit
+         next = total/points
+         if (abs(next - change) <= epsilon(change)*abs(change)) exit
+         change = next
+      end do
+   end subroutine reduce_violation
 
    !> Where no point is free, the approach may lie anywhere between the least gap at points that are open and the
    !> largest at points at the hardness.
