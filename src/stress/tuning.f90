@@ -1,36 +1,62 @@
-!> The tuned constants of this room. README.md, "Constants", has what changing them does; `scripts/constants --room stress`
-!> measures it.
+!> The tuned constants of this room. README.md, "Constants", has what changing them does;
+!> `scripts/constants --room stress` measures it.
 module wavycon_stress_tuning
    use wavycon_kinds, only: dp
    implicit none (type, external)
-   public
+   private
 
-   !> Waves of a series of pressure with an error are left out where exp(-q Z) is less than that error [p*] over this.
-   real(dp), parameter :: pressure_part = 1e3_dp
+   ! Series.
 
-   !> Search on planes: the depth of a plane over that of the plane above it; the number of points across a cell times the
-   !> depth Z; the fewest points of a plane along a side. The largest stress has a width of about its depth.
-   real(dp), parameter :: plane_ratio = 1.5_dp, waves_in_depth = 14.0_dp
-   integer, parameter :: plane_points = 24
+   real(dp), parameter, public :: pressure_part = 1e3_dp
+      !! Waves are left out where exp(-q Z) is below the error of the pressure [p*] over this. Smaller: the error of
+      !! leaving them out shows in the stress. Larger: more waves at depth.
 
-   !> Start places of expansions: distances from the centre of a spot or island over that of its edge, depths over its
-   !> radius, and depths over the distance of crests where spots have merged.
-   real(dp), parameter :: edge_ratios(*) = [0.5_dp, 0.9_dp, 1.0_dp, 1.1_dp, 1.4_dp]
-   real(dp), parameter :: depths_of_spot(*) = [0.0_dp, 0.1_dp, 0.25_dp, 0.5_dp, 0.9_dp]
-   real(dp), parameter :: depths_of_cell(*) = [0.03_dp, 0.07_dp, 0.12_dp, 0.2_dp]
+   ! Scan of planes, for the largest stress of a series. It varies over a distance of about its depth.
 
-   !> Refinement: the number of best places that are refined, and how close to the best place their stress must be; the gain
-   !> that ends the search over the error of the stress, at most over the stress; first distance of the points of its quadratic model over
-   !> the width of the stress; the factor by which this falls; the most models.
-   integer, parameter :: refined_places = 3
-   real(dp), parameter :: close_to_largest = 0.75_dp, gain_part = 0.1_dp, &
-                          search_accuracy = 1e-6_dp
-   real(dp), parameter :: first_reach = 0.25_dp, reach_factor = 0.2_dp
-   integer, parameter :: most_models = 8
+   real(dp), parameter, public :: plane_ratio = 1.5_dp
+      !! Depth of a plane over that of the plane above it, above 1. Smaller: more planes. Larger: the refinement starts
+      !! farther from the maximum.
+   real(dp), parameter, public :: waves_in_depth = 14.0_dp
+      !! Points of a plane across the cell, times its depth Z. Smaller: maxima fall between the points. Larger: more
+      !! expensive planes.
+   integer, parameter, public :: plane_points = 24
+      !! Fewest points of a plane across the cell. As waves_in_depth.
 
-   !> The error of a stress near the edge of contact over the waves of a grid's last octave there.
-   real(dp), parameter :: octave_factor = 2.0_dp
+   ! Start places of expansions. Fewer: a maximum may be missed. More: each is another place to evaluate.
 
-   !> The error of a von Mises stress or a shear stress over that of the components.
-   real(dp), parameter :: error_of_invariant = 2.0_dp
+   real(dp), parameter, public :: edge_ratios(*) = [0.5_dp, 0.9_dp, 1.0_dp, 1.1_dp, 1.4_dp]
+      !! Distances from the centre of a spot or island, over that of its edge.
+   real(dp), parameter, public :: depths_of_spot(*) = [0.0_dp, 0.1_dp, 0.25_dp, 0.5_dp, 0.9_dp]
+      !! Depths over the radius of a spot or island.
+   real(dp), parameter, public :: depths_of_cell(*) = [0.03_dp, 0.07_dp, 0.12_dp, 0.2_dp]
+      !! Depths over the distance of crests, where spots have merged.
+
+   ! Refinement of the largest stress.
+
+   integer, parameter, public :: refined_places = 3
+      !! Most start places that are refined. Smaller: a lower maximum may be taken for the largest. Larger: more time.
+   real(dp), parameter, public :: close_to_largest = 0.75_dp
+      !! Places whose stress is below this part of the largest one found are not refined. Larger: a lower maximum may be
+      !! taken for the largest. Smaller: more time.
+   real(dp), parameter, public :: gain_part = 0.1_dp
+      !! The search ends when a step gains less than this part of the estimated error of the stress. Larger: the search
+      !! adds to the error. Smaller: more steps.
+   real(dp), parameter, public :: search_accuracy = 1e-6_dp
+      !! It ends no earlier than at a gain of this part of the stress. As gain_part.
+   real(dp), parameter, public :: first_reach = 0.25_dp
+      !! Distance of the points of the first quadratic model, over the width of the maximum. Larger: the stress is not
+      !! quadratic over it. Smaller: the maximum is outside the model.
+   real(dp), parameter, public :: reach_factor = 0.2_dp
+      !! Factor of that distance from one model to the next. Larger: more models. Smaller: the maximum is outside.
+   integer, parameter, public :: most_models = 8
+      !! Most models of one search. Smaller: searches that do not reach their maximum. Larger: searches that go on in
+      !! rounding.
+
+   ! Estimates of errors.
+
+   real(dp), parameter, public :: octave_factor = 2.0_dp
+      !! Error of a grid's stress near the edge of contact over the waves of its last octave, (S5). Smaller: estimates
+      !! below the true error. Larger: estimates that are too large.
+   real(dp), parameter, public :: error_of_invariant = 2.0_dp
+      !! Error of a von Mises stress or a shear stress over that of the components, (S7). As octave_factor.
 end module wavycon_stress_tuning

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What a factor of 2 in each tuned constant does to time and error; scripts/constants --help has the rest.
 
-usage: constants.py ROOT [--quick] [--room ROOM] [--only NAME ...]
+usage: constants.py ROOT [--quick] [--factor FACTOR] [--room ROOM] [--only NAME ...]
 
 The error of a variant is the geometric mean, over all values of all loads, of its true error over that of the unchanged
 program. A true error below the reference's own error, or below ROUNDING of the value, counts as that.
@@ -21,12 +21,15 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent/'regression'))
 from tables import Table  # noqa: E402
 
-ROOMS = 'fitted', 'measure', 'contact'
+ROOMS = 'fitted', 'measure', 'contact', 'stress'
 ROUNDING = 1e-13
-TIMEOUT = 60  # for a deck; the unchanged program takes less than a second [s]
-STATEMENT = re.compile(r'^( *(?:integer|real\(dp\)), parameter, public :: (\w+)(?:\([^)]*\))? = )([^!\n]*?)( *(?:!.*)?)$',
-                       re.MULTILINE)
-USE = re.compile(r'^ *use wavycon_(?:fitted|measure|contact)_tuning, only: ((?:[^\n]*&\n)*[^\n]*)\n', re.MULTILINE)
+TIMEOUT = 20  # for a deck; the unchanged program takes less than two seconds [s]
+TIMEOUT_OF_REFERENCE = 600  # [s]
+SOLVED = 'converged', 'closed_form', 'full_contact'
+STATEMENT = re.compile(r'^( *(?:integer|real\(dp\)), parameter, public :: (\w+)(?:\([^)]*\))? = )([^!\n]*?)'
+                       r'( *(?:!.*)?)$', re.MULTILINE)
+USE = re.compile(r'^ *use wavycon_(?:fitted|measure|contact|stress)_tuning, only: ((?:[^\n]*&\n)*[^\n]*)\n',
+                 re.MULTILINE)
 IMPLICIT = '   implicit none (type, external)\n'
 NUMBER = re.compile(r'(?<![\w.])(\d+\.?\d*(?:[ed][+-]?\d+)?)(_dp)?')
 
@@ -40,9 +43,13 @@ DETAILS = '&output details = .true. /'
 SUMMARY = '&output /'
 MAP = '&output map = .true., map_points = 64 /'  # enough points for a table
 TIGHT = "solver = 'fitted', accuracy = 1e-12"
+LARGEST = "&stress nu = 0.0, 0.3, lateral = 'hydrostatic' /"
+SECTION = "&stress nu = 0.3, section = 'x', depths_over_cell_x = 0.0, 0.005, 0.02, 0.1, 0.25, 0.33 /"
+SAME = 'the method itself'
 
 # Of each room the decks: surface, loads, method, output, and the reference: a table of outputs/reference or the method
-# of a tighter solution. Loads of `wave_2d` in rising order from 0.236 on are a sweep; each starts from the one before.
+# of a tighter solution. Constants that only files on stresses use have decks of their own. Loads of `wave_2d` in rising
+# order from 0.236 on are a sweep; each starts from the one before.
 CASES = {
     'fitted': [
         (WAVE, '0.01, 0.1, 0.2, 0.5, 0.9', "solver = 'fitted', accuracy = 1e-9", DETAILS, 'wave_2d'),
@@ -69,9 +76,32 @@ CASES = {
         (ROUGH, '0.02, 0.2, 0.6', "solver = 'grid'", SUMMARY, "solver = 'grid', residual = 1e-12"),
         (WAVE, '0.05, 0.5', "solver = 'grid', grid_points = 128", SUMMARY, 'wave_2d'),
     ],
+    'stress': [
+        (WAVE, '0.02, 0.15, 0.4, 0.9', "solver = 'grid', accuracy = 1e-3", LARGEST, TIGHT),
+        (WAVE, '0.02, 0.15, 0.4, 0.9', "solver = 'fitted', accuracy = 1e-6", LARGEST, TIGHT),
+        (HEXAGONAL, '0.05, 0.3, 0.6, 0.9', "solver = 'fitted', accuracy = 1e-6", LARGEST, TIGHT),
+        (LINE, '0.02, 0.15, 0.4, 0.9', "solver = 'auto'", LARGEST, SAME),
+        (LINE, '0.02, 0.15, 0.4, 0.9', "solver = 'grid', accuracy = 1e-4", LARGEST, "solver = 'auto'"),
+        (ROUGH, '0.02, 0.1, 0.2, 0.4, 0.6, 0.8', "solver = 'grid'", LARGEST, SAME),
+        (ROUGH, '0.02, 0.2, 0.6', "solver = 'grid', grid_points = 512", LARGEST, SAME),
+    ],
+    'fitted, stresses': [
+        (WAVE, '0.02, 0.226, 0.4, 0.9', "solver = 'fitted', accuracy = 1e-6", LARGEST, TIGHT),
+        (HEXAGONAL, '0.05, 0.3, 0.6, 0.9', "solver = 'fitted', accuracy = 1e-6", LARGEST, TIGHT),
+        (WAVE, '0.02, 0.226, 0.4, 0.9', "solver = 'fitted', accuracy = 1e-9", SECTION, SAME),
+        (RHOMBIC, '0.02, 0.4', "solver = 'fitted', accuracy = 1e-9", SECTION, SAME),
+    ],
 }
-# Columns of a map that are solved for.
+# The program that makes the references: finer rules of the stresses, and a finer search for the largest.
+REFERENCE_CONSTANTS = {
+    'search_accuracy': '1e-13_dp', 'gain_part': '1e-9_dp', 'refined_places': '6', 'close_to_largest': '0.5_dp',
+    'plane_ratio': '1.25_dp', 'waves_in_depth': '28.0_dp', 'plane_points': '48', 'most_models': '10',
+    'near_clearance': '1.6_dp', 'rule_angles_factor': '2.0_dp', 'rule_radii_factor': '2.3_dp', 'ray_points': '18.0_dp',
+    'ray_angles_per_unit': '7.0_dp', 'ray_points_per_unit': '2.2_dp', 'ray_angles_of_strain': '1.6_dp',
+}
+# Columns of a map that are solved for, and of a section.
 MAP_FIELDS = 'pressure', 'gap', 'displacement'
+SECTION_FIELDS = 'stress_xx', 'stress_yy', 'stress_zz', 'stress_xz'
 
 
 def constants(text):
@@ -91,6 +121,8 @@ def scaled(value, factor):
 
 def declaration(name, value):
     """A constant's declaration, with the kind spelt out."""
+    if value.startswith('['):
+        name += '(*)'
     if '_dp' in value:
         value = re.sub(r'([\d.]+)(?:e([+-]?\d+))?_dp', lambda m: f'{m[1]}d{m[2] or 0}', value)
         return f'double precision, parameter :: {name} = {value}'
@@ -145,7 +177,7 @@ class Tree:
         """Gives a constant another value, in all modules that use it."""
         for path in self.users[name]:
             text = path.read_text(encoding='utf-8')
-            text = re.sub(rf'^ *[a-z ]+, parameter :: {name} = .*$', f'   {declaration(name, value)}', text,
+            text = re.sub(rf'^ *[a-z ]+, parameter :: {name}(?:\(\*\))? = .*$', f'   {declaration(name, value)}', text,
                           flags=re.MULTILINE)
             path.write_text(text, encoding='utf-8')
 
@@ -160,9 +192,12 @@ def values_with_errors(path):
     """By load the values of a table that have errors, with these, each by name."""
     table = Table(path)
     names = [name for name in table.columns if f'{name}_error' in table.columns]
-    return {float(record['pbar_over_pstar']):
-            {name: (float(record[name]), float(record[f'{name}_error'])) for name in names}
-            for record in table.records()}
+    values = {}
+    for record in table.records():
+        of_load = values.setdefault(float(record['pbar_over_pstar']), {})
+        for name in names:
+            of_load[f'{name} {record.get("body", "")}'] = float(record[name]), float(record[f'{name}_error'])
+    return values
 
 
 class Deck:
@@ -180,17 +215,22 @@ class Deck:
         return path
 
     def find_references(self, program, root):
-        """The reference values and their errors: by load, then by name."""
+        """The reference values and their errors: by load, then by name. Stresses of a section have one error, as they
+        may be zero."""
         if self.reference in ('wave_2d', 'hexagonal'):
             known = values_with_errors(root/'outputs'/'reference'/f'{self.reference}.dat')
             self.truth = {load: known[load] for load in map(float, self.loads.split(','))}
             return
-        path = self._write(f'{self.name}_tight', self.reference)
-        _, results = self.run(program, path)
-        self.truth = {load: {name: (value, 0.0) for name, (value, _) in row.items()}
-                      for load, row in results['rows'].items()}
+        path = self._write(f'{self.name}_tight', self.method if self.reference == SAME else self.reference)
+        _, results = self.run(program, path, TIMEOUT_OF_REFERENCE)
+        self.truth = {}
+        for load, row in results['rows'].items():
+            of_section = [abs(value) for name, (value, _) in row.items() if name.startswith('section')]
+            error = ROUNDING*max(of_section, default=0.0)
+            self.truth[load] = {name: (value, error if name.startswith('section') else 0.0)
+                                for name, (value, _) in row.items()}
 
-    def run(self, program, path=None):
+    def run(self, program, path=None, timeout=TIMEOUT):
         """User time [s] and results, None where there are none."""
         path = path or self.path
         out = self.directory/'results'
@@ -198,23 +238,36 @@ class Deck:
         before = os.times().children_user
         try:
             subprocess.run([program, path, '--quiet', '--output', out], stdin=subprocess.DEVNULL,
-                           stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=TIMEOUT, check=False)
+                           stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=timeout, check=False)
         except subprocess.TimeoutExpired:
             return math.nan, None
         time = os.times().children_user - before
         summary = out/f'{path.stem}.summary.dat'
         if not summary.exists():
             return math.nan, None
-        results = {'solved': {float(record['pbar_over_pstar']): record['status'] == 'converged'
+        results = {'solved': {float(record['pbar_over_pstar']): record['status'] in SOLVED
                               for record in Table(summary).records()},
                    'rows': values_with_errors(summary)}
-        details = out/f'{path.stem}.details.dat'
-        if details.exists():
-            results['rows'] = values_with_errors(details)
+        for name in ('details', 'stress_largest'):
+            table = out/f'{path.stem}.{name}.dat'
+            if table.exists():
+                results['rows'] = values_with_errors(table)
+        section = out/f'{path.stem}.stress_section.dat'
+        if section.exists():
+            self._add_section(results, section)
         for path_of_map in sorted(out.glob('*.map.dat')):
             self._add_map(results, path_of_map)
         results['text'] = repr(results)
         return time, results
+
+    @staticmethod
+    def _add_section(results, path):
+        """Some components of the stress at each place."""
+        loads = list(results['rows'])
+        for i, record in enumerate(Table(path).records()):
+            row = results['rows'][loads[int(record['load']) - 1]]
+            for name in SECTION_FIELDS:
+                row[f'section {i} {name}'] = float(record[name]), float(record['stress_error'])
 
     @staticmethod
     def _add_map(results, path):
@@ -286,6 +339,7 @@ def main():
     parser = Parser(prog='scripts/constants', add_help=False)
     parser.add_argument('root', type=pathlib.Path)
     parser.add_argument('--quick', action='store_true')
+    parser.add_argument('--factor', type=float, default=2.0)
     parser.add_argument('--room', choices=ROOMS, action='append')
     parser.add_argument('--only', action='append')
     options = parser.parse_args()
@@ -300,26 +354,44 @@ def main():
         shutil.copy(options.root/'inputs'/'rough_surface.dat', directory)
         tree = Tree(options.root, directory)
         base = tree.program('base', stop=True)
+        for name, value in REFERENCE_CONSTANTS.items():
+            tree.set_constant(name, value)
+        reference = tree.program('reference', stop=True)
+        for name in REFERENCE_CONSTANTS:
+            tree.set_constant(name, tree.values[name])
         for room in options.room or ROOMS:
             chosen = [(name, value) for name, value in constants(texts[room])
                       if not options.only or name in options.only]
-            if chosen:
-                measure_room(tree, base, room, chosen, repeats)
+            of_stresses = [(name, value) for name, value in chosen
+                           if all('stress' in path.name for path in tree.users[name])]
+            for cases in (room, f'{room}, stresses'):
+                if cases not in CASES:
+                    continue
+                own = chosen if room == 'stress' else of_stresses if cases != room else \
+                    [constant for constant in chosen if constant not in of_stresses]
+                if own:
+                    measure_cases(tree, (base, reference), cases, own, (repeats, options.factor))
 
 
-def measure_room(tree, base, room, chosen, repeats):
-    decks = [Deck(tree.directory, f'{room}_{i}', case) for i, case in enumerate(CASES[room])]
+def measure_cases(tree, programs, cases, chosen, how):
+    """Prints a table: each constant times and over the factor, on one set of decks."""
+    base, reference = programs
+    repeats, by = how
+    decks = [Deck(tree.directory, f'{re.sub(", ", "_", cases)}_{i}', case) for i, case in enumerate(CASES[cases])]
     for deck in decks:
-        deck.find_references(base, tree.root)
+        deck.find_references(reference, tree.root)
     times, results = measure(decks, {'base': base}, repeats)
     worst = max(deck.compare(own, own)[1] for deck, own in zip(decks, results['base']))
-    print(f'\nsrc/{room}/tuning.f90. The unchanged program takes {times["base"]:.2f} s; its largest true error over its '
-          f'error estimate is {worst:.2g}.\n')
-    print('| constant | value | time, half / twice | error | estimate | lost |\n|---|---|---|---|---|---|', flush=True)
+    room = cases.split(',')[0]
+    print(f'\nsrc/{room}/tuning.f90. The unchanged program takes {times["base"]:.2f} s; its largest true error over '
+          f'its error estimate is {worst:.2g}.\n')
+    smaller, larger = ('half', 'twice') if by == 2 else (f'1/{by:g}', f'{by:g} times')
+    print(f'| constant | value | time, {smaller} / {larger} | error | estimate | lost |')
+    print('|---|---|---|---|---|---|', flush=True)
     for name, value in chosen:
         programs = {'base': base}
         columns = {}
-        for variant, factor in (('half', 0.5), ('twice', 2)):
+        for variant, factor in (('half', 1/by), ('twice', by)):
             new = scaled(value, factor)
             if new == value:
                 columns[variant] = '-', '-', '-', '-'
