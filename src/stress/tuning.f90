@@ -8,6 +8,10 @@ module wavycon_stress_tuning
    !> Waves of a series of pressure with an error are left out where exp(-q Z) is less than that error [p*] over this.
    real(dp), parameter :: pressure_part = 1e3_dp
 
+   !> An error above this [p*] counts as this: height maps solved on their own points may have errors of p*, far above the
+   !> stresses at depth, and waves left out would show as steps.
+   real(dp), parameter :: coarsest = 1e-3_dp
+
    !> Search on planes: the depth of a plane over that of the plane above it; the number of points across a cell times the
    !> depth Z; the fewest points of a plane along a side. The largest stress has a width of about its depth.
    real(dp), parameter :: plane_ratio = 1.5_dp, waves_in_depth = 14.0_dp
