@@ -20,6 +20,9 @@ module wavycon_find_yield
    !> Loads at which the search begins, and above which no contact is looked for.
    real(dp), parameter :: first_load = 0.01_dp, last_load = 1e6_dp
 
+   !> Loads closer than this to the hardness, as ln(H/P), are not looked at: P must be below H.
+   real(dp), parameter :: below_hardness = 1e-3_dp
+
 contains
 
    !> Solves for the load at which the largest equivalent stress is a given part of the yield stress. If no load reaches it
@@ -33,15 +36,23 @@ contains
       real(dp) :: log_p
       integer :: level
 
-      log_p = log(first_load)
+      log_p = first_log_p()
       do level = solver%coarser_levels(), 0, -1
          call solver%use_level(level)
          call find_root(solver, setting, log(target), log_p, solution)
-         if (solution%status == not_found) log_p = log(first_load)
+         if (solution%status == not_found) log_p = first_log_p()
       end do
+
+   contains
+
+      !> ln P of the load at which the search begins: below the hardness, which may be a small part of p*.
+      real(dp) function first_log_p()
+         first_log_p = log(min(first_load, 0.5_dp*solver%surface%hardness))
+      end function first_log_p
+
    end subroutine solve_for_yield
 
-   !> The secant method. A step that would leave the bracket of the root is replaced by bisection.
+   !> The secant method. A step that would leave the bracket of the root or reach the hardness is replaced by bisection.
    subroutine find_root(solver, setting, log_target, log_p, solution)
       class(contact_solver), intent(inout) :: solver
       type(stress_setting), intent(in) :: setting
@@ -49,15 +60,18 @@ contains
       real(dp), intent(inout) :: log_p               !! ln P of the first load; on return of the last one
       class(contact_solution), allocatable, intent(out) :: solution
 
-      real(dp) :: at_largest, error, high, largest, last_log_p, last_miss, low, miss, next, slope
+      real(dp) :: at_hardness, at_largest, error, high, largest, last_log_p, last_miss, light_slope, low, &
+                  miss, next, slope
       integer :: i
       !> Of the logarithm of a stress.
       real(dp), parameter :: rounding = 1e-10_dp
 
       low = -huge(low)
-      high = huge(high)
+      at_hardness = log(solver%surface%hardness)
+      high = at_hardness
       ! Of a line contact and of a point contact at light load.
-      slope = merge(0.5_dp, 1.0_dp/3, solver%surface%dimension == 1)
+      light_slope = merge(0.5_dp, 1.0_dp/3, solver%surface%dimension == 1)
+      slope = light_slope
       last_log_p = log_p
       last_miss = 0.0_dp
       largest = -huge(largest)
@@ -72,6 +86,8 @@ contains
          end if
          if (abs(miss) <= min(max(fraction_of_error*error, least_fraction), largest_fraction)) return
          if (i > 1 .and. abs(log_p - last_log_p) > 0.0_dp) slope = (miss - last_miss)/(log_p - last_log_p)
+         ! Where a hardness bounds the stress r hardly grows: the secant would lead to loads far too light, or up.
+         if (low <= -huge(low) .and. miss > 0.0_dp) slope = max(slope, 0.5_dp*light_slope)
          last_log_p = log_p
          last_miss = miss
          if (miss > 0.0_dp) high = min(high, log_p)
@@ -80,7 +96,7 @@ contains
          if (slope > 0.0_dp) next = log_p - miss/slope
          next = min(next, log_p + longest_rise)
          if (next <= low .or. next >= high) next = 0.5_dp*(low + high)
-         if (next > log(last_load)) exit
+         if (next > min(log(last_load), at_hardness - below_hardness)) exit
          if (abs(next - log_p) <= epsilon(next)*max(1.0_dp, abs(next))) then
             if (solution%is_good()) solution%status = not_accurate
             return

@@ -11,7 +11,7 @@ module wavycon_series_stress
    use wavycon_kinds, only: dp
    use wavycon_stress_fields, only: stress_fields
    use wavycon_stress_tensor, only: largest_shear, von_mises, xx, xy, xz, yy, yz, zz
-   use wavycon_stress_tuning, only: octave_factor, plane_points, plane_ratio, pressure_part, waves_in_depth
+   use wavycon_stress_tuning, only: coarsest, octave_factor, plane_points, plane_ratio, pressure_part, waves_in_depth
    use wavycon_surface, only: surface_type
    use wavycon_system, only: has_memory_for
    implicit none (type, external)
@@ -62,7 +62,7 @@ contains
       if (surface%dimension == 1) stress%side_ratio = 1.0_dp
       stress%pressure_error = pressure_error
       if (.not. ieee_is_nan(pressure_error)) &
-         stress%faintest = log(pressure_part/min(max(pressure_error, pressure_part*exp(-deepest)), 1.0_dp))
+         stress%faintest = log(pressure_part/min(max(pressure_error, pressure_part*exp(-deepest)), coarsest))
       if (is_sampled) then
          stress%sampled_from = 0.5_dp*m
          if (n > 0) stress%sampled_from = 0.5_dp*min(real(m, dp), n/stress%side_ratio)
