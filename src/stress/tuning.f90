@@ -40,8 +40,8 @@ module wavycon_stress_tuning
    integer, parameter, public :: refined_places = 3
       !! Most start places that are refined. Smaller: a lower maximum may be taken for the largest. Larger: more time.
    real(dp), parameter, public :: close_to_largest = 0.75_dp
-      !! Places whose stress is below this part of the largest one found are not refined. Larger: a lower maximum may be
-      !! taken for the largest. Smaller: more time.
+      !! Start places whose stress is below this part of the largest one there are not refined, below 1. Larger: a lower
+      !! maximum may be taken for the largest. Smaller: more time.
    real(dp), parameter, public :: gain_part = 0.1_dp
       !! The search ends when a step gains less than this part of the estimated error of the stress. Larger: the search
       !! adds to the error. Smaller: more steps.
