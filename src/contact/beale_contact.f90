@@ -1,6 +1,6 @@
 !> solver = 'beale': the method of Johnson, Greenwood & Higginson (1985). The pressure is a truncated Fourier series
-!> whose coefficients minimise the complementary energy, a quadratic programme. Its minimum is found by Goldfarb & Idnani's
-!> dual method or, as in the paper, by Beale's.
+!> whose coefficients minimise the complementary energy, a quadratic programme. Its minimum is found by Goldfarb &
+!> Idnani's dual method or, as in the paper, by Beale's.
 module wavycon_beale_contact
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use wavycon_beale, only: beale_solver
@@ -117,7 +117,8 @@ contains
             "points by default); 'diagonal': at both crests (49, 378); 'none' (99, 729).", &
             ['full    ', 'diagonal', 'none    ']), &
          choice_key('minimiser', "'dual'", &
-            "how the minimum of the energy is found, which is one and the same. 'dual': Goldfarb and Idnani's method, "// &
+            "how the minimum of the energy is found, which is one and the same. 'dual': Goldfarb and Idnani's "// &
+               "method, "// &
             "from the load before; 'beale': Beale's method as in the paper, each load from an even pressure.", &
             ['dual ', 'beale']), &
          real_key('edge_level', '0.1', 'p*', 'the isobar that is taken as the edge of contact.', &

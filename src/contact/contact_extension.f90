@@ -1,5 +1,5 @@
-!> Continues a field from the contact to the points outside it, over grids of ever larger steps, and the adjoint of that:
-!> equations (C4a) to (C4c) of README.md in this directory.
+!> Continues a field from the contact to the points outside it, over grids of ever larger steps, and the adjoint of
+!> that: equations (C4a) to (C4c) of README.md in this directory.
 !>
 !> Each coarser grid has half the points each way: a point of it has the mean of four. It needs even numbers of points;
 !> where they become odd the sequence ends.

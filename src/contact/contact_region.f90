@@ -16,8 +16,8 @@ module wavycon_contact_region
       integer :: points = 0                    !! of the region
       logical, allocatable :: columns(:)       !! whether a column of the grid has points of the region, shape (N)
       integer :: threads = 1                   !! for loops over columns
-      !> Runs of adjacent points: run r has the points first(r) to last(r) of its column, and point i of it has the place
-      !> i + offset(r) in vectors.
+      !> Runs of adjacent points: run r has the points first(r) to last(r) of its column, and point i of it has the
+      !> place i + offset(r) in vectors.
       integer, allocatable, private :: first(:), last(:), offset(:)
       integer, allocatable, private :: run(:)  !! first run of each column, and one more than the last of all, shape (N+1)
    contains

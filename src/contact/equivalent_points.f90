@@ -1,5 +1,5 @@
-!> The points of a grid that are equivalent by the symmetries of a lattice of crests: fields are evaluated at the first of
-!> them only.
+!> The points of a grid that are equivalent by the symmetries of a lattice of crests: fields are evaluated at the
+!> first of them only.
 !>
 !> The symmetries are the mirror lines X = 0 and Y = 0, the diagonals of a square cell, and the translation by half a
 !> cell both ways of a cell with two crests.

@@ -8,7 +8,8 @@ module wavycon_find_yield
    use wavycon_contact_solution, only: contact_solution, no_solution
    use wavycon_contact_solver, only: contact_solver
    use wavycon_contact_status, only: not_accurate, not_found
-   use wavycon_contact_tuning, only: fraction_of_error, largest_fraction, least_fraction, longest_rise, most_solves
+   use wavycon_contact_tuning, only: fraction_of_error, largest_fraction, largest_stress_error, least_fraction, &
+      longest_rise, most_solves
    use wavycon_kinds, only: dp
    use wavycon_stress_fields, only: stress_fields
    use wavycon_stress_setting, only: stress_setting
@@ -25,12 +26,12 @@ module wavycon_find_yield
 
 contains
 
-   !> Solves for the load at which the largest equivalent stress is a given part of the yield stress. If no load reaches it
-   !> there is no solution, with the status not_found and the load of the largest stress met.
+   !> Solves for the load at which the largest equivalent stress is a given part of the yield stress. If no load
+   !> reaches it there is no solution, with the status not_found and the load of the largest stress met.
    subroutine solve_for_yield(solver, setting, target, solution)
       class(contact_solver), intent(inout) :: solver        !! started with keep_fields
       type(stress_setting), intent(in) :: setting           !! with yield stresses
-      real(dp), intent(in) :: target                        !! r > 0, equivalent stress over yield stress; 1: first yield
+      real(dp), intent(in) :: target                        !! r > 0, stress over yield stress; 1: first yield
       class(contact_solution), allocatable, intent(out) :: solution   !! of the load found
 
       real(dp) :: log_p
@@ -84,7 +85,10 @@ contains
             largest = miss
             at_largest = log_p
          end if
-         if (abs(miss) <= min(max(fraction_of_error*error, least_fraction), largest_fraction)) return
+         if (abs(miss) <= min(max(fraction_of_error*error, least_fraction), largest_fraction)) then
+            if (solution%is_good() .and. error > largest_stress_error) solution%status = not_accurate
+            return
+         end if
          if (i > 1 .and. abs(log_p - last_log_p) > 0.0_dp) slope = (miss - last_miss)/(log_p - last_log_p)
          ! Where a hardness bounds the stress r hardly grows: the secant would lead to loads far too light, or up.
          if (low <= -huge(low) .and. miss > 0.0_dp) slope = max(slope, 0.5_dp*light_slope)

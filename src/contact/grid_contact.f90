@@ -261,8 +261,8 @@ contains
       end if
    end subroutine edge_curves
 
-   !> Of the series that interpolates the pressures at the points. Its error is that of the peak pressure and the part of
-   !> the series' last octave. Without the memory for the series there are no stresses.
+   !> Of the series that interpolates the pressures at the points. Its error is that of the peak pressure and the part
+   !> of the series' last octave. Without the memory for the series there are no stresses.
    subroutine stresses(self, surface, answer)
       class(grid_solution), intent(in) :: self
       type(surface_type), intent(in) :: surface

@@ -1,9 +1,9 @@
 !> Minimises the complementary energy 1/2 (p, Sp) + (p, h) over the pressures 0 <= p <= H of given mean on a grid. H is
 !> the hardness; elastic bodies have none.
 !>
-!> Each step computes the gap of the present pressure at all points, in double precision, and verifies the conditions of
-!> contact there. It then selects the points in and near the contact, and corrects the pressure at these points in single
-!> precision (`pressure_correction`). A step reduces the residual by some four digits.
+!> Each step computes the gap of the present pressure at all points, in double precision, and verifies the conditions
+!> of contact there. It then selects the points in and near the contact, and corrects the pressure at these points in
+!> single precision (`pressure_correction`). A step reduces the residual by some four digits.
 !>
 !> Numbers (C..) are the equations of README.md in this directory.
 module wavycon_grid_solver
@@ -80,7 +80,8 @@ contains
                                  min(correction_limit, most_iterations - state%iterations))
          call correction%add_to(state%pressure)
          state%corrections = state%corrections + 1
-         ! A correction without iterations corrects the approach alone. It counts, so that the number of steps is limited.
+         ! A correction without iterations corrects the approach alone. It counts, so that the number of steps is
+         ! limited.
          state%iterations = state%iterations + max(1, correction%iterations)
          state%local_iterations = state%local_iterations + correction%local_iterations
          state%plain_iterations = state%plain_iterations + correction%plain_iterations
@@ -169,8 +170,8 @@ contains
       end associate
    end subroutine compute_gap
 
-   !> Changes the approach to that of the least residual: the mean over the free points and those that it violates. A few
-   !> free points alone may have a gap that makes many others violate their conditions.
+   !> Changes the approach to that of the least residual: the mean over the free points and those that it violates. A
+   !> few free points alone may have a gap that makes many others violate their conditions.
    pure subroutine reduce_violation(gap, pressure, hardness, change)
       real(dp), intent(in) :: gap(:, :), pressure(:, :), hardness
       real(dp), intent(inout) :: change   !! of the approach [Delta]

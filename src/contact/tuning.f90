@@ -108,6 +108,9 @@ module wavycon_contact_tuning
    real(dp), parameter, public :: steepest = 20.0_dp
    !> Longest step of ln P upwards in the search for first yield: a longer one may pass the first root.
    real(dp), parameter, public :: longest_rise = 0.7_dp
+   !> A load of first yield whose stress has a larger relative error than this has the status not_accurate, also on the
+   !> own points of a height map: the stress may be that of one point.
+   real(dp), parameter, public :: largest_stress_error = 0.5_dp
    !> Grids refined to an accuracy search first with ten times, then a hundred times lower accuracies, down to this.
    !> Less accurate solutions do not help the search: their areas differ too much from the final ones.
    real(dp), parameter, public :: worst_search_accuracy = 1e-2_dp
@@ -117,9 +120,9 @@ module wavycon_contact_tuning
 
    ! The paper's series.
 
-   !> The dual method starts at this load or a higher one and passes on to lighter ones. It begins with the pressure of full
-   !> contact, whose rounding of 1e-16 must be small beside the load; and at lighter loads the active constraints hardly
-   !> change, so that the pass takes few steps.
+   !> The dual method starts at this load or a higher one and passes on to lighter ones. It begins with the pressure
+   !> of full contact, whose rounding of 1e-16 must be small beside the load; and at lighter loads the active
+   !> constraints hardly change, so that the pass takes few steps.
    real(dp), parameter, public :: lightest_start = 1e-6_dp
 
    ! Expansions fitted to the edge.

@@ -21,8 +21,8 @@ module wavycon_deck_keys
 
 contains
 
-   !> Lists the keys of &material, &surface, &load, &stress and &method that have an effect. Left out are lists of loads: a table
-   !> has a row for each.
+   !> Lists the keys of &material, &surface, &load, &stress and &method that have an effect. Left out are lists of
+   !> loads: a table has a row for each.
    subroutine list_keys(deck, keys)
       type(deck_type), intent(in) :: deck   !! without problems
       type(deck_key), allocatable, intent(out) :: keys(:)

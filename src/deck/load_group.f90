@@ -46,7 +46,8 @@ contains
             'Fractions of the nominal area in contact; the program finds their loads.', &
             least=0.0_dp, most=1.0_dp, most_values=most_loads), &
          real_key('yield', '', '-', &
-            'Largest equivalent stresses in the bodies over the yield stress of &stress; the program finds the least '// &
+            'Largest equivalent stresses in the bodies over the yield stress of &stress; the program finds the '// &
+               'least '// &
             'loads that reach them. 1 is first yield.', &
             above=0.0_dp, most_values=most_loads), &
          real_key('sweep_from', '', '-', 'First mean pressure over p* of a sweep in equal steps.', &

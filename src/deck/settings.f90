@@ -138,7 +138,8 @@ contains
    end function deck_value
 
    !> Whether a setting takes the place of a key of the same group: of itself; of other ways to give the loads, the
-   !> stiffness or the depths; of accuracy or grid_points; of the keys that another kind of surface or another solver has.
+   !> stiffness or the depths; of accuracy or grid_points; of the keys that another kind of surface or another solver
+   !> has.
    logical function replaces(setting, key)
       type(setting_type), intent(in) :: setting
       character(*), intent(in) :: key

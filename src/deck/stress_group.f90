@@ -29,27 +29,34 @@ contains
          logical_key('largest', '.true.', 'A table of the largest von Mises stress and the largest shear stress of '// &
             'each load, and where they are.'), &
          logical_key('line', '.false.', 'A table of the stresses on the line below the crest.'), &
-         choice_key('section', "'none'", "a table of the stresses on a vertical section through the crest, along 'x', "// &
+         choice_key('section', "'none'", "a table of the stresses on a vertical section through the crest, "// &
+            "along 'x', "// &
             "'y' or the 'diagonal' of the cell.", [character(8) :: 'none', 'x', 'y', 'diagonal']), &
-         logical_key('planes', '.false.', 'A table of the stresses on the planes at the given depths, with the points '// &
+         logical_key('planes', '.false.', 'A table of the stresses on the planes at the given depths, with the '// &
+            'points '// &
             'and in the format of maps.'), &
-         real_key('depths', '', 'length', 'Depths of the planes; also of the points of line and section unless a range '// &
+         real_key('depths', '', 'length', 'Depths of the planes; also of the points of line and section unless '// &
+            'a range '// &
             'is given.', least=0.0_dp, &
             most_values=most_depths), &
-         real_key('depths_over_cell_x', '', '-', 'The same over the side of the cell along x, which is the wavelength '// &
+         real_key('depths_over_cell_x', '', '-', 'The same over the side of the cell along x, which is the '// &
+            'wavelength '// &
             'of a wave.', least=0.0_dp, most_values=most_depths), &
-         real_key('depth_from', '0.0', '-', 'First depth of a range in equal steps, over the side of the cell along x, for '// &
+         real_key('depth_from', '0.0', '-', 'First depth of a range in equal steps, over the side of the cell '// &
+            'along x, for '// &
             'line and section; also for the planes unless depths are given.', &
             least=0.0_dp), &
          real_key('depth_to', '1.0', '-', 'Last depth of the range.', least=0.0_dp), &
          integer_key('depth_steps', '65', 'Number of depths of the range, both ends included.', 1, most_depths), &
-         real_key('nu', 'nu1, nu2', '-', "Poisson's ratios of the first and the second body; one number: of both. The "// &
+         real_key('nu', 'nu1, nu2', '-', "Poisson's ratios of the first and the second body; one number: of "// &
+            "both. The "// &
             'default is that of &material. Where they differ the stresses of both bodies are computed.', &
             above=-1.0_dp, most=0.5_dp, most_values=2), &
          choice_key('lateral', "'constrained'", "the lateral stresses of the mean pressure pbar. 'constrained': no "// &
             "lateral strain, -nu pbar/(1 - nu); 'free': 0; 'hydrostatic': -pbar.", &
             [character(11) :: 'constrained', 'free', 'hydrostatic']), &
-         real_key('yield_stress', '', 'unit of e_star', 'Yield stresses of the first and the second body in uniaxial '// &
+         real_key('yield_stress', '', 'unit of e_star', 'Yield stresses of the first and the second body in '// &
+            'uniaxial '// &
             'tension; one number: of both.', above=0.0_dp, most_values=2), &
          choice_key('yield_criterion', "'von_mises'", "which stress reaches the yield stress: 'von_mises', the von "// &
             "Mises stress; 'tresca', twice the largest shear stress.", [character(9) :: 'von_mises', 'tresca'])])
@@ -83,7 +90,8 @@ contains
       if (.not. material%any_bad() .and. .not. values%is_bad('nu')) call take_ratios(values, material, problems)
       if (present(surface)) then
          if (surface%dimension == 1 .and. any(values%text('section') == ['y       ', 'diagonal'])) &
-            call values%complain(problems, 'section', "the surface does not change along y: section must be 'none' or 'x'")
+            call values%complain(problems, 'section', &
+            "the surface does not change along y: section must be 'none' or 'x'")
       end if
       if (values%has('yield_criterion') .and. .not. values%has('yield_stress')) call values%complain(problems, &
          'yield_criterion', 'yield_criterion needs yield_stress beside it')

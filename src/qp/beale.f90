@@ -68,8 +68,9 @@ contains
       call self%finish(limit, solution)
    end subroutine solve
 
-   !> Beale's method: changes non-basic variables until none lowers the objective. At the pivot limit, or where the table
-   !> has lost digits, it stops where the free ones do not: the point is then the minimum on the active constraints.
+   !> Beale's method: changes non-basic variables until none lowers the objective. At the pivot limit, or where the
+   !> table has lost digits, it stops where the free ones do not: the point is then the minimum on the active
+   !> constraints.
    subroutine descend(table, pivot_limit, pivots)
       type(table_type), intent(inout) :: table
       integer, intent(in) :: pivot_limit

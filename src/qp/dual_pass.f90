@@ -21,8 +21,8 @@ module wavycon_dual_pass
    !> So many constraints in a row with small violations suggest that these are rounding, which moves the active set in
    !> circles: n.
    real(dp), parameter :: small_slack = sqrt(epsilon(1.0_dp))
-   !> A constraint depends on the active ones if the rest of U^-T C_i' is less than this fraction of it, or of |U^-1||C_i|:
-   !> such a rest is rounding.
+   !> A constraint depends on the active ones if the rest of U^-T C_i' is less than this fraction of it, or of
+   !> |U^-1||C_i|: such a rest is rounding.
    real(dp), parameter :: zero_rest = 1e-13_dp
 
    !> A constraint that the active ones seem to exclude.

@@ -1,9 +1,10 @@
 !> Minimises 1/2 x'Dx - c'x subject to Cx >= b by the dual pass, D positive definite.
 !>
-!> It starts from the minimum without constraints, or on a given set of active constraints. The factors that are changed
-!> from exchange to exchange are used to find the set of active constraints. The solution on that set is computed from D,
-!> c, C and b, and its Karush-Kuhn-Tucker conditions are checked. Where the factors have lost digits the set is factorised
-!> afresh and the pass continues. Numbers (Q..) are the equations of README.md in this directory.
+!> It starts from the minimum without constraints, or on a given set of active constraints. The factors that are
+!> changed from exchange to exchange are used to find the set of active constraints. The solution on that set is
+!> computed from D, c, C and b, and its Karush-Kuhn-Tucker conditions are checked. Where the factors have lost digits
+!> the set is factorised afresh and the pass continues. Numbers (Q..) are the equations of README.md in this
+!> directory.
 !>
 !> Constraints of unlike units are multiplied by powers of two that bring their normals to order one: slacks are
 !> compared with each other, and the rounding of a large one would hide the violation of a small one.
@@ -82,9 +83,9 @@ contains
       call self%finish(default_pivot_limit(self%problem), solution)
    end subroutine pass_to
 
-   !> The pass from the active constraints of `set`, whatever they are, to the solution, which is checked (Q3). While the
-   !> check fails the set is factorised afresh, then solved with extended residuals, and the pass continues, as long as
-   !> that changes anything.
+   !> The pass from the active constraints of `set`, whatever they are, to the solution, which is checked (Q3). While
+   !> the check fails the set is factorised afresh, then solved with extended residuals, and the pass continues, as
+   !> long as that changes anything.
    subroutine finish(self, pivot_limit, solution)
       class(dual_solver), intent(inout) :: self
       integer, intent(in) :: pivot_limit

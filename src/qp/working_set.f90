@@ -1,7 +1,7 @@
 !> The minimum on a set of active constraints taken as equations, by factorisations of LAPACK.
 !>
-!> For the active rows C_W the factorisation is  D = U'U,  U^-T C_W' = QR,  Q'Q = I of k columns, R upper triangular (Q4).
-!> With x = U^-1 w the minimum on C_W x = b_W is (Q5)
+!> For the active rows C_W the factorisation is  D = U'U,  U^-T C_W' = QR,  Q'Q = I of k columns, R upper triangular
+!> (Q4). With x = U^-1 w the minimum on C_W x = b_W is (Q5)
 !>
 !>     v = R^-T b_W - Q'U^-T c,   w = U^-T c + Qv,   multipliers = R^-1 v.
 !>
@@ -194,8 +194,8 @@ contains
    subroutine remove(self, place, components, rest)
       class(working_set), intent(inout) :: self
       integer, intent(in) :: place                         !! in `active`
-      !> Some vector split, shapes (k) and (n). On return it is split with respect to the smaller set, in the first k - 1
-      !> components.
+      !> Some vector split, shapes (k) and (n). On return it is split with respect to the smaller set, in the first k
+      !> - 1 components.
       real(dp), intent(inout), optional, contiguous :: components(:), rest(:)
 
       real(dp) :: cosine, sine, radius

@@ -1,7 +1,7 @@
 !> The header of numpy's file format, version 1.0, for arrays of records of double precision numbers.
 !>
-!> The format is defined in numpy's documentation, numpy.lib.format. The header has the same length for all maps of a kind, so that
-!> readers that do not know the format skip it.
+!> The format is defined in numpy's documentation, numpy.lib.format. The header has the same length for all maps of a
+!> kind, so that readers that do not know the format skip it.
 module wavycon_npy_header
    use, intrinsic :: iso_fortran_env, only: int8
    use wavycon_plain_text, only: integer_text, newline

@@ -1,8 +1,8 @@
 !> The lines of the log that show the largest stresses.
 !>
-!> Von Mises stress and shear stress, each followed by its error estimate, and the depth of the first over the side of the
-!> cell along x; if the deck gives a yield stress the ratio to it; in the deck's units if it gives a modulus. No line is
-!> longer than 120 characters.
+!> Von Mises stress and shear stress, each followed by its error estimate, and the depth of the first over the side of
+!> the cell along x; if the deck gives a yield stress the ratio to it; in the deck's units if it gives a modulus. No
+!> line is longer than 120 characters.
 module wavycon_stress_lines
    use wavycon_constants, only: pi
    use wavycon_kinds, only: dp

@@ -66,10 +66,12 @@ contains
          call file%open(results%scene%directory, results%scene%case//'.stress_planes.npy', binary=.true.)
          ! The first indices of the file's array are load, body and depth.
          call file%put_raw(npy_header(column_name(columns(3:)), &
-                                      [size(results%loads), number_of_bodies(results), size(depths), points(2), points(1)]))
+                                      [size(results%loads), number_of_bodies(results), size(depths), &
+                                       points(2), points(1)]))
       end if
       if (.not. has_memory_for(numbers_a_point*product(int(points, int64)))) call file%note_trouble( &
-         'there is not enough memory for planes of '//integer_text(points(1))//' x '//integer_text(points(2))//' points')
+         'there is not enough memory for planes of '//integer_text(points(1))//' x '//integer_text(points(2))// &
+         ' points')
       if (file%is_open()) offset = map_offset(results, points)
       do load = 1, size(results%loads)
          if (.not. file%is_open()) exit

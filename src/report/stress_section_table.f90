@@ -1,5 +1,5 @@
-!> <case>.stress_section.dat: stresses on a vertical section through the crest, a block for each load and body with a blank
-!> line between depths.
+!> <case>.stress_section.dat: stresses on a vertical section through the crest, a block for each load and body with a
+!> blank line between depths.
 module wavycon_stress_section_table
    use wavycon_error, only: error_type
    use wavycon_kinds, only: dp

@@ -47,8 +47,8 @@ contains
       words = 'output'
    end function output_group
 
-   !> Whether the table is written. Here it is if its key is .true. and, without a key, always; never if the deck does not
-   !> have its group &stress.
+   !> Whether the table is written. Here it is if its key is .true. and, without a key, always; never if the deck does
+   !> not have its group &stress.
    logical function is_requested(self, scene)
       class(table_type), intent(in) :: self
       type(scene_type), intent(in) :: scene

@@ -11,8 +11,8 @@ module wavycon_largest_stress
    use wavycon_lapack, only: dsyev
    use wavycon_stress_fields, only: stress_fields
    use wavycon_stress_tensor, only: largest_shear, von_mises
-   use wavycon_stress_tuning, only: close_to_largest, error_of_invariant, first_reach, gain_part, most_models, search_accuracy, &
-      reach_factor, refined_places
+   use wavycon_stress_tuning, only: close_to_largest, error_of_invariant, first_reach, gain_part, most_models, &
+      search_accuracy, reach_factor, refined_places
    implicit none (type, external)
    private
 
@@ -161,8 +161,8 @@ contains
       end do
    end subroutine refine
 
-   !> Moves a place to the maximum of a quadratic function within a distance along each axis, or to the best of the points
-   !> that the function is made from.
+   !> Moves a place to the maximum of a quadratic function within a distance along each axis, or to the best of the
+   !> points that the function is made from.
    subroutine improve(fields, body, quantity, axes, reach, best, step, promise)
       class(stress_fields), intent(inout) :: fields
       type(elastic_body), intent(in) :: body
@@ -171,7 +171,7 @@ contains
       real(dp), intent(in) :: reach                  !! [rad]
       type(largest_stress), intent(inout) :: best
       real(dp), intent(out) :: step                  !! largest distance moved along an axis [rad]
-      real(dp), intent(out) :: promise               !! gain of the function's maximum, and its variation along axes without one [p*]
+      real(dp), intent(out) :: promise               !! gain of the maximum; variation along axes without one [p*]
 
       !> Changes of the stress by rounding, over the stress.
       real(dp), parameter :: rounding = 1e-14_dp

@@ -49,7 +49,7 @@ contains
       type(surface_type), intent(in) :: surface
       type(fourier_series), intent(in) :: pressure    !! p/p*; the mean is ignored
       real(dp), intent(in) :: pbar_over_pstar         !! P
-      real(dp), intent(in) :: pressure_error          !! estimate of the error of the pressure [p*]; NaN if there is none
+      real(dp), intent(in) :: pressure_error          !! estimate of the pressure's error [p*]; NaN: none
       logical, intent(in) :: is_sampled               !! whether the series is that of values on a grid
 
       integer :: k, l, m, n
@@ -268,8 +268,8 @@ contains
       is_zero = abs(wave%re) <= 0.0_dp .and. abs(wave%im) <= 0.0_dp
    end function is_zero
 
-   !> One transform for each component, and three for the error (S5). Waves that the points cannot tell from slower ones are
-   !> added to those, so that the values are exact for any number of points.
+   !> One transform for each component, and three for the error (S5). Waves that the points cannot tell from slower
+   !> ones are added to those, so that the values are exact for any number of points.
    subroutine on_plane(self, points, offset, depth, body, stress, error)
       class(series_stress), intent(inout) :: self
       integer, intent(in) :: points(2)

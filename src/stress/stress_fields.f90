@@ -1,7 +1,7 @@
 !> The stresses in a half-space under the pressure of one solution, at points and on planes.
 !>
-!> Positions are the angles X, Y of the surface's cell and the depth Z = 2 pi z/L_x, z into the body; stresses are in p*,
-!> tension positive. Those of the mean pressure are left out: `elastic_body` adds them.
+!> Positions are the angles X, Y of the surface's cell and the depth Z = 2 pi z/L_x, z into the body; stresses are in
+!> p*, tension positive. Those of the mean pressure are left out: `elastic_body` adds them.
 module wavycon_stress_fields
    use wavycon_constants, only: pi
    use wavycon_elastic_body, only: elastic_body
@@ -37,7 +37,8 @@ module wavycon_stress_fields
          real(dp), intent(out), optional :: error
       end subroutine parts_at_point
 
-      !> Places from which the search for the largest stress starts, the best of them close to it, and the stresses there.
+      !> Places from which the search for the largest stress starts, the best of them close to it, and the stresses
+      !> there.
       subroutine find_start_places(self, body, places, widths, stresses)
          import :: dp, elastic_body, stress_fields
          class(stress_fields), intent(inout) :: self

@@ -68,7 +68,8 @@ contains
 
    !> Eigenvalues of a symmetric tensor, in descending order; NaN if a component is not finite.
    !>
-   !> N.B. The formula with arccos loses half of the digits where two eigenvalues are equal, as on every axis of symmetry.
+   !> N.B. The formula with arccos loses half of the digits where two eigenvalues are equal, as on every axis of
+   !> symmetry.
    pure function eigenvalues(s) result(values)
       real(dp), intent(in) :: s(6)
       real(dp) :: values(3)

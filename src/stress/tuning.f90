@@ -12,8 +12,8 @@ module wavycon_stress_tuning
       !! leaving them out shows in the stress. Larger: more waves at depth.
 
    real(dp), parameter, public :: coarsest = 1e-3_dp
-      !! An error of the pressure above this [p*] counts as this: height maps solved on their own points may have errors of
-      !! p*, far above the stresses at depth, and waves left out would show as steps.
+      ! ! An error of the pressure above this [p*] counts as this: height maps solved on their own points may have
+      ! errors of ! p*, far above the stresses at depth, and waves left out would show as steps.
 
    ! Scan of planes, for the largest stress of a series. It varies over a distance of about its depth.
 
