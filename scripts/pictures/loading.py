@@ -3,7 +3,7 @@ import math
 import os
 
 from axes import axis, quoted
-from variables import REFERENCE, array_of, names_of, numbers_in, of_column, put_range, put_scale, scaled
+from variables import REFERENCE, array_of, mean_pressure_axis, names_of, numbers_in, of_column, put_range, put_scale
 
 
 def ends_of_bars(tables, factors, name, error_name, head=None):
@@ -32,11 +32,7 @@ def without_bar(table):
 def summary(tables, beside, choice, folder):
     """Summaries: contact area, mean gap and peak pressure against the mean pressure."""
     first = tables[0]
-    load = numbers_in(tables, of_column("mean_pressure"), "p*", "p_star", may_be_wide=True)
-    means = scaled(tables, load[1], "mean_pressure")
-    wide = axis(means)[-1]
-    full = load[1][0]*first.numbers.get("p*", 0.0) if len(tables) == 1 else 0.0
-    facts = put_scale("load", load, "p_bar", "mean pressure") + put_range("load", means, up_to=full)
+    facts, wide = mean_pressure_axis(tables)
 
     area = numbers_in(tables, of_column("contact_area_fraction"), "", "area_0", may_be_wide=wide)
     ends = ends_of_bars(tables, area[1], "contact_area_fraction", "contact_area_fraction_error")

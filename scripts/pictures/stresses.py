@@ -7,8 +7,8 @@ import sys
 
 from axes import axis, chosen, quoted, step_of
 from fields import MOST_PIXELS, cell_of, edge_facts, matched, write_closed
-from variables import MOST_CURVES, MOST_PANELS, REFERENCE, CannotBeDrawn, array_of, load_facts, names_of, numbers_in, \
-    of_column, put_range, put_scale, scaled, shown
+from variables import MOST_CURVES, MOST_PANELS, REFERENCE, CannotBeDrawn, array_of, load_facts, \
+    mean_pressure_axis, names_of, numbers_in, of_column, put_range, put_scale, scaled, shown
 
 # The columns of stresses that can be shown, and their labels: gnuplot's symbol and words.
 SYMBOLS = {"von_mises": ("'{/:Italic σ}_{vM}'", "von Mises stress"),
@@ -176,12 +176,7 @@ def write_section(block, name, path):
 
 def largest(tables, beside, choice, folder):
     """The largest stresses against the mean pressure, with error bars, their depth, their ratio to the yield stress."""
-    first = tables[0]
-    load = numbers_in(tables, of_column("mean_pressure"), "p*", "p_star", may_be_wide=True)
-    means = scaled(tables, load[1], "mean_pressure")
-    wide = axis(means)[-1]
-    full = load[1][0]*first.numbers.get("p*", 0.0) if len(tables) == 1 else 0.0
-    facts = put_scale("load", load, "p_bar", "mean pressure") + put_range("load", means, up_to=full)
+    facts, wide = mean_pressure_axis(tables)
     stress = numbers_in(tables, of_column("largest_von_mises"), "p*", "p_star", may_be_wide=wide)
     depth = numbers_in(tables, lambda table: table.column("von_mises_depth") + table.column("shear_depth"),
                        "cell_x", "", may_be_wide=wide)

@@ -128,3 +128,12 @@ def load_facts(table, places):
     p_star = table.numbers.get("p*", 1.0)
     names = [scale.value("p_bar", factor[0]*p_star*table.blocks[i].pbar_over_pstar) for i in places]
     return [f"loads_shown = {len(places)}"] + array_of("load_name", names)
+
+
+def mean_pressure_axis(tables):
+    """The facts of an axis of mean pressures, and whether its numbers are wide."""
+    load = numbers_in(tables, of_column("mean_pressure"), "p*", "p_star", may_be_wide=True)
+    means = scaled(tables, load[1], "mean_pressure")
+    full = load[1][0]*tables[0].numbers.get("p*", 0.0) if len(tables) == 1 else 0.0
+    facts = put_scale("load", load, "p_bar", "mean pressure") + put_range("load", means, up_to=full)
+    return facts, axis(means)[-1]
