@@ -199,8 +199,8 @@ contains
          if (without_area > 0) call log%say('note: at '//integer_text(without_area)//' loads '// &
                                             results%solver%why_no_area()//', so that their contact area shows as 0')
          if (scene%loads_by == by_yield .and. .not. results%solver%has_error_estimates()) call log%say( &
-            "note: solver = '"//results%solver%name()//"' estimates no errors; a light load of first yield may be wrong by "// &
-            "a factor of 2. solver = 'auto' estimates them")
+            "note: solver = '"//results%solver%name()//"' estimates no errors; a light load of first yield may be "// &
+            "wrong by a factor of 2. solver = 'auto' estimates them")
          if (scene%loads_by == by_yield .and. unreached > 0) call log%say('note: for '//integer_text(unreached)// &
             ' loads no mean pressure was found that brings the stresses to the given part of the yield stress')
          if (scene%p_star <= 0.0_dp) call log%say('the surface is flat: there is only a summary')
