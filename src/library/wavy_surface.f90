@@ -7,7 +7,7 @@ module wavycon_wavy_surface
    use wavycon_group_text, only: read_group_text
    use wavycon_group_values, only: group_values
    use wavycon_height_map, only: surface_of_heights
-   use wavycon_height_map_file, only: check_map_size, check_room
+   use wavycon_map_file, only: check_map_size, check_room
    use wavycon_kinds, only: dp
    use wavycon_map_statistics, only: map_statistics
    use wavycon_plain_text, only: exact_number

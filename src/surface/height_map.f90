@@ -3,10 +3,11 @@ module wavycon_height_map
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_group_values, only: group_values
-   use wavycon_height_map_file, only: height_map_type, read_height_map
    use wavycon_key_table, only: choice_key, key_type, largest_number, real_key, smallest_number, text_key
    use wavycon_kinds, only: dp
+   use wavycon_map_file, only: read_height_map
    use wavycon_map_statistics, only: map_statistics, statistics_of
+   use wavycon_measured_map, only: measured_map
    use wavycon_plain_text, only: escaped, short_number
    use wavycon_surface, only: surface_of_points, surface_type
    use wavycon_surface_keys, only: length_x_key, length_y_key
@@ -73,7 +74,7 @@ contains
       type(map_statistics), allocatable, intent(out) :: map
       type(error_type), allocatable, intent(out) :: error
 
-      type(height_map_type) :: heights
+      type(measured_map) :: heights
       character(:), allocatable :: map_of, path, sides
       real(dp) :: length(2)
 

@@ -8,7 +8,7 @@ module wavycon_map_statistics
 
    type :: map_statistics
       integer :: points(2) = 0                                      !! along x and y
-      character(6) :: format = ''                                   !! 'matrix' or 'xyz'
+      character(7) :: format = ''                                   !! as of measured_map
       real(dp) :: lowest = 0.0_dp, highest = 0.0_dp, rms = 0.0_dp   !! of the heights over their mean [length]
       real(dp) :: largest_step(2) = 0.0_dp   !! between neighbours within the map, along x and y [length]
       !> Root mean square of the steps from the last points to the first, which are their neighbours because the map is
@@ -24,7 +24,7 @@ contains
    !> The statistics of a map.
    type(map_statistics) function statistics_of(height, format, path) result(statistics)
       real(dp), intent(in) :: height(:, :)   !! over the mean [length]
-      character(*), intent(in) :: format     !! of the file: 'matrix' or 'xyz'
+      character(*), intent(in) :: format     !! as of measured_map
       character(*), intent(in) :: path       !! absolute
 
       statistics%points = shape(height)

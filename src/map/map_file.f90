@@ -1,23 +1,17 @@
 !> Reads height maps from files: a matrix in gnuplot's format, or lines of x, y and z.
-module wavycon_height_map_file
+module wavycon_map_file
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_key_table, only: smallest_number
    use wavycon_kinds, only: dp
+   use wavycon_measured_map, only: measured_map
    use wavycon_number_table, only: number_table, read_number_table
    use wavycon_plain_text, only: escaped, integer_text, short_number
    use wavycon_system, only: has_memory_for, path_device, path_kind
    implicit none (type, external)
    private
 
-   public :: height_map_type, read_height_map, check_map_size, check_room
-
-   !> Heights of a periodic cell: the last row and column are not copies of the first.
-   type :: height_map_type
-      real(dp), allocatable :: height(:, :)   !! as in the file, shape (M, N): along x, along y; N = 1 for a profile
-      real(dp) :: step(2) = 0.0_dp            !! between points along x and y; 0 where the file does not give it
-      character(6) :: format = ''             !! 'matrix' or 'xyz'
-   end type height_map_type
+   public :: read_height_map, check_map_size, check_room
 
    !> Fewest and most points along a side; more do not fit into the memory of most machines.
    integer, parameter :: least_points = 4, most_points = 8192
@@ -30,7 +24,7 @@ contains
    subroutine read_height_map(path, format, map, error)
       character(*), intent(in) :: path
       character(*), intent(in) :: format   !! 'matrix', 'xyz' or 'auto'
-      type(height_map_type), intent(out) :: map
+      type(measured_map), intent(out) :: map
       type(error_type), allocatable, intent(out) :: error
 
       type(number_table), target :: table
@@ -75,7 +69,7 @@ contains
    !> Makes a map from lines with a row of heights each. Errors: exit_bad_input for rows of unequal length.
    subroutine take_matrix(table, map, error)
       type(number_table), intent(in) :: table
-      type(height_map_type), intent(inout) :: map
+      type(measured_map), intent(inout) :: map
       type(error_type), allocatable, intent(out) :: error
 
       integer :: columns, j
@@ -95,7 +89,7 @@ contains
    !> regular grid.
    subroutine take_points(table, map, error)
       type(number_table), intent(in), target :: table
-      type(height_map_type), intent(inout) :: map
+      type(measured_map), intent(inout) :: map
       type(error_type), allocatable, intent(out) :: error
 
       !> Largest deviation of a point from the grid, in steps: coordinates in files are often rounded.
@@ -196,4 +190,4 @@ contains
       end associate
    end subroutine check_map_size
 
-end module wavycon_height_map_file
+end module wavycon_map_file
