@@ -7,7 +7,7 @@ module wavycon_file_bytes
    implicit none (type, external)
    private
 
-   public :: read_file
+   public :: open_file, read_file
 
    !> Byte order mark of UTF-8, with which some editors start a file.
    character(*), parameter, public :: byte_order_mark = char(239)//char(187)//char(191)
@@ -26,6 +26,24 @@ contains
       character(200) :: message
       integer :: status, unit
 
+      call open_file(path, unit, error)
+      if (allocated(error)) return
+      call read_bytes(unit, most_bytes, content, status, message)
+      close (unit)
+      if (status /= 0) call fatal_error(error, exit_file_trouble, &
+                                        escaped(path)//': cannot be read: '//system_words(message))
+   end subroutine read_file
+
+   !> Opens a file for reading, as a stream of bytes. Errors: exit_file_trouble.
+   subroutine open_file(path, unit, error)
+      character(*), intent(in) :: path
+      integer, intent(out) :: unit   !! to be closed by the caller; -1 in case of an error
+      type(error_type), allocatable, intent(out) :: error
+
+      character(200) :: message
+      integer :: status
+
+      unit = -1
       select case (path_kind(path))
       case (path_absent)
          call trouble('there is no such file')
@@ -36,13 +54,7 @@ contains
       end select
       open (newunit=unit, file=path, access='stream', form='unformatted', action='read', status='old', &
          iostat=status, iomsg=message)
-      if (status /= 0) then
-         call trouble('cannot be opened: '//system_words(message))
-         return
-      end if
-      call read_bytes(unit, most_bytes, content, status, message)
-      close (unit)
-      if (status /= 0) call trouble('cannot be read: '//system_words(message))
+      if (status /= 0) call trouble('cannot be opened: '//system_words(message))
 
    contains
 
@@ -52,7 +64,7 @@ contains
          call fatal_error(error, exit_file_trouble, escaped(path)//': '//words)
       end subroutine trouble
 
-   end subroutine read_file
+   end subroutine open_file
 
    !> All the bytes of a file. A pipe is read byte by byte: its size is not known.
    subroutine read_bytes(unit, most, content, status, message)

@@ -28,6 +28,7 @@ contains
       scene%e_star = plane_strain_modulus(deck%material)
       scene%gives_modulus = deck%material%has('e_star') .or. deck%material%has('e1')
       scene%has_units = scene%gives_modulus .or. deck%scene%has('pressure_unit') .or. deck%scene%has('length_unit')
+      if (allocated(scene%map)) scene%has_units = scene%has_units .or. allocated(scene%map%length_unit)
       scene%p_star = scene%surface%full_contact_pressure(scene%e_star)
       call take_loads(deck%load, scene%surface%amplitude, scene%p_star, scene%loads_by, scene%target, &
                       scene%mean_pressure)

@@ -91,7 +91,8 @@ contains
       end if
    end subroutine parse_deck
 
-   !> Checks &surface and, if it has no problems, makes the surface. Errors: as of `make_surface`.
+   !> Checks &surface and, if it has no problems, makes the surface. A unit that its file names becomes the deck's label
+   !> if the deck gives none. Errors: as of `make_surface`.
    subroutine read_surface(deck, problems, error)
       type(deck_type), intent(inout) :: deck
       type(problem_list_type), intent(inout) :: problems
@@ -102,7 +103,10 @@ contains
       before = problems%number
       call check_surface_group(deck%surface_values, problems)
       if (problems%number > before .or. deck%surface_values%any_bad()) return
+      if (deck%scene%has('length_unit')) deck%surface_values%length_unit = deck%scene%text('length_unit')
       call make_surface(deck%surface_values, deck%surface, deck%map, error)
+      if (allocated(error) .or. .not. allocated(deck%map)) return
+      if (allocated(deck%map%length_unit)) call deck%scene%set('length_unit', deck%map%length_unit)
    end subroutine read_surface
 
    !> Checks &material and &load and, where these and the surface have no problems, hardness and loads against p* and

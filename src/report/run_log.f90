@@ -101,6 +101,7 @@ contains
             '), heights over their mean '// &
             short_number(scene%map%lowest)//' to '//short_number(scene%map%highest)//', rms '// &
             short_number(scene%map%rms)//' ['//scene%length_unit//']')
+         if (allocated(scene%map)) call show_sides(self, scene%map)
          if (allocated(scene%map)) call show_broken_borders(self, scene%map, scene%length_unit)
          if (scene%has_units) call show_steep_slopes(self, scene%surface%rms_slope(), allocated(scene%map))
          call self%say('material  '//material_words(scene))
@@ -120,6 +121,15 @@ contains
       if (scene%surface%has_hardness()) words = words//', hardness = '// &
          short_number(scene%surface%hardness*scene%p_star)//' ['//scene%pressure_unit//']'
    end function material_words
+
+   !> Says that the side along y follows from that along x.
+   subroutine show_sides(self, map)
+      class(run_log), intent(inout) :: self
+      type(map_statistics), intent(in) :: map
+
+      if (map%is_equal_spacing) call self%say('sides     length_y = length_x*'//integer_text(map%points(2))//'/'// &
+         integer_text(map%points(1))//': the points are equally far apart along x and y')
+   end subroutine show_sides
 
    !> Warns of a map whose opposite borders do not fit together.
    subroutine show_broken_borders(self, map, length_unit)

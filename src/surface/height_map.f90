@@ -5,10 +5,11 @@ module wavycon_height_map
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: choice_key, key_type, largest_number, real_key, smallest_number, text_key
    use wavycon_kinds, only: dp
+   use wavycon_length_unit, only: convert_lengths
    use wavycon_map_file, only: read_height_map
    use wavycon_map_statistics, only: map_statistics, statistics_of
    use wavycon_measured_map, only: measured_map
-   use wavycon_plain_text, only: escaped, short_number
+   use wavycon_plain_text, only: escaped, integer_text, short_number
    use wavycon_surface, only: surface_of_points, surface_type
    use wavycon_surface_keys, only: length_x_key, length_y_key
    use wavycon_surface_kind, only: surface_kind
@@ -23,7 +24,6 @@ module wavycon_height_map
       procedure, nopass :: name
       procedure, nopass :: meaning
       procedure, nopass :: keys
-      procedure, nopass :: set_defaults
       procedure, nopass :: make
    end type height_map_kind
 
@@ -47,27 +47,27 @@ contains
       type(key_type), allocatable :: rows(:)
 
       rows = [ &
-         length_x_key(), length_y_key(), &
+         length_x_key(), &
+         length_y_key('side of the periodic cell along y; without it the points are equally far apart along x and y.'), &
          text_key('file', '', &
             'a periodic map of heights, upwards to the other body; looked for beside the deck, then where the '// &
             "program is started. The last row and column are the cell's last, not copies of the first.", &
             longest_path, required=.true.), &
          choice_key('file_format', "'auto'", &
-            "'matrix', a row of heights for each y; 'xyz', lines of x, y, z on a regular grid, from which the "// &
-            "sides of the cell follow, without length_x and length_y; 'auto', xyz if all lines have three "// &
-            'numbers.', &
-            [character(6) :: 'auto', 'matrix', 'xyz']), &
-         real_key('height_scale', '1.0', 'length', "length of one unit of the file's heights.", above=0.0_dp)]
+            "'matrix', a row of heights for each y; 'xyz', lines of x, y, z on a regular grid; 'npy' of numpy; 'gsf', "// &
+            "the simple field of Gwyddion; 'gnuplot', its binary matrix; 'auto', what the file looks like, xyz if "// &
+            'all lines have three numbers. xyz and gnuplot give the sides of the cell, gsf also units: leave out '// &
+            'length_x and length_y.', &
+            [character(7) :: 'auto', 'matrix', 'xyz', 'npy', 'gsf', 'gnuplot']), &
+         real_key('missing_value', '', '-', "heights of the file that have this value are missing, as are 'nan' and "// &
+            'empty fields between commas, semicolons or tabs.'), &
+         real_key('height_scale', '1.0', 'length', "length of one unit of the file's heights; beside a file with "// &
+            'units a factor.', above=0.0_dp)]
    end function keys
 
-   subroutine set_defaults(values)
-      type(group_values), intent(inout) :: values
-
-      call values%set_default('length_y', values%real('length_x'))
-   end subroutine set_defaults
-
-   !> Reads the map. Errors: exit_file_trouble if the file cannot be read, exit_bad_input if it is not a map, its
-   !> heights are out of range, or the deck gives sides of the cell beside coordinates, which may be in another unit.
+   !> Reads the map. Errors: exit_file_trouble if the file cannot be read, exit_bad_input if it is not a map or has
+   !> holes, its heights are out of range, its unit is unknown, or the deck gives sides of the cell beside those of the
+   !> file, which may be in another unit.
    subroutine make(values, surface, map, error)
       type(group_values), intent(inout) :: values
       type(surface_type), intent(out) :: surface
@@ -75,39 +75,94 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(measured_map) :: heights
-      character(:), allocatable :: map_of, path, sides
+      character(:), allocatable :: path
       real(dp) :: length(2)
+      logical :: is_equal_spacing
 
       path = place_of_map(values%deck_path, values%text('file'))
-      map_of = ' (the height map of '//escaped(values%deck_path)//')'
-      call read_height_map(path, values%text('file_format'), heights, error)
+      call read_map(values, path, heights, error)
+      if (.not. allocated(error)) call take_sides(values, path, heights, length, is_equal_spacing, error)
+      if (.not. allocated(error)) call refuse_holes(path, heights, error)
+      if (.not. allocated(error)) &
+         call surface_of_heights(path, length, values%real('height_scale'), heights%height, surface, error)
       if (allocated(error)) then
-         error%message = error%message//map_of
-         return
-      end if
-      length = [values%real('length_x'), values%real('length_y')]
-      associate (height => heights%height, step => heights%step)
-         if (all(step > 0.0_dp)) length = step*shape(height)
-         if (step(1) > 0.0_dp .and. size(height, 2) == 1) length = step(1)*size(height, 1)
-      end associate
-      if (heights%format == 'xyz') then
-         if (values%has('length_x') .or. values%has('length_y')) then
-            sides = short_number(length(1))
-            if (size(heights%height, 2) > 1) sides = sides//' x '//short_number(length(2))
-            call fatal_error(error, exit_bad_input, escaped(path)//': the coordinates make the cell '//sides// &
-                             ': leave out length_x and length_y'//map_of)
-            return
-         end if
-         call values%leave_out('length_x')
-         call values%leave_out('length_y')
-      end if
-      call surface_of_heights(path, length, values%real('height_scale'), heights%height, surface, error)
-      if (allocated(error)) then
-         error%message = error%message//map_of
+         error%message = error%message//' (the height map of '//escaped(values%deck_path)//')'
          return
       end if
       map = statistics_of(heights%height, heights%format, full_path(path))
+      map%is_equal_spacing = is_equal_spacing
+      if (allocated(heights%length_unit)) map%length_unit = heights%length_unit
    end subroutine make
+
+   !> Reads the map and converts its lengths to the deck's unit. Errors: as of `make`.
+   subroutine read_map(values, path, heights, error)
+      type(group_values), intent(in) :: values
+      character(*), intent(in) :: path
+      type(measured_map), intent(out) :: heights
+      type(error_type), allocatable, intent(out) :: error
+
+      if (values%has('missing_value')) then
+         call read_height_map(path, values%text('file_format'), heights, error, values%real('missing_value'))
+      else
+         call read_height_map(path, values%text('file_format'), heights, error)
+      end if
+      if (allocated(error)) return
+      if (allocated(values%length_unit)) then
+         call convert_lengths(path, values%length_unit, heights, error)
+      else
+         call convert_lengths(path, '', heights, error)
+      end if
+   end subroutine read_map
+
+   !> The sides of the cell: those of the file, or those of the deck. Errors: exit_bad_input if both give them.
+   subroutine take_sides(values, path, heights, length, is_equal_spacing, error)
+      type(group_values), intent(inout) :: values
+      character(*), intent(in) :: path
+      type(measured_map), intent(in) :: heights
+      real(dp), intent(out) :: length(2)           !! L_x, L_y [length]; of a profile the second is not used
+      logical, intent(out) :: is_equal_spacing     !! whether L_y follows from equal steps along x and y
+      type(error_type), allocatable, intent(out) :: error
+
+      character(:), allocatable :: sides
+
+      is_equal_spacing = .false.
+      associate (m => size(heights%height, 1), n => size(heights%height, 2), step => heights%step)
+         if (step(1) > 0.0_dp) then
+            length = step*[m, n]
+            if (n == 1) length(2) = length(1)
+            sides = short_number(length(1))
+            if (n > 1) sides = sides//' x '//short_number(length(2))
+            if (allocated(heights%length_unit)) sides = sides//' ['//escaped(heights%length_unit)//']'
+            if (values%has('length_x') .or. values%has('length_y')) &
+               call fatal_error(error, exit_bad_input, escaped(path)//': the file gives the sides of the cell, '// &
+                                sides//': leave out length_x and length_y')
+            call values%leave_out('length_x')
+            call values%leave_out('length_y')
+            return
+         end if
+         length = values%real('length_x')
+         is_equal_spacing = n > 1 .and. m /= n .and. .not. values%has('length_y')
+         if (is_equal_spacing) length(2) = length(1)*n/m
+         call values%set_default('length_y', length(2))
+         length(2) = values%real('length_y')
+      end associate
+   end subroutine take_sides
+
+   !> Refuses a map with missing heights. Errors: exit_bad_input.
+   subroutine refuse_holes(path, heights, error)
+      character(*), intent(in) :: path
+      type(measured_map), intent(in) :: heights
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: first(2)
+
+      if (.not. allocated(heights%missing)) return
+      first = findloc(heights%missing, .true.)
+      call fatal_error(error, exit_bad_input, escaped(path)//': '//integer_text(count(heights%missing))//' of '// &
+                       integer_text(size(heights%missing))//' heights are missing, the first in row '// &
+                       integer_text(first(2))//', column '//integer_text(first(1))// &
+                       ": fill_missing = 'harmonic' fills them")
+   end subroutine refuse_holes
 
    !> Makes the surface of heights in memory. Errors: exit_bad_input for heights that are not finite or out of range.
    subroutine surface_of_heights(source, length, scale, height, surface, error)

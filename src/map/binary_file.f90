@@ -1,0 +1,237 @@
+!> A binary file: its first bytes, and its numbers of single or double precision in either byte order.
+module wavycon_binary_file
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use, intrinsic :: iso_fortran_env, only: int32, int64, int8
+   use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
+   use wavycon_file_bytes, only: open_file
+   use wavycon_kinds, only: dp, sp
+   use wavycon_map_size, only: check_map_size, check_room
+   use wavycon_measured_map, only: measured_map
+   use wavycon_plain_text, only: escaped, integer_text, system_words
+   implicit none (type, external)
+   private
+
+   public :: binary_file
+
+   !> Bytes at the start of a file that are kept: more than any head that programs write.
+   integer, parameter :: longest_head = 65536
+
+   type :: binary_file
+      character(:), allocatable :: path    !! as the user named the file
+      character(:), allocatable :: head    !! the first bytes, at most 65536
+      integer(int64) :: bytes = 0          !! size of the file
+      integer :: number_bytes = 4          !! of a number: 4 or 8
+      logical :: big_end_first = .false.   !! the byte order of the numbers
+      integer, private :: unit = -1
+      logical, private :: is_open = .false.
+   contains
+      procedure :: open => open_binary_file
+      procedure :: go_to
+      procedure :: read_numbers
+      procedure :: read_heights
+      procedure :: refuse
+      procedure :: close => close_binary_file
+   end type binary_file
+
+contains
+
+   !> Opens a file, to be closed by the caller, and reads its head. Errors: exit_file_trouble.
+   subroutine open_binary_file(self, path, error)
+      class(binary_file), intent(inout) :: self   !! not open
+      character(*), intent(in) :: path
+      type(error_type), allocatable, intent(out) :: error
+
+      character(200) :: message
+      integer :: status
+
+      self%path = path
+      call open_file(path, self%unit, error)
+      if (allocated(error)) return
+      self%is_open = .true.
+      inquire (unit=self%unit, size=self%bytes)
+      allocate (character(int(max(0_int64, min(self%bytes, int(longest_head, int64))))) :: self%head)
+      if (len(self%head) == 0) return
+      read (self%unit, iostat=status, iomsg=message) self%head
+      if (status /= 0) call fatal_error(error, exit_file_trouble, &
+                                        escaped(path)//': cannot be read: '//system_words(message))
+   end subroutine open_binary_file
+
+   !> Closes the file, if it is open.
+   subroutine close_binary_file(self)
+      class(binary_file), intent(inout) :: self
+
+      if (self%is_open) close (self%unit)
+      self%is_open = .false.
+   end subroutine close_binary_file
+
+   !> Makes the next reading start behind so many bytes of the file.
+   subroutine go_to(self, bytes, error)
+      class(binary_file), intent(in) :: self
+      integer(int64), intent(in) :: bytes   !! 0 to self%bytes
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: status
+      character(200) :: message
+
+      read (self%unit, pos=bytes + 1, iostat=status, iomsg=message)
+      if (status /= 0) call fatal_error(error, exit_file_trouble, &
+                                        escaped(self%path)//': cannot be read: '//system_words(message))
+   end subroutine go_to
+
+   !> Reads the next numbers. A NaN of any kind becomes a quiet one. Errors: exit_file_trouble.
+   !>
+   !> N.B. Signalling NaNs stop programs that trap invalid operations: bits are tested before they become numbers.
+   subroutine read_numbers(self, numbers, infinite, error)
+      class(binary_file), intent(in) :: self
+      real(dp), intent(out) :: numbers(:)
+      integer, intent(out) :: infinite     !! index of the first infinite number, here 0; 0 if there is none
+      type(error_type), allocatable, intent(out) :: error
+
+      !> Bits of the exponent: all are 1 in a NaN and in an infinity, whose fraction is 0.
+      integer(int32), parameter :: exponent_sp = int(z'7F800000', int32), fraction_sp = int(z'007FFFFF', int32)
+      integer(int64), parameter :: exponent_dp = int(z'7FF0000000000000', int64), &
+                                   fraction_dp = int(z'000FFFFFFFFFFFFF', int64)
+      integer(int32) :: words_sp(merge(size(numbers), 0, self%number_bytes == 4))
+      integer(int64) :: words_dp(merge(size(numbers), 0, self%number_bytes == 8))
+      character(200) :: message
+      integer :: i, status
+      logical :: is_swapped
+      real(dp) :: nan
+
+      nan = ieee_value(nan, ieee_quiet_nan)
+      infinite = 0
+      is_swapped = self%big_end_first .eqv. transfer(1_int32, 1_int8) == 1_int8
+      if (self%number_bytes == 4) then
+         read (self%unit, iostat=status, iomsg=message) words_sp
+         if (status == 0 .and. is_swapped) words_sp = swapped(words_sp)
+      else
+         read (self%unit, iostat=status, iomsg=message) words_dp
+         if (status == 0 .and. is_swapped) words_dp = swapped_long(words_dp)
+      end if
+      if (status /= 0) then
+         numbers = 0.0_dp
+         call fatal_error(error, exit_file_trouble, escaped(self%path)//': cannot be read: '//system_words(message))
+         return
+      end if
+      do i = 1, size(words_sp)
+         if (iand(words_sp(i), exponent_sp) /= exponent_sp) then
+            numbers(i) = real(transfer(words_sp(i), 0.0_sp), dp)
+         else
+            numbers(i) = nan
+            if (infinite == 0 .and. iand(words_sp(i), fraction_sp) == 0) infinite = i
+         end if
+      end do
+      do i = 1, size(words_dp)
+         if (iand(words_dp(i), exponent_dp) /= exponent_dp) then
+            numbers(i) = transfer(words_dp(i), 0.0_dp)
+         else
+            numbers(i) = nan
+            if (infinite == 0 .and. iand(words_dp(i), fraction_dp) == 0) infinite = i
+         end if
+      end do
+   end subroutine read_numbers
+
+   !> Reads the heights of a map: from `start` to the end of the file there must be nothing else. Missing heights are
+   !> NaN. Errors: exit_bad_input for a map that is too small or too large, a file of another length, and infinite
+   !> heights; exit_file_trouble.
+   subroutine read_heights(self, start, points, by_columns, map, error)
+      class(binary_file), intent(in) :: self
+      integer(int64), intent(in) :: start   !! bytes before the first height
+      integer, intent(in) :: points(2)      !! along x and y
+      logical, intent(in) :: by_columns     !! whether heights of one x and all y follow each other
+      type(measured_map), intent(inout) :: map
+      type(error_type), allocatable, intent(out) :: error
+
+      !> Columns read before they are copied, so that copies fill lines of the processor's cache.
+      integer, parameter :: block_columns = 16
+      real(dp) :: column(points(2), block_columns)
+      integer(int64) :: expected
+      integer :: columns, i, infinite, j, k
+
+      call check_map_size(self%path, points, error)
+      if (allocated(error)) return
+      expected = start + self%number_bytes*product(int(points, int64))
+      if (self%bytes /= expected) then
+         call self%refuse('its head announces '//integer_text(points(1))//' x '//integer_text(points(2))// &
+                          ' heights, which make a file of '//long_text(expected)//' bytes, but it has '// &
+                          long_text(self%bytes)//': was it copied in full, as binary data?', error)
+         return
+      end if
+      call check_room(self%path, product(points), error)
+      if (.not. allocated(error)) call self%go_to(start, error)
+      if (allocated(error)) return
+      allocate (map%height(points(1), points(2)))
+      infinite = 0
+      if (by_columns) then
+         do i = 1, points(1), block_columns
+            columns = min(block_columns, points(1) - i + 1)
+            do k = 1, columns
+               call self%read_numbers(column(:, k), infinite, error)
+               if (allocated(error)) return
+               if (infinite > 0) call refuse_infinite(i + k - 1, infinite)
+               if (infinite > 0) return
+            end do
+            do j = 1, points(2)
+               map%height(i:i + columns - 1, j) = column(j, :columns)
+            end do
+         end do
+      else
+         do j = 1, points(2)
+            call self%read_numbers(map%height(:, j), infinite, error)
+            if (allocated(error)) return
+            if (infinite > 0) call refuse_infinite(infinite, j)
+            if (infinite > 0) return
+         end do
+      end if
+
+   contains
+
+      subroutine refuse_infinite(i, j)
+         integer, intent(in) :: i, j
+
+         call self%refuse('the height in row '//integer_text(j)//', column '//integer_text(i)// &
+                          ' is infinite: make it nan if it is missing', error)
+      end subroutine refuse_infinite
+
+   end subroutine read_heights
+
+   !> Makes an error with the name of the file. Status: exit_bad_input.
+   pure subroutine refuse(self, words, error)
+      class(binary_file), intent(in) :: self
+      character(*), intent(in) :: words
+      type(error_type), allocatable, intent(out) :: error
+
+      call fatal_error(error, exit_bad_input, escaped(self%path)//': '//words)
+   end subroutine refuse
+
+   !> A word with its four bytes reversed.
+   elemental integer(int32) function swapped(word)
+      integer(int32), intent(in) :: word
+
+      integer(int32), parameter :: even = int(z'00FF00FF', int32)   !! the first and the third byte
+
+      swapped = ior(iand(ishftc(word, 8), even), iand(ishftc(word, -8), not(even)))
+   end function swapped
+
+   !> A word with its eight bytes reversed.
+   elemental integer(int64) function swapped_long(word)
+      integer(int64), intent(in) :: word
+
+      integer(int32) :: halves(2)
+
+      halves = swapped(transfer(word, halves))
+      swapped_long = transfer(halves(2:1:-1), word)
+   end function swapped_long
+
+   !> A long integer in decimal.
+   pure function long_text(number) result(text)
+      integer(int64), intent(in) :: number
+      character(:), allocatable :: text
+
+      character(20) :: buffer
+
+      write (buffer, '(i0)') number
+      text = trim(buffer)
+   end function long_text
+
+end module wavycon_binary_file

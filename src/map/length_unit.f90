@@ -1,0 +1,70 @@
+!> Units of length of map files: the metre and its decimal multiples.
+module wavycon_length_unit
+   use wavycon_error, only: error_type, exit_bad_input, fatal_error
+   use wavycon_key_table, only: listed
+   use wavycon_kinds, only: dp
+   use wavycon_measured_map, only: measured_map
+   use wavycon_plain_text, only: escaped, excerpt
+   implicit none (type, external)
+   private
+
+   public :: convert_lengths, find_factor
+
+   !> 'um' in the letters of ASCII, with the micro sign and with the Greek letter.
+   character(*), parameter :: micro_sign = char(194)//char(181)//'m', greek_letter = char(206)//char(188)//'m'
+   character(*), parameter :: units(*) = [character(3) :: 'km', 'm', 'cm', 'mm', 'um', micro_sign, greek_letter, 'nm', &
+                                          'pm']
+   integer, parameter :: powers(*) = [3, 0, -2, -3, -6, -6, -6, -9, -12]   !! of ten, in metres
+
+contains
+
+   !> Finds the number of units that one of another unit has.
+   pure subroutine find_factor(from, to, factor, is_found)
+      character(*), intent(in) :: from, to   !! names of units
+      real(dp), intent(out) :: factor        !! 1 if it is not found
+      logical, intent(out) :: is_found       !! .true. also for equal names of any unit
+
+      integer :: i, j
+
+      factor = 1.0_dp
+      is_found = from == to
+      if (is_found) return
+      i = findloc(units == from, .true., dim=1)
+      j = findloc(units == to, .true., dim=1)
+      is_found = i > 0 .and. j > 0
+      if (is_found) factor = 10.0_dp**(powers(i) - powers(j))
+   end subroutine find_factor
+
+   !> Converts the lengths of a map from the unit that its file names to another one. A map without a unit is left as it
+   !> is. Errors: exit_bad_input for a unit that is not one of the metre.
+   subroutine convert_lengths(path, unit, map, error)
+      character(*), intent(in) :: path   !! of the map, for the message
+      character(*), intent(in) :: unit   !! the deck's length_unit; empty if it gives none
+      type(measured_map), intent(inout) :: map
+      type(error_type), allocatable, intent(out) :: error
+
+      real(dp) :: factor
+      logical :: is_known
+
+      if (.not. allocated(map%length_unit)) return
+      if (unit == '') then
+         call find_factor(map%length_unit, 'm', factor, is_known)
+         if (.not. is_known) call fatal_error(error, exit_bad_input, escaped(path)//": its unit of length is '"// &
+            excerpt(map%length_unit)//"', which is none of "//listed(units, ' and ')//": give it as length_unit in "// &
+            '&scene to go on in this unit, or set another one in the program that wrote the file')
+         return
+      end if
+      call find_factor(map%length_unit, unit, factor, is_known)
+      if (.not. is_known) then
+         call fatal_error(error, exit_bad_input, escaped(path)//": its lengths are in '"//excerpt(map%length_unit)// &
+                          "' and cannot be converted to length_unit = '"//escaped(unit)//"' of &scene: both must be "// &
+                          'one of '//listed(units, ' and ')//', or the same; without length_unit the unit is the '// &
+                          "file's")
+         return
+      end if
+      map%step = factor*map%step
+      if (factor > 1.0_dp .or. factor < 1.0_dp) map%height = factor*map%height
+      map%length_unit = unit
+   end subroutine convert_lengths
+
+end module wavycon_length_unit

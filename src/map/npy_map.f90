@@ -1,0 +1,157 @@
+!> Reads height maps in numpy's format .npy: https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html.
+module wavycon_npy_map
+   use, intrinsic :: iso_fortran_env, only: int64
+   use wavycon_binary_file, only: binary_file
+   use wavycon_error, only: error_type
+   use wavycon_measured_map, only: measured_map
+   use wavycon_plain_text, only: excerpt, integer_text
+   implicit none (type, external)
+   private
+
+   public :: is_npy, read_npy_map
+
+   character(*), parameter :: magic = char(147)//'NUMPY'
+   !> Bytes up to the version, and up to the length of the words; of version 1 this length has two bytes, later four.
+   integer, parameter :: before_version = len(magic), before_length = before_version + 2
+
+contains
+
+   !> Whether a file begins as an .npy file.
+   pure logical function is_npy(head)
+      character(*), intent(in) :: head   !! the first bytes of the file
+
+      is_npy = index(head, magic) == 1
+   end function is_npy
+
+   !> Reads a map: heights[j, i] at x number i and y number j, or a profile heights[i]. Errors: exit_bad_input,
+   !> exit_file_trouble.
+   subroutine read_npy_map(file, map, error)
+      class(binary_file), intent(inout) :: file
+      type(measured_map), intent(inout) :: map
+      type(error_type), allocatable, intent(out) :: error
+
+      character(:), allocatable :: order, shape_words, type_words
+      integer :: first, last, number
+      integer :: sides(3)
+
+      if (.not. is_npy(file%head)) then
+         call file%refuse('this is no .npy file: it does not begin with \x93NUMPY', error)
+         return
+      end if
+      call find_words(file%head, first, last)
+      if (last < first) then
+         call file%refuse('the head of this .npy file is cut off, longer than 65000 bytes, or of a version above 3: '// &
+                          'write it by numpy.save', error)
+         return
+      end if
+      type_words = entry_of(file%head(first:last), 'descr')
+      order = entry_of(file%head(first:last), 'fortran_order')
+      shape_words = entry_of(file%head(first:last), 'shape')
+      select case (type_words)
+      case ("'<f4'", "'>f4'", "'<f8'", "'>f8'")
+         file%big_end_first = type_words(2:2) == '>'
+         file%number_bytes = merge(4, 8, type_words(4:4) == '4')
+      case ('')
+         call file%refuse("the head of this .npy file does not give 'descr', the type of its numbers: write it by "// &
+                          'numpy.save', error)
+         return
+      case default
+         call file%refuse('numbers of type '//excerpt(type_words)//': heights must be float64 or float32; write '// &
+                          'them by numpy.save(file, heights.astype(float))', error)
+         return
+      end select
+      call read_shape(shape_words, sides, number)
+      if (number < 1 .or. number > 2 .or. (order /= 'True' .and. order /= 'False')) then
+         call file%refuse('an array of shape '//excerpt(shape_words)//", 'fortran_order' "//excerpt(order)// &
+                          ': a map is heights[j, i] at x number i and y number j, a profile heights[i]', error)
+         return
+      end if
+      ! The last index of the array is the one along x.
+      if (number == 1) sides(:2) = [1, sides(1)]
+      call file%read_heights(int(last, int64), sides(2:1:-1), number == 2 .and. order == 'True', map, error)
+   end subroutine read_npy_map
+
+   !> The place of the words of a head: a Python dictionary. last < first if there are none.
+   pure subroutine find_words(head, first, last)
+      character(*), intent(in) :: head
+      integer, intent(out) :: first, last
+
+      integer :: bytes, i, length, version
+
+      first = 1
+      last = 0
+      if (len(head) < before_length + 4) return
+      version = iachar(head(before_version + 1:before_version + 1))
+      if (version < 1 .or. version > 3) return
+      bytes = merge(2, 4, version == 1)
+      length = 0
+      do i = bytes, 1, -1
+         ! So that no length overflows. The head that is kept is shorter than 256**3 bytes.
+         if (length > 256**2) return
+         length = 256*length + iachar(head(before_length + i:before_length + i))
+      end do
+      if (length > len(head) - before_length - bytes) return
+      first = before_length + bytes + 1
+      last = before_length + bytes + length
+   end subroutine find_words
+
+   !> The entry of a key in a Python dictionary, without the blanks around it; empty if it is not there.
+   pure function entry_of(words, key) result(entry)
+      character(*), intent(in) :: words   !! such as {'descr': '<f8', 'shape': (3, 4), }
+      character(*), intent(in) :: key
+      character(:), allocatable :: entry
+
+      integer :: depth, first, last
+
+      entry = ''
+      first = index(words, "'"//key//"'")
+      if (first == 0) first = index(words, '"'//key//'"')
+      if (first == 0) return
+      first = first + len(key) + 2
+      first = first + verify(words(first:), ' ') - 1
+      if (words(first:first) /= ':') return
+      first = first + 1
+      depth = 0
+      do last = first, len(words)
+         select case (words(last:last))
+         case ('(', '[')
+            depth = depth + 1
+         case (')', ']')
+            depth = depth - 1
+         case (',', '}')
+            if (depth <= 0) exit
+         end select
+      end do
+      entry = trim(adjustl(words(first:last - 1)))
+      ! Python knows both quotes.
+      if (len(entry) == 5 .and. index(entry, '"') == 1) entry = "'"//entry(2:4)//"'"
+   end function entry_of
+
+   !> The numbers of a Python tuple of whole numbers, such as (3, 4).
+   pure subroutine read_shape(words, sides, number)
+      character(*), intent(in) :: words
+      integer, intent(out) :: sides(3)   !! the first three; a number of more than nine digits is huge(0)
+      integer, intent(out) :: number     !! of the sides, at most 3; -1 if this is no tuple
+
+      integer :: digits, place, status
+
+      number = -1
+      sides = 0
+      if (len(words) < 2) return
+      if (words(1:1) /= '(' .or. words(len(words):) /= ')') return
+      if (verify(words(2:len(words) - 1), '0123456789, L') > 0) return
+      number = 0
+      place = 2
+      do while (number < size(sides))
+         digits = scan(words(place:), '0123456789')
+         if (digits == 0) exit
+         place = place + digits - 1
+         digits = verify(words(place:), '0123456789') - 1
+         number = number + 1
+         sides(number) = huge(0)
+         if (digits <= 9) read (words(place:place + digits - 1), *, iostat=status) sides(number)
+         place = place + digits
+      end do
+   end subroutine read_shape
+
+end module wavycon_npy_map

@@ -1,0 +1,186 @@
+!> Reads the numbers of a line.
+!>
+!> Numbers are separated by blanks, tabs, commas or semicolons, and written as in a deck. `nan` and `--` are missing
+!> numbers, and so is nothing between two commas, semicolons or tabs.
+module wavycon_number_line
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use wavycon_decimal_number, only: read_decimal
+   use wavycon_key_table, only: largest_number
+   use wavycon_kinds, only: dp
+   use wavycon_plain_text, only: excerpt, lower_case, short_number
+   implicit none (type, external)
+   private
+
+   public :: read_line
+
+   character(*), parameter :: tab = achar(9)
+
+contains
+
+   !> Adds the numbers of a line to those of the lines before it. Callers must switch off traps of overflow.
+   subroutine read_line(line, values, used, ends_open, trouble)
+      character(*), intent(in) :: line         !! without comment and line end
+      real(dp), intent(inout) :: values(:)     !! with room for the numbers; a missing one is NaN
+      integer, intent(inout) :: used           !! number of values so far
+      logical, intent(out) :: ends_open        !! whether the line ends in a separator: a last number may be missing
+      character(:), allocatable, intent(out) :: trouble   !! message of the problem; not allocated if there is none
+
+      integer :: behind           !! the number before, place behind its last byte; 1 at the start of the line
+      integer :: commas, first, holes, last, separators, tight
+      logical :: are_tabs, is_loose
+
+      ends_open = .false.
+      behind = 1
+      tight = 0
+      is_loose = .false.
+      do
+         call next_word(line, behind, first, last, commas, separators, are_tabs)
+         if (first > len(line)) exit
+         holes = separators - 1
+         if (behind == 1) then
+            holes = separators
+            ! A line with blanks between its numbers may be indented by tabs.
+            if (are_tabs .and. .not. is_before_tab(line, last + 1)) holes = 0
+         else
+            if (commas == 1 .and. first - behind == 1) tight = first
+            is_loose = is_loose .or. commas == 0
+            if (tight > 0 .and. is_loose) then
+               trouble = "is '"//excerpt(line(word_start(line, tight - 2):word_end(line, tight)))// &
+                         "' a number with a decimal comma? Write a point, or separate all numbers of a line by "// &
+                         'commas alone'
+               return
+            end if
+         end if
+         call add_holes(holes, values, used)
+         call read_number(line(first:last), values, used, trouble)
+         if (allocated(trouble)) return
+         behind = last + 1
+      end do
+      if (behind == 1) then
+         ! One separator may be left behind by a spreadsheet or an editor; more stand for numbers.
+         if (separators > 1) trouble = 'this line has separators and no numbers: write nan for the numbers that are '// &
+                                       'missing, or take the line out'
+         return
+      end if
+      ends_open = separators > 0
+      call add_holes(separators - 1, values, used)
+   end subroutine read_line
+
+   !> Adds missing numbers.
+   subroutine add_holes(holes, values, used)
+      integer, intent(in) :: holes   !! none if it is not positive
+      real(dp), intent(inout) :: values(:)
+      integer, intent(inout) :: used
+
+      if (holes <= 0) return
+      values(used + 1:used + holes) = ieee_value(0.0_dp, ieee_quiet_nan)
+      used = used + holes
+   end subroutine add_holes
+
+   !> The next word from a place on, and what stands before it; first > len(line) if there is none.
+   pure subroutine next_word(line, place, first, last, commas, separators, are_tabs)
+      character(*), intent(in) :: line
+      integer, intent(in) :: place
+      integer, intent(out) :: first, last
+      integer, intent(out) :: commas        !! before the word
+      integer, intent(out) :: separators    !! before the word: commas and semicolons or, without these, tabs
+      logical, intent(out) :: are_tabs      !! whether the separators are tabs
+
+      integer :: tabs
+
+      commas = 0
+      separators = 0
+      tabs = 0
+      do first = place, len(line)
+         select case (line(first:first))
+         case (' ')
+         case (tab)
+            tabs = tabs + 1
+         case (',')
+            commas = commas + 1
+            separators = separators + 1
+         case (';')
+            separators = separators + 1
+         case default
+            exit
+         end select
+      end do
+      are_tabs = separators == 0 .and. tabs > 0
+      if (are_tabs) separators = tabs
+      do last = first, len(line)
+         if (is_gap(line(last:last))) exit
+      end do
+      last = last - 1
+   end subroutine next_word
+
+   !> Whether a tab is the next separator behind a word.
+   pure logical function is_before_tab(line, place)
+      character(*), intent(in) :: line
+      integer, intent(in) :: place   !! behind the word
+
+      integer :: i
+
+      i = verify(line(place:), ' ')
+      is_before_tab = i > 0
+      if (is_before_tab) is_before_tab = line(place + i - 1:place + i - 1) == tab
+   end function is_before_tab
+
+   !> First and last place of the word that a place is in.
+   pure integer function word_start(line, place)
+      character(*), intent(in) :: line
+      integer, intent(in) :: place
+
+      do word_start = place, 2, -1
+         if (is_gap(line(word_start - 1:word_start - 1))) exit
+      end do
+      word_start = max(word_start, 1)
+   end function word_start
+
+   pure integer function word_end(line, place)
+      character(*), intent(in) :: line
+      integer, intent(in) :: place
+
+      do word_end = place, len(line) - 1
+         if (is_gap(line(word_end + 1:word_end + 1))) exit
+      end do
+   end function word_end
+
+   !> Reads a word as a number and adds it to the values.
+   subroutine read_number(word, values, used, trouble)
+      character(*), intent(in) :: word
+      real(dp), intent(inout) :: values(:)
+      integer, intent(inout) :: used
+      character(:), allocatable, intent(out) :: trouble
+
+      logical :: is_number
+
+      used = used + 1
+      call read_decimal(word, values(used), is_number)
+      if (is_number .and. abs(values(used)) <= largest_number) return
+      if (is_number) then
+         trouble = "'"//excerpt(word)//"' is too large: numbers may be up to "//short_number(largest_number)// &
+                   ' in size; a number that stands for a missing height must be nan'
+         return
+      end if
+      select case (lower_case(word(merge(2, 1, scan(word(1:1), '+-') == 1):)))
+      case ('nan', '-')
+         if (word /= '+-') then
+            values(used) = ieee_value(0.0_dp, ieee_quiet_nan)
+            return
+         end if
+      case ('inf', 'infinity')
+         trouble = "'"//excerpt(word)//"' is not a height: write nan if it is missing"
+         return
+      end select
+      trouble = "'"//excerpt(word)//"' is no number: put # before a line that is a remark, and write nan for a "// &
+                'number that is missing'
+   end subroutine read_number
+
+   !> Whether a byte separates numbers.
+   elemental logical function is_gap(byte)
+      character(1), intent(in) :: byte
+
+      is_gap = byte == ' ' .or. byte == tab .or. byte == ',' .or. byte == ';'
+   end function is_gap
+
+end module wavycon_number_line

@@ -1,0 +1,214 @@
+!> Makes height maps from lines of x, y and z.
+module wavycon_point_map
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
+   use, intrinsic :: iso_fortran_env, only: int64
+   use wavycon_error, only: error_type, exit_bad_input, fatal_error
+   use wavycon_key_table, only: smallest_number
+   use wavycon_kinds, only: dp
+   use wavycon_map_size, only: check_map_size, check_room, most_points
+   use wavycon_measured_map, only: measured_map
+   use wavycon_number_table, only: number_table
+   use wavycon_plain_text, only: escaped, integer_text, short_number
+   implicit none (type, external)
+   private
+
+   public :: are_points, take_points
+
+   !> Largest deviation of a point from the grid, in steps: coordinates in files are often rounded.
+   real(dp), parameter :: tolerance = 0.01_dp
+
+   !> Equidistant coordinates.
+   type :: axis_type
+      real(dp) :: first = 0.0_dp   !! the least
+      real(dp) :: step = 0.0_dp    !! >= 0; 0 if there is one coordinate
+      integer :: number = 1
+   end type axis_type
+
+contains
+
+   !> Whether all lines have three numbers and there are more lines than the three of a small map.
+   pure logical function are_points(table)
+      type(number_table), intent(in) :: table
+
+      integer :: k
+
+      are_points = table%rows() > 3
+      do k = 1, table%rows()
+         if (.not. are_points) return
+         are_points = has_three(table, k)
+      end do
+   end function are_points
+
+   !> Whether a line has x, y and z; the last may be missing behind a separator.
+   elemental logical function has_three(table, k)
+      type(number_table), intent(in) :: table
+      integer, intent(in) :: k
+
+      has_three = table%length(k) == 3 .or. (table%length(k) == 2 .and. table%ends_open(k))
+   end function has_three
+
+   !> Makes a map from points in any order; heights of points without a line are NaN. x and y of the map rise. Errors:
+   !> exit_bad_input if the points do not form a regular grid.
+   subroutine take_points(table, map, error)
+      type(number_table), intent(in) :: table
+      type(measured_map), intent(inout) :: map
+      type(error_type), allocatable, intent(out) :: error
+
+      !> Fewer points of a grid are more likely points without a grid.
+      integer, parameter :: least_percentage = 10
+      type(axis_type) :: axis(2)
+      logical, allocatable :: is_there(:, :)
+      integer :: i, j, k
+
+      do k = 1, table%rows()
+         if (.not. has_three(table, k)) then
+            call bad_line(k, 'this line has '//integer_text(table%length(k))// &
+                          " numbers: file_format = 'xyz' needs x, y and z")
+            return
+         else if (any(ieee_is_nan(table%values(table%first(k):table%first(k) + 1)))) then
+            call bad_line(k, 'x and y must be numbers; a missing height is nan, or its line is left out')
+            return
+         end if
+      end do
+      if (table%rows() < 2) then
+         call bad_line(1, 'one point is no map')
+         return
+      end if
+      do i = 1, 2
+         axis(i) = axis_of(table%values(table%first(:table%rows()) + i - 1))
+      end do
+      call check_grid()
+      if (.not. allocated(error)) call check_map_size(table%path, axis%number, error)
+      if (.not. allocated(error)) call check_room(table%path, product(axis%number), error)
+      if (allocated(error)) return
+      if (int(least_percentage, int64)*product(axis%number) > 100*int(table%rows(), int64)) then
+         call fatal_error(error, exit_bad_input, escaped(table%path)//': the grid of these points has '// &
+                          grid_words()//' and only '//integer_text(table%rows())//' of them are there: interpolate '// &
+                          'the heights to a regular grid')
+         return
+      end if
+      allocate (map%height(axis(1)%number, axis(2)%number), source=ieee_value(0.0_dp, ieee_quiet_nan))
+      allocate (is_there(axis(1)%number, axis(2)%number), source=.false.)
+      do k = 1, table%rows()
+         associate (point => table%values(table%first(k):table%first(k + 1) - 1))
+            i = index_on(axis(1), point(1))
+            j = index_on(axis(2), point(2))
+            if (is_there(i, j)) then
+               call bad_line(k, 'x = '//short_number(point(1))//', y = '//short_number(point(2))// &
+                             ' is a point of a line before')
+               return
+            end if
+            is_there(i, j) = .true.
+            if (size(point) == 3) map%height(i, j) = point(3)
+         end associate
+      end do
+      map%step = axis%step
+
+   contains
+
+      !> Checks that all points lie on the grid.
+      subroutine check_grid()
+         integer :: k
+
+         do k = 1, table%rows()
+            associate (x => table%values(table%first(k)), y => table%values(table%first(k) + 1))
+               if (is_on(axis(1), x) .and. is_on(axis(2), y)) cycle
+               call bad_line(k, 'x = '//short_number(x)//', y = '//short_number(y)//' is out of step: the points '// &
+                             'must form a regular grid, of '//grid_words()//' as it seems. Interpolate the heights '// &
+                             'to one')
+               return
+            end associate
+         end do
+      end subroutine check_grid
+
+      function grid_words() result(words)
+         character(:), allocatable :: words
+
+         words = integer_text(axis(1)%number)//' x '//integer_text(axis(2)%number)//' points'
+      end function grid_words
+
+      subroutine bad_line(number, words)
+         integer, intent(in) :: number
+         character(*), intent(in) :: words
+
+         call fatal_error(error, exit_bad_input, escaped(table%path)//':'//integer_text(table%line(number))// &
+                          ': '//words)
+      end subroutine bad_line
+
+   end subroutine take_points
+
+   !> The equidistant coordinates that points have, if they have such.
+   !>
+   !> The range is divided into bins, four to the least step. The gaps between the bins that hold coordinates are steps,
+   !> multiples of steps where whole rows are missing, or rounding errors, which are smaller than all of these.
+   pure type(axis_type) function axis_of(coordinate) result(axis)
+      real(dp), intent(in) :: coordinate(:)   !! at least one
+
+      integer, parameter :: bins = 4*most_points
+      real(dp), allocatable :: lowest(:)
+      logical, allocatable :: is_filled(:)
+      real(dp) :: extent, gap, largest, last, step, steps
+      integer :: b, k, number, pass
+
+      axis%first = minval(coordinate)
+      extent = maxval(coordinate) - axis%first
+      if (.not. extent > smallest_number) return
+      allocate (lowest(0:bins), source=0.0_dp)
+      allocate (is_filled(0:bins), source=.false.)
+      do k = 1, size(coordinate)
+         b = int((coordinate(k) - axis%first)/extent*bins)
+         if (is_filled(b)) then
+            lowest(b) = min(lowest(b), coordinate(k))
+         else
+            lowest(b) = coordinate(k)
+            is_filled(b) = .true.
+         end if
+      end do
+      largest = 0.0_dp
+      last = axis%first
+      do b = 1, bins
+         if (.not. is_filled(b)) cycle
+         largest = max(largest, lowest(b) - last)
+         last = lowest(b)
+      end do
+      ! First the least step, then the mean of those that are alike: its rounding error is smaller.
+      step = extent
+      do pass = 1, 2
+         number = 0
+         steps = 0.0_dp
+         last = axis%first
+         do b = 1, bins
+            if (.not. is_filled(b)) cycle
+            gap = lowest(b) - last
+            if (gap <= max(2*extent/bins, 2*tolerance*largest)) cycle
+            last = lowest(b)
+            if (pass == 1) step = min(step, gap)
+            if (pass == 1 .or. gap > 1.5_dp*step) cycle
+            number = number + 1
+            steps = steps + gap
+         end do
+      end do
+      ! Without a gap that large there are more coordinates than a map can have.
+      if (number > 0) axis%number = nint(extent/(steps/number)) + 1
+      if (number == 0) axis%number = bins + 1
+      axis%step = extent/(axis%number - 1)
+   end function axis_of
+
+   !> The number of the coordinate of an axis that is closest to a value, from 1 on.
+   elemental integer function index_on(axis, coordinate)
+      type(axis_type), intent(in) :: axis
+      real(dp), intent(in) :: coordinate
+
+      index_on = 1
+      if (axis%number > 1) index_on = 1 + nint((coordinate - axis%first)/axis%step)
+   end function index_on
+
+   !> Whether a value is a coordinate of an axis.
+   elemental logical function is_on(axis, coordinate)
+      type(axis_type), intent(in) :: axis
+      real(dp), intent(in) :: coordinate
+
+      is_on = abs(coordinate - axis%first - (index_on(axis, coordinate) - 1)*axis%step) <= tolerance*axis%step
+   end function is_on
+
+end module wavycon_point_map
