@@ -101,14 +101,30 @@ contains
             '), heights over their mean '// &
             short_number(scene%map%lowest)//' to '//short_number(scene%map%highest)//', rms '// &
             short_number(scene%map%rms)//' ['//scene%length_unit//']')
+         if (allocated(scene%map) .and. scene%surface%amplitude > 0.0_dp) call self%say( &
+            'roughness '//roughness_words(scene))
          if (allocated(scene%map)) call show_broken_borders(self, scene%map, scene%length_unit)
-         if (scene%has_units) call show_steep_slopes(self, scene%surface%rms_slope(), allocated(scene%map))
+         if (scene%has_units) call show_steep_slopes(self, scene%roughness%slope, allocated(scene%map))
          call self%say('material  '//material_words(scene))
          call self%say('loads     '//integer_text(size(scene%target))//', '//target_words(scene%loads_by)// &
                        ' from '//short_number(minval(scene%target))//' to '//short_number(maxval(scene%target)))
          call self%say('method    '//results%solver%name()//', '//results%solver%describe())
       end associate
    end subroutine show_scene
+
+   !> Slope and curvature, in brackets by differences, and the form of the distribution of heights.
+   pure function roughness_words(scene) result(words)
+      type(scene_type), intent(in) :: scene   !! of a height map
+      character(:), allocatable :: words
+
+      associate (roughness => scene%roughness)
+         words = 'rms slope '//short_number(roughness%slope)//' (by differences '// &
+                 short_number(roughness%slope_by_differences)//'), rms curvature '// &
+                 short_number(roughness%curvature)//' ('//short_number(roughness%curvature_by_differences)// &
+                 ') [1/'//scene%length_unit//'], skewness '//short_number(scene%map%skewness)//', kurtosis '// &
+                 short_number(scene%map%kurtosis)
+      end associate
+   end function roughness_words
 
    !> Modulus, p* and, if there is one, hardness.
    pure function material_words(scene) result(words)
