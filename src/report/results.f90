@@ -104,8 +104,8 @@ contains
       words = ', '//name//'['//unit//'] = '//exact_number(number)
    end function number_of
 
-   !> The label of a unit: 'length', 'pressure' and 'area', which in 1-D is a length, as the deck names them; others as
-   !> they are.
+   !> The label of a unit: 'length', powers of it, 'pressure' and 'area', which in 1-D is a length, as the deck names
+   !> them; others as they are.
    pure function unit_in_words(self, unit) result(words)
       class(results_type), intent(in) :: self
       character(*), intent(in) :: unit
@@ -117,6 +117,8 @@ contains
             words = length
          case ('area')
             words = length//merge('^2', '  ', self%scene%surface%dimension == 2)
+         case ('length^3', 'length^4', '1/length', 'rad/length')
+            words = unit(:index(unit, 'length') - 1)//length//unit(index(unit, 'length') + len('length'):)
          case ('pressure')
             words = self%scene%pressure_unit
          case default
