@@ -51,8 +51,8 @@ DECKS = {
               "&material e1 = 210e9, nu1 = 0.3, e2 = 70e9, nu2 = 0.33 /\n&load pbar_over_pstar = 0.1, 0.6 /\n"
               "&stress line = t, section = 'x', planes = t, depth_steps = 9, yield_stress = 1e9, 2e8 /\n"
               "&method solver = 'auto' /\n&output map_points = 16, map_format = 'npy' /",
-    "rough": "&scene length_unit = 'um' /\n&surface kind = 'sum', length_x = 20, length_y = 30, amplitudes = 1, 0.4, 0.2,\n"
-             "waves_x = 1, 2, 0, waves_y = 0, 1, 7 /\n&load pbar_over_pstar = 0.1 /\n"
+    "rough": "&scene length_unit = 'um' /\n&surface kind = 'sum', length_x = 20, length_y = 30,\n"
+             "amplitudes = 1, 0.4, 0.2, waves_x = 1, 2, 0, waves_y = 0, 1, 7 /\n&load pbar_over_pstar = 0.1 /\n"
              "&output spectrum = t, height = t, map_points = 24, 16 /",
     "profile": "&surface kind = 'wave_1d' /\n&load pbar_over_pstar = 0.1 /\n"
                "&output spectrum = t, height = t, map_points = 16 /",
