@@ -1,4 +1,4 @@
-"""Reads the tables of wavycon for scripts/plot: text with a row of names, and maps in numpy's format."""
+"""Reads the tables of wavycon for scripts/plot: text with a row of names, maps and heights in numpy's format."""
 import array
 import ast
 import copy
@@ -15,6 +15,8 @@ MARKS = {"summary": ("pbar_over_pstar", "active_constraints", "mean_pressure", "
          "coefficients": ("load", "i", "j", "pressure_over_pstar"),
          "theory": ("pbar_over_pstar", "hertz_contact_area_fraction", "kuznetsov_mean_gap_over_amplitude"),
          "details": ("pbar_over_pstar", "trough_gap_over_amplitude", "elastic_energy_over_pstar_amplitude"),
+         "spectrum": ("wave_number", "waves", "spectrum_2d", "spectrum_1d"),
+         "height": ("height",),
          "stress_largest": ("pbar_over_pstar", "largest_von_mises_over_pstar", "von_mises_depth"),
          "stress_line": ("depth_over_cell_x", "stress_xx", "von_mises"),
          "stress_section": ("distance", "depth", "stress_xx", "von_mises"),
@@ -122,9 +124,12 @@ class Table:
         try:
             self.skip = 10 + int.from_bytes(data[8:10], "little")
             header = ast.literal_eval(data[10:self.skip].decode("latin-1").strip())
-            self.names = [name for name, form in header["descr"] if form[1:] == "f8"]
-            self.endian = "little" if header["descr"][0][1][0] == "<" else "big"
-            loads, *within, rows, columns = header["shape"]   # within: of stresses, bodies and depths
+            form = header["descr"]
+            fields = [("height", form)] if isinstance(form, str) else form   # heights are no records
+            self.names = [name for name, form in fields if form[1:] == "f8"]
+            self.endian = "little" if fields[0][1][0] == "<" else "big"
+            # within: of stresses, bodies and depths. Heights have no loads.
+            loads, *within, rows, columns = (1, *header["shape"]) if isinstance(form, str) else header["shape"]
         except (ValueError, SyntaxError, TypeError, KeyError, IndexError, UnicodeDecodeError):
             raise NotATable("this array is not a map of wavycon: its records have other fields") from None
         self.points = (columns, rows)
@@ -154,7 +159,7 @@ class Table:
         self.surface, self.method, self.title = summary.surface, summary.method, summary.title
         of_load = summary.column("pbar_over_pstar")
         for block in self.blocks:
-            if block.load <= len(of_load):
+            if self.kind != "height" and block.load <= len(of_load):
                 block.pbar_over_pstar = of_load[block.load - 1]
 
     def with_blocks(self, blocks):

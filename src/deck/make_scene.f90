@@ -25,6 +25,7 @@ contains
 
       call move_alloc(deck%surface, scene%surface)
       call move_alloc(deck%map, scene%map)
+      scene%roughness = scene%surface%roughness()
       scene%e_star = plane_strain_modulus(deck%material)
       scene%gives_modulus = deck%material%has('e_star') .or. deck%material%has('e1')
       scene%has_units = scene%gives_modulus .or. deck%scene%has('pressure_unit') .or. deck%scene%has('length_unit')

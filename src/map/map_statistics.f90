@@ -1,4 +1,4 @@
-!> Size, format and statistics of a height map, for the log.
+!> Size, format and statistics of a height map, for the log and the heads of tables.
 module wavycon_map_statistics
    use wavycon_kinds, only: dp
    implicit none (type, external)
@@ -10,6 +10,7 @@ module wavycon_map_statistics
       integer :: points(2) = 0                                      !! along x and y
       character(7) :: format = ''                                   !! as of measured_map
       real(dp) :: lowest = 0.0_dp, highest = 0.0_dp, rms = 0.0_dp   !! of the heights over their mean [length]
+      real(dp) :: skewness = 0.0_dp, kurtosis = 0.0_dp              !! eq. (M20); 0 of a flat map
       real(dp) :: largest_step(2) = 0.0_dp   !! between neighbours within the map, along x and y [length]
       !> Root mean square of the steps from the last points to the first, which are their neighbours because the map is
       !> continued periodically [length].
@@ -33,7 +34,7 @@ contains
       statistics%format = format
       statistics%lowest = minval(height)
       statistics%highest = maxval(height)
-      statistics%rms = root_mean_square(height)
+      call take_moments(height, statistics)
       associate (m => size(height, 1), n => size(height, 2))
          statistics%largest_step = [largest(height(2:, :) - height(:m - 1, :)), &
                                     largest(height(:, 2:) - height(:, :n - 1))]
@@ -42,6 +43,28 @@ contains
       end associate
       statistics%path = path
    end function statistics_of
+
+   !> Finds the root mean square, skewness and kurtosis of the heights, eq. (M20).
+   pure subroutine take_moments(height, statistics)
+      real(dp), intent(in) :: height(:, :)                  !! over the mean [length]
+      type(map_statistics), intent(inout) :: statistics     !! with the lowest and the highest
+
+      real(dp) :: column(size(height, 1)), moments(2:4), unit
+      integer :: j
+
+      ! Powers of heights over the largest one do not overflow.
+      unit = max(statistics%highest, -statistics%lowest)
+      if (.not. unit > 0.0_dp) return
+      moments = 0.0_dp
+      do j = 1, size(height, 2)
+         column = height(:, j)/unit
+         moments = moments + [sum(column**2), sum(column**3), sum(column**4)]
+      end do
+      moments = moments/size(height)
+      statistics%rms = unit*sqrt(moments(2))
+      statistics%skewness = moments(3)/(moments(2)*sqrt(moments(2)))
+      statistics%kurtosis = moments(4)/moments(2)**2
+   end subroutine take_moments
 
    !> Whether the steps at the border are larger than all others: in a periodic map they are like the others, in a
    !> tilted or cut patch as large as its heights.

@@ -1,4 +1,4 @@
-!> The header of numpy's file format, version 1.0, for arrays of records of double precision numbers.
+!> The header of numpy's file format, version 1.0, for arrays of double precision numbers or of records of them.
 !>
 !> The format is defined in numpy's documentation, numpy.lib.format. The header has the same length for all maps of a
 !> kind, so that readers that do not know the format skip it.
@@ -8,7 +8,7 @@ module wavycon_npy_header
    implicit none (type, external)
    private
 
-   public :: npy_header
+   public :: npy_header, npy_header_of_numbers
 
    !> The header is a multiple of so many bytes. Readers that do not know the format skip it.
    integer, parameter, public :: npy_header_step = 256
@@ -21,17 +21,37 @@ contains
       integer, intent(in) :: numbers(:)      !! of records along each index
       character(:), allocatable :: header
 
+      character(:), allocatable :: words
+      integer :: i
+
+      words = '['
+      do i = 1, size(names)
+         words = words//"('"//trim(names(i))//"', '"//byte_order()//"f8'), "
+      end do
+      header = header_of(words//']', numbers)
+   end function npy_header
+
+   !> The bytes before an array of numbers. These follow with the last index changing fastest.
+   pure function npy_header_of_numbers(numbers) result(header)
+      integer, intent(in) :: numbers(:)   !! along each index
+      character(:), allocatable :: header
+
+      header = header_of("'"//byte_order()//"f8'", numbers)
+   end function npy_header_of_numbers
+
+   !> The header of an array of elements of a type.
+   pure function header_of(element, numbers) result(header)
+      character(*), intent(in) :: element   !! numpy's description of its type
+      integer, intent(in) :: numbers(:)     !! of elements along each index
+      character(:), allocatable :: header
+
       !> Followed by two bytes for the length of the rest, the lower one first.
       character(*), parameter :: magic = char(147)//'NUMPY'//char(1)//char(0)
       integer, parameter :: before_words = len(magic) + 2
       character(:), allocatable :: words
       integer :: i, length
 
-      words = "{'descr': ["
-      do i = 1, size(names)
-         words = words//"('"//trim(names(i))//"', '"//byte_order()//"f8'), "
-      end do
-      words = words//"], 'fortran_order': False, 'shape': ("
+      words = "{'descr': "//element//", 'fortran_order': False, 'shape': ("
       do i = 1, size(numbers)
          words = words//integer_text(numbers(i))//', '
       end do
@@ -39,7 +59,7 @@ contains
       length = npy_header_step*((before_words + len(words) + npy_header_step)/npy_header_step)
       header = magic//char(modulo(length - before_words, 256))//char((length - before_words)/256)//words
       header = header//repeat(' ', length - len(header) - 1)//newline
-   end function npy_header
+   end function header_of
 
    !> '<' where the lowest byte of a number is the first, '>' elsewhere.
    pure character function byte_order()

@@ -53,6 +53,7 @@ contains
       associate (surface => self%scene%surface, length => self%scene%length_unit, pressure => self%scene%pressure_unit)
          call file%put('# surface: '//self%scene%surface_kind// &
                        ', Delta['//length//'] = '//exact_number(surface%amplitude)//cell_sides())
+         if (allocated(self%scene%map)) call put_statistics(self%scene, file)
          call file%put('# material: e_star['//pressure//'] = '//exact_number(self%scene%e_star)// &
                        ', p*['//pressure//'] = '//exact_number(self%scene%p_star))
          call file%put('# method: '//self%solver%name()//', '//self%solver%describe())
@@ -75,8 +76,36 @@ contains
 
    end subroutine open_table
 
-   !> The label of a unit: 'length', 'pressure' and 'area', which in 1-D is a length, as the deck names them; others as
-   !> they are.
+   !> Writes the header lines of a height map: what its statistics are.
+   subroutine put_statistics(scene, file)
+      type(scene_type), intent(in) :: scene
+      type(output_file), intent(inout) :: file
+
+      associate (map => scene%map, roughness => scene%roughness, unit => scene%length_unit)
+         call file%put('# map: '//trim(map%format)//', points_x[-] = '//integer_text(map%points(1))// &
+                       ', points_y[-] = '//integer_text(map%points(2))// &
+                       number_of('lowest', unit, map%lowest)//number_of('highest', unit, map%highest)// &
+                       number_of('rms_height', unit, map%rms))
+         if (.not. map%rms > 0.0_dp) return
+         call file%put('# roughness: skewness[-] = '//exact_number(map%skewness)// &
+                       number_of('kurtosis', '-', map%kurtosis)//number_of('rms_slope', '-', roughness%slope)// &
+                       number_of('rms_slope_by_differences', '-', roughness%slope_by_differences)// &
+                       number_of('rms_curvature', '1/'//unit, roughness%curvature)// &
+                       number_of('rms_curvature_by_differences', '1/'//unit, roughness%curvature_by_differences))
+      end associate
+   end subroutine put_statistics
+
+   !> A number of the head, such as ', rms_height[mm] = 0.1'.
+   pure function number_of(name, unit, number) result(words)
+      character(*), intent(in) :: name, unit
+      real(dp), intent(in) :: number
+      character(:), allocatable :: words
+
+      words = ', '//name//'['//unit//'] = '//exact_number(number)
+   end function number_of
+
+   !> The label of a unit: 'length', powers of it, 'pressure' and 'area', which in 1-D is a length, as the deck names
+   !> them; others as they are.
    pure function unit_in_words(self, unit) result(words)
       class(results_type), intent(in) :: self
       character(*), intent(in) :: unit
@@ -88,6 +117,8 @@ contains
             words = length
          case ('area')
             words = length//merge('^2', '  ', self%scene%surface%dimension == 2)
+         case ('length^3', 'length^4', '1/length', 'rad/length')
+            words = unit(:index(unit, 'length') - 1)//length//unit(index(unit, 'length') + len('length'):)
          case ('pressure')
             words = self%scene%pressure_unit
          case default

@@ -6,6 +6,7 @@ module wavycon_run_log
    use wavycon_map_statistics, only: map_statistics
    use wavycon_plain_text, only: escaped, integer_text, short_number
    use wavycon_results, only: results_type
+   use wavycon_roughness, only: roughness_type
    use wavycon_scene, only: scene_type, target_words
    use wavycon_stress_lines, only: heading_of_stresses, line_of_stress
    use wavycon_surface, only: surface_type
@@ -102,14 +103,34 @@ contains
             short_number(scene%map%lowest)//' to '//short_number(scene%map%highest)//', rms '// &
             short_number(scene%map%rms)//' ['//scene%length_unit//']')
          if (allocated(scene%map)) call show_sides(self, scene%map)
-         if (allocated(scene%map)) call show_broken_borders(self, scene%map, scene%length_unit)
-         if (scene%has_units) call show_steep_slopes(self, scene%surface%rms_slope(), allocated(scene%map))
+         if (allocated(scene%map) .and. scene%surface%amplitude > 0.0_dp) call self%say( &
+            'roughness '//roughness_words(scene))
+         if (allocated(scene%map)) then
+            call show_broken_borders(self, scene%map, scene%length_unit)
+            ! A broken border is a step between two points.
+            if (.not. any(scene%map%is_broken_along([1, 2]))) call show_unresolved_slopes(self, scene%roughness)
+         end if
+         if (scene%has_units) call show_steep_slopes(self, scene%roughness%slope, allocated(scene%map))
          call self%say('material  '//material_words(scene))
          call self%say('loads     '//integer_text(size(scene%target))//', '//target_words(scene%loads_by)// &
                        ' from '//short_number(minval(scene%target))//' to '//short_number(maxval(scene%target)))
          call self%say('method    '//results%solver%name()//', '//results%solver%describe())
       end associate
    end subroutine show_scene
+
+   !> Slope and curvature, in brackets by differences, and the form of the distribution of heights.
+   pure function roughness_words(scene) result(words)
+      type(scene_type), intent(in) :: scene   !! of a height map
+      character(:), allocatable :: words
+
+      associate (roughness => scene%roughness)
+         words = 'rms slope '//short_number(roughness%slope)//' (by differences '// &
+                 short_number(roughness%slope_by_differences)//'), rms curvature '// &
+                 short_number(roughness%curvature)//' ('//short_number(roughness%curvature_by_differences)// &
+                 ') [1/'//scene%length_unit//'], skewness '//short_number(scene%map%skewness)//', kurtosis '// &
+                 short_number(scene%map%kurtosis)
+      end associate
+   end function roughness_words
 
    !> Modulus, p* and, if there is one, hardness.
    pure function material_words(scene) result(words)
@@ -146,6 +167,22 @@ contains
             '; such a step carries load')
       end do
    end subroutine show_broken_borders
+
+   !> Warns of a map whose slopes are between neighbouring points rather than in waves of many.
+   subroutine show_unresolved_slopes(self, roughness)
+      class(run_log), intent(inout) :: self
+      type(roughness_type), intent(in) :: roughness
+
+      !> Least slope by differences over that of the series. Noise that lowers it to 0.9 takes a quarter or more of the
+      !> contact area at light loads: see the table of src/map/README.md.
+      real(dp), parameter :: least = 0.9_dp
+
+      if (roughness%slope_by_differences >= least*roughness%slope) return
+      call self%say('note: the rms slope is '//short_number(roughness%slope)//', by differences of neighbours only '// &
+                    short_number(roughness%slope_by_differences)// &
+                    ': much of it is in waves of two or three points. If these are noise, smooth the map: '// &
+                    'they make contact areas smaller')
+   end subroutine show_unresolved_slopes
 
    !> Warns of a surface that is too steep for the theory, most likely by a mistake of units.
    subroutine show_steep_slopes(self, slope, is_map)

@@ -3,9 +3,11 @@ module wavycon_tables
    use wavycon_coefficients_table, only: coefficients_table
    use wavycon_contour_table, only: contour_table
    use wavycon_details_table, only: details_table
+   use wavycon_height_table, only: height_table
    use wavycon_largest_stress_table, only: largest_stress_table
    use wavycon_lines_table, only: lines_table
    use wavycon_map_table, only: map_table
+   use wavycon_spectrum_table, only: spectrum_table
    use wavycon_stress_line_table, only: stress_line_table
    use wavycon_stress_planes_table, only: stress_planes_table
    use wavycon_stress_section_table, only: stress_section_table
@@ -37,6 +39,8 @@ contains
       call add(tables, theory_table())
       call add(tables, theory_lines_table())
       call add(tables, details_table())
+      call add(tables, spectrum_table())
+      call add(tables, height_table())
       call add(tables, largest_stress_table())
       call add(tables, stress_line_table())
       call add(tables, stress_section_table())

@@ -3,6 +3,7 @@ module wavycon_scene
    use wavycon_group_values, only: group_values
    use wavycon_kinds, only: dp
    use wavycon_map_statistics, only: map_statistics
+   use wavycon_roughness, only: roughness_type
    use wavycon_stress_setting, only: stress_setting
    use wavycon_surface, only: surface_type
    implicit none (type, external)
@@ -23,6 +24,7 @@ module wavycon_scene
       character(:), allocatable :: surface_kind     !! the key `kind` of &surface
       type(surface_type), allocatable :: surface
       type(map_statistics), allocatable :: map      !! allocated for a height map
+      type(roughness_type) :: roughness             !! of the surface
       character(:), allocatable :: pressure_unit    !! label of the deck's unit of pressures, such as 'MPa'
       character(:), allocatable :: length_unit      !! likewise of lengths
       real(dp) :: e_star = 1.0_dp                   !! plane-strain modulus [pressure]

@@ -4,6 +4,7 @@ module wavycon_surface
    use wavycon_fourier_series, only: fourier_series
    use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
+   use wavycon_roughness, only: roughness_of, roughness_type
    use wavycon_series_peak, only: find_peak
    use wavycon_turned_series, only: to_sum_angles
    implicit none (type, external)
@@ -32,6 +33,7 @@ module wavycon_surface
       procedure :: has_hardness
       procedure :: full_contact_pressure
       procedure :: undeformed_gap_over_amplitude
+      procedure :: roughness
       procedure :: rms_slope
       procedure :: frequency
       procedure :: pressure_of
@@ -132,28 +134,21 @@ contains
       gap = 1.0_dp - self%shape%at(x, y)
    end function undeformed_gap_over_amplitude
 
+   !> Root mean squares of height, slope and curvature.
+   pure type(roughness_type) function roughness(self)
+      class(surface_type), intent(in) :: self
+
+      roughness = roughness_of(self%shape, self%amplitude, self%length, self%points)
+   end function roughness
+
    !> The root mean square of the slope, the size of the gradient of h: sqrt2 pi Delta/lambda for the paper's waves.
    pure real(dp) function rms_slope(self)
       class(surface_type), intent(in) :: self
 
-      real(dp) :: total
-      integer :: i, j
+      type(roughness_type) :: roughness
 
-      ! The mean square of each harmonic is 1, halved for each direction in which it varies; a gradient multiplies it by
-      ! the square of 2 pi times the frequency.
-      total = 0.0_dp
-      associate (shape => self%shape)
-         do j = 0, ubound(shape%c, 2)
-            do i = 0, ubound(shape%c, 1)
-               associate (weight => self%frequency(i, j)**2/2**count([i, j] > 0))
-                  total = total + weight*shape%c(i, j)**2
-                  if (.not. shape%is_even()) &
-                     total = total + weight*(shape%cs(i, j)**2 + shape%sc(i, j)**2 + shape%ss(i, j)**2)
-               end associate
-            end do
-         end do
-      end associate
-      rms_slope = 2*pi*self%amplitude*sqrt(total)
+      roughness = self%roughness()
+      rms_slope = roughness%slope
    end function rms_slope
 
    !> One over the wavelength of a harmonic [1/length].

@@ -51,6 +51,11 @@ DECKS = {
               "&material e1 = 210e9, nu1 = 0.3, e2 = 70e9, nu2 = 0.33 /\n&load pbar_over_pstar = 0.1, 0.6 /\n"
               "&stress line = t, section = 'x', planes = t, depth_steps = 9, yield_stress = 1e9, 2e8 /\n"
               "&method solver = 'auto' /\n&output map_points = 16, map_format = 'npy' /",
+    "rough": "&scene length_unit = 'um' /\n&surface kind = 'sum', length_x = 20, length_y = 30,\n"
+             "amplitudes = 1, 0.4, 0.2, waves_x = 1, 2, 0, waves_y = 0, 1, 7 /\n&load pbar_over_pstar = 0.1 /\n"
+             "&output spectrum = t, height = t, map_points = 24, 16 /",
+    "profile": "&surface kind = 'wave_1d' /\n&load pbar_over_pstar = 0.1 /\n"
+               "&output spectrum = t, height = t, map_points = 16 /",
     "unsolved": "&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0.1, 0.22861 /\n"
                 "&method solver = 'fitted', accuracy = 1e-12 /",
 }
@@ -134,6 +139,24 @@ class Plot(unittest.TestCase):
         words = self.drawn("auto.summary.dat")
         self.assertIn("p̄/p*", words)
         self.assertNotIn("pressure)", words)
+
+    def test_spectra_have_the_units_of_their_axes(self):
+        words = self.drawn("rough.spectrum.dat")
+        for label in ("q (rad/um)", "C (um4)", "C1 (um3)", "along x", "along y"):
+            self.assertIn(label, words)
+        words = self.drawn("profile.spectrum.dat")
+        self.assertNotIn("along", words)
+        self.assertNotIn("(", words)
+
+    def test_heights(self):
+        words = self.drawn("rough.height.npy")
+        self.assertIn("height (µm)", words)
+        self.assertIn(" 30 ", words)
+        self.assertIn("height/Δ", self.drawn("profile.height.npy"))
+        # Without a summary beside it the points are counted.
+        (self.folder/"alone").mkdir()
+        shutil.copy(self.folder/"rough.height.npy", self.folder/"alone")
+        self.assertIn(" 15 ", self.drawn("alone/rough.height.npy"))
 
     def test_titles(self):
         """The deck's title stands as it is, in the middle of the upper edge of every picture."""

@@ -64,6 +64,8 @@ TOLERANCES = {
     "map": {"x": ARITHMETIC, "y": ARITHMETIC, "pressure": SOLVED, "gap": SOLVED, "displacement": SOLVED},
     "contour": {"x_min": EDGE, "x_max": EDGE, "y_min": EDGE, "y_max": EDGE},
     "theory": {},
+    # Sums of squares of a transform. What is rounding is small beside the largest.
+    "spectrum": {"waves": COUNTED, "wave_number": ARITHMETIC},
     "stress_largest": {"body": COUNTED, "nu": ARITHMETIC,
                        "mean_pressure": SOLVED, "stress_over_yield_stress": SOLVED, "stress_over_yield_stress_error": SOLVED,
                        **{f"largest_{name}{ending}": tolerance for name in ("von_mises", "shear") for ending, tolerance
@@ -107,7 +109,7 @@ def excerpt_of(path):
     kind = path.name.split(".")[-2]
     table = Table(path)
     head, columns, units = [], table.columns, table.units
-    if kind in ("lines", "theory_lines", "map", "stress_line", "stress_section", "stress_planes"):
+    if kind in ("lines", "theory_lines", "map", "spectrum", "stress_line", "stress_section", "stress_planes"):
         # An odd step, which is no multiple of the rows of a map.
         step = (len(table.lines) // SAMPLE) | 1
         head = [f"{len(table.lines)} rows in {table.blocks} blocks, 1 of {step} is here"]

@@ -9,6 +9,7 @@ import contextlib
 import io
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -105,6 +106,31 @@ class PythonReaders(unittest.TestCase):
         for record, values in zip(table.records(), found.reshape(-1).tolist(), strict=True):
             for name, value in zip(found.dtype.names, values):
                 self.assert_close(float(record[name]), value)
+
+    def test_heights_in_numpys_format(self):
+        """Heights are those of the file, over their mean, and the head has their statistics."""
+        import numpy
+        rows = numpy.random.default_rng(1).normal(size=(12, 20))
+        for height in rows, rows[:1]:
+            numpy.savetxt("map.dat", height, fmt="%.17g")
+            pathlib.Path("map.nml").write_text("&surface kind = 'file', file = 'map.dat', length_x = 1, length_y = 1,\n"
+                                               "height_scale = 0.01 /\n"
+                                               "&load pbar_over_pstar = 1 /\n&output height = t, spectrum = t /\n")
+            subprocess.run([self.program, "map.nml", "--quiet", "--output", "."], check=True)
+            found, expected = numpy.load("map.height.npy"), 0.01*(height - height.mean())
+            self.assertEqual((height.shape, numpy.float64), (found.shape, found.dtype))
+            self.assertLess(abs(found - expected).max(), 1e-16)
+            head = dict(re.findall(r"(\w+)\[[^]]*\] = ([^,\s]+)", pathlib.Path("map.spectrum.dat").read_text()))
+            power = abs(numpy.fft.fft2(expected)/expected.size)**2
+            x, y = (2*numpy.pi*numpy.fft.fftfreq(n)*n for n in height.shape[::-1])
+            # A profile has no side along y.
+            squares = x**2 + y[:, None]**2
+            for name, value in {"points_x": 20, "rms_height": expected.std(),
+                                "skewness": (expected**3).mean()/expected.std()**3,
+                                "kurtosis": (expected**4).mean()/expected.std()**4,
+                                "rms_slope": numpy.sqrt((power*squares).sum()),
+                                "rms_curvature": numpy.sqrt((power*squares**2).sum())/min(2, len(height))}.items():
+                self.assertAlmostEqual(1.0, float(head[name])/value, delta=1e-12, msg=name)
 
     def test_the_examples_of_the_page(self):
         self.assertEqual(4, len(page_examples("python")))

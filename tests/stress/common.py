@@ -35,6 +35,7 @@ MAY_BE_MISSING = {
     "theory": "(?!load$|pbar_over_pstar$).*",
     "theory_lines": "(westergaard|dundurs|hertz|crack)_.*",
     "details": "(trough|saddle|elastic|perimeter).*",
+    "spectrum": "spectrum_[12]d",
     "stress_largest": "stress_over_yield_stress.*|.*_error",
     "stress_line": "stress_error",
     "stress_section": "stress_error",

@@ -12,14 +12,15 @@ from common import Part, complaints_about, files_below, result_complaints, run
 
 NOBODY = 65534
 DECK = ("&surface kind = 'wave_2d' /\n&load sweep_from = 0.05, sweep_to = 0.95, sweep_steps = 19 /\n"
-        "&output lines = t, map = t, contours = t, theory = t, coefficients = t, line_points = 64, map_points = 64 /\n")
+        "&output lines = t, map = t, contours = t, theory = t, coefficients = t,\n"
+        "spectrum = t, line_points = 64, map_points = 64 /\n")
 # Half a second of work, half of it writing.
 LONG_DECK = DECK.replace("sweep_steps = 19", "sweep_steps = 150").replace("map = t", "map = f")
 # To be resumed: solvers that solve each load by itself and solvers that start from the last load; with and without
 # fields.
 TO_RESUME = {
     "series": LONG_DECK,
-    "grids": DECK.replace("theory = t, coefficients = t, line_points = 64, map_points = 64", "line_points = 16, map_points = 16")
+    "grids": DECK.replace("theory = t, coefficients = t,\nspectrum = t, line_points = 64, map_points = 64", "line_points = 16, map_points = 16")
     + "&method solver = 'grid', accuracy = 1e-3 /\n",
     "expansions": "&surface kind = 'wave_2d' /\n&load sweep_from = 0.05, sweep_to = 0.95, sweep_steps = 91 /\n"
                   "&method solver = 'auto', accuracy = 1e-3 /\n",
@@ -27,7 +28,7 @@ TO_RESUME = {
              "&method solver = 'grid', accuracy = 1e-2 /\n&output contours = t /\n",
 }
 LEAST_MEGABYTES = 250  # of address space with which the program must run or report
-TABLES = ("summary", "lines", "map", "contour", "theory", "theory_lines", "coefficients")
+TABLES = ("summary", "lines", "map", "contour", "theory", "theory_lines", "coefficients", "spectrum")
 
 
 def prepare(folder, text=DECK):

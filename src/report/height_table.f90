@@ -1,0 +1,69 @@
+!> <case>.height.npy: the heights of the surface that was solved, for numpy and for kind = 'file'.
+module wavycon_height_table
+   use, intrinsic :: iso_fortran_env, only: int64
+   use wavycon_error, only: error_type
+   use wavycon_kinds, only: dp
+   use wavycon_map_table, only: map_points
+   use wavycon_npy_header, only: npy_header_of_numbers
+   use wavycon_output_file, only: output_file
+   use wavycon_plain_text, only: integer_text
+   use wavycon_results, only: results_type
+   use wavycon_series_samples, only: sample_series
+   use wavycon_system, only: has_memory_for
+   use wavycon_table, only: table_type
+   implicit none (type, external)
+   private
+
+   public :: height_table
+
+   !> Numbers for each point: the height and its spectrum.
+   integer(int64), parameter :: numbers_a_point = 2
+
+   type, extends(table_type) :: height_table
+   contains
+      procedure, nopass :: key
+      procedure, nopass :: meaning
+      procedure, nopass :: write => write_height_table
+   end type height_table
+
+contains
+
+   pure function key() result(words)
+      character(:), allocatable :: words
+
+      words = 'height'
+   end function key
+
+   pure function meaning() result(words)
+      character(:), allocatable :: words
+
+      words = "The heights that are solved, as a file of numpy that kind = 'file' reads."
+   end function meaning
+
+   !> Writes rows of heights along x, over their mean [length]: of a map at its own points, of waves at those of maps.
+   !> Errors: exit_file_trouble.
+   subroutine write_height_table(results, error)
+      type(results_type), intent(in) :: results
+      type(error_type), allocatable, intent(out) :: error
+
+      type(output_file) :: file
+      real(dp), allocatable :: height(:, :)
+      integer :: points(2)
+
+      associate (surface => results%scene%surface)
+         points = surface%points
+         if (all(points == 0)) points = map_points(results)
+         call file%open(results%scene%directory, results%scene%case//'.height.npy', binary=.true.)
+         call file%put_raw(npy_header_of_numbers([points(2), points(1)]))
+         if (.not. has_memory_for(numbers_a_point*product(int(points, int64)))) call file%note_trouble( &
+            'there is not enough memory for '//integer_text(points(1))//' x '//integer_text(points(2))//' points')
+         if (file%is_open()) then
+            call sample_series(surface%shape, points, [0.0_dp, 0.0_dp], height)
+            height = surface%amplitude*height
+            call file%put_raw(height)
+         end if
+      end associate
+      call file%finish(error)
+   end subroutine write_height_table
+
+end module wavycon_height_table
