@@ -61,14 +61,14 @@ contains
          real_key('short_wavelength', 'rolloff_wavelength/64', 'length', 'shortest wave, the short cut-off.', &
                   above=0.0_dp), &
          choice_key('spectrum', "'ideal'", &
-                    "amplitudes of the waves: 'ideal', those of the spectrum; 'random', those of a Gaussian process "// &
-                    'with this spectrum. Phases are random.', [character(6) :: 'ideal', 'random']), &
-         integer_key('seed', '1', 'of the random numbers. The surface depends on the seed and on the keys above, not '// &
-                     'on points.', 1, huge(1)), &
+            "amplitudes of the waves: 'ideal', those of the spectrum; 'random', those of a Gaussian process with "// &
+            'this spectrum. Phases are random.', [character(6) :: 'ideal', 'random']), &
+         integer_key('seed', '1', 'of the random numbers. The surface depends on the seed and on the keys above, '// &
+                     'not on points.', 1, huge(1)), &
          integer_key('points', 'from short_wavelength', &
-                     'points of the cell along x and y on which the surface is made, and solved unless &method says '// &
-                     'otherwise; one number for both, and 1 along y for a profile. The default is the least power '// &
-                     'of two with at least four points to short_wavelength, if that is not more than 8192.', &
+                     'points of the cell along x and y on which the surface is made, and solved unless &method '// &
+                     'says otherwise; one number for both, and 1 along y for a profile. The default is the least '// &
+                     'power of two with at least four points to short_wavelength, if that is not more than 8192.', &
                      1, most_points, most_values=2)]
    end function keys
 

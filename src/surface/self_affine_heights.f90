@@ -1,4 +1,4 @@
-!> The heights of a random self-affine surface. Equations (G1) to (G6) are in the README.md of this room.
+!> The heights of a random self-affine surface. Equations (G1) to (G5) are in the README.md of this room.
 module wavycon_self_affine_heights
    use, intrinsic :: iso_c_binding, only: c_associated, c_long, c_ptr
    use wavycon_constants, only: pi
