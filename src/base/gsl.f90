@@ -2,8 +2,8 @@
 !>
 !> Names, arguments and return values are the library's own.
 module wavycon_gsl
-   use, intrinsic :: iso_c_binding, only: c_double, c_funptr, c_int, c_null_funptr, c_null_ptr, c_ptr, &
-      c_size_t
+   use, intrinsic :: iso_c_binding, only: c_double, c_funptr, c_int, c_long, c_null_funptr, c_null_ptr, &
+      c_ptr, c_size_t
    implicit none (type, external)
    private
 
@@ -14,6 +14,7 @@ module wavycon_gsl
    public :: gsl_integration_qaws_table_alloc, gsl_integration_qaws_table_free, gsl_integration_qaws
    public :: gsl_integration_fixed_jacobi, gsl_integration_fixed_alloc, gsl_integration_fixed_free
    public :: gsl_integration_fixed_nodes, gsl_integration_fixed_weights
+   public :: gsl_rng_mt19937, gsl_rng_alloc, gsl_rng_set, gsl_rng_uniform, gsl_rng_free
    public :: return_gsl_errors
 
    !> A real function of one real variable, with its parameters.
@@ -24,6 +25,9 @@ module wavycon_gsl
 
    !> The weight (b-x)^alpha (x-a)^beta of a fixed rule.
    type(c_ptr), protected, bind(c, name='gsl_integration_fixed_jacobi') :: gsl_integration_fixed_jacobi
+
+   !> The generator MT19937 of random numbers (Matsumoto & Nishimura 1998), seeded as its authors did in 2002.
+   type(c_ptr), protected, bind(c, name='gsl_rng_mt19937') :: gsl_rng_mt19937
 
    interface
       !> Legendre polynomials P_0(x) .. P_lmax(x), -1 <= x <= 1; returns 0 on success.
@@ -109,6 +113,30 @@ module wavycon_gsl
          import :: c_ptr
          type(c_ptr), value :: w
       end function gsl_integration_fixed_weights
+
+      !> A generator of random numbers; a null pointer if there is not enough memory.
+      type(c_ptr) function gsl_rng_alloc(t) bind(c, name='gsl_rng_alloc')
+         import :: c_ptr
+         type(c_ptr), value :: t
+      end function gsl_rng_alloc
+
+      !> Starts a generator from a seed, 1 to 2^32 - 1.
+      subroutine gsl_rng_set(r, seed) bind(c, name='gsl_rng_set')
+         import :: c_long, c_ptr
+         type(c_ptr), value :: r
+         integer(c_long), value :: seed
+      end subroutine gsl_rng_set
+
+      !> The next number, 0 <= u < 1, of MT19937 a multiple of 2^-32.
+      real(c_double) function gsl_rng_uniform(r) bind(c, name='gsl_rng_uniform')
+         import :: c_double, c_ptr
+         type(c_ptr), value :: r
+      end function gsl_rng_uniform
+
+      subroutine gsl_rng_free(r) bind(c, name='gsl_rng_free')
+         import :: c_ptr
+         type(c_ptr), value :: r
+      end subroutine gsl_rng_free
 
       !> Turns off the error handler, which ends the program; returns the previous handler.
       type(c_funptr) function gsl_set_error_handler_off() bind(c, name='gsl_set_error_handler_off')

@@ -49,8 +49,10 @@ contains
       call essence%output%set('directory', '')
       scene%essence = resolved_deck_text(essence)
       essence = deck
-      ! A copy of the resolved deck in another directory must find the map.
-      if (allocated(scene%map)) call essence%surface_values%set('file', scene%map%path)
+      ! A copy of the resolved deck in another directory must find the map. A map that was made has no file.
+      if (allocated(scene%map)) then
+         if (scene%map%path /= '') call essence%surface_values%set('file', scene%map%path)
+      end if
       scene%resolved_deck = resolved_deck_text(essence)
    end subroutine make_scene
 

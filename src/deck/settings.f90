@@ -12,6 +12,7 @@ module wavycon_settings
    use wavycon_plain_text, only: excerpt, integer_text, is_printable, lower_case, quoted, unquoted
    use wavycon_problems, only: problem_list_type
    use wavycon_scene_group, only: longest_name, name_letters
+   use wavycon_self_affine, only: is_another_roughness => is_another_way
    use wavycon_solver_keys, only: is_another_grid => is_another_way
    use wavycon_solver_list, only: get_solvers, keys_of_solvers, solver_item
    use wavycon_stress_group, only: is_another_depth => is_another_way
@@ -138,8 +139,8 @@ contains
    end function deck_value
 
    !> Whether a setting takes the place of a key of the same group: of itself; of other ways to give the loads, the
-   !> stiffness or the depths; of accuracy or grid_points; of the keys that another kind of surface or another solver
-   !> has.
+   !> stiffness, the roughness or the depths; of accuracy or grid_points; of the keys that another kind of surface or
+   !> another solver has.
    logical function replaces(setting, key)
       type(setting_type), intent(in) :: setting
       character(*), intent(in) :: key
@@ -165,6 +166,8 @@ contains
             replaces = is_another_load(setting%key, key)
          case ('material')
             replaces = is_another_stiffness(setting%key, key)
+         case ('surface')
+            replaces = is_another_roughness(setting%key, key)
          case ('stress')
             replaces = is_another_depth(setting%key, key)
          case ('method')

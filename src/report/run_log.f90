@@ -110,7 +110,7 @@ contains
             ! A broken border is a step between two points.
             if (.not. any(scene%map%is_broken_along([1, 2]))) call show_unresolved_slopes(self, scene%roughness)
          end if
-         if (scene%has_units) call show_steep_slopes(self, scene%roughness%slope, allocated(scene%map))
+         if (scene%has_units) call show_steep_slopes(self, scene%roughness%slope, has_file(scene))
          call self%say('material  '//material_words(scene))
          call self%say('loads     '//integer_text(size(scene%target))//', '//target_words(scene%loads_by)// &
                        ' from '//short_number(minval(scene%target))//' to '//short_number(maxval(scene%target)))
@@ -185,10 +185,10 @@ contains
    end subroutine show_unresolved_slopes
 
    !> Warns of a surface that is too steep for the theory, most likely by a mistake of units.
-   subroutine show_steep_slopes(self, slope, is_map)
+   subroutine show_steep_slopes(self, slope, has_file)
       class(run_log), intent(inout) :: self
       real(dp), intent(in) :: slope     !! root mean square
-      logical, intent(in) :: is_map     !! whether the surface is a height map
+      logical, intent(in) :: has_file   !! whether the surface is a height map from a file
 
       !> The theory of small slopes is off by the order of their square, here a tenth.
       real(dp), parameter :: steepest = 0.3_dp
@@ -196,10 +196,18 @@ contains
 
       if (slope <= steepest) return
       cause = 'Are amplitudes and wavelengths in one unit?'
-      if (is_map) cause = 'Do height_scale, and the sides of the cell, suit the units of the file?'
+      if (has_file) cause = 'Do height_scale, and the sides of the cell, suit the units of the file?'
       call self%say('note: the slopes of the surface are '//short_number(slope)// &
                     ' (rms); the theory needs small ones. '//cause)
    end subroutine show_steep_slopes
+
+   !> Whether the surface is a height map from a file.
+   pure logical function has_file(scene)
+      type(scene_type), intent(in) :: scene
+
+      has_file = .false.
+      if (allocated(scene%map)) has_file = scene%map%path /= ''
+   end function has_file
 
    !> The sides of the cell, such as "2 x 3".
    pure function cell_of(surface) result(words)

@@ -4,6 +4,7 @@ module wavycon_surface_kinds
    use wavycon_height_map, only: height_map_kind
    use wavycon_hexagonal, only: hexagonal_kind
    use wavycon_key_alternatives, only: alternative_type
+   use wavycon_self_affine, only: self_affine_kind
    use wavycon_surface_kind, only: surface_kind
    use wavycon_wave_1d, only: wave_1d_kind
    use wavycon_wave_2d, only: wave_2d_kind
@@ -30,6 +31,7 @@ contains
       call add(kinds, hexagonal_kind())
       call add(kinds, wave_sum_kind())
       call add(kinds, height_map_kind())
+      call add(kinds, self_affine_kind())
    end subroutine get_surface_kinds
 
    subroutine add(kinds, kind)

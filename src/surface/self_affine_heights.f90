@@ -1,0 +1,166 @@
+!> The heights of a random self-affine surface. Equations (G1) to (G5) are in the README.md of this room.
+module wavycon_self_affine_heights
+   use, intrinsic :: iso_c_binding, only: c_associated, c_long, c_ptr
+   use wavycon_constants, only: pi
+   use wavycon_grid_transform, only: grid_transform
+   use wavycon_gsl, only: gsl_rng_alloc, gsl_rng_free, gsl_rng_mt19937, gsl_rng_set, gsl_rng_uniform, &
+      return_gsl_errors
+   use wavycon_kinds, only: dp
+   implicit none (type, external)
+   private
+
+   public :: self_affine_spectrum, least_points_of, has_waves, make_heights
+
+   !> The waves of a periodic cell and their amplitudes.
+   type :: self_affine_spectrum
+      integer :: dimension = 2                !! 1: a profile along x
+      real(dp) :: length(2) = 1.0_dp          !! L_x, L_y, sides of the cell [length], > 0; L_y is ignored in 1-D
+      real(dp) :: hurst = 0.8_dp              !! Hurst exponent H, 0 to 1
+      real(dp) :: longest = 1.0_dp            !! longest wave [length]
+      real(dp) :: rolloff = 1.0_dp            !! longer waves have the amplitude of this one [length], <= longest
+      real(dp) :: shortest = 1.0_dp           !! shortest wave [length], > 0, <= rolloff
+      real(dp) :: rms = 1.0_dp                !! root mean square of the height [length] or of the slope, > 0
+      logical :: by_slope = .false.           !! whether it is that of the slope
+      logical :: random_amplitudes = .false.  !! whether amplitudes are those of a Gaussian process, or of the spectrum
+      integer :: seed = 1                     !! >= 1
+   end type self_affine_spectrum
+
+   !> A wave whose length differs from a cut-off by rounding is within it.
+   real(dp), parameter :: rounding = 1e-12_dp
+
+contains
+
+   !> The least numbers of points along x and y on which all waves differ: more than two to a period of each.
+   pure function least_points_of(spectrum) result(points)
+      type(self_affine_spectrum), intent(in) :: spectrum
+      integer :: points(2)
+
+      points = 2*highest_waves(spectrum) + 1
+   end function least_points_of
+
+   !> The largest wave numbers along x and y that may be within the cut-offs.
+   pure function highest_waves(spectrum) result(highest)
+      type(self_affine_spectrum), intent(in) :: spectrum
+      integer :: highest(2)
+
+      !> Grids are far below this; it keeps the number an integer.
+      real(dp), parameter :: most = 1e8_dp
+
+      highest = int(min(most, spectrum%length/spectrum%shortest*(1 + rounding)))
+      if (spectrum%dimension == 1) highest(2) = 0
+   end function highest_waves
+
+   !> Whether a wave of the cell is within the cut-offs.
+   pure logical function has_waves(spectrum)
+      type(self_affine_spectrum), intent(in) :: spectrum
+
+      integer :: highest(2), m, n
+
+      highest = highest_waves(spectrum)
+      has_waves = .true.
+      do m = 0, highest(1)
+         do n = 0, highest(2)
+            if (is_within(spectrum, frequency(spectrum, m, n))) return
+         end do
+      end do
+      has_waves = .false.
+   end function has_waves
+
+   !> One over the length of a wave (G2) [1/length].
+   elemental real(dp) function frequency(spectrum, m, n)
+      type(self_affine_spectrum), intent(in) :: spectrum
+      integer, intent(in) :: m, n   !! wave numbers
+
+      frequency = hypot(m/spectrum%length(1), n/spectrum%length(2))
+   end function frequency
+
+   !> Whether a wave is within the cut-offs.
+   elemental logical function is_within(spectrum, frequency)
+      type(self_affine_spectrum), intent(in) :: spectrum
+      real(dp), intent(in) :: frequency   !! [1/length]
+
+      is_within = frequency*spectrum%longest >= 1 - rounding .and. frequency*spectrum%shortest <= 1 + rounding
+   end function is_within
+
+   !> The mean square of a wave within the cut-offs (G3), in units of that at the roll-off.
+   elemental real(dp) function mean_square(spectrum, frequency)
+      type(self_affine_spectrum), intent(in) :: spectrum
+      real(dp), intent(in) :: frequency   !! [1/length]
+
+      mean_square = max(1.0_dp, frequency*spectrum%rolloff)**(-spectrum%dimension - 2*spectrum%hurst)
+   end function mean_square
+
+   !> Makes the heights on the points of a grid of the cell (G1).
+   !>
+   !> N.B. The random numbers are drawn in the order of (G5), for waves beyond the cut-offs too: the phase of a wave
+   !> depends on the seed and its wave numbers only, and the surface does not depend on the grid.
+   subroutine make_heights(spectrum, height, is_made)
+      type(self_affine_spectrum), intent(in) :: spectrum   !! has_waves
+      !> [length], shape (M, N), N = 1 in 1-D, not below least_points_of.
+      real(dp), intent(inout), contiguous :: height(:, :)
+      logical, intent(out) :: is_made                      !! .false. if there is no memory for the generator
+
+      type(grid_transform) :: transform
+      type(c_ptr) :: generator
+      integer :: highest(2), k, m, n
+      real(dp) :: moment, of_square
+
+      call return_gsl_errors()
+      generator = gsl_rng_alloc(gsl_rng_mt19937)
+      is_made = c_associated(generator)
+      if (.not. is_made) return
+      call gsl_rng_set(generator, int(spectrum%seed, c_long))
+      call transform%start(shape(height), even=.false.)
+      transform%waves = 0.0_dp
+      highest = highest_waves(spectrum)
+      moment = 0.0_dp
+      do k = 1, maxval(highest)
+         ! Each square is summed by itself: rounding then grows with the square root of the number of waves.
+         of_square = 0.0_dp
+         if (spectrum%dimension == 1) then
+            call add_wave(k, 0)
+         else
+            do m = 0, k - 1
+               call add_wave(m, k)
+               if (m > 0) call add_wave(m, -k)
+            end do
+            do n = -k, k
+               call add_wave(k, n)
+            end do
+         end if
+         moment = moment + of_square
+      end do
+      call gsl_rng_free(generator)
+      call transform%backward(height)
+      height = spectrum%rms/sqrt(moment)*height
+
+   contains
+
+      !> Draws a wave and, if it is within the cut-offs, adds it to the spectrum and its part to the moment.
+      subroutine add_wave(m, n)
+         integer, intent(in) :: m, n   !! wave numbers, m >= 0
+
+         !> Half of the generator's step: no number is 0, and its logarithm exists.
+         real(dp), parameter :: half_step = 2.0_dp**(-33)
+         complex(dp) :: wave
+         real(dp) :: square, turn, uniform
+
+         turn = 2*pi*gsl_rng_uniform(generator)
+         uniform = gsl_rng_uniform(generator) + half_step
+         associate (f => frequency(spectrum, m, n))
+            if (any(abs([m, n]) > highest) .or. .not. is_within(spectrum, f)) return
+            square = mean_square(spectrum, f)
+            if (spectrum%random_amplitudes) square = -log(uniform)*square
+            of_square = of_square + square*merge((2*pi*f)**2, 1.0_dp, spectrum%by_slope)
+         end associate
+         ! cos(mX + nY + phase) is half the sum of two conjugate waves; the transform keeps those with m >= 0.
+         wave = sqrt(0.5_dp*square)*cmplx(cos(turn), sin(turn), dp)
+         associate (columns => size(height, 2))
+            transform%waves(m + 1, modulo(n, columns) + 1) = wave
+            if (m == 0) transform%waves(1, modulo(-n, columns) + 1) = conjg(wave)
+         end associate
+      end subroutine add_wave
+
+   end subroutine make_heights
+
+end module wavycon_self_affine_heights
