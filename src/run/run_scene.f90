@@ -199,10 +199,10 @@ contains
       unreached = count([(results%loads(i)%solution%status == not_found, i=1, size(results%loads))])
       loads = integer_text(size(results%loads))
       associate (scene => results%scene)
-         if (any(unresolved_values > 0)) call log%say('note: on the grid given errors are unknown or as large as the '// &
-            'value, of '//loads//' loads at '//integer_text(unresolved_values(1))//' in mean gap, '// &
-            integer_text(unresolved_values(2))//' in contact area, '//integer_text(unresolved_values(3))// &
-            ' in peak pressure')
+         if (any(unresolved_values > 0)) call log%say('note: unresolved on the grid given, as the error is '// &
+            'unknown or as large as the value: the mean gap at '//integer_text(unresolved_values(1))// &
+            ', the contact area at '//integer_text(unresolved_values(2))//' and the peak pressure at '// &
+            integer_text(unresolved_values(3))//' of '//loads//' loads')
          if (without_area > 0) call log%say('note: at '//integer_text(without_area)//' loads '// &
                                             results%solver%why_no_area()//', so that their contact area shows as 0')
          if (scene%loads_by == by_yield .and. .not. results%solver%has_error_estimates()) call log%say( &
