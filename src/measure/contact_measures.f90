@@ -97,14 +97,16 @@ contains
       errors = [self%mean_gap_error, self%contact_area_error, self%peak_pressure_error]
    end function errors_of_measures
 
-   !> Whether mean gap, contact area and peak pressure are larger than their error estimates.
+   !> Whether mean gap, contact area and peak pressure are exact or larger than their error estimates.
    pure function are_resolved(self)
       class(contact_measures), intent(in) :: self
       logical :: are_resolved(3)
 
-      are_resolved = [self%mean_gap_error < self%mean_gap_over_amplitude, &
-                      self%contact_area_error < self%contact_area_fraction, &
-                      self%peak_pressure_error < self%peak_pressure_over_pstar]
+      real(dp) :: errors(3), values(3)
+
+      errors = self%errors()
+      values = [self%mean_gap_over_amplitude, self%contact_area_fraction, self%peak_pressure_over_pstar]
+      are_resolved = errors < values .or. errors <= 0.0_dp
    end function are_resolved
 
    !> The measures where there is no solution: zeros with unknown errors.
