@@ -3,12 +3,14 @@
 
 usage: area_errors.py --program WAVYCON [--quick]
 
-Run it with a Python that has numpy. Surfaces whose area is known: the two-dimensional wave, by expansions; a sphere at
-light load, by Hertz, averaged over places of its centre between the points; self-affine surfaces of 128 x 128 points, by
-grids with an eighth of the step. Errors are root mean squares over the loads of a row, in percent of the area or, from
-half contact on, of the open part, each with the mean in brackets; the last column is the root mean square of the error
-estimate of the placed area in the same unit, NaN where one is unknown. `perimeter` is the number of changes from contact
-to gap over the number of points in contact or, from half contact on, of open points.
+Surfaces whose area is known: the two-dimensional wave, by expansions; a sphere at light load, by Hertz, averaged over
+places of its centre between the points; self-affine maps of 128 x 128 points, whose shortest wave has 16 to 2 of them, by
+a grid of 2048 x 2048. Errors are root mean squares over the loads of a row, in percent of the area or, from half contact
+on, of the open part, each with the mean in brackets; the last column is the root mean square of the error estimate of the
+placed area in the same unit, NaN where one is unknown. `perimeter` is the number of changes from contact to gap over the
+number of points in contact or, from half contact on, of open points.
+
+Run it with a Python that has numpy.
 """
 import argparse
 import math
@@ -29,7 +31,7 @@ WAVE_POINTS = (32, 64, 128, 256, 512)
 WAVE_LOADS = {"light": (0.01, 0.013, 0.017, 0.02, 0.025, 0.03, 0.04, 0.05),
               "medium": (0.1, 0.13, 0.17, 0.2, 0.35, 0.4, 0.5, 0.6), "heavy": (0.8, 0.83, 0.86, 0.9, 0.93, 0.95, 0.97)}
 SPHERE_POINTS, SPHERE_RADII, SPHERE_PLACES = 256, (1.5, 2, 4, 8, 16), 12   # radii of contact in steps
-ROUGH_POINTS, ROUGH_CUTOFFS, ROUGH_FINER = 128, (16, 8, 4, 2), 8
+ROUGH_POINTS, ROUGH_CUTOFFS, ROUGH_FINER = 128, (16, 8, 4, 2), 16
 ROUGH_AREAS = (0.01, 0.05, 0.2, 0.5, 0.8, 0.95)
 
 
@@ -105,11 +107,12 @@ def rough(runs, quick):
         surface = "kind = 'file', file = 'map.dat', length_x = 1, length_y = 1"
         finest = ROUGH_POINTS*(ROUGH_FINER//2 if quick else ROUGH_FINER)
         truth = runs.summary(surface, f"solver = 'grid', grid_points = {finest}", loads, heights)
-        for points in (ROUGH_POINTS, 2*ROUGH_POINTS):
+        area = truth["contact_area_fraction"]
+        for points in (ROUGH_POINTS, 2*ROUGH_POINTS, finest):
             found = runs.summary(surface, f"solver = 'grid', grid_points = {points}", loads, heights)
-            for k, area in enumerate(truth["contact_area_fraction"]):
-                row(f"rough, {cutoff} to 1", points, f"area {100*area:.3g} %", {name: values[k:k + 1] for name, values
-                                                                          in found.items()}, truth["contact_area_fraction"][k:k + 1])
+            for k in range(len(loads)):
+                one = {name: values[k:k + 1] for name, values in found.items()}
+                row(f"rough, {cutoff} to 1", points, f"area {100*area[k]:.3g} %", one, area[k:k + 1])
 
 
 def main():

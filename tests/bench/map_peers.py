@@ -129,8 +129,8 @@ def compare(programs, heights, load, expected):
         differences[code] = numpy.nan
         if found is not None:
             differences[code] = abs(found - expected).max()/expected.max()
-        words.append(f"{differences[code]:>10.1e} {residual:>8.1e} {'' if status == 'good' else status:<11}")
-    return differences, " ".join(words)
+        words.append(f"{differences[code]:>10.1e} {residual:>8.1e} {status:<11}")
+    return differences, " ".join(words).rstrip()
 
 
 def small_maps(programs, quick):
