@@ -21,7 +21,7 @@ module wavycon_contact_solution
    public :: pack_common, unpack_common
 
    !> Size of the array that pack_common makes.
-   integer, parameter, public :: packed_values = 14
+   integer, parameter, public :: packed_values = 16
 
    !> Error of the stresses under a series that is known exactly, over the peak pressure.
    real(dp), parameter :: rounding = 1e-14_dp
@@ -101,9 +101,7 @@ contains
    pure real(dp) function largest_error(self)
       class(contact_solution), intent(in) :: self
 
-      associate (measures => self%measures)
-         largest_error = max(measures%mean_gap_error, measures%contact_area_error, measures%peak_pressure_error)
-      end associate
+      largest_error = maxval(self%measures%errors())
    end function largest_error
 
    !> p/p* as the Fourier series in X and Y that the solver computed; series%c is not allocated if it computed none.
@@ -145,7 +143,8 @@ contains
                    measures%contact_area_fraction, measures%peak_pressure_over_pstar, &
                    measures%min_pressure_over_pstar, measures%mean_gap_error, measures%contact_area_error, &
                    measures%peak_pressure_error, measures%area_at_hardness_fraction, &
-                   measures%load_at_hardness_fraction, &
+                   measures%load_at_hardness_fraction, measures%contact_area_counted_fraction, &
+                   measures%contact_area_corrected_fraction, &
                    real([self%active_constraints, self%iterations], dp), self%residual]
       end associate
    end subroutine pack_common
@@ -160,23 +159,22 @@ contains
       if (.not. understood) return
       self%pbar_over_pstar = values(1)
       self%measures = contact_measures(values(2), values(3), values(4), values(5), values(6), values(7), values(8), &
-                                       values(9), values(10), values(11))
-      self%active_constraints = nint(values(12))
-      self%iterations = nint(values(13))
-      self%residual = values(14)
+                                       values(9), values(10), values(11), values(12), values(13))
+      self%active_constraints = nint(values(14))
+      self%iterations = nint(values(15))
+      self%residual = values(16)
    end subroutine unpack_common
 
-   !> Makes the solution that stands for a failure: fields of NaN, no edge, and the largest possible error estimates.
-   subroutine no_solution(pbar_over_pstar, surface, solver, status, solution)
+   !> Makes the solution that stands for a failure: fields of NaN, no edge, and unknown errors.
+   subroutine no_solution(pbar_over_pstar, solver, status, solution)
       real(dp), intent(in) :: pbar_over_pstar        !! P
-      type(surface_type), intent(in) :: surface
       character(*), intent(in) :: solver             !! name of the solver that failed
       character(*), intent(in) :: status             !! why: a name of wavycon_contact_status
       class(contact_solution), allocatable, intent(out) :: solution
 
       allocate (solution_without_contact_edge :: solution)
       solution%pbar_over_pstar = pbar_over_pstar
-      solution%measures = unmeasured(surface%full_contact_peak)
+      solution%measures = unmeasured()
       solution%solver = solver
       solution%status = status
    end subroutine no_solution

@@ -149,14 +149,14 @@ contains
       ! Comparisons with a NaN raise an exception, which Debug builds trap.
       is_number = .not. ieee_is_nan(pbar_over_pstar)
       if (.not. has_surface(self)) then
-         call no_solution(pbar_over_pstar, self%surface, self%name(), not_found, solution)
+         call no_solution(pbar_over_pstar, self%name(), not_found, solution)
          return
       end if
       if (is_number) then
          is_partial = pbar_over_pstar > 0.0_dp .and. pbar_over_pstar < 1.0_dp
          if (self%surface%has_hardness()) then
             if (pbar_over_pstar >= self%surface%hardness) then
-               call no_solution(pbar_over_pstar, self%surface, 'none', above_hardness, solution)
+               call no_solution(pbar_over_pstar, 'none', above_hardness, solution)
                return
             end if
             is_partial = pbar_over_pstar > 0.0_dp .and. &

@@ -12,6 +12,9 @@ module wavycon_contact_status
    !> form; the contact is full; there is no load.
    character(*), parameter, public :: converged = 'converged', closed_form = 'closed_form', &
                                       full_contact = 'full_contact', no_load = 'no_load'
+   !> Good as well: the equations are solved on the grid that was asked for, without an accuracy, but the error estimate
+   !> of mean gap, contact area or peak pressure is unknown or as large as the value.
+   character(*), parameter, public :: unresolved = 'unresolved'
    !> The load is NaN.
    character(*), parameter, public :: not_finite = 'not_finite'
    !> The error estimate exceeds the accuracy requested.
@@ -25,12 +28,12 @@ module wavycon_contact_status
 
 contains
 
-   !> Whether the numbers of a solution with this status are as accurate as requested.
+   !> Whether a solution with this status is what was requested.
    elemental logical function is_good_status(status)
       character(*), intent(in) :: status
 
       is_good_status = status == converged .or. status == closed_form .or. status == full_contact .or. &
-                       status == no_load
+                       status == no_load .or. status == unresolved
    end function is_good_status
 
    !> The number of a status, for tables: below 10 if the status is good.
@@ -46,6 +49,8 @@ contains
          status_code = 2
       case (no_load)
          status_code = 3
+      case (unresolved)
+         status_code = 4
       case (not_accurate)
          status_code = 10
       case (not_found)

@@ -3,6 +3,7 @@
 !> Equation (C18) of README.md in this directory: with t the area or 1 - G, the secant method solves logit t(P) =
 !> logit t for logit P, where logit x = ln(x/(1 - x)). The two logits are nearly a straight line against each other.
 module wavycon_find_load
+   use wavycon_contact_measures, only: is_known
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver
    use wavycon_contact_status, only: not_accurate
@@ -104,8 +105,8 @@ contains
          search%logit_p = next
       end do
       ! The area on a grid jumps as points enter the contact: the target may lie within a jump. This is good enough if
-      ! the distance is within the error estimate. An estimate of 1 is the largest error possible and proves nothing.
-      if (abs(met - search%target) <= error .and. error < 1.0_dp) return
+      ! the distance is within the error estimate. An unknown error proves nothing.
+      if (abs(met - search%target) <= error .and. is_known(error)) return
       if (solution%is_good()) solution%status = not_accurate
    end subroutine find_root
 

@@ -5,6 +5,7 @@
 !> first one r may fall again.
 module wavycon_find_yield
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use wavycon_contact_measures, only: unknown
    use wavycon_contact_solution, only: contact_solution, no_solution
    use wavycon_contact_solver, only: contact_solver
    use wavycon_contact_status, only: not_accurate, not_found
@@ -107,7 +108,7 @@ contains
          end if
          log_p = next
       end do
-      call no_solution(exp(at_largest), solver%surface, solver%name(), not_found, solution)
+      call no_solution(exp(at_largest), solver%name(), not_found, solution)
    end subroutine find_root
 
    !> ln of the largest stress over the target, and its error estimate. NaN if the load has no solution.
@@ -127,7 +128,8 @@ contains
       if (.not. ieee_is_finite(ratio)) return
       miss = log(ratio) - log_target
       error = error/ratio
-      if (.not. ieee_is_finite(error)) error = 0.0_dp
+      ! Without estimates there is nothing to compare with; an estimate that is unknown meets no accuracy.
+      if (.not. ieee_is_finite(error)) error = merge(unknown, 0.0_dp, solver%has_error_estimates())
    end subroutine find_miss
 
 end module wavycon_find_yield

@@ -1,7 +1,7 @@
 !> solver = 'fitted': contact by expansions fitted to the edge of contact. Their accuracy is limited by rounding, not
 !> by a grid.
 module wavycon_fitted_contact
-   use wavycon_contact_measures, only: contact_measures
+   use wavycon_contact_measures, only: contact_measures, known_errors
    use wavycon_contact_solution, only: contact_solution, no_solution
    use wavycon_contact_solver, only: contact_solver
    use wavycon_contact_status, only: converged, not_accurate, not_found
@@ -114,6 +114,7 @@ contains
       real(dp), intent(in) :: pbar_over_pstar
       class(contact_solution), allocatable, intent(out) :: solution
 
+      real(dp) :: errors(3)
       type(fitted_answer) :: answer
       type(fitted_solution), allocatable :: own
 
@@ -124,11 +125,13 @@ contains
                            self%accuracy/(1.0_dp + self%surface%full_contact_peak), answer, self%last, self%keep_fields)
       end if
       if (answer%status /= fitted_solved .and. answer%status /= fitted_less_exact) then
-         call no_solution(pbar_over_pstar, self%surface, solver_name, not_found, solution)
+         call no_solution(pbar_over_pstar, solver_name, not_found, solution)
          return
       end if
       self%last = answer
       allocate (own)
+      errors = known_errors([answer%mean_gap_error, answer%area_error, answer%peak_error*self%frame%pressure_unit], &
+                            self%surface%full_contact_peak)
       own%pbar_over_pstar = pbar_over_pstar
       own%solver = solver_name
       own%measures = contact_measures(mean_gap_over_amplitude=answer%mean_gap, &
@@ -136,9 +139,8 @@ contains
                                       contact_area_fraction=answer%area_fraction, &
                                       peak_pressure_over_pstar=answer%peak_pressure*self%frame%pressure_unit, &
                                       min_pressure_over_pstar=0.0_dp, &
-                                      mean_gap_error=answer%mean_gap_error, &
-                                      contact_area_error=answer%area_error, &
-                                      peak_pressure_error=answer%peak_error*self%frame%pressure_unit)
+                                      mean_gap_error=errors(1), contact_area_error=errors(2), &
+                                      peak_pressure_error=errors(3))
       own%iterations = answer%iterations
       own%residual = answer%residual
       own%status = not_accurate

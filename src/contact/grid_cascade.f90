@@ -5,8 +5,9 @@
 !> Numbers (C..) are the equations of README.md in this directory.
 module wavycon_grid_cascade
    use wavycon_compliance_operator, only: compliance_operator
-   use wavycon_contact_measures, only: largest_errors
+   use wavycon_contact_measures, only: known_errors, unknown
    use wavycon_contact_tuning, only: iteration_limit
+   use wavycon_counted_area, only: corrected_area_fraction, counted_area_fraction
    use wavycon_grid_edge, only: grid_contact_area, grid_edge, pressure_per_gap, start_grid_edge
    use wavycon_grid_error, only: change_history, estimate_errors, unresolved_errors
    use wavycon_grid_peak, only: grid_peak_pressure
@@ -27,9 +28,10 @@ module wavycon_grid_cascade
    type :: cascade_answer
       type(grid_state) :: state            !! on the finest grid; gap not allocated if the first did not fit into memory
       real(dp) :: values(3) = 0.0_dp       !! mean gap [Delta], contact area fraction, peak pressure [p*]
-      !> Their error estimates, in the same units, at most `largest_errors`. That of the area holds for
-      !> `area_at_hardness` too.
-      real(dp) :: errors(3) = huge(1.0_dp)
+      !> Their error estimates, in the same units, or `unknown`. That of the area holds for `area_at_hardness` too.
+      real(dp) :: errors(3) = unknown
+      !> The area by the number of points in contact, and in 2-D corrected by (C26), otherwise `unknown`.
+      real(dp) :: counted_area = unknown, corrected_area = unknown
       real(dp) :: area_at_hardness = 0.0_dp  !! fraction of the area at which p = H
       logical :: accurate = .false.        !! whether all error estimates are within the accuracy
       logical :: out_of_memory = .false.   !! whether a grid was needed that does not fit into memory
@@ -89,7 +91,7 @@ contains
          call move_alloc(finer, answer%state%pressure)
          deallocate (answer%state%gap)
       end do
-      answer%errors = min(answer%errors, largest_errors(surface%full_contact_peak))
+      answer%errors = known_errors(answer%errors, surface%full_contact_peak)
    end subroutine solve_by_cascade
 
    !> Solves on one grid, that of answer%state%pressure, and starts from that pressure.
@@ -146,6 +148,8 @@ contains
       call start_grid_edge(edge, answer%state%pressure, answer%state%gap, surface%shape%is_even(), &
                            pressure_per_gap(surface, shape(answer%state%gap)))
       answer%values(:2) = [answer%state%open_gap(), grid_contact_area(edge)]
+      answer%counted_area = counted_area_fraction(edge)
+      if (surface%dimension == 2) answer%corrected_area = corrected_area_fraction(edge)
       call grid_peak_pressure(edge, answer%values(3), peak_resolved)
       peak_resolved = peak_resolved .or. answer%values(3) >= surface%hardness
       answer%values(3) = min(answer%values(3), surface%hardness)

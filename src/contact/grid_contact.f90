@@ -7,10 +7,10 @@ module wavycon_grid_contact
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_constants, only: pi
    use wavycon_contact_fields, only: contact_fields
-   use wavycon_contact_measures, only: contact_measures
+   use wavycon_contact_measures, only: contact_measures, or_nan
    use wavycon_contact_solution, only: contact_solution, no_solution, pack_common, packed_values, unpack_common
    use wavycon_contact_solver, only: contact_solver
-   use wavycon_contact_status, only: converged, no_memory, not_accurate
+   use wavycon_contact_status, only: converged, no_memory, not_accurate, unresolved
    use wavycon_contact_tuning, only: least_search_points, worst_search_accuracy
    use wavycon_edge_curves, only: edge_curve, shift_curve, strip_ends, trace_edges, turn_curves, whole_strips
    use wavycon_grid_cascade, only: cascade_answer, solve_by_cascade
@@ -183,7 +183,7 @@ contains
          end if
       end associate
       if (.not. allocated(answer%state%gap)) then
-         call no_solution(pbar_over_pstar, self%surface, solver_name, no_memory, solution)
+         call no_solution(pbar_over_pstar, solver_name, no_memory, solution)
          return
       end if
       allocate (own)
@@ -197,7 +197,9 @@ contains
                                       min_pressure_over_pstar=minval(answer%state%pressure), &
                                       mean_gap_error=answer%errors(1), contact_area_error=answer%errors(2), &
                                       peak_pressure_error=answer%errors(3), &
-                                      area_at_hardness_fraction=answer%area_at_hardness)
+                                      area_at_hardness_fraction=answer%area_at_hardness, &
+                                      contact_area_counted_fraction=answer%counted_area, &
+                                      contact_area_corrected_fraction=answer%corrected_area)
       if (self%surface%has_hardness()) own%measures%load_at_hardness_fraction = &
          answer%area_at_hardness*self%surface%hardness/pbar_over_pstar
       own%imprint = answer%state%imprint
@@ -207,12 +209,16 @@ contains
       own%residual = answer%state%residual
       if (.not. answer%state%converged) then
          own%status = qp_status_name(qp_iteration_limit)
-      else if (answer%accurate .or. (all(self%points > 0) .and. .not. answer%out_of_memory)) then
+      else if (answer%accurate) then
          own%status = converged
       else if (answer%out_of_memory) then
          own%status = no_memory
-      else
+      else if (any(self%points == 0)) then
          own%status = not_accurate
+      else if (all(own%measures%are_resolved())) then
+         own%status = converged
+      else
+         own%status = unresolved
       end if
       if (self%keep_fields) then
          allocate (own%edge)
@@ -262,7 +268,8 @@ contains
    end subroutine edge_curves
 
    !> Of the series that interpolates the pressures at the points. Its error is that of the peak pressure and the part
-   !> of the series' last octave. Without the memory for the series there are no stresses.
+   !> of the series' last octave, or unknown as that of the peak is. Without the memory for the series there are no
+   !> stresses.
    subroutine stresses(self, surface, answer)
       class(grid_solution), intent(in) :: self
       type(surface_type), intent(in) :: surface
@@ -287,6 +294,7 @@ contains
       ! If all points are in contact below full contact, they miss a gap; with it closed the pressure there is P - 1.
       error = self%measures%peak_pressure_error
       if (all(values > 0.0_dp)) error = max(error, 1.0_dp - self%pbar_over_pstar)
+      error = or_nan(error)
       call transform%start(shape(values), self%edge%even)
       call transform%series(values, pressure)
       deallocate (values)

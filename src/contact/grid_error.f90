@@ -6,8 +6,10 @@
 !> is a bound.
 module wavycon_grid_error
    use wavycon_constants, only: pi
+   use wavycon_contact_measures, only: unknown
    use wavycon_contact_tuning, only: area_kept_change, area_safety, edge_bias, edge_scatter, gap_safety, &
       kept_change, least_of_area, opening_ratio, peak_safety, unresolved_width
+   use wavycon_counted_area, only: edge_crossings
    use wavycon_grid_edge, only: grid_edge
    use wavycon_kinds, only: dp
    use wavycon_surface, only: surface_type
@@ -16,11 +18,8 @@ module wavycon_grid_error
 
    public :: change_history, estimate_errors, implied_errors, unresolved_errors
 
-   !> Stands for the values of grids that do not exist yet. It is so large that estimates from fewer than three grids
-   !> exceed every accuracy.
-   real(dp), parameter :: unknown = 1e30_dp
-
-   !> Mean gap, contact area and peak pressure on the last grid, and their last two changes.
+   !> Mean gap, contact area and peak pressure on the last grid, and their last two changes: of fewer than three grids
+   !> estimates are unknown.
    type :: change_history
       real(dp) :: values(3) = unknown
       real(dp) :: change(3) = unknown
@@ -85,22 +84,12 @@ contains
             open_part = max(1, possible_openings(edge))/real(points, dp)
             errors = [open_part**2, open_part, open_part**2]
          else
-            crossings = count_crossings(edge)
+            crossings = edge_crossings(edge)
             errors = [0.0_dp, max(edge_scatter*sqrt(real(crossings, dp)), edge_bias*crossings)/points, 0.0_dp]
             if (.not. peak_resolved) errors(3) = unresolved_peak(surface, edge)
          end if
       end associate
    end function unresolved_errors
-
-   !> Number of pairs of neighbouring points between which the edge of contact lies, q of (C15).
-   pure integer function count_crossings(edge) result(crossings)
-      type(grid_edge), intent(in) :: edge
-
-      associate (field => edge%pressure_or_gap, m => size(edge%pressure_or_gap, 1), n => size(edge%pressure_or_gap, 2))
-         crossings = count((field(:m - 1, :) > 0.0_dp) .neqv. (field(2:, :) > 0.0_dp)) &
-                     + count((field(:, :n - 1) > 0.0_dp) .neqv. (field(:, 2:) > 0.0_dp))
-      end associate
-   end function count_crossings
 
    !> Number of points in contact whose pressure is so far below that of a neighbour that a gap may lie beside them, o
    !> of (C15).

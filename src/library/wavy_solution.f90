@@ -7,11 +7,13 @@ module wavycon_wavy_solution
    use wavycon_constants, only: pi
    use wavycon_contact_details, only: contact_details
    use wavycon_contact_fields, only: contact_fields
+   use wavycon_contact_measures, only: or_nan
    use wavycon_contact_solution, only: contact_solution, solution_without_contact_edge
    use wavycon_contact_status, only: not_found, status_code
    use wavycon_edge_curves, only: edge_curve
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, exit_fine, exit_not_converged, fatal_error
    use wavycon_kinds, only: dp
+   use wavycon_linear_area, only: linear_area_fraction
    use wavycon_plain_text, only: integer_text
    use wavycon_solution_stress, only: solution_stress, wavy_largest_stress
    use wavycon_surface, only: surface_type
@@ -27,8 +29,8 @@ module wavycon_wavy_solution
    !> Numbers of double precision that a map takes a point: fields or stresses, the work space of transforms and copies.
    integer(int64), parameter :: numbers_of_fields = 8, numbers_of_stresses = 28
 
-   !> The numbers of a load, named as the columns of the summary table. Errors are estimates; NaN if the solver has
-   !> none.
+   !> The numbers of a load, named as the columns of the summary table. Errors are estimates, NaN if unknown or if the
+   !> solver has none.
    type, bind(c) :: wavy_measures
       real(c_double) :: pbar_over_pstar = 0.0_dp
       real(c_double) :: mean_gap_over_amplitude = 0.0_dp
@@ -49,7 +51,10 @@ module wavycon_wavy_solution
       real(c_double) :: residual = 0.0_dp           !! relative, as each solver defines it
       integer(c_int) :: active_constraints = 0
       integer(c_int) :: iterations = 0
-      integer(c_int) :: status_code = 0             !! below 10: as accurate as requested
+      integer(c_int) :: status_code = 0             !! below 10: as requested
+      real(c_double) :: contact_area_counted_fraction = 0.0_dp     !! points of the grid in contact; NaN without a grid
+      real(c_double) :: contact_area_corrected_fraction = 0.0_dp   !! by Yastrebov; NaN without a grid and of profiles
+      real(c_double) :: linear_area_fraction = 0.0_dp   !! 2 pbar/(E* rms slope); NaN if the surface is no height map
    end type wavy_measures
 
    !> A part of the edge of contact. In 2-D a closed polygon with the contact on its left, whose last point is the first
@@ -108,7 +113,7 @@ contains
       associate (measures => from%measures)
          if (surface%has_hardness()) &
             at_hardness = [measures%area_at_hardness_fraction, measures%load_at_hardness_fraction]
-         if (has_errors) errors = [measures%mean_gap_error, measures%contact_area_error, measures%peak_pressure_error]
+         if (has_errors) errors = or_nan(measures%errors())
          ! On a flat surface, whose p* is 0, the pressure is uniform.
          peak = mean_pressure
          if (p_star > 0.0_dp) peak = p_star*measures%peak_pressure_over_pstar
@@ -119,7 +124,9 @@ contains
             surface%amplitude*measures%mean_gap_over_amplitude, &
             surface%amplitude*measures%approach_over_amplitude, &
             product(surface%length(:surface%dimension))*measures%contact_area_fraction, peak, from%residual, &
-            int(from%active_constraints, c_int), int(from%iterations, c_int), int(status_code(from%status), c_int))
+            int(from%active_constraints, c_int), int(from%iterations, c_int), int(status_code(from%status), c_int), &
+            or_nan(measures%contact_area_counted_fraction), or_nan(measures%contact_area_corrected_fraction), &
+            or_nan(linear_area_fraction(surface, from%pbar_over_pstar)))
       end associate
       solution%length = surface%length
       solution%amplitude = surface%amplitude

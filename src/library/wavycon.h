@@ -36,12 +36,13 @@ typedef struct wavycon_solution_object *wavycon_solution;
 /* Codes of errors. */
 enum { WAVYCON_FINE = 0, WAVYCON_BAD_INPUT = 1, WAVYCON_FILE_TROUBLE = 3 };
 
-/* Statuses of solutions. Below 10 the numbers are as accurate as requested. */
+/* Statuses of solutions. Below 10 the load is solved as requested. */
 enum {
     WAVYCON_CONVERGED = 0,
     WAVYCON_CLOSED_FORM = 1,
     WAVYCON_FULL_CONTACT = 2,
     WAVYCON_NO_LOAD = 3,
+    WAVYCON_UNRESOLVED = 4, /* on the grid given, but an error is unknown or as large as the value */
     WAVYCON_NOT_ACCURATE = 10, /* the error estimates exceed the accuracy */
     WAVYCON_NOT_FOUND = 11,    /* the solver has no solution for this load */
     WAVYCON_NO_MEMORY = 12,    /* for the grid that is needed; the numbers are those of a coarser one */
@@ -73,6 +74,9 @@ typedef struct wavycon_measures {
     int active_constraints;
     int iterations;
     int status_code;
+    double contact_area_counted_fraction;   /* points of the grid in contact over all; NaN without a grid */
+    double contact_area_corrected_fraction; /* the same by Yastrebov; NaN without a grid and of profiles */
+    double linear_area_fraction;            /* 2 pbar/(E* rms slope); NaN if the surface is no height map */
 } wavycon_measures;
 
 /* What the normalised numbers refer to. */

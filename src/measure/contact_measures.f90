@@ -1,5 +1,6 @@
 !> The numbers of a solution's summary: mean gap, contact area and extreme pressures.
 module wavycon_contact_measures
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use wavycon_constants, only: pi
    use wavycon_fourier_series, only: fourier_series
    use wavycon_isobar_grid, only: isobar_grid, start_isobar_grid
@@ -8,8 +9,12 @@ module wavycon_contact_measures
    implicit none (type, external)
    private
 
-   public :: contact_measures, full_contact_measures, largest_errors, measure_series, measuring_intervals, &
-      unmeasured
+   public :: contact_measures, full_contact_measures, is_known, known_errors, measure_series, measuring_intervals, &
+      or_nan, unmeasured
+
+   !> Stands for a number that is not known, and exceeds every accuracy. Not NaN, whose comparisons Debug builds trap:
+   !> `or_nan` makes it NaN for the user. Its powers in estimates of errors are finite.
+   real(dp), parameter, public :: unknown = 1e30_dp
 
    type :: contact_measures
       real(dp) :: mean_gap_over_amplitude = 1.0_dp       !! G: eqs. (19), (28)
@@ -19,13 +24,20 @@ module wavycon_contact_measures
       real(dp) :: contact_area_fraction = 0.0_dp         !! of the nominal area; 1 by definition from P = 1 on
       real(dp) :: peak_pressure_over_pstar = 0.0_dp      !! largest
       real(dp) :: min_pressure_over_pstar = 0.0_dp       !! smallest; negative between the points of a series
-      real(dp) :: mean_gap_error = 0.0_dp                !! error estimate of the mean gap, in its unit
+      real(dp) :: mean_gap_error = 0.0_dp                !! error estimate of the mean gap, in its unit, or `unknown`
       real(dp) :: contact_area_error = 0.0_dp            !! likewise of the contact area
       real(dp) :: peak_pressure_error = 0.0_dp           !! likewise of the peak pressure
       !> Where the pressure is the hardness: fraction of the nominal area, and of the load. With a hardness
       !> contact_area_error holds for this area too.
       real(dp) :: area_at_hardness_fraction = 0.0_dp
       real(dp) :: load_at_hardness_fraction = 0.0_dp
+      !> On a grid: the points in contact over all points, and this area corrected by (C26) of src/contact/README.md,
+      !> which is for surfaces alone. Otherwise `unknown`.
+      real(dp) :: contact_area_counted_fraction = unknown
+      real(dp) :: contact_area_corrected_fraction = unknown
+   contains
+      procedure :: errors => errors_of_measures
+      procedure :: are_resolved
    end type contact_measures
 
    !> Grid intervals on half a wavelength for areas and extremes: so many a harmonic, and at least so many.
@@ -51,24 +63,55 @@ contains
                                   min_pressure_over_pstar=pbar_over_pstar - 1.0_dp)
    end function full_contact_measures
 
-   !> The largest errors that mean gap [Delta], contact area fraction and peak pressure [p*] can have, given where there
-   !> is no estimate: the values lie between zero and one, the peak below that of just full contact.
-   pure function largest_errors(largest) result(errors)
+   !> Whether a number is not `unknown`.
+   elemental logical function is_known(number)
+      real(dp), intent(in) :: number
+
+      is_known = number < unknown
+   end function is_known
+
+   !> A number for the user: NaN if it is unknown.
+   elemental real(dp) function or_nan(number)
+      real(dp), intent(in) :: number
+
+      or_nan = number
+      if (.not. is_known(number)) or_nan = ieee_value(1.0_dp, ieee_quiet_nan)
+   end function or_nan
+
+   !> Error estimates of mean gap [Delta], contact area fraction and peak pressure [p*], unknown where an estimate is no
+   !> smaller than the largest error that the value can have, and so says nothing: gap and area lie between zero and one,
+   !> the peak is below that of just full contact.
+   pure function known_errors(estimates, largest) result(errors)
+      real(dp), intent(in) :: estimates(3)
       real(dp), intent(in) :: largest   !! p - P in full contact [p*], of the waves of the paper 1
       real(dp) :: errors(3)
 
-      errors = [1.0_dp, 1.0_dp, 1.0_dp + largest]
-   end function largest_errors
+      errors = merge(estimates, unknown, estimates < [1.0_dp, 1.0_dp, 1.0_dp + largest])
+   end function known_errors
 
-   !> The measures where there is no solution: zeros with the largest errors.
-   pure type(contact_measures) function unmeasured(largest) result(measures)
-      real(dp), intent(in) :: largest   !! as of largest_errors
-
+   !> The error estimates of mean gap [Delta], contact area fraction and peak pressure [p*].
+   pure function errors_of_measures(self) result(errors)
+      class(contact_measures), intent(in) :: self
       real(dp) :: errors(3)
 
-      errors = largest_errors(largest)
-      measures = contact_measures(mean_gap_error=errors(1), contact_area_error=errors(2), &
-                                  peak_pressure_error=errors(3))
+      errors = [self%mean_gap_error, self%contact_area_error, self%peak_pressure_error]
+   end function errors_of_measures
+
+   !> Whether mean gap, contact area and peak pressure are exact or larger than their error estimates.
+   pure function are_resolved(self)
+      class(contact_measures), intent(in) :: self
+      logical :: are_resolved(3)
+
+      real(dp) :: errors(3), values(3)
+
+      errors = self%errors()
+      values = [self%mean_gap_over_amplitude, self%contact_area_fraction, self%peak_pressure_over_pstar]
+      are_resolved = errors < values .or. errors <= 0.0_dp
+   end function are_resolved
+
+   !> The measures where there is no solution: zeros with unknown errors.
+   pure type(contact_measures) function unmeasured() result(measures)
+      measures = contact_measures(mean_gap_error=unknown, contact_area_error=unknown, peak_pressure_error=unknown)
    end function unmeasured
 
    !> Measures the series of a pressure and its displacement, eqs. (19), (28) of Johnson, Greenwood & Higginson (1985).

@@ -22,7 +22,7 @@ module wavycon_checkpoint
 
    public :: checkpoint_file, checkpoint_name, read_checkpoint
 
-   character(*), parameter :: mark = 'wavycon checkpoint 2'//newline
+   character(*), parameter :: mark = 'wavycon checkpoint 3'//newline
    integer, parameter :: bytes_of_word = 8
    !> End of all messages about a checkpoint that cannot be used.
    character(*), parameter :: way_out = '. Without --resume all loads are solved, and the checkpoint is replaced.'

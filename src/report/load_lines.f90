@@ -1,10 +1,12 @@
 !> The lines of the log that show the solved loads.
 !>
 !> Mean gap, area and peak pressure, each followed by its error estimate if the solver has them; mean and peak pressure
-!> in the deck's unit if the deck gives a modulus. No line is longer than 120 characters.
+!> in the deck's unit if the deck gives a modulus. An error that is unknown shows as '-'. No line is longer than 120
+!> characters.
 module wavycon_load_lines
+   use wavycon_contact_measures, only: or_nan
    use wavycon_kinds, only: dp
-   use wavycon_log_columns, only: at_left, at_right, cell, error_width, load_width, width, with_exponent, with_unit
+   use wavycon_log_columns, only: at_left, at_right, cell, error_cell, error_width, load_width, width, with_unit
    use wavycon_results, only: results_type
    implicit none (type, external)
    private
@@ -61,7 +63,7 @@ contains
          character(:), allocatable :: text
 
          text = ''
-         if (results%solver%has_error_estimates()) text = at_right(with_exponent(number, 1), error_width)
+         if (results%solver%has_error_estimates()) text = error_cell(or_nan(number))
       end function error
 
    end function line_of_load

@@ -5,7 +5,7 @@ module wavycon_log_columns
    implicit none (type, external)
    private
 
-   public :: at_left, at_right, cell, with_exponent, with_unit
+   public :: at_left, at_right, cell, error_cell, with_exponent, with_unit
 
    !> Characters of the columns of P, of values, and of errors.
    integer, parameter, public :: load_width = 10, width = 12, error_width = 8
@@ -31,6 +31,18 @@ contains
          text = at_right(with_exponent(number, min(4, width - 7)), width)
       end if
    end function cell
+
+   !> An error estimate at the right of its column: '-' for NaN, an error that is unknown.
+   pure function error_cell(error) result(text)
+      real(dp), intent(in) :: error
+      character(:), allocatable :: text
+
+      if (ieee_is_nan(error)) then
+         text = at_right('-', error_width)
+      else
+         text = at_right(with_exponent(error, 1), error_width)
+      end if
+   end function error_cell
 
    !> A number as 1.2345E+06, or as 1.2345E+249 if the exponent has three digits: there Fortran's `es` without an
    !> exponent width would omit the E.

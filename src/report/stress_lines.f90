@@ -6,7 +6,7 @@
 module wavycon_stress_lines
    use wavycon_constants, only: pi
    use wavycon_kinds, only: dp
-   use wavycon_log_columns, only: at_right, cell, error_width, load_width, width, with_exponent, with_unit
+   use wavycon_log_columns, only: at_right, cell, error_cell, error_width, load_width, width, with_unit
    use wavycon_results, only: results_type
    implicit none (type, external)
    private
@@ -41,9 +41,9 @@ contains
          line = cell(results%loads(load)%solution%pbar_over_pstar, load_width)
          if (scene%gives_modulus) line = line//cell(results%mean_pressure(load), width)
          line = line//at_right(achar(iachar('0') + body), body_width)// &
-                cell(yielding%value, width)//at_right(with_exponent(yielding%error, 1), error_width)// &
+                cell(yielding%value, width)//error_cell(yielding%error)// &
                 cell(yielding%place(3)/(2*pi), width)// &
-                cell(shear%value, width)//at_right(with_exponent(shear%error, 1), error_width)
+                cell(shear%value, width)//error_cell(shear%error)
          if (scene%gives_modulus) line = line//cell(scene%p_star*yielding%value, width)
          if (has_yield_stress(results)) &
             line = line//cell(scene%stress_setting%over_yield_stress(body, yielding%value, shear%value), width)

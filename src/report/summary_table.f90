@@ -1,8 +1,10 @@
 !> <case>.summary.dat: mean gap, contact area, pressures, iterations, residual and status, a line for each load.
 module wavycon_summary_table
+   use wavycon_contact_measures, only: or_nan
    use wavycon_contact_status, only: status_code
    use wavycon_error, only: error_type
    use wavycon_kinds, only: dp
+   use wavycon_linear_area, only: linear_area_fraction
    use wavycon_output_file, only: narrowest, number_words, output_file
    use wavycon_plain_text, only: integer_text
    use wavycon_results, only: not_a_number, results_type
@@ -12,12 +14,14 @@ module wavycon_summary_table
 
    public :: summary_table, summary_row
 
-   !> The errors are estimates; NaN if the solver has none. Without a hardness nothing is at the hardness: NaN.
+   !> The errors are estimates, NaN if unknown or if the solver has none. NaN too: what is at the hardness without a
+   !> hardness, areas by points without a grid, the linear law if the surface is no map.
    character(45), parameter, public :: summary_columns(*) = [character(45) :: &
       'load[-]', 'pbar_over_pstar[-]', 'mean_gap_over_amplitude[-]', 'approach_over_amplitude[-]', &
       'contact_area_fraction[-]', 'peak_pressure_over_pstar[-]', 'min_pressure_over_pstar[-]', &
       'mean_gap_over_amplitude_error[-]', 'contact_area_fraction_error[-]', 'peak_pressure_over_pstar_error[-]', &
       'area_at_hardness_fraction[-]', 'load_at_hardness_fraction[-]', &
+      'contact_area_counted_fraction[-]', 'contact_area_corrected_fraction[-]', 'linear_area_fraction[-]', &
       'mean_pressure[pressure]', 'mean_gap[length]', 'approach[length]', 'contact_area[area]', &
       'peak_pressure[pressure]', 'active_constraints[-]', 'iterations[-]', 'residual[-]', 'solver[-]', &
       'status_code[-]', 'status[-]']
@@ -82,8 +86,7 @@ contains
       associate (scene => results%scene, solution => results%loads(load)%solution, &
                  measures => results%loads(load)%solution%measures)
          errors = not_a_number()
-         if (results%solver%has_error_estimates()) &
-            errors = [measures%mean_gap_error, measures%contact_area_error, measures%peak_pressure_error]
+         if (results%solver%has_error_estimates()) errors = or_nan(measures%errors())
          at_hardness = not_a_number()
          if (scene%surface%has_hardness()) &
             at_hardness = [measures%area_at_hardness_fraction, measures%load_at_hardness_fraction]
@@ -92,7 +95,11 @@ contains
                   number_words([solution%pbar_over_pstar, &
                                 measures%mean_gap_over_amplitude, measures%approach_over_amplitude, &
                                 measures%contact_area_fraction, measures%peak_pressure_over_pstar, &
-                                measures%min_pressure_over_pstar, errors, at_hardness, results%mean_pressure(load), &
+                                measures%min_pressure_over_pstar, errors, at_hardness, &
+                                or_nan(measures%contact_area_counted_fraction), &
+                                or_nan(measures%contact_area_corrected_fraction), &
+                                or_nan(linear_area_fraction(scene%surface, solution%pbar_over_pstar)), &
+                                results%mean_pressure(load), &
                                 scene%surface%amplitude*measures%mean_gap_over_amplitude, &
                                 scene%surface%amplitude*measures%approach_over_amplitude, &
                                 product(scene%surface%length(:scene%surface%dimension))* &

@@ -1,7 +1,7 @@
 !> Runs a scene from beginning to end: starts the solver, solves all loads, writes the tables.
 module wavycon_run_scene
    use wavycon_checkpoint, only: checkpoint_file, checkpoint_name, read_checkpoint
-   use wavycon_contact_status, only: converged, not_found
+   use wavycon_contact_status, only: converged, not_found, unresolved
    use wavycon_error, only: error_type, exit_file_trouble, exit_fine, exit_not_converged, fatal_error
    use wavycon_find_stresses, only: find_stresses
    use wavycon_kinds, only: dp
@@ -182,13 +182,16 @@ contains
       integer, intent(out) :: status
 
       character(:), allocatable :: loads
-      integer :: bad, i, unreached, without_area
+      integer :: bad, i, unreached, unresolved_values(3), without_area
 
       bad = 0
+      unresolved_values = 0
       without_area = 0
       do i = 1, size(results%loads)
          associate (solution => results%loads(i)%solution)
             if (.not. solution%is_good()) bad = bad + 1
+            if (solution%status == unresolved) &
+               unresolved_values = unresolved_values + merge(0, 1, solution%measures%are_resolved())
             if (solution%status == converged .and. solution%measures%contact_area_fraction <= 0.0_dp) &
                without_area = without_area + 1
          end associate
@@ -196,6 +199,10 @@ contains
       unreached = count([(results%loads(i)%solution%status == not_found, i=1, size(results%loads))])
       loads = integer_text(size(results%loads))
       associate (scene => results%scene)
+         if (any(unresolved_values > 0)) call log%say('note: unresolved on the grid given, as the error is '// &
+            'unknown or as large as the value: the mean gap at '//integer_text(unresolved_values(1))// &
+            ', the contact area at '//integer_text(unresolved_values(2))//' and the peak pressure at '// &
+            integer_text(unresolved_values(3))//' of '//loads//' loads')
          if (without_area > 0) call log%say('note: at '//integer_text(without_area)//' loads '// &
                                             results%solver%why_no_area()//', so that their contact area shows as 0')
          if (scene%loads_by == by_yield .and. .not. results%solver%has_error_estimates()) call log%say( &

@@ -19,7 +19,9 @@ DOUBLES = ("pbar_over_pstar mean_gap_over_amplitude approach_over_amplitude cont
 
 class Measures(ctypes.Structure):
     _fields_ = ([(name, c_double) for name in DOUBLES]
-                + [(name, c_int) for name in ("active_constraints", "iterations", "status_code")])
+                + [(name, c_int) for name in ("active_constraints", "iterations", "status_code")]
+                + [(name, c_double) for name in ("contact_area_counted_fraction", "contact_area_corrected_fraction",
+                                                 "linear_area_fraction")])
 
 
 class LargestStress(ctypes.Structure):

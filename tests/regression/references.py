@@ -47,6 +47,9 @@ TOLERANCES = {
         "peak_pressure_over_pstar_error": SOLVED,
         "area_at_hardness_fraction": EDGE,
         "load_at_hardness_fraction": EDGE,
+        "contact_area_counted_fraction": ARITHMETIC,  # numbers of points, as active_constraints
+        "contact_area_corrected_fraction": ARITHMETIC,
+        "linear_area_fraction": ARITHMETIC,
         "mean_pressure": ARITHMETIC,
         "mean_gap": SOLVED,
         "approach": SOLVED,

@@ -1,0 +1,31 @@
+!> The linear law of light loads on rough surfaces, A/A0 = kappa pbar/(E* h'), h' the root mean square slope.
+module wavycon_linear_area
+   use wavycon_contact_measures, only: unknown
+   use wavycon_kinds, only: dp
+   use wavycon_surface, only: surface_type
+   implicit none (type, external)
+   private
+
+   public :: linear_area_fraction
+
+   !> kappa. Theories give (8/pi)^(1/2) = 1.60, B. N. J. Persson, J. Chem. Phys. 115 (2001) 3840-3861, and (2 pi)^(1/2) =
+   !> 2.51, A. W. Bush, R. D. Gibson, T. R. Thomas, Wear 35 (1975) 87-111. Computed contacts of self-affine surfaces lie
+   !> between them, with 1.8 to 2.2, S. Hyun et al., Phys. Rev. E 70 (2004) 026117; 2 is the value that results are
+   !> compared with.
+   real(dp), parameter :: area_coefficient = 2.0_dp
+
+contains
+
+   !> The fraction of the nominal area in contact by the linear law, for comparison with those that are computed. It is a
+   !> straight line at all loads, and exceeds 1 at heavy ones. Unknown for surfaces that are no height maps: the law is
+   !> one of random surfaces.
+   pure real(dp) function linear_area_fraction(surface, pbar_over_pstar) result(fraction)
+      type(surface_type), intent(in) :: surface
+      real(dp), intent(in) :: pbar_over_pstar   !! P >= 0
+
+      fraction = unknown
+      if (surface%dimension == 1 .or. any(surface%points == 0) .or. .not. surface%amplitude > 0.0_dp) return
+      fraction = area_coefficient*pbar_over_pstar*surface%full_contact_pressure(e_star=1.0_dp)/surface%rms_slope()
+   end function linear_area_fraction
+
+end module wavycon_linear_area
