@@ -24,4 +24,9 @@ module wavycon_measure_tuning
    !> each hole, of which -0.15 and 0.95 do not come from the curvature.
    real(dp), parameter, public :: turn_area = 0.56_dp
 
+   ! Histograms, (A6) of README.md in src/measure.
+
+   !> Points along x, and along y in 2-D, at which solutions that have no grid are sampled, by dimension.
+   integer, parameter, public :: histogram_points(2) = [65536, 512]
+
 end module wavycon_measure_tuning
