@@ -56,7 +56,9 @@ contains
    pure real(dp) function total_perimeter(self)
       class(contact_spots), intent(in) :: self
 
-      total_perimeter = sum(self%spots%perimeter)
+      ! Each curve bounds one spot and one pool.
+      total_perimeter = sum(self%pools%perimeter)
+      if (size(self%pools) == 0) total_perimeter = sum(self%spots%perimeter)
    end function total_perimeter
 
    !> The regions that curves divide a cell into.
