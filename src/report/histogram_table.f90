@@ -82,10 +82,12 @@ contains
       real(dp), allocatable :: displacement(:, :), gap(:, :), pressure(:, :)
       real(dp) :: least, offset(2)
       integer :: bin, bins, points(2)
+      logical :: linear
 
       associate (scene => results%scene, solution => results%loads(load)%solution)
          call solution%fields(scene%surface, fields)
          call fields%own_points(points, offset)
+         linear = any(points == 0) .and. scene%surface%dimension == 2
          if (any(points == 0)) then
             points = 1
             points(:scene%surface%dimension) = histogram_points(scene%surface%dimension)
@@ -98,8 +100,8 @@ contains
          ! The pressure of a series waves about zero outside the contact, whose edge is an isobar.
          least = 0.0_dp
          if (scene%method%has('edge_level')) least = scene%method%real('edge_level')
-         call make_histogram(scene%p_star*pressure, pressure > least, bins, pressures)
-         call make_histogram(scene%surface%amplitude*gap, .not. pressure > least, bins, gaps)
+         call make_histogram(scene%p_star*pressure, pressure > least, bins, pressures, linear)
+         call make_histogram(scene%surface%amplitude*gap, .not. pressure > least, bins, gaps, linear)
       end associate
       call results%begin_block(file, load)
       do bin = 1, bins
