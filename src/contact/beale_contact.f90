@@ -408,10 +408,11 @@ contains
    end subroutine coefficients
 
    !> The isobar p = edge_level p*.
-   subroutine edge_curves(self, surface, curves)
+   subroutine edge_curves(self, surface, curves, loads)
       class(beale_solution), intent(in) :: self
       type(surface_type), intent(in) :: surface
       type(edge_curve), allocatable, intent(out) :: curves(:)
+      real(dp), allocatable, intent(out), optional :: loads(:)
 
       type(fourier_series) :: series
       type(isobar_grid) :: grid
@@ -421,13 +422,20 @@ contains
       associate (level => self%setup%edge_level, harmonics => self%setup%terms%harmonics)
          if (surface%dimension == 2) then
             call start_isobar_grid(grid, series, level, measuring_intervals(harmonics))
-            call trace_edges(grid, curves)
-            if (self%setup%turned) call turn_curves(curves, factor=1.0_dp)
+            if (self%setup%turned) then
+               ! A period of phi and theta is two cells.
+               call trace_edges(grid, curves, cell=grid%period/[1, 2], skew=grid%period(1)/2)
+               call turn_curves(curves, factor=1.0_dp)
+            else
+               call trace_edges(grid, curves)
+            end if
          else
             series%c(0, 0) = series%c(0, 0) - level
             call line_zeros(series%c(:, 0), measuring_intervals(harmonics), zeros)
             call strip_ends(zeros, sum(series%c) >= 0.0_dp, curves)
          end if
+         ! The part outside the isobar is not known.
+         if (present(loads)) allocate (loads(0))
       end associate
    end subroutine edge_curves
 

@@ -6,6 +6,7 @@ module wavycon_contact_solution
    use wavycon_contact_details, only: contact_details
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_measures, only: contact_measures, unmeasured
+   use wavycon_contact_spots, only: contact_spots, find_spots, no_spots, one_region
    use wavycon_contact_status, only: full_contact, is_good_status
    use wavycon_edge_curves, only: edge_curve
    use wavycon_edgeless_fields, only: edgeless_fields, start_edgeless_fields
@@ -37,6 +38,7 @@ module wavycon_contact_solution
    contains
       procedure :: is_good
       procedure :: largest_error
+      procedure :: spots
       procedure(fields_of_solution), deferred :: fields
       procedure(edge_of_solution), deferred :: edge_curves
       procedure(stresses_of_solution), deferred :: stresses
@@ -58,11 +60,13 @@ module wavycon_contact_solution
 
       !> The edge of contact: closed curves in 2-D, the two ends of each strip in 1-D. There are no curves for full
       !> contact, for no load, and if the solver was started without keep_fields.
-      subroutine edge_of_solution(self, surface, curves)
-         import :: contact_solution, edge_curve, surface_type
+      subroutine edge_of_solution(self, surface, curves, loads)
+         import :: contact_solution, dp, edge_curve, surface_type
          class(contact_solution), intent(in) :: self
          type(surface_type), intent(in) :: surface             !! that was solved
          type(edge_curve), allocatable, intent(out) :: curves(:)
+         !> What each spot carries of the load, by their numbers; of no size if that is not known.
+         real(dp), allocatable, intent(out), optional :: loads(:)
       end subroutine edge_of_solution
 
       !> The stresses below the surface. Not allocated if the solver was started without keep_fields.
@@ -103,6 +107,27 @@ contains
 
       largest_error = maxval(self%measures%errors())
    end function largest_error
+
+   !> The spots of contact and the pools of gap. Not known if the solver was started without keep_fields.
+   subroutine spots(self, surface, answer)
+      class(contact_solution), intent(in) :: self
+      type(surface_type), intent(in) :: surface      !! that was solved
+      type(contact_spots), intent(out) :: answer
+
+      type(edge_curve), allocatable :: curves(:)
+      real(dp), allocatable :: loads(:)
+      logical :: is_full
+
+      call self%edge_curves(surface, curves, loads)
+      is_full = self%measures%contact_area_fraction > 0.5_dp
+      if (size(curves) > 0) then
+         call find_spots(curves, surface%dimension, surface%length, loads, answer)
+      else if (self%is_good() .or. is_full) then
+         call one_region(is_full, surface%dimension, answer)
+      else
+         call no_spots(answer)
+      end if
+   end subroutine spots
 
    !> p/p* as the Fourier series in X and Y that the solver computed; series%c is not allocated if it computed none.
    subroutine coefficients(self, surface, series)
@@ -221,13 +246,15 @@ contains
       end if
    end subroutine uniform_coefficients
 
-   subroutine no_curves(self, surface, curves)
+   subroutine no_curves(self, surface, curves, loads)
       class(solution_without_contact_edge), intent(in) :: self
       type(surface_type), intent(in) :: surface
       type(edge_curve), allocatable, intent(out) :: curves(:)
+      real(dp), allocatable, intent(out), optional :: loads(:)
 
       associate (unused => self, unused_too => surface); end associate
       allocate (curves(0))
+      if (present(loads)) allocate (loads(0))
    end subroutine no_curves
 
 end module wavycon_contact_solution

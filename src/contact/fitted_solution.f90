@@ -143,10 +143,11 @@ contains
    end subroutine on_grid
 
    !> A closed curve about each crest or, once the spots have merged, about each trough.
-   subroutine edge_curves(self, surface, curves)
+   subroutine edge_curves(self, surface, curves, loads)
       class(fitted_solution), intent(in) :: self
       type(surface_type), intent(in) :: surface
       type(edge_curve), allocatable, intent(out) :: curves(:)
+      real(dp), allocatable, intent(out), optional :: loads(:)
 
       complex(dp) :: centre, edge(edge_points), to_surface
       type(fitted_fields) :: fields
@@ -154,6 +155,7 @@ contains
 
       if (.not. allocated(self%lattice)) then
          allocate (curves(0))
+         if (present(loads)) allocate (loads(0))
          return
       end if
       call start_fitted_fields(fields, self%lattice, self%answer)
@@ -172,7 +174,18 @@ contains
             curves(k)%phi = in_cell(2*pi*centre%re/length(1) + pi*half_cells) + 2*pi*turned*edge(places)%re/length(1)
             curves(k)%theta = in_cell(2*pi*centre%im/length(2) + pi*half_cells) + 2*pi*turned*edge(places)%im/length(2)
          end associate
+         ! All are alike: the area is that of the expansion itself, not that of polygons.
+         curves(k)%turns = merge(-1, 1, self%answer%island)
+         curves(k)%spot = merge(1, k, self%answer%island)
+         curves(k)%pool = merge(k, 1, self%answer%island)
+         curves(k)%area = (2*pi)**2*(self%measures%contact_area_fraction - merge(1, 0, self%answer%island))/size(curves)
+         curves(k)%length = self%answer%perimeter*self%frame%side
       end do
+      if (present(loads)) then
+         associate (count => merge(1, size(curves), self%answer%island))
+            allocate (loads(count), source=1.0_dp/count)
+         end associate
+      end if
 
    contains
 

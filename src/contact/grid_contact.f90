@@ -5,7 +5,6 @@
 !> the number of points, which refers to the user's cell, is given.
 module wavycon_grid_contact
    use, intrinsic :: iso_fortran_env, only: int64
-   use wavycon_constants, only: pi
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_measures, only: contact_measures, or_nan
    use wavycon_contact_solution, only: contact_solution, no_solution, pack_common, packed_values, unpack_common
@@ -27,6 +26,7 @@ module wavycon_grid_contact
    use wavycon_plain_text, only: integer_text, short_number
    use wavycon_problems, only: problem_list_type
    use wavycon_qp_problem, only: qp_iteration_limit, qp_status_name
+   use wavycon_region_numbers, only: region_numbers
    use wavycon_solver_keys, only: accuracy_key, check_grid_points, grid_points_key, points_of_grid, residual_key, &
                                   set_grid_defaults
    use wavycon_series_stress, only: series_stress, start_series_stress
@@ -241,22 +241,31 @@ contains
       call move_alloc(own, answer)
    end subroutine fields
 
-   subroutine edge_curves(self, surface, curves)
+   subroutine edge_curves(self, surface, curves, loads)
       class(grid_solution), intent(in) :: self
       type(surface_type), intent(in) :: surface
       type(edge_curve), allocatable, intent(out) :: curves(:)
+      real(dp), allocatable, intent(out), optional :: loads(:)
 
+      type(region_numbers) :: numbers
       real(dp), allocatable :: edges(:)
       integer :: i
 
       if (.not. allocated(self%edge)) then
          allocate (curves(0))
+         if (present(loads)) allocate (loads(0))
       else if (surface%dimension == 2) then
-         call trace_edges(self%edge, curves)
+         if (self%turned) then
+            ! The surface's cell is two of the grid's.
+            call trace_edges(self%edge, curves, self%edge%period*[2, 1], self%edge%period(1), numbers)
+         else
+            call trace_edges(self%edge, curves, numbers=numbers)
+         end if
          do i = 1, size(curves)
             call shift_curve(curves(i), self%edge%period, edge_offset)
          end do
-         if (self%turned) call fill_whole_cell(curves)
+         if (self%turned) call turn_curves(curves, factor=0.5_dp)
+         if (present(loads)) call spot_loads(self%edge, numbers, loads)
       else
          call grid_strip_edges(self%edge, edges)
          if (self%edge%even) then
@@ -264,6 +273,7 @@ contains
          else
             call whole_strips(edges, self%edge%in_contact(1, 1), curves)
          end if
+         if (present(loads)) call strip_loads(self%edge, size(curves), loads)
       end if
    end subroutine edge_curves
 
@@ -383,20 +393,43 @@ contains
       points = plan%last
    end function finest_grid
 
-   !> Transforms curves from the smaller cell to the surface's cell, which has twice its area, and adds the curves of
-   !> the other half: the same, translated by half a cell in both directions.
-   subroutine fill_whole_cell(curves)
-      type(edge_curve), allocatable, intent(inout) :: curves(:)
+   !> What each spot carries of the load: the pressures at its points.
+   pure subroutine spot_loads(edge, numbers, loads)
+      type(grid_edge), intent(in) :: edge
+      type(region_numbers), intent(in) :: numbers   !! of the points
+      real(dp), allocatable, intent(out) :: loads(:)
 
-      integer :: i
+      integer :: k, l
 
-      call turn_curves(curves, factor=0.5_dp)
-      curves = [curves, curves]
-      do i = size(curves)/2 + 1, size(curves)
-         curves(i)%phi = curves(i)%phi + pi
-         curves(i)%theta = curves(i)%theta + pi
+      allocate (loads(numbers%spots), source=0.0_dp)
+      do l = 0, ubound(numbers%at, 2)
+         do k = 0, ubound(numbers%at, 1)
+            associate (spot => numbers%at(k, l))
+               if (spot > 0) loads(spot) = loads(spot) + edge%pressure_or_gap(edge%place(k, 1), edge%place(l, 2))
+            end associate
+         end do
       end do
-   end subroutine fill_whole_cell
+      loads = loads/sum(loads)
+   end subroutine spot_loads
+
+   !> The same of the strips of a 1-D contact, which begin with the one of the first point.
+   pure subroutine strip_loads(edge, strips, loads)
+      type(grid_edge), intent(in) :: edge
+      integer, intent(in) :: strips   !! their number
+      real(dp), allocatable, intent(out) :: loads(:)
+
+      integer :: k, strip
+
+      allocate (loads(strips), source=0.0_dp)
+      if (strips == 0) return
+      strip = merge(1, 0, edge%in_contact(1, 1))
+      do k = 1, edge%period(1)
+         if (.not. edge%in_contact(k, 1)) cycle
+         if (k > 1 .and. .not. edge%in_contact(k - 1, 1)) strip = mod(strip, strips) + 1
+         loads(strip) = loads(strip) + edge%pressure_or_gap(edge%place(k, 1), 1)
+      end do
+      loads = loads/sum(loads)
+   end subroutine strip_loads
 
    pure function describe(self) result(words)
       class(grid_contact), intent(in) :: self

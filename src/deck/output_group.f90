@@ -20,6 +20,9 @@ module wavycon_output_group
    !> lines by default.
    integer, parameter :: usual_points = 128
 
+   !> Bins of histograms: the table is a text.
+   integer, parameter :: most_bins = 10000
+
    !> Bytes of a directory's name. The default, 'outputs/' and the name of the case, must fit.
    integer, parameter, public :: longest_directory = 250
 
@@ -53,7 +56,9 @@ contains
             'otherwise what lies between them.', 4, most_points, most_values=2), &
          choice_key('map_format', "'auto'", &
             "'text'; 'npy', a file of numpy, short and fast to read; 'auto', text up to "//integer_text(text_side)// &
-            ' x '//integer_text(text_side)//' points, npy beyond.', [character(4) :: 'auto', 'text', 'npy'])], &
+            ' x '//integer_text(text_side)//' points, npy beyond.', [character(4) :: 'auto', 'text', 'npy']), &
+         integer_key('histogram_bins', '100', &
+            'bins of the histograms of pressure and of gap, of equal width.', 4, most_bins)], &
          former_key='points_per_wavelength', in_its_place='line_points for lines and map_points for maps')
    end function output_table
 

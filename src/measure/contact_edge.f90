@@ -26,6 +26,7 @@ module wavycon_contact_edge
       procedure(edge_on_side), deferred :: side
       procedure :: cell_area
       procedure :: beside_chord
+      procedure :: area_correction
    end type contact_edge
 
    abstract interface
@@ -136,5 +137,15 @@ contains
       end function slope
 
    end function beside_chord
+
+   !> What is added to the area of a cell through which the edge runs once [rad^2]. Here nothing is.
+   pure real(dp) function area_correction(self, k, l, turns) result(area)
+      class(contact_edge), intent(in) :: self
+      integer, intent(in) :: k, l       !! the cell
+      real(dp), intent(in) :: turns     !! of the edge in the cell, positive where the contact is convex
+
+      associate (unused => self, unused_too => [k, l], also_unused => turns); end associate
+      area = 0.0_dp
+   end function area_correction
 
 end module wavycon_contact_edge

@@ -1,61 +1,113 @@
 !> The edge of contact as closed curves.
 module wavycon_edge_curves
+   use, intrinsic :: iso_fortran_env, only: int8
    use wavycon_constants, only: pi
    use wavycon_contact_edge, only: contact_edge, corner_k, corner_l, edge_point
    use wavycon_kinds, only: dp
+   use wavycon_region_numbers, only: find_region_numbers, region_numbers
    implicit none (type, external)
    private
 
    public :: edge_curve, shift_curve, strip_ends, trace_edges, turn_curves, whole_strips
 
    !> A curve with the contact on its left. Its last point is the first again; that of a curve through the whole plane
-   !> is one period on.
+   !> is one period on. In 1-D it is the two ends of a strip.
    type :: edge_curve
       real(dp), allocatable :: phi(:), theta(:)   !! [rad], not reduced to one cell, so that the curve does not jump
+      !> 1: closed, about contact; -1: closed, about a gap; 0: it goes around the periodic cell.
+      integer :: turns = 0
+      integer :: spot = 0, pool = 0   !! numbers, from 1, of the regions on its left and right; in 1-D inside and after
+      real(dp) :: area = 0.0_dp       !! (A1), of a strip its width times 2 pi [rad^2]
+      real(dp) :: length = 0.0_dp     !! [length] if it is known better than from the points; otherwise 0
    end type edge_curve
 
 contains
 
-   !> All curves of one period of phi and theta.
-   subroutine trace_edges(edge, curves)
+   !> All curves of one cell, which is the period of phi and theta unless another is given.
+   subroutine trace_edges(edge, curves, cell, skew, numbers)
       class(contact_edge), intent(in) :: edge
       type(edge_curve), allocatable, intent(out) :: curves(:)
+      !> Points of the cell along phi and theta, and the steps along phi after which it comes again in the next row of
+      !> cells. Absent: those of the period, 0.
+      integer, intent(in), optional :: cell(2), skew
+      type(region_numbers), intent(out), optional :: numbers   !! of the points
 
-      logical :: seen(4, 0:edge%period(1) - 1, 0:edge%period(2) - 1)
+      type(region_numbers) :: own
+      integer(int8), allocatable :: seen(:, :)   ! a bit for each side of a cell
       type(edge_curve) :: curve
-      integer :: k, l, number
+      integer :: count, k, l, number, points(2), steps
 
-      allocate (curves(0))
-      seen = .false.
-      do l = 0, edge%period(2) - 1
-         do k = 0, edge%period(1) - 1
+      points = edge%period
+      if (present(cell)) points = cell
+      steps = 0
+      if (present(skew)) steps = skew
+      call find_region_numbers(edge, points, steps, own)
+      allocate (curves(0), seen(0:points(1) - 1, 0:points(2) - 1))
+      seen = 0_int8
+      count = 0
+      do l = 0, points(2) - 1
+         do k = 0, points(1) - 1
+            if (is_uniform(own, k, l)) cycle
             do number = 1, 4
-               if (seen(number, k, l) .or. .not. leaves_contact(edge, k, l, number)) cycle
-               call trace(edge, k, l, number, seen, curve)
-               curves = [curves, curve]
+               if (btest(seen(k, l), number) .or. .not. leaves_contact(own, k, l, number)) cycle
+               call trace(edge, own, k, l, number, seen, curve)
+               call append(curves, count, curve)
             end do
          end do
       end do
+      call resize(curves, count)
+      if (present(numbers)) numbers = own
    end subroutine trace_edges
 
-   !> The strips of a 1-D contact between its edges in 0..pi, as curves of two points each. If the crest is in contact
-   !> the first edge and its mirror image bound the strip about it.
+   !> Adds a curve to the first `count` of an array, which grows as needed.
+   subroutine append(curves, count, curve)
+      type(edge_curve), allocatable, intent(inout) :: curves(:)
+      integer, intent(inout) :: count
+      type(edge_curve), intent(inout) :: curve   !! without its points afterwards
+
+      if (count == size(curves)) call resize(curves, max(8, 2*count))
+      count = count + 1
+      call move_curve(curve, curves(count))
+   end subroutine append
+
+   subroutine resize(curves, length)
+      type(edge_curve), allocatable, intent(inout) :: curves(:)
+      integer, intent(in) :: length
+
+      type(edge_curve), allocatable :: other(:)
+      integer :: i
+
+      allocate (other(length))
+      do i = 1, min(length, size(curves))
+         call move_curve(curves(i), other(i))
+      end do
+      call move_alloc(other, curves)
+   end subroutine resize
+
+   subroutine move_curve(from, to)
+      type(edge_curve), intent(inout) :: from   !! without its points afterwards
+      type(edge_curve), intent(inout) :: to
+
+      call move_alloc(from%phi, to%phi)
+      call move_alloc(from%theta, to%theta)
+      to%turns = from%turns
+      to%spot = from%spot
+      to%pool = from%pool
+      to%area = from%area
+      to%length = from%length
+   end subroutine move_curve
+
+   !> The strips of a 1-D contact that is even, over a whole period, as curves of two points each.
    pure subroutine strip_ends(edges, crest_in_contact, curves)
-      real(dp), intent(in) :: edges(:)             !! ascending [rad]
-      logical, intent(in) :: crest_in_contact
+      real(dp), intent(in) :: edges(:)             !! between 0 and pi, ascending [rad]
+      logical, intent(in) :: crest_in_contact      !! whether 0 is
       type(edge_curve), allocatable, intent(out) :: curves(:)
 
-      real(dp) :: ends(size(edges) + 1)
-      integer :: i, count
-
-      count = size(edges) + merge(1, 0, crest_in_contact .and. size(edges) > 0)
-      if (count > size(edges)) ends(1) = -edges(1)
-      ends(count - size(edges) + 1:count) = edges
-      allocate (curves(count/2))
-      do i = 1, count/2
-         allocate (curves(i)%phi, source=ends(2*i - 1:2*i))
-         allocate (curves(i)%theta(2), source=0.0_dp)
-      end do
+      associate (mirrored => 2*pi - edges(size(edges):1:-1))
+         call whole_strips([edges, mirrored], crest_in_contact, curves)
+      end associate
+      ! The difference of two periods is not exact.
+      if (crest_in_contact .and. size(edges) > 0) curves(1)%phi(1) = -edges(1)
    end subroutine strip_ends
 
    !> Transforms curves to axes turned by 45 degrees: factor times the sum and the difference of the angles.
@@ -72,6 +124,7 @@ contains
             turned = factor*(x(size(x):1:-1) + y(size(y):1:-1))
             y = factor*(x(size(x):1:-1) - y(size(y):1:-1))
             x = turned
+            curves(i)%area = 2*factor**2*curves(i)%area
          end associate
       end do
    end subroutine turn_curves
@@ -91,6 +144,9 @@ contains
       do i = 1, size(curves)
          allocate (curves(i)%phi, source=ends(2*i - 1:2*i))
          allocate (curves(i)%theta(2), source=0.0_dp)
+         curves(i)%spot = i
+         curves(i)%pool = i
+         curves(i)%area = 2*pi*(ends(2*i) - ends(2*i - 1))
       end do
    end subroutine whole_strips
 
@@ -124,55 +180,91 @@ contains
    end subroutine shift_curve
 
    !> Follows one curve from an edge of a cell back to it.
-   subroutine trace(edge, first_k, first_l, first_number, seen, curve)
+   subroutine trace(edge, numbers, first_k, first_l, first_number, seen, curve)
       class(contact_edge), intent(in) :: edge
+      type(region_numbers), intent(in) :: numbers
       integer, intent(in) :: first_k, first_l, first_number
-      logical, intent(inout) :: seen(:, 0:, 0:)
+      integer(int8), intent(inout) :: seen(0:, 0:)
       type(edge_curve), intent(out) :: curve
 
       integer, parameter :: step_k(4) = [0, 1, 0, -1], step_l(4) = [-1, 0, 1, 0]
       integer, parameter :: opposite(4) = [3, 4, 1, 2]
-      real(dp), allocatable :: phi(:), theta(:)
-      type(edge_point) :: point
-      integer :: k, l, number, count, wrapped_k, wrapped_l
+      real(dp), allocatable :: points(:, :)   ! shape (2, *)
+      type(edge_point) :: first, last, next
+      integer :: k, l, number, count, entered, place(2), quarters
 
-      allocate (phi(size(seen) + 1), theta(size(seen) + 1))
+      curve%spot = numbers%of_point(first_k + corner_k(first_number), first_l + corner_l(first_number))
+      curve%pool = -numbers%of_point(first_k + corner_k(first_number + 1), first_l + corner_l(first_number + 1))
+      allocate (points(2, 64))
       k = first_k
       l = first_l
       number = first_number
+      first = edge%side(k, l, number)
+      last = first
       count = 0
+      quarters = 0
       do
-         point = edge%side(k, l, number)
          count = count + 1
-         phi(count) = point%phi
-         theta(count) = point%theta
-         wrapped_k = modulo(k, edge%period(1))
-         wrapped_l = modulo(l, edge%period(2))
-         if (seen(number, wrapped_k, wrapped_l)) exit
-         seen(number, wrapped_k, wrapped_l) = .true.
+         if (count > size(points, 2)) call lengthen(points)
+         points(:, count) = [last%phi, last%theta]
+         place = numbers%wrap(k, l)
+         if (btest(seen(place(1), place(2)), number)) exit
+         seen(place(1), place(2)) = ibset(seen(place(1), place(2)), number)
 
          ! The curve leaves the cell through the next side, counter-clockwise, that the edge crosses (see cell_area).
+         entered = number
          do
             number = mod(number, 4) + 1
-            point = edge%side(k, l, number)
-            if (point%exists) exit
+            next = edge%side(k, l, number)
+            if (next%exists) exit
          end do
+         associate (turned => modulo(number - entered, 4) - 2)
+            quarters = quarters + turned
+            curve%area = curve%area - edge%beside_chord(last, next) + edge%area_correction(k, l, 0.25_dp*turned) &
+               + 0.5_dp*((last%phi - first%phi)*(next%theta - first%theta) &
+                         - (next%phi - first%phi)*(last%theta - first%theta))
+         end associate
+         last = next
          k = k + step_k(number)
          l = l + step_l(number)
          number = opposite(number)
       end do
-      allocate (curve%phi, source=phi(:count))
-      allocate (curve%theta, source=theta(:count))
+      curve%turns = quarters/4
+      ! (A1): the curve may go around the cell.
+      curve%area = curve%area - ((last%phi - first%phi)*first%theta - (last%theta - first%theta)*first%phi)
+      allocate (curve%phi, source=points(1, :count))
+      allocate (curve%theta, source=points(2, :count))
    end subroutine trace
+
+   subroutine lengthen(points)
+      real(dp), allocatable, intent(inout) :: points(:, :)
+
+      real(dp), allocatable :: longer(:, :)
+
+      allocate (longer(2, 2*size(points, 2)))
+      longer(:, :size(points, 2)) = points
+      call move_alloc(longer, points)
+   end subroutine lengthen
+
+   !> Whether a cell is known to have no edge: its corners belong to one region. It lies inside the rows.
+   pure logical function is_uniform(numbers, k, l)
+      type(region_numbers), intent(in) :: numbers
+      integer, intent(in) :: k, l
+
+      associate (at => numbers%at)
+         is_uniform = k < ubound(at, 1) .and. l < ubound(at, 2)
+         if (is_uniform) is_uniform = all(at(k:k + 1, l:l + 1) == at(k, l))
+      end associate
+   end function is_uniform
 
    !> Whether the boundary of a cell, followed counter-clockwise, leaves the contact along a side: a curve with the
    !> contact on its left enters the cell there.
-   pure logical function leaves_contact(edge, k, l, number)
-      class(contact_edge), intent(in) :: edge
+   pure logical function leaves_contact(numbers, k, l, number)
+      type(region_numbers), intent(in) :: numbers
       integer, intent(in) :: k, l, number
 
-      leaves_contact = edge%in_contact(k + corner_k(number), l + corner_l(number)) .and. &
-                       .not. edge%in_contact(k + corner_k(number + 1), l + corner_l(number + 1))
+      leaves_contact = numbers%of_point(k + corner_k(number), l + corner_l(number)) > 0 .and. &
+                       numbers%of_point(k + corner_k(number + 1), l + corner_l(number + 1)) < 0
    end function leaves_contact
 
 end module wavycon_edge_curves

@@ -27,6 +27,7 @@ module wavycon_grid_edge
       procedure :: angles
       procedure :: side
       procedure :: beside_chord
+      procedure :: area_correction
       procedure :: place
       procedure, private :: at
    end type grid_edge
@@ -181,6 +182,20 @@ contains
          beside_chord = edge_offset*product(steps)*norm2([to%phi - from%phi, to%theta - from%theta]/steps)
       end associate
    end function beside_chord
+
+   !> The terms of (C12) besides the polygon and the strip along it, for one passage of the edge [rad^2].
+   pure real(dp) function area_correction(self, k, l, turns) result(area)
+      class(grid_edge), intent(in) :: self
+      integer, intent(in) :: k, l
+      real(dp), intent(in) :: turns
+
+      logical :: low(2), high(2)
+      integer :: i
+
+      low = [(self%in_contact(k + i, l), i=0, 1)]
+      high = [(self%in_contact(k + i, l + 1), i=0, 1)]
+      area = product(angle_steps(self))*(turn_area*turns + aligned_part(self, k, l, low, high))
+   end function area_correction
 
    !> The fraction of the surface in contact: (C11) in 1-D, (C12) in 2-D.
    pure real(dp) function grid_contact_area(edge) result(fraction)

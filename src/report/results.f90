@@ -15,7 +15,7 @@ module wavycon_results
 
    public :: results_type, not_a_number
 
-   !> Bytes of a unit's label, with '^2' after it.
+   !> Bytes of a unit's label, with '1/' before it or '^2' after it.
    integer, parameter :: longest_unit = 24
 
    type :: results_type
@@ -105,8 +105,8 @@ contains
    end function number_of
 
    !> The label of a unit: 'length', powers of it, 'pressure' and 'area', which in 1-D is a length, as the deck names
-   !> them; others as they are.
-   pure function unit_in_words(self, unit) result(words)
+   !> them, and '1/' before one of these; others as they are.
+   pure recursive function unit_in_words(self, unit) result(words)
       class(results_type), intent(in) :: self
       character(*), intent(in) :: unit
       character(longest_unit) :: words
@@ -117,12 +117,13 @@ contains
             words = length
          case ('area')
             words = length//merge('^2', '  ', self%scene%surface%dimension == 2)
-         case ('length^3', 'length^4', '1/length', 'rad/length')
+         case ('length^3', 'length^4', 'rad/length')
             words = unit(:index(unit, 'length') - 1)//length//unit(index(unit, 'length') + len('length'):)
          case ('pressure')
             words = self%scene%pressure_unit
          case default
             words = unit
+            if (index(unit, '1/') == 1) words = '1/'//trim(self%unit_in_words(unit(3:)))
          end select
       end associate
    end function unit_in_words

@@ -4,10 +4,13 @@ module wavycon_tables
    use wavycon_contour_table, only: contour_table
    use wavycon_details_table, only: details_table
    use wavycon_height_table, only: height_table
+   use wavycon_histogram_table, only: histogram_table
    use wavycon_largest_stress_table, only: largest_stress_table
    use wavycon_lines_table, only: lines_table
    use wavycon_map_table, only: map_table
    use wavycon_spectrum_table, only: spectrum_table
+   use wavycon_spot_sizes_table, only: spot_sizes_table
+   use wavycon_spots_table, only: spots_table
    use wavycon_stress_line_table, only: stress_line_table
    use wavycon_stress_planes_table, only: stress_planes_table
    use wavycon_stress_section_table, only: stress_section_table
@@ -35,6 +38,9 @@ contains
       call add(tables, lines_table())
       call add(tables, map_table())
       call add(tables, contour_table())
+      call add(tables, spots_table())
+      call add(tables, spot_sizes_table())
+      call add(tables, histogram_table())
       call add(tables, coefficients_table())
       call add(tables, theory_table())
       call add(tables, theory_lines_table())

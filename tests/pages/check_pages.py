@@ -21,13 +21,13 @@ MOST_LINES = 110  # of README.md
 DECK_PAGES = ("README.md", "inputs/README.md", "outputs/README.md")
 # Headings of outputs/README.md, each with the table that it explains.
 SECTIONS = {"summary": "The summary", "lines": "Lines", "theory_lines": "Closed forms along lines", "map": "Map",
-            "contour": "Contours", "coefficients": "Coefficients", "theory": "Theory", "details": "Details",
-            "spectrum": "Power spectrum",
+            "contour": "Contours", "spots": "Spots", "spot_sizes": "Spot sizes", "histogram": "Histograms",
+            "coefficients": "Coefficients", "theory": "Theory", "details": "Details", "spectrum": "Power spectrum",
             "stress_largest": "Largest stresses", "stress_line": "Stresses below the crest",
             "stress_section": "Stresses on a section", "stress_planes": "Stresses on planes"}
 # Decks that together write every table, in both dimensions.
-ALL_TABLES = ("lines = t, map = t, contours = t, coefficients = t, theory = t, spectrum = t, line_points = 8, "
-              "map_points = 8")
+ALL_TABLES = ("lines = t, map = t, contours = t, spots = t, histograms = t, coefficients = t, theory = t, "
+              "spectrum = t, line_points = 8, map_points = 8")
 TABLE_DECKS = {
     "line": f"&surface kind = 'wave_1d' /\n&load pbar_over_pstar = 0.5 /\n&output {ALL_TABLES} /\n",
     "plane": f"&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0.5 /\n&output {ALL_TABLES} /\n",

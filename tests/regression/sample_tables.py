@@ -7,7 +7,8 @@ from tables import Table
 
 PAGE = pathlib.Path(__file__).resolve().parents[2] / "outputs" / "README.md"
 LOADS = "&load pbar_over_pstar = 0, 0.2, 0.6, 1 /\n"
-ALL = "lines = t, map = t, contours = t, spectrum = t, line_points = 8, map_points = 8"
+ALL = ("lines = t, map = t, contours = t, spots = t, histograms = t, histogram_bins = 8, spectrum = t, line_points = 8, "
+       "map_points = 8")
 HEIGHTS = "".join(" ".join(str((3*i*i + 5*j + i*j) % 7) for i in range(8)) + "\n" for j in range(8))
 # Both dimensions, every solver and table, labels of units, loads without numbers, a single load, tables without rows.
 DECKS = {
@@ -29,7 +30,7 @@ DECKS = {
 }
 # Decks of these in one table of --table, and columns of text.
 COLLECTED = "plane", "grid", "no_edge"
-WORDS = "solver", "status", "direction", "deck", "case", "surface_kind", "method_solver"
+WORDS = "solver", "status", "direction", "region", "deck", "case", "surface_kind", "method_solver"
 
 
 def make_tables(program, folder):

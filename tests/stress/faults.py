@@ -12,10 +12,10 @@ from common import Part, complaints_about, files_below, result_complaints, run
 
 NOBODY = 65534
 DECK = ("&surface kind = 'wave_2d' /\n&load sweep_from = 0.05, sweep_to = 0.95, sweep_steps = 19 /\n"
-        "&output lines = t, map = t, contours = t, theory = t, coefficients = t,\n"
+        "&output lines = t, map = t, contours = t, spots = t, histograms = t, theory = t, coefficients = t,\n"
         "spectrum = t, line_points = 64, map_points = 64 /\n")
 # Half a second of work, half of it writing.
-LONG_DECK = DECK.replace("sweep_steps = 19", "sweep_steps = 150").replace("map = t", "map = f")
+LONG_DECK = DECK.replace("sweep_steps = 19", "sweep_steps = 150").replace("map = t", "map = f").replace("histograms = t", "histograms = f")
 # To be resumed: solvers that solve each load by itself and solvers that start from the last load; with and without
 # fields.
 TO_RESUME = {
@@ -28,7 +28,8 @@ TO_RESUME = {
              "&method solver = 'grid', accuracy = 1e-2 /\n&output contours = t /\n",
 }
 LEAST_MEGABYTES = 250  # of address space with which the program must run or report
-TABLES = ("summary", "lines", "map", "contour", "theory", "theory_lines", "coefficients", "spectrum")
+TABLES = ("summary", "lines", "map", "contour", "spots", "spot_sizes", "histogram", "theory", "theory_lines",
+          "coefficients", "spectrum")
 
 
 def prepare(folder, text=DECK):

@@ -84,7 +84,7 @@ def alone_and_again(program, seed, kinds, scenes, work, failures):
             accuracy = 10.0**-stream.uniform(*(3.0, 10.0) if solver == "fitted" else (1.0, 2.0))
             method = f"solver = '{solver}', accuracy = {accuracy!r}"
             files = scene.files(loads, method)
-            files["deck.nml"] += "&output map = t, contours = t, map_points = 16 /\n"
+            files["deck.nml"] += "&output map = t, contours = t, spots = t, histograms = t, map_points = 16 /\n"
             rows, complaints = solve(program, files, work/name)
             tables = contents(work/name/"results")
             _, more = solve(program, files, work/name)

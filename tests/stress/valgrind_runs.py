@@ -16,7 +16,8 @@ COMMAND = ["valgrind", "--quiet", "--leak-check=full", "--show-leak-kinds=defini
 LEFT_OUT = ("unit.fitted_details", "unit.fitted_fields", "unit.fitted_stress", "exact.fitted", "exact.fitted_contact",
             "exact.beale_plane", "exact.grid", "exact.surfaces")
 LOADS = "&load pbar_over_pstar = 0.05, 0.3, 0.7, 1 /\n"
-TABLES = "&output lines = t, map = t, contours = t, spectrum = t, height = t, line_points = 8, map_points = 8 /\n"
+TABLES = ("&output lines = t, map = t, contours = t, spots = t, spectrum = t, height = t, line_points = 8, "
+          "map_points = 8 /\n")
 OF_THE_PAPER = TABLES.replace("map = t", "map = t, coefficients = t, theory = t")
 COARSE = "&method solver = 'grid', accuracy = 1e-2 /\n"
 # Name, deck, exit status.

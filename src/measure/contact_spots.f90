@@ -1,0 +1,248 @@
+!> The spots of contact and the pools of gap of one cell, and whether contact and gap percolate: (A1) to (A4) of
+!> README.md.
+module wavycon_contact_spots
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use, intrinsic :: iso_c_binding, only: c_size_t
+   use wavycon_constants, only: pi
+   use wavycon_edge_curves, only: edge_curve
+   use wavycon_gsl, only: gsl_sort_index
+   use wavycon_kinds, only: dp
+   implicit none (type, external)
+   private
+
+   public :: contact_region, contact_spots, find_spots, no_spots, one_region
+
+   !> A connected part of the contact or of the gap.
+   type :: contact_region
+      real(dp) :: area_fraction = 0.0_dp   !! of the nominal area
+      real(dp) :: perimeter = 0.0_dp       !! with that of its holes [length]; NaN in 1-D
+      real(dp) :: load_fraction = 0.0_dp   !! of the load, of a spot; NaN if it is not known, and of pools
+      !> X, Y of the centroid of what its outer edge encloses, 0 to 2 pi [rad]; NaN if it has no outer edge.
+      real(dp) :: centre(2) = 0.0_dp
+      integer :: holes = 0                 !! closed regions of the other kind next to it
+      logical :: percolates(2) = .false.   !! whether it goes on from cell to cell along x and y
+   contains
+      procedure :: is_closed
+   end type contact_region
+
+   type :: contact_spots
+      logical :: known = .true.                              !! .false. if there is no solution
+      type(contact_region), allocatable :: spots(:)          !! of contact, the largest first
+      type(contact_region), allocatable :: pools(:)          !! of gap, likewise
+   contains
+      procedure :: closed_pools
+      procedure :: perimeter => total_perimeter
+   end type contact_spots
+
+   real(dp), parameter :: cell_area = (2*pi)**2   !! [rad^2]
+
+contains
+
+   !> Whether a region is bounded along x and y.
+   elemental logical function is_closed(self)
+      class(contact_region), intent(in) :: self
+
+      is_closed = .not. any(self%percolates)
+   end function is_closed
+
+   !> The number of pools that are closed.
+   pure integer function closed_pools(self)
+      class(contact_spots), intent(in) :: self
+
+      closed_pools = count(self%pools%is_closed())
+   end function closed_pools
+
+   !> The length of the edge of contact in one cell [length]; NaN in 1-D.
+   pure real(dp) function total_perimeter(self)
+      class(contact_spots), intent(in) :: self
+
+      ! Each curve bounds one spot and one pool.
+      total_perimeter = sum(self%pools%perimeter)
+      if (size(self%pools) == 0) total_perimeter = sum(self%spots%perimeter)
+   end function total_perimeter
+
+   !> The regions that curves divide a cell into.
+   subroutine find_spots(curves, dimension, length, loads, answer)
+      type(edge_curve), intent(in) :: curves(:)   !! all of the cell, at least one
+      integer, intent(in) :: dimension            !! of the contact, 1 or 2
+      real(dp), intent(in) :: length(2)           !! L_x, L_y [length]
+      real(dp), intent(in) :: loads(:)            !! of the spots, over the load; of no size if they are not known
+      type(contact_spots), intent(out) :: answer
+
+      type(contact_region), allocatable :: spots(:), pools(:)
+
+      if (dimension == 1) then
+         call find_strips(curves, spots, pools)
+      else
+         call find_regions(curves%spot, 1, curves, length, spots)
+         call find_regions(curves%pool, -1, curves, length, pools)
+      end if
+      spots%load_fraction = nan()
+      if (size(loads) == size(spots)) spots%load_fraction = loads
+      pools%load_fraction = nan()
+      call sort_by_area(spots, answer%spots)
+      call sort_by_area(pools, answer%pools)
+   end subroutine find_spots
+
+   !> The only region of a cell without an edge.
+   subroutine one_region(is_contact, dimension, answer)
+      logical, intent(in) :: is_contact        !! or a gap
+      integer, intent(in) :: dimension
+      type(contact_spots), intent(out) :: answer
+
+      type(contact_region) :: region(1)
+
+      region%area_fraction = 1.0_dp
+      region(1)%perimeter = merge(0.0_dp, nan(), dimension == 2)
+      region%load_fraction = merge(1.0_dp, nan(), is_contact)
+      region(1)%centre = nan()
+      region(1)%percolates = .true.
+      allocate (answer%spots(merge(1, 0, is_contact)), answer%pools(merge(0, 1, is_contact)))
+      answer%spots = region(:size(answer%spots))
+      answer%pools = region(:size(answer%pools))
+   end subroutine one_region
+
+   !> The answer where there is no solution.
+   subroutine no_spots(answer)
+      type(contact_spots), intent(out) :: answer
+
+      answer%known = .false.
+      allocate (answer%spots(0), answer%pools(0))
+   end subroutine no_spots
+
+   !> The regions of one kind on a surface: (A2), (A3).
+   subroutine find_regions(number, outwards, curves, length, regions)
+      integer, intent(in) :: number(:)    !! of the region of each curve, from 1
+      integer, intent(in) :: outwards     !! turns of a curve about such a region: 1 for spots, -1 for pools
+      type(edge_curve), intent(in) :: curves(:)
+      real(dp), intent(in) :: length(2)
+      type(contact_region), allocatable, intent(out) :: regions(:)
+
+      integer :: i, windings(2)
+      logical :: has_outer(maxval(number)), goes_around(maxval(number))
+
+      allocate (regions(maxval(number)))
+      has_outer = .false.
+      goes_around = .false.
+      do i = 1, size(curves)
+         associate (region => regions(number(i)))
+            region%area_fraction = region%area_fraction + outwards*curves(i)%area/cell_area
+            region%perimeter = region%perimeter + curve_length(curves(i), length)
+            if (curves(i)%turns == outwards) then
+               has_outer(number(i)) = .true.
+               region%centre = centroid(curves(i))
+            else if (curves(i)%turns == 0) then
+               goes_around(number(i)) = .true.
+               windings = winding_numbers(curves(i))
+               region%percolates = region%percolates .or. windings /= 0
+            else
+               region%holes = region%holes + 1
+            end if
+         end associate
+      end do
+      do i = 1, size(regions)
+         if (has_outer(i)) then
+            regions(i)%area_fraction = max(regions(i)%area_fraction, 0.0_dp)
+         else
+            regions(i)%centre = nan()
+            if (goes_around(i)) then
+               regions(i)%area_fraction = modulo(regions(i)%area_fraction, 1.0_dp)
+            else
+               regions(i)%area_fraction = 1.0_dp + regions(i)%area_fraction
+               regions(i)%percolates = .true.
+            end if
+         end if
+      end do
+   end subroutine find_regions
+
+   !> The strips of a 1-D contact and the gaps between them: all endless along y, none along x.
+   subroutine find_strips(strips, spots, pools)
+      type(edge_curve), intent(in) :: strips(:)   !! ascending
+      type(contact_region), allocatable, intent(out) :: spots(:), pools(:)
+
+      real(dp) :: last, next
+      integer :: i, n
+
+      n = size(strips)
+      allocate (spots(n), pools(n))
+      do i = 1, n
+         spots(i)%area_fraction = strips(i)%area/cell_area
+         last = strips(i)%phi(2)
+         next = strips(mod(i, n) + 1)%phi(1) + merge(2*pi, 0.0_dp, i == n)
+         pools(i)%area_fraction = (next - last)/(2*pi)
+         spots(i)%centre = in_cell([0.5_dp*sum(strips(i)%phi), 0.0_dp])
+         pools(i)%centre = in_cell([0.5_dp*(last + next), 0.0_dp])
+         spots(i)%percolates = [.false., .true.]
+         pools(i)%percolates = [.false., .true.]
+      end do
+      spots%perimeter = nan()
+      pools%perimeter = nan()
+   end subroutine find_strips
+
+   !> How many cells a curve goes on along X and Y until it comes again.
+   pure function winding_numbers(curve) result(numbers)
+      type(edge_curve), intent(in) :: curve
+      integer :: numbers(2)
+
+      associate (n => size(curve%phi))
+         numbers = nint([curve%phi(n) - curve%phi(1), curve%theta(n) - curve%theta(1)]/(2*pi))
+      end associate
+   end function winding_numbers
+
+   !> The length of a curve [length].
+   pure real(dp) function curve_length(curve, length)
+      type(edge_curve), intent(in) :: curve
+      real(dp), intent(in) :: length(2)   !! L_x, L_y
+
+      associate (n => size(curve%phi), x => curve%phi, y => curve%theta)
+         curve_length = curve%length
+         if (curve_length > 0.0_dp) return
+         curve_length = sum(hypot(length(1)*(x(2:) - x(:n - 1)), length(2)*(y(2:) - y(:n - 1))))/(2*pi)
+      end associate
+   end function curve_length
+
+   !> The centroid of the polygon in a closed curve, in the cell [rad].
+   pure function centroid(curve) result(centre)
+      type(edge_curve), intent(in) :: curve
+      real(dp) :: centre(2)
+
+      real(dp), dimension(size(curve%phi)) :: x, y
+      real(dp) :: twice_area
+      integer :: n
+
+      n = size(x)
+      x = curve%phi - curve%phi(1)
+      y = curve%theta - curve%theta(1)
+      associate (parts => x(:n - 1)*y(2:) - x(2:)*y(:n - 1))
+         twice_area = sum(parts)
+         centre = [sum(x)/n, sum(y)/n]
+         if (abs(twice_area) > 0.0_dp) &
+            centre = [sum((x(:n - 1) + x(2:))*parts), sum((y(:n - 1) + y(2:))*parts)]/(3*twice_area)
+      end associate
+      centre = in_cell(centre + [curve%phi(1), curve%theta(1)])
+   end function centroid
+
+   !> The equivalent angle from 0 to 2 pi; one of 2 pi less rounding is 0, as 2 pi is.
+   elemental real(dp) function in_cell(angle)
+      real(dp), intent(in) :: angle
+
+      real(dp), parameter :: rounding = 1e-12_dp
+
+      in_cell = max(angle - 2*pi*floor(angle/(2*pi) + rounding), 0.0_dp)
+   end function in_cell
+
+   subroutine sort_by_area(regions, sorted)
+      type(contact_region), intent(in) :: regions(:)
+      type(contact_region), allocatable, intent(out) :: sorted(:)   !! the largest first
+
+      integer(c_size_t) :: places(size(regions))
+
+      call gsl_sort_index(places, -regions%area_fraction, 1_c_size_t, size(regions, kind=c_size_t))
+      sorted = regions(int(places) + 1)
+   end subroutine sort_by_area
+
+   pure real(dp) function nan()
+      nan = ieee_value(1.0_dp, ieee_quiet_nan)
+   end function nan
+
+end module wavycon_contact_spots

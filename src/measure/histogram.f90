@@ -1,0 +1,169 @@
+!> The density of values over an area, in bins of equal width.
+module wavycon_histogram
+   use wavycon_kinds, only: dp
+   implicit none (type, external)
+   private
+
+   public :: histogram, make_histogram
+
+   type :: histogram
+      real(dp) :: first = 0.0_dp, width = 0.0_dp   !! lower end of the first bin, and the width of each
+      real(dp), allocatable :: fraction(:)         !! of the area with values in the bin
+      real(dp), allocatable :: mean(:)             !! of these values; the middle of the bin if there are none
+   contains
+      procedure :: middle
+      procedure :: density
+   end type histogram
+
+contains
+
+   !> Sorts the values of equal parts of the area that are selected into bins between the lowest, but at most 0, and the
+   !> highest. The sum of fraction*mean is exactly their part of the mean over the whole area.
+   pure subroutine make_histogram(values, selected, bins, answer, is_continuous)
+      real(dp), intent(in) :: values(:, :)
+      logical, intent(in) :: selected(:, :)      !! of the same shape
+      integer, intent(in) :: bins                !! >= 1
+      type(histogram), intent(out) :: answer
+      !> Whether the values are those at points of a periodic grid of a field that is linear between points that are
+      !> selected, (A6); absent: they are not.
+      logical, intent(in), optional :: is_continuous
+
+      logical :: linear
+      integer :: k, l
+
+      answer%first = min(0.0_dp, minval(values, mask=selected))
+      answer%width = (max(0.0_dp, maxval(values, mask=selected)) - answer%first)/bins
+      allocate (answer%fraction(bins), answer%mean(bins), source=0.0_dp)
+      if (.not. any(selected)) answer%width = 0.0_dp
+      linear = .false.
+      if (present(is_continuous)) linear = is_continuous
+      do l = 1, size(values, 2)
+         do k = 1, size(values, 1)
+            if (linear) then
+               call add_cell(answer, values, selected, k, l)
+            else if (selected(k, l)) then
+               call add_value(answer, values(k, l), 1.0_dp)
+            end if
+         end do
+      end do
+      where (answer%fraction > 0.0_dp)
+         answer%mean = answer%mean/answer%fraction
+      elsewhere
+         answer%mean = answer%middle([(k, k=1, bins)])
+      end where
+      answer%fraction = answer%fraction/size(values)
+   end subroutine make_histogram
+
+   !> Adds the cell from a point to the next along both directions: both pairs of triangles that it can be divided into,
+   !> with half of the weight each.
+   pure subroutine add_cell(answer, values, selected, k, l)
+      type(histogram), intent(inout) :: answer
+      real(dp), intent(in) :: values(:, :)
+      logical, intent(in) :: selected(:, :)
+      integer, intent(in) :: k, l
+
+      real(dp) :: corner(4)
+      logical :: inside(4)
+      integer :: i, k_next, l_next, three(3)
+
+      k_next = mod(k, size(values, 1)) + 1
+      l_next = mod(l, size(values, 2)) + 1
+      inside = [selected(k, l), selected(k_next, l), selected(k_next, l_next), selected(k, l_next)]
+      if (.not. any(inside)) return
+      corner = [values(k, l), values(k_next, l), values(k_next, l_next), values(k, l_next)]
+      do i = 1, 4
+         three = [i, mod(i, 4) + 1, mod(i + 1, 4) + 1]
+         call add_triangle(answer, corner(three), inside(three), 0.25_dp)
+      end do
+   end subroutine add_cell
+
+   !> Adds a triangle: if it is selected in full, what a linear function has in each bin, otherwise a third for each of
+   !> its corners that is.
+   pure subroutine add_triangle(answer, corner, inside, weight)
+      type(histogram), intent(inout) :: answer
+      real(dp), intent(in) :: corner(3)
+      logical, intent(in) :: inside(3)
+      real(dp), intent(in) :: weight
+
+      real(dp) :: high, least, middle, most, part(2), last(2)
+      integer :: bin, i, lowest, highest
+
+      least = minval(corner)
+      most = maxval(corner)
+      lowest = bin_of(answer, least)
+      highest = bin_of(answer, most)
+      if (.not. all(inside) .or. lowest == highest) then
+         do i = 1, 3
+            if (inside(i)) call add_value(answer, corner(i), weight/3)
+         end do
+         return
+      end if
+      middle = max(min(corner(1), corner(2)), min(max(corner(1), corner(2)), corner(3)))
+      last = 0.0_dp
+      do bin = lowest, highest
+         high = answer%first + bin*answer%width
+         if (bin == highest) high = most
+         part = below(high, least, middle, most)
+         answer%fraction(bin) = answer%fraction(bin) + weight*(part(1) - last(1))
+         answer%mean(bin) = answer%mean(bin) + weight*(part(2) - last(2))
+         last = part
+      end do
+   end subroutine add_triangle
+
+   !> The part of a triangle in which a linear function is below a value, and its integral over that part.
+   pure function below(value, least, middle, most) result(part)
+      real(dp), intent(in) :: value                   !! least <= value <= most
+      real(dp), intent(in) :: least, middle, most     !! the function at the corners, least < most
+      real(dp) :: part(2)
+
+      real(dp) :: rest
+
+      if (value < middle) then
+         part(1) = (value - least)**2/((middle - least)*(most - least))
+         part(2) = part(1)*(least + 2*(value - least)/3)
+      else
+         rest = 0.0_dp
+         if (value < most) rest = (most - value)**2/((most - least)*(most - middle))
+         part(1) = 1.0_dp - rest
+         part(2) = (least + middle + most)/3 - rest*(most - 2*(most - value)/3)
+      end if
+   end function below
+
+   pure subroutine add_value(answer, value, weight)
+      type(histogram), intent(inout) :: answer
+      real(dp), intent(in) :: value, weight
+
+      associate (bin => bin_of(answer, value))
+         answer%fraction(bin) = answer%fraction(bin) + weight
+         answer%mean(bin) = answer%mean(bin) + weight*value
+      end associate
+   end subroutine add_value
+
+   !> The bin of a value; of one outside all bins the nearest.
+   pure integer function bin_of(answer, value) result(bin)
+      type(histogram), intent(in) :: answer
+      real(dp), intent(in) :: value
+
+      bin = 1
+      if (answer%width > 0.0_dp) &
+         bin = int(max(0.0_dp, min((value - answer%first)/answer%width, size(answer%fraction) - 0.5_dp))) + 1
+   end function bin_of
+
+   !> The value in the middle of a bin.
+   elemental real(dp) function middle(self, bin)
+      class(histogram), intent(in) :: self
+      integer, intent(in) :: bin   !! 1 .. bins
+
+      middle = self%first + (bin - 0.5_dp)*self%width
+   end function middle
+
+   !> Fraction of the area over width of a bin; 0 if all values are 0.
+   elemental real(dp) function density(self, bin)
+      class(histogram), intent(in) :: self
+      integer, intent(in) :: bin   !! 1 .. bins
+
+      density = 0.0_dp
+      if (self%width > 0.0_dp) density = self%fraction(bin)/self%width
+   end function density
+
+end module wavycon_histogram

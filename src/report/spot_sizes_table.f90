@@ -1,0 +1,128 @@
+!> <case>.spot_sizes.dat: each spot of contact and each pool of gap, the largest first.
+!>
+!> The table has a block for each load, with a blank line between spots and pools. A load without a solution has none.
+module wavycon_spot_sizes_table
+   use wavycon_constants, only: pi
+   use wavycon_contact_spots, only: contact_region, contact_spots
+   use wavycon_error, only: error_type
+   use wavycon_kinds, only: dp
+   use wavycon_output_file, only: output_file
+   use wavycon_results, only: results_type
+   use wavycon_scene, only: scene_type
+   use wavycon_table, only: table_type
+   implicit none (type, external)
+   private
+
+   public :: spot_sizes_table
+
+   character(40), parameter :: columns(*) = [character(40) :: &
+      'load[-]', 'rank[-]', 'area[area]', 'area_fraction[-]', 'equivalent_radius[length]', 'perimeter[length]', &
+      'load_fraction[-]', 'mean_pressure[pressure]', 'x[length]', 'y[length]', 'holes[-]', 'percolates_x[-]', &
+      'percolates_y[-]', 'region[-]']
+
+   type, extends(table_type) :: spot_sizes_table
+   contains
+      procedure, nopass :: key
+      procedure, nopass :: meaning
+      procedure :: is_requested
+      procedure :: needs_fields
+      procedure, nopass :: write => write_spot_sizes_table
+   end type spot_sizes_table
+
+contains
+
+   !> The table has no key of its own.
+   pure function key() result(words)
+      character(:), allocatable :: words
+
+      words = ''
+   end function key
+
+   pure function meaning() result(words)
+      character(:), allocatable :: words
+
+      words = 'Sizes and places of contact spots and of pools of gap.'
+   end function meaning
+
+   logical function is_requested(self, scene)
+      class(spot_sizes_table), intent(in) :: self
+      type(scene_type), intent(in) :: scene
+
+      associate (unused => self); end associate
+      is_requested = scene%output%logical('spots')
+   end function is_requested
+
+   pure logical function needs_fields(self)
+      class(spot_sizes_table), intent(in) :: self
+
+      associate (unused => self); end associate
+      needs_fields = .true.
+   end function needs_fields
+
+   !> Errors: exit_file_trouble.
+   subroutine write_spot_sizes_table(results, error)
+      type(results_type), intent(in) :: results
+      type(error_type), allocatable, intent(out) :: error
+
+      type(output_file) :: file
+      type(contact_spots) :: regions
+      integer :: load
+      logical :: any_block
+
+      call results%open_table('spot_sizes', columns, file, in_blocks=.true.)
+      any_block = .false.
+      do load = 1, size(results%loads)
+         call results%loads(load)%solution%spots(results%scene%surface, regions)
+         if (.not. regions%known) cycle
+         any_block = .true.
+         call results%begin_block(file, load)
+         call put_regions(results, file, load, regions%spots, 'spot')
+         if (size(regions%spots) > 0 .and. size(regions%pools) > 0) call file%put('')
+         call put_regions(results, file, load, regions%pools, 'pool')
+      end do
+      if (.not. any_block) call file%put_names()
+      call file%finish(error)
+   end subroutine write_spot_sizes_table
+
+   !> Writes the regions of one kind, a row for each.
+   subroutine put_regions(results, file, load, regions, kind)
+      type(results_type), intent(in) :: results
+      type(output_file), intent(inout) :: file
+      integer, intent(in) :: load
+      type(contact_region), intent(in) :: regions(:)   !! the largest first
+      character(*), intent(in) :: kind                 !! 'spot' or 'pool'
+
+      real(dp) :: area
+      integer :: i, k
+
+      associate (surface => results%scene%surface)
+         do i = 1, size(regions)
+            associate (region => regions(i))
+               area = region%area_fraction*product(surface%length(:surface%dimension))
+               call file%add(load)
+               call file%add(i)
+               call file%add([area, region%area_fraction, equivalent_radius(area, surface%dimension), &
+                              region%perimeter, region%load_fraction, &
+                              results%mean_pressure(load)*region%load_fraction/region%area_fraction, &
+                              surface%length*region%centre/(2*pi)])
+               call file%add(region%holes)
+               do k = 1, 2
+                  call file%add(merge(1, 0, region%percolates(k)))
+               end do
+               call file%add(kind)
+               call file%end_row()
+            end associate
+         end do
+      end associate
+   end subroutine put_regions
+
+   !> The radius of the disc of an area; of a strip half its width [length].
+   pure real(dp) function equivalent_radius(area, dimension) result(radius)
+      real(dp), intent(in) :: area         !! [length^2], in 1-D [length]
+      integer, intent(in) :: dimension
+
+      radius = sqrt(area/pi)
+      if (dimension == 1) radius = 0.5_dp*area
+   end function equivalent_radius
+
+end module wavycon_spot_sizes_table
