@@ -1,6 +1,8 @@
 !> Size, format and statistics of a height map, for the log.
 module wavycon_map_statistics
    use wavycon_kinds, only: dp
+   use wavycon_map_changes, only: map_changes
+   use wavycon_map_tuning, only: border_ratio
    implicit none (type, external)
    private
 
@@ -14,6 +16,7 @@ module wavycon_map_statistics
       !> Root mean square of the steps from the last points to the first, which are their neighbours because the map is
       !> continued periodically [length].
       real(dp) :: border_step(2) = 0.0_dp
+      type(map_changes) :: changes                                  !! of the measured map
       character(:), allocatable :: path                             !! absolute
    contains
       procedure :: is_broken_along
