@@ -63,13 +63,14 @@ contains
       if (self%is_made()) get_amplitude = self%surface%amplitude
    end function get_amplitude
 
-   !> L_x, L_y, the sides of the periodic cell [length]. A profile uses the first alone.
+   !> L_x, L_y, the sides of the periodic cell, of a mirrored map those of the map [length]. A profile uses the first
+   !> alone.
    pure function lengths(self)
       class(wavy_surface), intent(in) :: self
       real(dp) :: lengths(2)
 
       lengths = 0.0_dp
-      if (self%is_made()) lengths = self%surface%length
+      if (self%is_made()) lengths = self%surface%sides()
    end function lengths
 
    !> The points of a height map along x and y; zeros for any other surface.
@@ -78,7 +79,7 @@ contains
       integer :: points(2)
 
       points = 0
-      if (self%is_made()) points = self%surface%points
+      if (self%is_made()) points = self%surface%points/self%surface%parts()
    end function points
 
    !> The one-dimensional wave, gap = amplitude (1 - cos(2 pi x/wavelength)). Errors, here and below: exit_bad_input.
@@ -189,7 +190,8 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       character(*), parameter :: of_files(*) = [character(13) :: &
-         'kind', 'file', 'file_format', 'missing_value', 'length_x', 'length_y']
+         'file_format', 'missing_value', 'length_x', 'length_y']
+      character(*), parameter :: of_all = "kind = 'file', file = 'heights', "
       type(deck_text_type) :: text
       type(problem_list_type) :: problems
       type(wavy_surface) :: cell
@@ -200,17 +202,15 @@ contains
                                 pair('length_y', [length_y]), cell, error)
       if (allocated(error)) return
       if (present(keys)) then
-         call read_group_text(surface_table(), keys, values, text, problems)
+         call read_group_text(surface_table(), of_all//keys, values, text, problems)
       else
-         call read_group_text(surface_table(), '', values, text, problems)
+         call read_group_text(surface_table(), of_all, values, text, problems)
       end if
       do i = 1, size(of_files)
          if (key_index(values%table%keys, of_files(i)) == 0) cycle
          if (values%has(of_files(i))) call values%complain(problems, of_files(i), &
             trim(of_files(i))//' is not for heights in memory')
       end do
-      call values%set('kind', 'file')
-      call values%set('file', 'heights')
       call check_surface_group(values, problems)
       if (problems%number > 0) call fatal_error(error, exit_bad_input, problem_report(problems, text))
    end subroutine read_map_keys

@@ -45,7 +45,7 @@ contains
       class(hole_equations), intent(out) :: self
       logical, intent(in) :: missing(:, :)   !! shape (M, N); at least one is .false.
       real(dp), intent(in) :: step(2)        !! between points along x and y, in any unit, > 0
-      logical, intent(in) :: periodic        !! whether the last points are neighbours of the first; if not, they have none
+      logical, intent(in) :: periodic        !! whether the last points are neighbours of the first
 
       integer, allocatable :: number(:, :)
       integer :: levels, points(2)

@@ -22,8 +22,8 @@ module wavycon_prepare_map
 
 contains
 
-   !> Prepares a map. 'mirror' leaves the heights as they are: the surface adds the mirror images. Errors: exit_bad_input
-   !> for holes that are not to be filled, and for heights that do not determine the trend; exit_file_trouble without
+   !> Prepares a map. 'mirror' leaves the heights as they are: the surface adds the mirror images. Errors:
+   !> exit_bad_input for holes that are not to be filled, and for heights that do not determine the trend; exit_file_trouble without
    !> memory.
    subroutine prepare_map(source, preparation, length, map, changes, error)
       character(*), intent(in) :: source                !! of the map, for messages

@@ -101,6 +101,10 @@ contains
             '), heights over their mean '// &
             short_number(scene%map%lowest)//' to '//short_number(scene%map%highest)//', rms '// &
             short_number(scene%map%rms)//' ['//scene%length_unit//']')
+         if (allocated(scene%map)) then
+            if (scene%map%changes%words(scene%length_unit) /= '') &
+               call self%say('prepared  '//scene%map%changes%words(scene%length_unit))
+         end if
          if (allocated(scene%map)) call show_broken_borders(self, scene%map, scene%length_unit)
          if (scene%has_units) call show_steep_slopes(self, scene%surface%rms_slope(), allocated(scene%map))
          call self%say('material  '//material_words(scene))
@@ -133,7 +137,7 @@ contains
          if (map%is_broken_along(direction)) call self%say('note: along '//'xy'(direction:direction)// &
             ' the map ends with a step of '//short_number(map%border_step(direction))//' ['//length_unit// &
             '] (rms), where other neighbours differ by at most '//short_number(map%largest_step(direction))// &
-            '; such a step carries load')
+            "; such steps carry load: detrend = 'plane' removes a tilt, edges = 'mirror' or 'window' the steps")
       end do
    end subroutine show_broken_borders
 
@@ -154,13 +158,16 @@ contains
                     ' (rms); the theory needs small ones. '//cause)
    end subroutine show_steep_slopes
 
-   !> The sides of the cell, such as "2 x 3".
+   !> The sides of the cell, or of a mirrored map, such as "2 x 3".
    pure function cell_of(surface) result(words)
       type(surface_type), intent(in) :: surface
       character(:), allocatable :: words
 
-      words = short_number(surface%length(1))
-      if (surface%dimension == 2) words = words//' x '//short_number(surface%length(2))
+      real(dp) :: side(2)
+
+      side = surface%sides()
+      words = short_number(side(1))
+      if (surface%dimension == 2) words = words//' x '//short_number(side(2))
    end function cell_of
 
    !> Shows how many loads are solved.

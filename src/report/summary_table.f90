@@ -95,8 +95,7 @@ contains
                                 measures%min_pressure_over_pstar, errors, at_hardness, results%mean_pressure(load), &
                                 scene%surface%amplitude*measures%mean_gap_over_amplitude, &
                                 scene%surface%amplitude*measures%approach_over_amplitude, &
-                                product(scene%surface%length(:scene%surface%dimension))* &
-                                measures%contact_area_fraction, &
+                                scene%surface%nominal_area()*measures%contact_area_fraction, &
                                 results%peak_pressure(load)]), &
                   integer_text(solution%active_constraints), integer_text(solution%iterations), &
                   number_words(solution%residual), solution%solver, &

@@ -33,6 +33,7 @@ module wavycon_surface
    contains
       procedure :: parts
       procedure :: sides
+      procedure :: nominal_area
       procedure :: is_height_map
       procedure :: has_hardness
       procedure :: full_contact_pressure
@@ -87,7 +88,7 @@ contains
    type(surface_type) function surface_of_points(sides, height, mirrored) result(surface)
       real(dp), intent(in) :: sides(2)                       !! of the map along x and y [length], > 0
       real(dp), intent(inout), contiguous :: height(:, :)    !! [length], shape (M, N), N = 1 for a profile; unchanged
-      logical, intent(in), optional :: mirrored              !! whether mirror images continue the map; .false. if absent
+      logical, intent(in), optional :: mirrored              !! whether mirror images continue it; .false. if absent
 
       type(grid_transform) :: transform
       type(fourier_series) :: waves
@@ -136,6 +137,16 @@ contains
 
       sides = self%length/self%parts()
    end function sides
+
+   !> The area that decks and tables call nominal, that of a profile per depth [area].
+   pure real(dp) function nominal_area(self)
+      class(surface_type), intent(in) :: self
+
+      real(dp) :: side(2)
+
+      side = self%sides()
+      nominal_area = product(side(:self%dimension))
+   end function nominal_area
 
    !> Whether the surface was given on a grid.
    pure logical function is_height_map(self)
