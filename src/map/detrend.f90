@@ -56,35 +56,32 @@ contains
 
       integer :: a, b
 
-      trend%x = polynomials(points(1), degree)
-      trend%y = polynomials(points(2), degree)
+      call make_polynomials(points(1), degree, trend%x)
+      call make_polynomials(points(2), degree, trend%y)
       trend%a = [((a, a=0, min(ubound(trend%x, 2), degree - b)), b=0, ubound(trend%y, 2))]
       trend%b = [((b, a=0, min(ubound(trend%x, 2), degree - b)), b=0, ubound(trend%y, 2))]
       allocate (trend%coefficient(size(trend%a)))
    end subroutine start
 
    !> P_0 .. P_degree of (M1) at the points of one direction, fewer if there are fewer points.
-   pure function polynomials(points, degree) result(values)
+   pure subroutine make_polynomials(points, degree, values)
       integer, intent(in) :: points, degree
-      real(dp), allocatable :: values(:, :)   !! shape (points, 0:.)
+      real(dp), allocatable, intent(out) :: values(:, :)   !! shape (points, 0:.)
 
       integer :: i
 
       allocate (values(points, 0:min(degree, points - 1)), source=1.0_dp)
-      if (ubound(values, 2) >= 1) call add([(real(2*i - points - 1, dp), i=1, points)], 1)
-      if (ubound(values, 2) >= 2) call add(values(:, 1)**2 - 1.0_dp, 2)
+      if (ubound(values, 2) >= 1) values(:, 1) = of_unit_rms([(real(2*i - points - 1, dp), i=1, points)])
+      if (ubound(values, 2) >= 2) values(:, 2) = of_unit_rms(values(:, 1)**2 - 1.0_dp)
+   end subroutine make_polynomials
 
-   contains
+   !> Values over their root mean square.
+   pure function of_unit_rms(values)
+      real(dp), intent(in) :: values(:)
+      real(dp) :: of_unit_rms(size(values))
 
-      !> Adds a polynomial with the mean square 1.
-      pure subroutine add(polynomial, degree)
-         real(dp), intent(in) :: polynomial(:)
-         integer, intent(in) :: degree
-
-         values(:, degree) = polynomial/sqrt(sum(polynomial**2)/size(polynomial))
-      end subroutine add
-
-   end function polynomials
+      of_unit_rms = values/sqrt(sum(values**2)/size(values))
+   end function of_unit_rms
 
    !> The coefficients of least squares, by the normal equations (M2).
    subroutine fit(trend, map, is_determined)

@@ -135,9 +135,9 @@ contains
 
       do direction = 1, 2
          if (map%is_broken_along(direction)) call self%say('note: along '//'xy'(direction:direction)// &
-            ' the map ends with a step of '//short_number(map%border_step(direction))//' ['//length_unit// &
-            '] (rms), where other neighbours differ by at most '//short_number(map%largest_step(direction))// &
-            "; such steps carry load: detrend = 'plane' removes a tilt, edges = 'mirror' or 'window' the steps")
+            ' the last heights differ from the first by '//short_number(map%border_step(direction))//' ['//length_unit// &
+            '] (rms), neighbours inside by at most '//short_number(map%largest_step(direction))// &
+            "; such steps carry load. Remedies: detrend = 'plane', edges = 'mirror', edges = 'window'")
       end do
    end subroutine show_broken_borders
 
