@@ -28,7 +28,8 @@ module wavycon_contact_fields
          real(dp), intent(out) :: gap             !! gap/Delta
       end subroutine fields_at_point
 
-      !> At X = 2 pi (k + offset_x)/N_x, k = 0 .. N_x - 1, and the same in Y.
+      !> At X = 2 pi (k + offset_x)/N_x, k = 0 .. N_x - 1, and the same in Y. On a mirrored height map the points are
+      !> those of the map, X = pi (k + offset_x)/N_x.
       subroutine fields_on_grid(self, points, offset, pressure, displacement, gap)
          import :: contact_fields, dp
          class(contact_fields), intent(inout) :: self

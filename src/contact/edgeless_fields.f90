@@ -16,6 +16,7 @@ module wavycon_edgeless_fields
       private
       type(fourier_series) :: pressure     !! p/p* in full contact
       type(fourier_series) :: shape        !! of the surface: 1 - h/Delta
+      integer :: parts(2) = 1              !! of the surface: how often the points of on_grid fit into the cell
       logical :: full = .false.            !! whether the contact is full
       logical :: solved = .false.          !! whether there is a solution
    contains
@@ -34,6 +35,7 @@ contains
       fields%full = status == full_contact
       fields%solved = fields%full .or. status == no_load
       fields%shape = surface%shape
+      fields%parts = surface%parts()
       if (fields%full) fields%pressure = surface%full_contact_series(pbar_over_pstar)
    end subroutine start_edgeless_fields
 
@@ -58,9 +60,9 @@ contains
       real(dp), allocatable :: full_pressure(:, :), shape(:, :)
 
       allocate (pressure(points(1), points(2)), displacement(points(1), points(2)), gap(points(1), points(2)))
-      call sample_series(self%shape, points, offset, shape)
+      call sample_series(self%shape, points, offset, shape, self%parts)
       if (self%full) then
-         call sample_series(self%pressure, points, offset, full_pressure)
+         call sample_series(self%pressure, points, offset, full_pressure, self%parts)
       else
          allocate (full_pressure(points(1), points(2)), source=0.0_dp)
       end if

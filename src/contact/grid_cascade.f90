@@ -77,7 +77,7 @@ contains
          answer%accurate = answer%state%converged .and. all(answer%errors <= accuracy) .and. &
             all(grid >= plan%trusted)
          if (present(progress)) &
-            call progress%grid_solved(grid*merge(2, 1, surface%shape%is_even() .and. grid > 1), &
+            call progress%grid_solved(grid*merge(2, 1, surface%shape%is_even() .and. grid > 1)/surface%parts(), &
                                       answer%state%iterations, answer%state%local_iterations, &
                                       answer%state%plain_iterations, answer%state%residual)
          ! A solution that has not converged is no start for a finer grid.

@@ -435,15 +435,22 @@ contains
       class(grid_contact), intent(in) :: self
       character(:), allocatable :: words
 
+      integer :: points(2)
+
       if (all(self%points > 0)) then
-         words = 'a grid of '//integer_text(self%points(1))
-         if (self%solved%dimension == 2) words = words//' x '//integer_text(self%points(2))
+         points = self%points/self%solved%parts()
+         words = 'a grid of '//integer_text(points(1))
+         if (self%solved%dimension == 2) words = words//' x '//integer_text(points(2))
          words = words//' points'
          if (self%residual > 0.0_dp) words = words//' to a residual of '//short_number(self%residual)
       else
          words = 'grids refined until mean gap, area and peak pressure are within '//short_number(self%accuracy)
       end if
-      if (self%solved%shape%is_even()) words = words//', on a quarter of the cell'
+      if (self%solved%mirrored) then
+         words = words//', on the map without its mirror images'
+      else if (self%solved%shape%is_even()) then
+         words = words//', on a quarter of the cell'
+      end if
       if (self%turned) words = words//' turned by 45 degrees'
    end function describe
 

@@ -23,6 +23,7 @@ module wavycon_grid_fields
       real(dp) :: mean_gap = 1.0_dp          !! 1 - approach
       real(dp) :: hardness = huge(1.0_dp)    !! H, upper bound of the pressure [p*]
       logical :: turned = .false.            !! whether the angles of the grid are X + Y and X - Y
+      integer :: parts(2) = 1                !! of the surface: how often the points of on_grid fit into the cell
       real(dp) :: scale = 1.0_dp             !! a^(2/3) [p*^2/Delta^(2/3)]
       !> psi [p*^2] at the points of the grid and at two more beyond each side, shape (-1:M+2, -1:N+2). Not allocated
       !> before it is needed.
@@ -50,6 +51,7 @@ contains
       fields%mean_gap = mean_gap
       fields%hardness = surface%hardness
       fields%turned = turned
+      fields%parts = surface%parts()
    end subroutine start_grid_fields
 
    !> None of a turned grid, whose points are only every other one of any grid of the cell.
@@ -64,7 +66,7 @@ contains
       associate (numbers => shape(self%edge%pressure_or_gap))
          points = numbers
          if (.not. self%edge%even) return
-         points = merge(2*numbers, 1, numbers > 1)
+         points = merge(2*numbers, 1, numbers > 1)/self%parts
          offset = merge(0.5_dp, 0.0_dp, numbers > 1)
       end associate
    end subroutine own_points
@@ -86,7 +88,7 @@ contains
       real(dp), allocatable, intent(out) :: pressure(:, :), displacement(:, :), gap(:, :)
 
       integer :: k, l, own(2)
-      real(dp) :: own_offset(2), value
+      real(dp) :: own_offset(2), place(2), value
       logical :: at_own
 
       allocate (pressure(points(1), points(2)), gap(points(1), points(2)))
@@ -100,12 +102,12 @@ contains
                pressure(k, l) = max(value, 0.0_dp)
                gap(k, l) = max(-value, 0.0_dp)
             else
-               call interpolate(self, (k - 1 + offset(1))/points(1), (l - 1 + offset(2))/points(2), &
-                                pressure(k, l), gap(k, l))
+               place = ([k, l] - 1 + offset)/(self%parts*points)
+               call interpolate(self, place(1), place(2), pressure(k, l), gap(k, l))
             end if
          end do
       end do
-      call sample_series(self%shape, points, offset, displacement)
+      call sample_series(self%shape, points, offset, displacement, self%parts)
       displacement = gap - self%mean_gap + displacement
    end subroutine on_grid
 

@@ -35,8 +35,8 @@ contains
          least=1.0e-13_dp, most=0.1_dp)
    end function residual_key
 
-   !> The grid in effect, along x and y: that of the deck or, without an accuracy, that which the surface was given
-   !> on. Zeros if the accuracy decides.
+   !> The grid in effect on the whole cell, along x and y: that of the deck, which refers to surface%parts(), or,
+   !> without an accuracy, that which the surface was given on. Zeros if the accuracy decides.
    pure function points_of_grid(values, surface) result(points)
       type(group_values), intent(in) :: values     !! of &method
       type(surface_type), intent(in) :: surface
@@ -46,6 +46,7 @@ contains
       associate (given => values%integers('grid_points'))
          if (size(given) > 0) points = given(1)
          if (size(given) > 1) points(2) = given(2)
+         points = surface%parts()*points
       end associate
       if (all(points == 0) .and. .not. values%real('accuracy') > 0.0_dp) points = surface%points
    end function points_of_grid
@@ -59,7 +60,7 @@ contains
       integer :: points(2)
 
       if (values%has('grid_points') .and. .not. values%is_bad('grid_points')) then
-         points = points_of_grid(values, surface)
+         points = points_of_grid(values, surface)/surface%parts()
          call values%set('grid_points', points(:surface%dimension))
       end if
       if (values%has('accuracy') .or. .not. (values%has('grid_points') .or. all(surface%points > 0))) return
@@ -78,7 +79,8 @@ contains
       if (values%has('residual') .and. .not. values%has('accuracy') .and. all(points_of_grid(values, surface) == 0)) &
          call values%complain(problems, 'residual', 'residual needs grid_points, or a height map on its own points: '// &
                               'other grids have the residual that their accuracy takes')
-      if (any(mod(values%integers('grid_points'), 2) /= 0)) call values%complain(problems, 'grid_points', &
+      if (.not. surface%mirrored .and. any(mod(values%integers('grid_points'), 2) /= 0)) &
+         call values%complain(problems, 'grid_points', &
          'grid_points must be even: of surfaces with mirror symmetry half of them are solved each way')
    end subroutine check_grid_points
 

@@ -93,7 +93,8 @@ contains
       end do
    end subroutine check_output_group
 
-   !> The points along x and y of the grid to solve or, if the deck gives none, of the height map; zeros without both.
+   !> The points along x and y of the grid to solve or, if the deck gives none, of the height map, on the part of the
+   !> cell that decks refer to; zeros without both.
    pure function given_points(method, surface) result(points)
       type(group_values), intent(in) :: method
       type(surface_type), intent(in) :: surface
@@ -101,6 +102,7 @@ contains
 
       points = points_of_grid(method, surface)
       if (all(points == 0)) points = surface%points
+      points = points/surface%parts()
    end function given_points
 
    !> Sets the points of maps in full and those of lines: as given or, by default, from those of the grid.

@@ -46,7 +46,7 @@ module wavycon_solution_stress
 
    type :: solution_stress
       class(stress_fields), allocatable :: fields    !! not allocated for a flat surface: the stress is uniform
-      real(dp) :: length(2) = 1.0_dp                 !! L_x, L_y [length]
+      real(dp) :: length(2) = 1.0_dp                 !! of the cell that repeats [length]
       real(dp) :: p_star = 0.0_dp                    !! [pressure]; 0 for a flat surface
       real(dp) :: mean_pressure = 0.0_dp             !! [pressure]
    contains
@@ -178,8 +178,8 @@ contains
       if (allocated(error)) return
       if (allocated(self%fields)) then
          call find_largest_stresses(self%fields, body, yielding, shear)
-         associate (place => [self%length, self%length(1)]*yielding%place_in_cell(), &
-                    shear_place => [self%length, self%length(1)]*shear%place_in_cell())
+         associate (place => [self%length, self%length(1)]*yielding%place_in_cell(self%fields%parts), &
+                    shear_place => [self%length, self%length(1)]*shear%place_in_cell(self%fields%parts))
             answer = wavy_largest_stress( &
                yielding%value, yielding%error, shear%value, shear%error, &
                self%p_star*yielding%value, place(1), place(2), place(3), &

@@ -10,7 +10,7 @@ module wavycon_wavy_solution
    use wavycon_contact_measures, only: or_nan
    use wavycon_contact_solution, only: contact_solution, solution_without_contact_edge
    use wavycon_contact_status, only: not_found, status_code
-   use wavycon_edge_curves, only: edge_curve
+   use wavycon_edge_curves, only: edge_curve, keep_curves_of_quarter
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, exit_fine, exit_not_converged, fatal_error
    use wavycon_kinds, only: dp
    use wavycon_linear_area, only: linear_area_fraction
@@ -71,7 +71,7 @@ module wavycon_wavy_solution
       class(contact_fields), allocatable :: fields        !! allocated at their first use
       type(solution_stress), allocatable :: stresses      !! allocated at their first use
       type(wavy_measures) :: numbers
-      real(dp) :: length(2) = 1.0_dp                      !! L_x, L_y [length]
+      real(dp) :: length(2) = 1.0_dp                      !! of the cell that repeats [length]
       real(dp) :: amplitude = 0.0_dp                      !! Delta [length]
       real(dp) :: p_star = 0.0_dp                         !! [pressure]
    contains
@@ -123,7 +123,7 @@ contains
             errors(1), errors(2), errors(3), at_hardness(1), at_hardness(2), mean_pressure, &
             surface%amplitude*measures%mean_gap_over_amplitude, &
             surface%amplitude*measures%approach_over_amplitude, &
-            product(surface%length(:surface%dimension))*measures%contact_area_fraction, peak, from%residual, &
+            surface%nominal_area()*measures%contact_area_fraction, peak, from%residual, &
             int(from%active_constraints, c_int), int(from%iterations, c_int), int(status_code(from%status), c_int), &
             or_nan(measures%contact_area_counted_fraction), or_nan(measures%contact_area_corrected_fraction), &
             or_nan(linear_area_fraction(surface, from%pbar_over_pstar)))
@@ -183,8 +183,8 @@ contains
       exit_status = merge(exit_fine, exit_not_converged, self%is_good())
    end function exit_status
 
-   !> Fields on a grid: x = L_x (k + offset(1))/N_x, k = 0 .. N_x - 1, the same in y. Pressure is exactly 0 outside
-   !> contact and the gap exactly 0 in contact (not with solver 'beale', whose series is shown as it is). Errors:
+   !> Fields on a grid of the sides L of the surface: x = L_x (k + offset(1))/N_x, k = 0 .. N_x - 1, the same in y.
+   !> Pressure is exactly 0 outside contact and the gap exactly 0 in contact (not with solver 'beale', whose series is shown as it is). Errors:
    !> exit_bad_input for a bad number of points, without fields, or without memory.
    subroutine map(self, points, pressure, gap, displacement, error, offset)
       class(wavy_solution), intent(inout) :: self
@@ -265,6 +265,7 @@ contains
       call self%prepare_fields(error)
       if (allocated(error)) return
       call self%solution%edge_curves(self%surface, curves)
+      if (self%surface%mirrored) call keep_curves_of_quarter(curves)
       allocate (parts(size(curves)))
       do i = 1, size(curves)
          parts(i)%x = self%length(1)/(2*pi)*curves(i)%phi

@@ -189,9 +189,12 @@ contains
    pure type(wavy_scales) function scales(self)
       class(wavy_solver), intent(in) :: self
 
+      real(dp) :: side(2)
+
       if (.not. self%is_made()) return
       associate (surface => self%solver%surface)
-         scales = wavy_scales(self%e_star, self%p_star, surface%amplitude, surface%length(1), surface%length(2), &
+         side = surface%sides()
+         scales = wavy_scales(self%e_star, self%p_star, surface%amplitude, side(1), side(2), &
                               int(surface%dimension, c_int))
       end associate
    end function scales

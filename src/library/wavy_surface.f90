@@ -6,10 +6,12 @@ module wavycon_wavy_surface
    use wavycon_deck_text, only: deck_text_type
    use wavycon_group_text, only: read_group_text
    use wavycon_group_values, only: group_values
-   use wavycon_height_map, only: surface_of_heights
+   use wavycon_height_map, only: surface_of_map
    use wavycon_map_file, only: check_map_size, check_room
+   use wavycon_key_table, only: key_index
    use wavycon_kinds, only: dp
    use wavycon_map_statistics, only: map_statistics
+   use wavycon_measured_map, only: measured_map
    use wavycon_plain_text, only: exact_number
    use wavycon_problem_report, only: problem_report
    use wavycon_problems, only: problem_list_type
@@ -61,13 +63,14 @@ contains
       if (self%is_made()) get_amplitude = self%surface%amplitude
    end function get_amplitude
 
-   !> L_x, L_y, the sides of the periodic cell [length]. A profile uses the first alone.
+   !> L_x, L_y, the sides of the periodic cell, of a mirrored map those of the map [length]. A profile uses the first
+   !> alone.
    pure function lengths(self)
       class(wavy_surface), intent(in) :: self
       real(dp) :: lengths(2)
 
       lengths = 0.0_dp
-      if (self%is_made()) lengths = self%surface%length
+      if (self%is_made()) lengths = self%surface%sides()
    end function lengths
 
    !> The points of a height map along x and y; zeros for any other surface.
@@ -76,7 +79,7 @@ contains
       integer :: points(2)
 
       points = 0
-      if (self%is_made()) points = self%surface%points
+      if (self%is_made()) points = self%surface%points/self%surface%parts()
    end function points
 
    !> The one-dimensional wave, gap = amplitude (1 - cos(2 pi x/wavelength)). Errors, here and below: exit_bad_input.
@@ -142,35 +145,75 @@ contains
                                 pair('length_x', [length_x])//pair('length_y', [length_y]), surface, error)
    end subroutine make_wave_sum
 
-   !> A periodic map of heights. The mean height does not matter. Errors also: exit_file_trouble without memory.
-   subroutine make_heights(heights, length_x, length_y, surface, error)
-      real(dp), intent(in) :: heights(:, :)        !! upwards to the other body [length]; x first, one column: a profile
-      real(dp), intent(in) :: length_x, length_y   !! sides of the periodic cell, > 0 [length]
+   !> A map of heights, periodic unless the keys say otherwise. The mean height does not matter. Errors also:
+   !> exit_file_trouble without memory.
+   subroutine make_heights(heights, length_x, length_y, surface, error, keys)
+      !> Upwards to the other body [length], NaN where they are missing; x first, one column: a profile.
+      real(dp), intent(in) :: heights(:, :)
+      real(dp), intent(in) :: length_x, length_y   !! sides of the map, > 0 [length]
       type(wavy_surface), intent(out) :: surface
       type(error_type), allocatable, intent(out) :: error
+      !> Of &surface: how the map is prepared, such as "detrend = 'plane', fill_missing = 'harmonic', edges = 'mirror'".
+      character(*), intent(in), optional :: keys
 
       character(*), parameter :: source = 'heights'
-      real(dp), allocatable :: height(:, :)
-      type(wavy_surface) :: cell
+      type(group_values) :: values
+      type(map_statistics), allocatable :: statistics
+      type(measured_map) :: map
 
       call check_map_size(source, shape(heights), error)
       if (.not. allocated(error)) call check_room(source, size(heights), error)
-      ! The sides are checked as those of a surface that has nothing else.
-      if (.not. allocated(error)) call make_surface_of_keys("kind = 'sum', amplitudes = 0, waves_x = 1"// &
-                                                            pair('length_x', [length_x])// &
-                                                            pair('length_y', [length_y]), cell, error)
-      if (allocated(error)) then
-         surface%trouble = error%message
-         return
+      if (.not. allocated(error)) call read_map_keys(length_x, length_y, keys, values, error)
+      if (.not. allocated(error)) then
+         map%missing = ieee_is_nan(heights)
+         if (any(map%missing)) then
+            allocate (map%height, source=merge(0.0_dp, heights, map%missing))
+         else
+            deallocate (map%missing)
+            allocate (map%height, source=heights)
+         end if
+         allocate (surface%surface)
+         call surface_of_map(source, values, [length_x, length_y], map, surface%surface, statistics, error)
       end if
-      height = heights
-      allocate (surface%surface)
-      call surface_of_heights(source, [length_x, length_y], 1.0_dp, height, surface%surface, error)
       surface%kind = 'file'
       if (.not. allocated(error)) return
-      deallocate (surface%surface)
+      if (allocated(surface%surface)) deallocate (surface%surface)
       surface%trouble = error%message
    end subroutine make_heights
+
+   !> Reads the keys of a map in memory. Errors: exit_bad_input for sides out of range, for keys that only files have,
+   !> and with all problems of the others.
+   subroutine read_map_keys(length_x, length_y, keys, values, error)
+      real(dp), intent(in) :: length_x, length_y
+      character(*), intent(in), optional :: keys
+      type(group_values), intent(out) :: values
+      type(error_type), allocatable, intent(out) :: error
+
+      character(*), parameter :: of_files(*) = [character(13) :: &
+         'file_format', 'missing_value', 'length_x', 'length_y']
+      character(*), parameter :: of_all = "kind = 'file', file = 'heights', "
+      type(deck_text_type) :: text
+      type(problem_list_type) :: problems
+      type(wavy_surface) :: cell
+      integer :: i
+
+      ! The sides are checked as those of a surface that has nothing else.
+      call make_surface_of_keys("kind = 'sum', amplitudes = 0, waves_x = 1"//pair('length_x', [length_x])// &
+                                pair('length_y', [length_y]), cell, error)
+      if (allocated(error)) return
+      if (present(keys)) then
+         call read_group_text(surface_table(), of_all//keys, values, text, problems)
+      else
+         call read_group_text(surface_table(), of_all, values, text, problems)
+      end if
+      do i = 1, size(of_files)
+         if (key_index(values%table%keys, of_files(i)) == 0) cycle
+         if (values%has(of_files(i))) call values%complain(problems, of_files(i), &
+            trim(of_files(i))//' is not for heights in memory')
+      end do
+      call check_surface_group(values, problems)
+      if (problems%number > 0) call fatal_error(error, exit_bad_input, problem_report(problems, text))
+   end subroutine read_map_keys
 
    !> Any surface that a deck can describe. Errors: exit_bad_input, with all problems of the keys; exit_file_trouble for
    !> a height map that cannot be read.

@@ -8,7 +8,7 @@ module wavycon_edge_curves
    implicit none (type, external)
    private
 
-   public :: edge_curve, shift_curve, strip_ends, trace_edges, turn_curves, whole_strips
+   public :: edge_curve, keep_curves_of_quarter, shift_curve, strip_ends, trace_edges, turn_curves, whole_strips
 
    !> A curve with the contact on its left. Its last point is the first again; that of a curve through the whole plane
    !> is one period on. In 1-D it is the two ends of a strip.
@@ -109,6 +109,44 @@ contains
       ! The difference of two periods is not exact.
       if (crest_in_contact .and. size(edges) > 0) curves(1)%phi(1) = -edges(1)
    end subroutine strip_ends
+
+   !> Keeps the curves of an even contact that have a point in the quarter 0 <= phi, theta <= pi of the cell. Each is
+   !> moved by whole periods to where it has the most points there. A curve across the border of the quarter is its own
+   !> mirror image and extends beyond it.
+   subroutine keep_curves_of_quarter(curves)
+      type(edge_curve), allocatable, intent(inout) :: curves(:)
+
+      type(edge_curve), allocatable :: kept(:)
+      integer :: i, k, l, most, number, shift(2)
+      logical :: keep(size(curves))
+
+      do i = 1, size(curves)
+         associate (phi => curves(i)%phi, theta => curves(i)%theta)
+            most = 0
+            do l = floor(minval(theta)/(2*pi)), floor(maxval(theta)/(2*pi))
+               do k = floor(minval(phi)/(2*pi)), floor(maxval(phi)/(2*pi))
+                  number = count(phi >= 2*pi*k .and. phi <= 2*pi*k + pi .and. &
+                                 theta >= 2*pi*l .and. theta <= 2*pi*l + pi)
+                  if (number <= most) cycle
+                  most = number
+                  shift = [k, l]
+               end do
+            end do
+            keep(i) = most > 0
+            if (.not. keep(i)) cycle
+            phi = phi - 2*pi*shift(1)
+            theta = theta - 2*pi*shift(2)
+         end associate
+      end do
+      allocate (kept(count(keep)))
+      number = 0
+      do i = 1, size(curves)
+         if (.not. keep(i)) cycle
+         number = number + 1
+         kept(number) = curves(i)
+      end do
+      call move_alloc(kept, curves)
+   end subroutine keep_curves_of_quarter
 
    !> Transforms curves to axes turned by 45 degrees: factor times the sum and the difference of the angles.
    pure subroutine turn_curves(curves, factor)

@@ -5,7 +5,7 @@
 !> of the two ends of a strip.
 module wavycon_contour_table
    use wavycon_constants, only: pi
-   use wavycon_edge_curves, only: edge_curve
+   use wavycon_edge_curves, only: edge_curve, keep_curves_of_quarter
    use wavycon_error, only: error_type
    use wavycon_output_file, only: output_file
    use wavycon_results, only: results_type
@@ -60,6 +60,7 @@ contains
       any_curve = .false.
       do load = 1, size(results%loads)
          call results%loads(load)%solution%edge_curves(results%scene%surface, curves)
+         if (results%scene%surface%mirrored) call keep_curves_of_quarter(curves)
          if (size(curves) == 0) cycle
          any_curve = .true.
          call results%begin_block(file, load)

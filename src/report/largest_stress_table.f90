@@ -82,8 +82,9 @@ contains
       subroutine put_largest(largest)
          type(largest_stress), intent(in) :: largest
 
-         associate (scene => results%scene, length => results%scene%surface%length)
-            call file%add([scene%p_star*largest%value, [length, length(1)]*largest%place_in_cell()])
+         associate (scene => results%scene, length => results%scene%surface%length, &
+                    parts => results%scene%surface%parts())
+            call file%add([scene%p_star*largest%value, [length, length(1)]*largest%place_in_cell(parts)])
          end associate
       end subroutine put_largest
 

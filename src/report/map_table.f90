@@ -121,7 +121,8 @@ contains
          call fields%own_points(own, offset)
          if (all(own == points)) return
       end do
-      offset = 0.0_dp
+      ! Of a mirrored map the points are in the middle of their steps, so that none lies on a border.
+      offset = merge(0.5_dp, 0.0_dp, results%scene%surface%parts() > 1)
    end function map_offset
 
    !> Writes the map of a load. The point after the last of a row is the first again and is not written.
@@ -134,6 +135,7 @@ contains
       type(output_file), intent(inout) :: file
 
       class(contact_fields), allocatable :: fields
+      real(dp) :: side(2)
       real(dp), allocatable :: gap(:, :), p(:, :), rows(:, :), shape(:, :), u(:, :)
       integer :: k, l
 
@@ -141,10 +143,11 @@ contains
       associate (surface => results%scene%surface, p_star => results%scene%p_star)
          call results%loads(load)%solution%fields(surface, fields)
          call fields%on_grid(points, offset, p, u, gap)
-         call sample_series(surface%shape, points, offset, shape)
+         call sample_series(surface%shape, points, offset, shape, surface%parts())
+         side = surface%sides()
          do l = 1, points(2)
             do k = 1, points(1)
-               rows(:, k) = [surface%length*([k, l] - 1 + offset)/points, p_star*p(k, l), &
+               rows(:, k) = [side*([k, l] - 1 + offset)/points, p_star*p(k, l), &
                              surface%amplitude*[gap(k, l), u(k, l), 1.0_dp - shape(k, l)]]
             end do
             if (as_text) then

@@ -69,9 +69,12 @@ contains
       function cell_sides() result(words)
          character(:), allocatable :: words
 
-         words = ', cell_x['//self%scene%length_unit//'] = '//exact_number(self%scene%surface%length(1))
+         real(dp) :: side(2)
+
+         side = self%scene%surface%sides()
+         words = ', cell_x['//self%scene%length_unit//'] = '//exact_number(side(1))
          if (self%scene%surface%dimension == 2) words = words//', cell_y['//self%scene%length_unit//'] = '// &
-            exact_number(self%scene%surface%length(2))
+            exact_number(side(2))
       end function cell_sides
 
    end subroutine open_table

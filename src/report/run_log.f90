@@ -106,6 +106,8 @@ contains
          if (allocated(scene%map) .and. scene%surface%amplitude > 0.0_dp) call self%say( &
             'roughness '//roughness_words(scene))
          if (allocated(scene%map)) then
+            if (scene%map%changes%words(scene%length_unit) /= '') &
+               call self%say('prepared  '//scene%map%changes%words(scene%length_unit))
             call show_broken_borders(self, scene%map, scene%length_unit)
             ! A broken border is a step between two points.
             if (.not. any(scene%map%is_broken_along([1, 2]))) call show_unresolved_slopes(self, scene%roughness)
@@ -162,9 +164,9 @@ contains
 
       do direction = 1, 2
          if (map%is_broken_along(direction)) call self%say('note: along '//'xy'(direction:direction)// &
-            ' the map ends with a step of '//short_number(map%border_step(direction))//' ['//length_unit// &
-            '] (rms), where other neighbours differ by at most '//short_number(map%largest_step(direction))// &
-            '; such a step carries load')
+            ' the last heights differ from the first by '//short_number(map%border_step(direction))//' ['//length_unit// &
+            '] (rms), neighbours inside by at most '//short_number(map%largest_step(direction))// &
+            "; such steps carry load. Remedies: detrend = 'plane', edges = 'mirror', edges = 'window'")
       end do
    end subroutine show_broken_borders
 
@@ -209,13 +211,16 @@ contains
       if (allocated(scene%map)) has_file = scene%map%path /= ''
    end function has_file
 
-   !> The sides of the cell, such as "2 x 3".
+   !> The sides of the cell, or of a mirrored map, such as "2 x 3".
    pure function cell_of(surface) result(words)
       type(surface_type), intent(in) :: surface
       character(:), allocatable :: words
 
-      words = short_number(surface%length(1))
-      if (surface%dimension == 2) words = words//' x '//short_number(surface%length(2))
+      real(dp) :: side(2)
+
+      side = surface%sides()
+      words = short_number(side(1))
+      if (surface%dimension == 2) words = words//' x '//short_number(side(2))
    end function cell_of
 
    !> Shows how many loads are solved.

@@ -44,9 +44,11 @@ contains
       type(output_file) :: file
       class(stress_fields), allocatable :: fields
       real(dp), allocatable :: depths(:), errors(:), parts(:, :, :), rows(:, :)
+      real(dp) :: side(2)
       integer :: body, i, load
 
       associate (scene => results%scene)
+         side = scene%surface%sides()
          call stress_depths(scene, .false., depths)
          allocate (parts(6, 2, size(depths)), errors(size(depths)), rows(size(columns) - 2, size(depths)))
          call results%open_table('stress_line', columns, file, in_blocks=.true.)
@@ -59,7 +61,7 @@ contains
             do body = 1, number_of_bodies(results)
                call results%begin_block(file, load)
                do i = 1, size(depths)
-                  rows(:, i) = [depths(i), depths(i)/scene%surface%length(1), &
+                  rows(:, i) = [depths(i), depths(i)/side(1), &
                                 stress_numbers(scene%stress_setting%body(body)%stress(parts(:, :, i), &
                                                                                       fields%pbar_over_pstar), &
                                                errors(i), scene%p_star)]

@@ -98,17 +98,18 @@ contains
       type(output_file), intent(inout) :: file
 
       real(dp), allocatable :: errors(:, :), rows(:, :), stress(:, :, :)
-      real(dp) :: here(6)
+      real(dp) :: here(6), side(2)
       integer :: k, l
 
       allocate (rows(size(columns) - 2, points(1)))
       associate (scene => results%scene)
+         side = scene%surface%sides()
          call fields%on_plane(points, offset, angle_of_depth(scene, depth), scene%stress_setting%body(body), stress, &
                               errors)
          do l = 1, points(2)
             do k = 1, points(1)
                here = stress(k, l, :)
-               rows(:, k) = [scene%surface%length*([k, l] - 1 + offset)/points, depth, &
+               rows(:, k) = [side*([k, l] - 1 + offset)/points, depth, &
                              stress_numbers(here, errors(k, l), scene%p_star)]
             end do
             if (as_text) then

@@ -42,19 +42,21 @@ contains
 
       integer :: i, intervals, steps
       logical :: by_list, has_range
+      real(dp) :: side(2)
 
       associate (stress => scene%stress)
+         side = scene%surface%sides()
          has_range = stress%has('depth_from') .or. stress%has('depth_to') .or. stress%has('depth_steps')
          by_list = of_planes .or. .not. has_range
          if (by_list .and. stress%has('depths')) then
             depths = stress%reals('depths')
          else if (by_list .and. stress%has('depths_over_cell_x')) then
-            depths = scene%surface%length(1)*stress%reals('depths_over_cell_x')
+            depths = side(1)*stress%reals('depths_over_cell_x')
          else
             steps = stress%integer('depth_steps')
             intervals = max(1, steps - 1)
-            depths = [(scene%surface%length(1)*(stress%real('depth_from')*(intervals - i) + &
-                                                stress%real('depth_to')*i)/intervals, i=0, steps - 1)]
+            depths = [(side(1)*(stress%real('depth_from')*(intervals - i) + stress%real('depth_to')*i)/intervals, &
+                       i=0, steps - 1)]
          end if
       end associate
    end subroutine stress_depths

@@ -102,8 +102,7 @@ contains
                                 results%mean_pressure(load), &
                                 scene%surface%amplitude*measures%mean_gap_over_amplitude, &
                                 scene%surface%amplitude*measures%approach_over_amplitude, &
-                                product(scene%surface%length(:scene%surface%dimension))* &
-                                measures%contact_area_fraction, &
+                                scene%surface%nominal_area()*measures%contact_area_fraction, &
                                 results%peak_pressure(load)]), &
                   integer_text(solution%active_constraints), integer_text(solution%iterations), &
                   number_words(solution%residual), solution%solver, &

@@ -2,7 +2,8 @@
 !>
 !> Line 1 runs from a crest along x; in 2-D line 2 runs from the same crest along the diagonal of the cell, and line 3,
 !> which only sections of stresses use, along y. Lines end
-!> after half a cell if the surface has a mirror line there, otherwise after a whole cell.
+!> after half a cell if the surface has a mirror line there, otherwise after a whole cell. Of a mirrored height map they
+!> run through the crest from border to border of the map.
 module wavycon_surface_lines
    use wavycon_constants, only: pi
    use wavycon_kinds, only: dp
@@ -26,21 +27,43 @@ contains
       type(results_type), intent(in) :: results
       integer, intent(in) :: number             !! of the line: 1, or in 2-D 2 or 3
 
-      real(dp) :: way(2)
-      integer :: intervals, k
+      real(dp) :: start(2), way(2)
+      integer :: before, intervals, k
 
       intervals = results%scene%output%integer('line_points')
       line%direction = [merge(0, 1, number == 3), merge(0, 1, number == 1)]
-      way = 2*pi*line%direction/intervals
       associate (surface => results%scene%surface)
-         if (surface%shape%is_even() .and. all(abs(surface%crest) <= 0.0_dp)) intervals = intervals/2
+         way = 2*pi*line%direction/(surface%parts()*intervals)
+         start = surface%crest
+         if (surface%mirrored) then
+            before = steps_before(surface%crest, way)
+            intervals = before + steps_before(pi - surface%crest, way)
+            start = surface%crest - before*way
+         else if (surface%shape%is_even() .and. all(abs(surface%crest) <= 0.0_dp)) then
+            intervals = intervals/2
+         end if
          allocate (line%angle(2, 0:intervals), line%place(2, 0:intervals), line%distance(0:intervals))
          do k = 0, intervals
-            line%angle(:, k) = surface%crest + k*way
+            line%angle(:, k) = start + k*way
             line%place(:, k) = surface%length*line%angle(:, k)/(2*pi)
             line%distance(k) = norm2(surface%length*k*way)/(2*pi)
          end do
       end associate
    end subroutine start_surface_line
+
+   !> How many steps fit into a way to the border of a mirrored map.
+   pure integer function steps_before(to_border, way)
+      real(dp), intent(in) :: to_border(2)   !! along X and Y [rad]
+      real(dp), intent(in) :: way(2)         !! a step [rad]; 0 in a direction in which the line does not go
+
+      !> A point so close behind the border, in steps, is on it but for rounding.
+      real(dp), parameter :: rounding = 1e-9_dp
+
+      real(dp) :: steps(2)
+
+      steps = huge(steps_before)
+      where (way > 0.0_dp) steps = to_border/way
+      steps_before = floor(minval(steps) + rounding)
+   end function steps_before
 
 end module wavycon_surface_lines

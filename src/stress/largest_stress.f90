@@ -66,9 +66,11 @@ contains
       end if
    end subroutine find_largest_stress
 
-   !> The place over the sides of the cell, X and Y from 0 to 1, and Z over L_x. NaN if there is no solution.
-   pure function place_in_cell(self) result(place)
+   !> The place over the sides of the cell, X and Y from 0 to 1, and Z over L_x. Of a mirrored height map that of the
+   !> point of the map whose image it is. NaN if there is no solution.
+   pure function place_in_cell(self, parts) result(place)
       class(largest_stress), intent(in) :: self
+      integer, intent(in) :: parts(2)   !! of the surface
       real(dp) :: place(3)
 
       !> A place so close to 0 is at 0 but for rounding: not on the far side of the cell.
@@ -81,6 +83,7 @@ contains
       if (abs(place(1)) <= rounding) place(1) = 0.0_dp
       if (abs(place(2)) <= rounding) place(2) = 0.0_dp
       place = place/(2*pi)
+      where (parts > 1) place(:2) = abs(place(:2) - anint(place(:2)))
    end function place_in_cell
 
    !> Of a load without a solution.

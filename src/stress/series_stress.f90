@@ -58,6 +58,7 @@ contains
       n = ubound(pressure%c, 2)
       stress%pbar_over_pstar = pbar_over_pstar
       stress%dimension = surface%dimension
+      stress%parts = surface%parts()
       stress%side_ratio = surface%length(2)/surface%length(1)
       if (surface%dimension == 1) stress%side_ratio = 1.0_dp
       stress%pressure_error = pressure_error
@@ -290,7 +291,8 @@ contains
       end if
       call self%use_depth(depth)
       number = merge(9, 6, octave_reaches(self))
-      call transform_waves(self, points, offset, depth, body, number, fields)
+      call transform_waves(self, self%parts*points, offset, depth, body, number, fields)
+      if (any(self%parts > 1)) fields = fields(:points(1), :points(2), :)
       allocate (error(points(1), points(2)), source=0.0_dp)
       do i = 7, number
          error = error + fields(:, :, i)**2

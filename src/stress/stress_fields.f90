@@ -16,6 +16,7 @@ module wavycon_stress_fields
       logical :: exist = .true.               !! whether there is a solution; if not all stresses are NaN
       integer :: dimension = 2                !! 1: nothing depends on Y
       real(dp) :: side_ratio = 1.0_dp         !! L_y/L_x
+      integer :: parts(2) = 1                 !! of the surface: how often the points of on_plane fit into the cell
    contains
       procedure(parts_at_point), deferred :: at
       procedure(find_start_places), deferred :: start_places
@@ -84,7 +85,8 @@ contains
       end do
    end subroutine on_line
 
-   !> On a plane at X = 2 pi (k + offset_x)/N_x, k = 0 .. N_x - 1, and the same in Y.
+   !> On a plane at X = 2 pi (k + offset_x)/N_x, k = 0 .. N_x - 1, and the same in Y; on a mirrored height map at the
+   !> points of the map, X = pi (k + offset_x)/N_x.
    subroutine on_plane(self, points, offset, depth, body, stress, error)
       class(stress_fields), intent(inout) :: self
       integer, intent(in) :: points(2)        !! N_x, N_y >= 1; N_y = 1 in 1-D
@@ -101,7 +103,7 @@ contains
       allocate (stress(points(1), points(2), 6), error(points(1), points(2)))
       do l = 1, points(2)
          do k = 1, points(1)
-            associate (angles => 2*pi*([k, l] - 1 + offset)/points)
+            associate (angles => 2*pi*([k, l] - 1 + offset)/(self%parts*points))
                call self%at(angles(1), angles(2), depth, parts, error(k, l))
             end associate
             stress(k, l, :) = body%stress(parts, self%pbar_over_pstar)

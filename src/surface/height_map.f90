@@ -6,10 +6,14 @@ module wavycon_height_map
    use wavycon_key_table, only: choice_key, key_type, largest_number, real_key, smallest_number, text_key
    use wavycon_kinds, only: dp
    use wavycon_length_unit, only: convert_lengths
+   use wavycon_map_changes, only: map_changes
    use wavycon_map_file, only: read_height_map
    use wavycon_map_statistics, only: map_statistics, statistics_of
+   use wavycon_map_tuning, only: usual_window_width
    use wavycon_measured_map, only: measured_map
-   use wavycon_plain_text, only: escaped, integer_text, short_number
+   use wavycon_plain_text, only: escaped, short_number
+   use wavycon_prepare_map, only: map_preparation, prepare_map
+   use wavycon_problems, only: problem_list_type
    use wavycon_surface, only: surface_of_points, surface_type
    use wavycon_surface_keys, only: length_x_key, length_y_key
    use wavycon_surface_kind, only: surface_kind
@@ -17,13 +21,14 @@ module wavycon_height_map
    implicit none (type, external)
    private
 
-   public :: height_map_kind, surface_of_heights
+   public :: height_map_kind, surface_of_map
 
    type, extends(surface_kind) :: height_map_kind
    contains
       procedure, nopass :: name
       procedure, nopass :: meaning
       procedure, nopass :: keys
+      procedure, nopass :: check
       procedure, nopass :: make
    end type height_map_kind
 
@@ -47,8 +52,7 @@ contains
       type(key_type), allocatable :: rows(:)
 
       rows = [ &
-         length_x_key(), &
-         length_y_key('side of the periodic cell along y; without it the points are equally far apart along x and y.'), &
+         length_x_key(), length_y_key(), &
          text_key('file', '', &
             'a periodic map of heights, upwards to the other body; looked for beside the deck, then where the '// &
             "program is started. The last row and column are the cell's last, not copies of the first.", &
@@ -62,11 +66,32 @@ contains
          real_key('missing_value', '', '-', "heights of the file that have this value are missing, as are 'nan' and "// &
             'empty fields between commas, semicolons or tabs.'), &
          real_key('height_scale', '1.0', 'length', "length of one unit of the file's heights; beside a file with "// &
-            'units a factor.', above=0.0_dp)]
+            'units a factor.', above=0.0_dp), &
+         choice_key('detrend', "'none'", &
+            "what is subtracted first, fitted to the heights that are there by least squares: 'mean', 'plane' or "// &
+            "'quadratic', a polynomial of the second degree.", &
+            [character(9) :: 'none', 'mean', 'plane', 'quadratic']), &
+         choice_key('fill_missing', "'none'", &
+            "heights that are missing: 'none', they are an error; 'harmonic', filled after `detrend` by the "// &
+            "smooth surface of Laplace's equation.", [character(8) :: 'none', 'harmonic']), &
+         choice_key('edges', "'periodic'", &
+            "how the map continues beyond its borders: 'periodic', its last points are neighbours of its first; "// &
+            "'mirror', by its mirror images; 'window', periodic after a taper to the mean at the borders.", &
+            [character(8) :: 'periodic', 'mirror', 'window']), &
+         real_key('window_width', usual_window_width, '-', &
+            "with edges = 'window': width of the taper at each border, over the side.", above=0.0_dp, most=0.5_dp)]
    end function keys
 
-   !> Reads the map. Errors: exit_file_trouble if the file cannot be read, exit_bad_input if it is not a map or has
-   !> holes, its heights are out of range, its unit is unknown, or the deck gives sides of the cell beside those of the
+   subroutine check(values, problems)
+      type(group_values), intent(in) :: values
+      type(problem_list_type), intent(inout) :: problems
+
+      if (values%has('window_width') .and. values%text('edges') /= 'window') &
+         call values%complain(problems, 'window_width', "window_width is for edges = 'window'")
+   end subroutine check
+
+   !> Reads the map. Errors: exit_file_trouble if the file cannot be read, exit_bad_input if it is not a map,
+   !> its holes are not to be filled, its heights are out of range, its unit is unknown, or the deck gives sides of the cell beside those of the
    !> file, which may be in another unit.
    subroutine make(values, surface, map, error)
       type(group_values), intent(inout) :: values
@@ -82,14 +107,12 @@ contains
       path = place_of_map(values%deck_path, values%text('file'))
       call read_map(values, path, heights, error)
       if (.not. allocated(error)) call take_sides(values, path, heights, length, is_equal_spacing, error)
-      if (.not. allocated(error)) call refuse_holes(path, heights, error)
-      if (.not. allocated(error)) &
-         call surface_of_heights(path, length, values%real('height_scale'), heights%height, surface, error)
+      if (.not. allocated(error)) call surface_of_map(path, values, length, heights, surface, map, error)
       if (allocated(error)) then
          error%message = error%message//' (the height map of '//escaped(values%deck_path)//')'
          return
       end if
-      map = statistics_of(heights%height, heights%format, full_path(path))
+      map%path = full_path(path)
       map%is_equal_spacing = is_equal_spacing
       if (allocated(heights%length_unit)) map%length_unit = heights%length_unit
    end subroutine make
@@ -148,36 +171,50 @@ contains
       end associate
    end subroutine take_sides
 
-   !> Refuses a map with missing heights. Errors: exit_bad_input.
-   subroutine refuse_holes(path, heights, error)
-      character(*), intent(in) :: path
-      type(measured_map), intent(in) :: heights
-      type(error_type), allocatable, intent(out) :: error
-
-      integer :: first(2)
-
-      if (.not. allocated(heights%missing)) return
-      first = findloc(heights%missing, .true.)
-      call fatal_error(error, exit_bad_input, escaped(path)//': '//integer_text(count(heights%missing))//' of '// &
-                       integer_text(size(heights%missing))//' heights are missing, the first in row '// &
-                       integer_text(first(2))//', column '//integer_text(first(1))// &
-                       ": fill_missing = 'harmonic' fills them")
-   end subroutine refuse_holes
-
-   !> Makes the surface of heights in memory. Errors: exit_bad_input for heights that are not finite or out of range.
-   subroutine surface_of_heights(source, length, scale, height, surface, error)
-      character(*), intent(in) :: source                    !! of the heights, for messages
-      real(dp), intent(in) :: length(2)                     !! L_x, L_y [length], > 0
-      real(dp), intent(in) :: scale                         !! length of one unit of the heights, > 0
-      !> Upwards to the other body, shape (M, N), N = 1 for a profile; becomes the heights over their mean [length].
-      real(dp), intent(inout), contiguous :: height(:, :)
+   !> Makes the surface of a map as the keys of this kind say, but `file` and `file_format`. Errors: exit_bad_input for
+   !> heights that are not finite or out of range, for missing ones that are not to be filled, and for too few to
+   !> determine a trend; exit_file_trouble without memory.
+   subroutine surface_of_map(source, values, sides, map, surface, statistics, error)
+      character(*), intent(in) :: source            !! of the heights, for messages
+      type(group_values), intent(inout) :: values   !! as of `make`
+      real(dp), intent(in) :: sides(2)              !! of the map along x and y [length], > 0
+      !> Heights upwards to the other body; then those of the surface over their mean [length], without holes.
+      type(measured_map), intent(inout) :: map
       type(surface_type), intent(inout) :: surface
+      type(map_statistics), allocatable, intent(out) :: statistics   !! without the path
       type(error_type), allocatable, intent(out) :: error
 
-      if (.not. all(ieee_is_finite(height))) then
+      type(map_changes) :: changes
+
+      if (.not. all(ieee_is_finite(map%height))) then
          call fatal_error(error, exit_bad_input, escaped(source)//': not all heights are finite numbers')
          return
       end if
+      associate (scale => values%real('height_scale'))
+         ! Larger heights, which scale_heights refuses, would overflow here.
+         if (maxval(abs(map%height)) <= largest_number) then
+            call prepare_map(source, map_preparation(values%text('detrend'), values%text('fill_missing'), &
+                                                     values%text('edges'), values%real('window_width')), &
+                             sides, map, changes, error)
+            if (allocated(error)) return
+         end if
+         if (changes%edges /= 'window') call values%leave_out('window_width')
+         call scale_heights(source, scale, map%height, error)
+         if (allocated(error)) return
+         changes%rise = scale*changes%rise
+      end associate
+      surface = surface_of_points(sides, map%height, mirrored=changes%edges == 'mirror')
+      statistics = statistics_of(map%height, map%format, '')
+      statistics%changes = changes
+   end subroutine surface_of_map
+
+   !> Subtracts the mean of the heights and converts them to lengths. Errors: exit_bad_input if they are out of range.
+   subroutine scale_heights(source, scale, height, error)
+      character(*), intent(in) :: source           !! of the heights, for messages
+      real(dp), intent(in) :: scale                !! length of one unit of the heights, > 0
+      real(dp), intent(inout) :: height(:, :)      !! then over their mean [length]
+      type(error_type), allocatable, intent(out) :: error
+
       if (maxval(abs(height)) <= largest_number) then
          if (maxval(height) <= minval(height)) then
             ! Equal heights less their rounded mean would not be zero.
@@ -187,15 +224,12 @@ contains
          end if
       end if
       associate (largest => maxval(abs(height)))
-         if (largest > largest_number .or. (largest < smallest_number .and. largest > 0.0_dp)) then
+         if (largest > largest_number .or. (largest < smallest_number .and. largest > 0.0_dp)) &
             call fatal_error(error, exit_bad_input, escaped(source)//': the heights over their mean, times '// &
                              'height_scale, are up to '//short_number(largest)//' [length]: lengths may be '// &
                              'from '//short_number(smallest_number)//' to '//short_number(largest_number))
-            return
-         end if
       end associate
-      surface = surface_of_points(length, height)
-   end subroutine surface_of_heights
+   end subroutine scale_heights
 
    !> The path of the map: in the directory of the deck or, if it is not there, in the one the program was started in.
    function place_of_map(deck_path, file) result(path)

@@ -23,13 +23,19 @@ module wavycon_surface
       real(dp) :: length(2) = 1.0_dp            !! L_x, L_y, sides of the periodic cell [length]
       real(dp) :: amplitude = 1.0_dp            !! Delta [length], >= 0
       type(fourier_series) :: shape
-      integer :: points(2) = 0                  !! of the grid of a height map; zeros for a sum of waves
+      integer :: points(2) = 0                  !! of the grid of a height map on the cell; zeros for a sum of waves
+      !> Whether the cell consists of a height map and its mirror images. The map is then the quarter 0 <= X, Y <= pi.
+      logical :: mirrored = .false.
       real(dp) :: crest(2) = 0.0_dp             !! X, Y of a peak of the shape [rad]
       real(dp) :: stiffness = 1.0_dp            !! pressure [p*] over displacement [Delta] of a wave, times wavelength
       real(dp) :: full_contact_peak = 1.0_dp    !! largest p - pbar in full contact [p*]; the least is -1
       real(dp) :: crest_curvature = 1.0_dp      !! largest sum of the two curvatures over 4 pi^2 Delta [1/length^2]
       real(dp) :: hardness = huge(1.0_dp)       !! H, the largest pressure that it bears [p*]; huge: it stays elastic
    contains
+      procedure :: parts
+      procedure :: sides
+      procedure :: nominal_area
+      procedure :: is_height_map
       procedure :: has_hardness
       procedure :: full_contact_pressure
       procedure :: undeformed_gap_over_amplitude
@@ -76,27 +82,33 @@ contains
       call find_peak(weighted(surface, surface%shape, 2), surface%crest_curvature, unused)
    end function surface_of_series
 
-   !> The surface through given heights on a grid of its whole cell. Between the points it is their Fourier series.
-   !> Crest, full-contact pressure and curvature are the extremes over the points.
-   type(surface_type) function surface_of_points(length, height) result(surface)
-      real(dp), intent(in) :: length(2)                      !! L_x, L_y [length], > 0
+   !> The surface through given heights on a grid. Between the points it is their Fourier series. Crest, full-contact
+   !> pressure and curvature are the extremes over the points.
+   !>
+   !> The grid is that of the whole cell, with the first point at X = Y = 0, or that of a quarter, which mirror images
+   !> continue: equation (M6) of src/map/README.md.
+   type(surface_type) function surface_of_points(sides, height, mirrored) result(surface)
+      real(dp), intent(in) :: sides(2)                       !! of the map along x and y [length], > 0
       real(dp), intent(inout), contiguous :: height(:, :)    !! [length], shape (M, N), N = 1 for a profile; unchanged
+      logical, intent(in), optional :: mirrored              !! whether mirror images continue it; .false. if absent
 
       type(grid_transform) :: transform
       type(fourier_series) :: waves
       real(dp), allocatable :: values(:, :)
       integer :: best(2)
 
-      surface%length = length
       surface%dimension = merge(1, 2, size(height, 2) == 1)
-      surface%points = shape(height)
-      call transform%start(shape(height), even=.false.)
+      if (present(mirrored)) surface%mirrored = mirrored
+      surface%length = surface%parts()*sides
+      surface%points = surface%parts()*shape(height)
+      call transform%start(shape(height), even=surface%mirrored)
       call transform%series(height, waves)
       waves%c(0, 0) = 0.0_dp
       allocate (values, mold=height)
       call transform%sample(waves, values)
       best = maxloc(values)
       surface%crest = [transform%x_angle(best(1)), transform%y_angle(best(2))]
+      if (surface%dimension == 1) surface%crest(2) = 0.0_dp
       surface%amplitude = values(best(1), best(2))
       surface%shape = divided(waves, surface%amplitude)
       if (surface%amplitude <= 0.0_dp) return
@@ -109,6 +121,41 @@ contains
       call transform%sample(waves, values)
       surface%crest_curvature = maxval(values)
    end function surface_of_points
+
+   !> How often the part of the cell that decks and tables refer to lies in it along x and y: the map of a mirrored map
+   !> twice, any other whole cell once.
+   pure function parts(self)
+      class(surface_type), intent(in) :: self
+      integer :: parts(2)
+
+      parts = merge(2, 1, self%mirrored)
+      if (self%dimension == 1) parts(2) = 1
+   end function parts
+
+   !> The sides of that part along x and y [length].
+   pure function sides(self)
+      class(surface_type), intent(in) :: self
+      real(dp) :: sides(2)
+
+      sides = self%length/self%parts()
+   end function sides
+
+   !> The area that decks and tables call nominal, that of a profile per depth [area].
+   pure real(dp) function nominal_area(self)
+      class(surface_type), intent(in) :: self
+
+      real(dp) :: side(2)
+
+      side = self%sides()
+      nominal_area = product(side(:self%dimension))
+   end function nominal_area
+
+   !> Whether the surface was given on a grid.
+   pure logical function is_height_map(self)
+      class(surface_type), intent(in) :: self
+
+      is_height_map = all(self%points > 0)
+   end function is_height_map
 
    !> Whether the pressure has an upper bound.
    elemental logical function has_hardness(self)
@@ -235,7 +282,7 @@ contains
       class(surface_type), intent(in) :: self
 
       paper_wave = no_paper_wave
-      if (.not. self%shape%is_even()) return
+      if (self%is_height_map() .or. .not. self%shape%is_even()) return
       if (self%dimension == 1) then
          if (is_wave(1, 0)) paper_wave = straight_paper_wave
       else if (is_square(self)) then
@@ -272,7 +319,7 @@ contains
       class(surface_type), intent(in) :: self
 
       is_paper_wave = self%paper_wave() /= no_paper_wave
-      if (.not. self%amplitude > 0.0_dp) is_paper_wave = all(self%points == 0) .and. &
+      if (.not. self%amplitude > 0.0_dp) is_paper_wave = .not. self%is_height_map() .and. &
          (self%dimension == 1 .or. is_square(self))
    end function is_paper_wave
 
@@ -299,15 +346,15 @@ contains
    end subroutine paper_angles
 
    !> Whether the surface is periodic on a square of half the area, turned by 45 degrees, and there even and symmetric
-   !> under exchange of the directions.
+   !> under exchange of the directions. A height map is taken as it is.
    pure logical function has_smaller_cell(self)
       class(surface_type), intent(in) :: self
 
       integer :: i, j, n
 
       n = ubound(self%shape%c, 1)
-      has_smaller_cell = self%dimension == 2 .and. self%shape%is_even() .and. is_square(self) .and. &
-                         n == ubound(self%shape%c, 2)
+      has_smaller_cell = .not. self%is_height_map() .and. self%dimension == 2 .and. self%shape%is_even() .and. &
+                         is_square(self) .and. n == ubound(self%shape%c, 2)
       if (.not. has_smaller_cell) return
       has_smaller_cell = all(abs(self%shape%c - transpose(self%shape%c)) <= rounding)
       do j = 0, n

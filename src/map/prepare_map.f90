@@ -1,0 +1,86 @@
+!> Makes a measured map a surface that a contact can be solved for: trend, holes, borders, in this order.
+module wavycon_prepare_map
+   use wavycon_detrend, only: detrend_map
+   use wavycon_error, only: error_type, exit_bad_input, fatal_error
+   use wavycon_fill_missing, only: fill_holes
+   use wavycon_kinds, only: dp
+   use wavycon_map_changes, only: map_changes, percent
+   use wavycon_measured_map, only: measured_map
+   use wavycon_plain_text, only: escaped, integer_text
+   use wavycon_window, only: taper_borders
+   implicit none (type, external)
+   private
+
+   public :: map_preparation, prepare_map
+
+   !> Values of the keys of the same names.
+   type :: map_preparation
+      character(9) :: detrend = 'none'
+      character(8) :: fill_missing = 'none', edges = 'periodic'
+      real(dp) :: window_width = 0.05_dp   !! over the side, 0 < window_width <= 1/2
+   end type map_preparation
+
+contains
+
+   !> Prepares a map. 'mirror' leaves the heights as they are: the surface adds the mirror images. Errors:
+   !> exit_bad_input for holes that are not to be filled, and for heights that do not determine the trend; exit_file_trouble without
+   !> memory.
+   subroutine prepare_map(source, preparation, length, map, changes, error)
+      character(*), intent(in) :: source                !! of the map, for messages
+      type(map_preparation), intent(in) :: preparation
+      real(dp), intent(in) :: length(2)                 !! sides of the map along x and y, in one unit, > 0
+      type(measured_map), intent(inout) :: map          !! then without holes
+      type(map_changes), intent(out) :: changes         !! `rise` in the unit of the heights
+      type(error_type), allocatable, intent(out) :: error
+
+      character(*), parameter :: trends(*) = [character(9) :: 'mean', 'plane', 'quadratic']
+      logical :: is_determined
+      integer :: degree
+
+      changes%points = shape(map%height)
+      if (allocated(map%missing)) changes%filled = count(map%missing)
+      call check_holes(source, preparation, map, error)
+      if (allocated(error)) return
+      degree = findloc(trends, preparation%detrend, dim=1) - 1
+      if (degree >= 0) then
+         call detrend_map(map, degree, changes%rise, is_determined)
+         if (.not. is_determined) then
+            call fatal_error(error, exit_bad_input, escaped(source)//': the '// &
+                             integer_text(size(map%height) - changes%filled)//' heights that are there do not '// &
+                             "determine detrend = '"//trim(preparation%detrend)//"': give detrend = 'mean'")
+            return
+         end if
+         changes%detrend = preparation%detrend
+      end if
+      if (changes%filled > 0) then
+         call fill_holes(source, length/shape(map%height), preparation%edges == 'periodic', map, error)
+         if (allocated(error)) return
+      end if
+      changes%edges = preparation%edges
+      if (preparation%edges == 'window') call taper_borders(preparation%window_width, map%height, changes%tapered)
+   end subroutine prepare_map
+
+   !> Errors: exit_bad_input for missing heights that are not to be filled, or cannot be.
+   subroutine check_holes(source, preparation, map, error)
+      character(*), intent(in) :: source
+      type(map_preparation), intent(in) :: preparation
+      type(measured_map), intent(in) :: map
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: first(2), number
+
+      if (.not. allocated(map%missing)) return
+      number = count(map%missing)
+      if (number == size(map%missing)) then
+         call fatal_error(error, exit_bad_input, escaped(source)//': all heights are missing')
+      else if (number > 0 .and. preparation%fill_missing == 'none') then
+         first = findloc(map%missing, .true.)
+         call fatal_error(error, exit_bad_input, escaped(source)//': '//integer_text(number)//' of '// &
+                          integer_text(size(map%missing))//' heights are missing ('// &
+                          percent(real(number, dp)/size(map%missing))//'), the first is number '// &
+                          integer_text(first(1))//' along x and '//integer_text(first(2))//" along y: "// &
+                          "fill_missing = 'harmonic' fills them")
+      end if
+   end subroutine check_holes
+
+end module wavycon_prepare_map

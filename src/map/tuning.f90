@@ -1,0 +1,26 @@
+!> Tuned constants of the room `map`, each with its reason. `scripts/constants` shows what changing them does.
+module wavycon_map_tuning
+   use wavycon_kinds, only: dp
+   implicit none (type, external)
+   private
+
+   !> Factor of the corrections of a coarser level (M4). Corrections that are constant over two by two points are too
+   !> small by about 2: at equal energy they rise half as high as linear ones. It must be below 2, or the cycle is not
+   !> positive definite. Over a hole of half a map of 1024 x 1024 points conjugate gradients take 33, 23, 19, 18 and 19
+   !> iterations with 1, 1.3, 1.5, 1.8 and 1.9.
+   real(dp), parameter, public :: overcorrection = 1.8_dp
+
+   !> Visits of each coarser level in a cycle (M4). With 1 the number of iterations grows with the hole, 32 and 41 over
+   !> half a map of 256 x 256 and 1024 x 1024 points; with 2 it is 18 for both, and the time falls by a third.
+   integer, parameter, public :: visits = 2
+
+   !> Default of the key window_width: part of a side over which a taper rises from the mean to the heights. A wider
+   !> taper changes more of the map, a narrower one adds slopes of its own: README.md in this directory has a table.
+   character(*), parameter, public :: usual_window_width = '0.05'
+
+   !> Steps across the border are too large above this multiple of those across any line inside, both root mean square.
+   !> Over 200 periodic self-affine maps each (Hurst exponents 0.3 and 0.8) the ratio is at most 1.24 from 16 x 16 points
+   !> on, 1.37 for profiles of 64 points. A tilt by the rms height makes it 2.4 or more for H = 0.8 on 256 x 256 points.
+   real(dp), parameter, public :: border_ratio = 1.5_dp
+
+end module wavycon_map_tuning

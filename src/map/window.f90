@@ -1,0 +1,47 @@
+!> Tapers the borders of a height map: (M5) of README.md in this directory.
+module wavycon_window
+   use wavycon_constants, only: pi
+   use wavycon_kinds, only: dp
+   implicit none (type, external)
+   private
+
+   public :: taper_borders
+
+contains
+
+   !> Multiplies the heights over their mean by Tukey's window along x and along y, so that they vanish at the borders.
+   subroutine taper_borders(width, height, changed)
+      real(dp), intent(in) :: width             !! of the taper at each border, over the side, 0 < width <= 1/2
+      real(dp), intent(inout) :: height(:, :)   !! shape (M, N), N = 1 for a profile; then over the mean
+      real(dp), intent(out) :: changed          !! part of the points at which the window is below 1
+
+      real(dp) :: along_x(size(height, 1)), along_y(size(height, 2))
+      integer :: j
+
+      along_x = window(size(height, 1), width)
+      along_y = window(size(height, 2), width)
+      height = height - sum(height)/size(height)
+      do j = 1, size(height, 2)
+         height(:, j) = along_y(j)*along_x*height(:, j)
+      end do
+      changed = 1.0_dp - real(count(along_x >= 1.0_dp), dp)*count(along_y >= 1.0_dp)/size(height)
+   end subroutine taper_borders
+
+   !> The window (M5) at the points of one direction; 1 for a single point, which has no border.
+   pure function window(points, width) result(values)
+      integer, intent(in) :: points
+      real(dp), intent(in) :: width
+      real(dp) :: values(points)
+
+      real(dp) :: distance   ! from the nearer border, over the side
+      integer :: i
+
+      values = 1.0_dp
+      if (points == 1) return
+      do i = 1, points
+         distance = (min(i, points + 1 - i) - 0.5_dp)/points
+         if (distance < width) values(i) = sin(0.5_dp*pi*distance/width)**2
+      end do
+   end function window
+
+end module wavycon_window
