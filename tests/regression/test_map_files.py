@@ -81,12 +81,12 @@ class MapFiles(unittest.TestCase):
     def test_single_precision(self):
         numpy.savetxt("map.dat", self.single.astype(float), "%.17g")
         expected = self.summary("map.dat", self.sides())
-        for name, array in ("little", self.single.astype("<f4")), ("big", numpy.asfortranarray(self.single.astype(">f4"))):
-            numpy.save(name, array)
+        for name, order in ("little", "<f4"), ("big", ">f4"):
+            numpy.save(name, numpy.asfortranarray(self.single.astype(order)))
             self.assertEqual(expected, self.summary(f"{name}.npy", self.sides()), name)
         gsffile.write_gsf("map.gsf", self.single, {"XReal": M*STEP, "YReal": N*STEP, "XYUnits": "m", "ZUnits": "m"})
         self.assertEqual(expected, self.summary("map.gsf"))
-        self.assertIn(f"cell_x[m] = {M*STEP}", pathlib.Path("made/deck.summary.dat").read_text(encoding="utf-8"))
+        self.assertIn("cell_x[m] = 1.33514404296875e-5", pathlib.Path("made/deck.summary.dat").read_text(encoding="utf-8"))
         read, _ = gsffile.read_gsf("map.gsf")
         self.assertTrue((read == self.single).all())
 
