@@ -144,7 +144,7 @@ contains
 
       !> Columns read before they are copied, so that copies fill lines of the processor's cache.
       integer, parameter :: block_columns = 16
-      real(dp) :: column(points(2), block_columns)
+      real(dp), allocatable :: column(:, :)
       integer(int64) :: expected
       integer :: columns, i, infinite, j, k
 
@@ -163,6 +163,7 @@ contains
       allocate (map%height(points(1), points(2)))
       infinite = 0
       if (by_columns) then
+         allocate (column(points(2), block_columns))
          do i = 1, points(1), block_columns
             columns = min(block_columns, points(1) - i + 1)
             do k = 1, columns

@@ -91,6 +91,8 @@ contains
       character(:), allocatable :: remedy
 
       remedy = remedy_of_content(file%head, file%path)
+      if (is_npy(file%head)) remedy = "this is a file of numpy: file_format = 'npy' reads it"
+      if (is_gsf(file%head)) remedy = "this is a file of Gwyddion: file_format = 'gsf' reads it"
       if (remedy /= '') then
          call file%refuse(remedy, error)
          return

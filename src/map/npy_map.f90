@@ -32,7 +32,7 @@ contains
 
       character(:), allocatable :: order, shape_words, type_words
       integer :: first, last, number
-      integer :: sides(3)
+      integer :: points(2), sides(3)
 
       if (.not. is_npy(file%head)) then
          call file%refuse('this is no .npy file: it does not begin with \x93NUMPY', error)
@@ -67,8 +67,9 @@ contains
          return
       end if
       ! The last index of the array is the one along x.
-      if (number == 1) sides(:2) = [1, sides(1)]
-      call file%read_heights(int(last, int64), sides(2:1:-1), number == 2 .and. order == 'True', map, error)
+      points = [sides(2), sides(1)]
+      if (number == 1) points = [sides(1), 1]
+      call file%read_heights(int(last, int64), points, number == 2 .and. order == 'True', map, error)
    end subroutine read_npy_map
 
    !> The place of the words of a head: a Python dictionary. last < first if there are none.

@@ -86,13 +86,15 @@ contains
       integer, intent(out) :: separators    !! before the word: commas and semicolons or, without these, tabs
       logical, intent(out) :: are_tabs      !! whether the separators are tabs
 
+      character(1) :: byte
       integer :: tabs
 
       commas = 0
       separators = 0
       tabs = 0
       do first = place, len(line)
-         select case (line(first:first))
+         byte = line(first:first)
+         select case (byte)
          case (' ')
          case (tab)
             tabs = tabs + 1
@@ -108,7 +110,9 @@ contains
       are_tabs = separators == 0 .and. tabs > 0
       if (are_tabs) separators = tabs
       do last = first, len(line)
-         if (is_gap(line(last:last))) exit
+         byte = line(last:last)
+         if (byte >= '0' .and. byte <= '9') cycle
+         if (is_gap(byte)) exit
       end do
       last = last - 1
    end subroutine next_word
@@ -180,7 +184,8 @@ contains
    elemental logical function is_gap(byte)
       character(1), intent(in) :: byte
 
-      is_gap = byte == ' ' .or. byte == tab .or. byte == ',' .or. byte == ';'
+      ! gfortran 12 compares with a blank by a call of its library.
+      is_gap = iachar(byte) == iachar(' ') .or. byte == tab .or. byte == ',' .or. byte == ';'
    end function is_gap
 
 end module wavycon_number_line

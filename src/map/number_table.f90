@@ -78,6 +78,7 @@ contains
       character(*), intent(in) :: content
       integer, intent(out) :: numbers, lines
 
+      character(1) :: byte
       integer :: place
       logical :: in_word     !! whether the byte before belongs to a word
       logical :: in_line     !! whether the line has had a word or a separator
@@ -89,7 +90,9 @@ contains
       in_line = .false.
       is_closed = .false.
       do place = 1, len(content)
-         select case (content(place:place))
+         byte = content(place:place)
+         if (in_word .and. byte >= '0' .and. byte <= '9') cycle
+         select case (byte)
          case (' ')
             in_word = .false.
          case (line_feed, carriage_return)
@@ -165,6 +168,8 @@ contains
 
       first = behind
       do behind = first, len(content)
+         ! Most bytes are beyond '#', and line ends are before it.
+         if (iachar(content(behind:behind)) > iachar('#')) cycle
          if (is_line_end(content(behind:behind)) .or. content(behind:behind) == '#') exit
       end do
       last = behind - 1

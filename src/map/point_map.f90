@@ -58,7 +58,8 @@ contains
       integer, parameter :: least_percentage = 10
       type(axis_type) :: axis(2)
       logical, allocatable :: is_there(:, :)
-      integer :: i, j, k
+      real(dp), allocatable :: coordinate(:)
+      integer :: i, j, k, points(2)
 
       do k = 1, table%rows()
          if (.not. has_three(table, k)) then
@@ -75,20 +76,22 @@ contains
          return
       end if
       do i = 1, 2
-         axis(i) = axis_of(table%values(table%first(:table%rows()) + i - 1))
+         coordinate = table%values(table%first(:table%rows()) + i - 1)
+         axis(i) = axis_of(coordinate)
       end do
+      points = axis%number
       call check_grid()
-      if (.not. allocated(error)) call check_map_size(table%path, axis%number, error)
-      if (.not. allocated(error)) call check_room(table%path, product(axis%number), error)
+      if (.not. allocated(error)) call check_map_size(table%path, points, error)
+      if (.not. allocated(error)) call check_room(table%path, product(points), error)
       if (allocated(error)) return
-      if (int(least_percentage, int64)*product(axis%number) > 100*int(table%rows(), int64)) then
+      if (int(least_percentage, int64)*product(points) > 100*int(table%rows(), int64)) then
          call fatal_error(error, exit_bad_input, escaped(table%path)//': the grid of these points has '// &
                           grid_words()//' and only '//integer_text(table%rows())//' of them are there: interpolate '// &
                           'the heights to a regular grid')
          return
       end if
-      allocate (map%height(axis(1)%number, axis(2)%number), source=ieee_value(0.0_dp, ieee_quiet_nan))
-      allocate (is_there(axis(1)%number, axis(2)%number), source=.false.)
+      allocate (map%height(points(1), points(2)), source=ieee_value(0.0_dp, ieee_quiet_nan))
+      allocate (is_there(points(1), points(2)), source=.false.)
       do k = 1, table%rows()
          associate (point => table%values(table%first(k):table%first(k + 1) - 1))
             i = index_on(axis(1), point(1))
@@ -124,7 +127,7 @@ contains
       function grid_words() result(words)
          character(:), allocatable :: words
 
-         words = integer_text(axis(1)%number)//' x '//integer_text(axis(2)%number)//' points'
+         words = integer_text(points(1))//' x '//integer_text(points(2))//' points'
       end function grid_words
 
       subroutine bad_line(number, words)

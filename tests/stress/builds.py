@@ -108,7 +108,8 @@ def sanitizers(source, builds, seed, quick, work, failures):
     os.environ.update(LSAN_OPTIONS=f"suppressions={suppressions}:print_suppressions=0",
                       UBSAN_OPTIONS="halt_on_error=1:print_stacktrace=1")
     for fuzz, amount in ((fuzz_decks.fuzz_checks, 50 if quick else 500), (fuzz_decks.fuzz_runs, 10 if quick else 60),
-                         (fuzz_maps.fuzz_checks, 50 if quick else 500), (fuzz_maps.fuzz_runs, 10 if quick else 60)):
+                         (fuzz_maps.fuzz_checks, 50 if quick else 500),
+                         (fuzz_maps.fuzz_binary, 50 if quick else 500), (fuzz_maps.fuzz_runs, 10 if quick else 60)):
         folder = work/fuzz.__module__/fuzz.__name__
         folder.mkdir(parents=True)
         fuzzed = fuzz(program, seed, amount, folder, failures)

@@ -70,6 +70,7 @@ def decks(settings, results):
                          (fuzz_decks.fuzz_monsters, 100000 if settings.quick else 10000000),
                          (fuzz_decks.fuzz_runs, 30 if settings.quick else 500),
                          (fuzz_maps.fuzz_checks, 60 if settings.quick else 3000),
+                         (fuzz_maps.fuzz_binary, 60 if settings.quick else 3000),
                          (fuzz_maps.fuzz_runs, 20 if settings.quick else 500),
                          (fuzz_maps.fuzz_monsters, 100000 if settings.quick else 10000000)):
         with work_folder() as work:

@@ -6,6 +6,7 @@ import os
 import random
 import re
 import resource
+import struct
 import sys
 
 from common import SECONDS, Part, complaints_about, files_below, memory_limits, result_complaints, run, save
@@ -13,13 +14,15 @@ from fuzz_decks import empty, mutate_bytes
 
 MEGABYTE = 1000000
 ADDRESS_SPACE = 4000*MEGABYTE  # of a run [byte]
+BINARY_ADDRESS_SPACE = 500*MEGABYTE  # the same, of a small binary map: no allocation follows its head alone
 LARGE_SECONDS = 30.0  # limit for a map of a hundred megabytes, which takes 3 s on an idle machine
 LARGEST = 1e90
 LOG_TOLERANCE = 1e-5  # of the numbers of the log, which have six digits
 # Errors of a file or of a map as a whole, which have no line.
 WITHOUT_LINE = re.compile(r"there are no numbers|a map of \d+ x \d+ points|the heights over their mean"
                           r"|there is no such file|this is a (directory|pipe)|cannot be (opened|read)"
-                          r"|there is not the memory")
+                          r"|there is not the memory|(\d+ of \d+|all) heights are missing|the grid of these points"
+                          r"|(this is|by its name this is) an? (text of two bytes|compressed file|picture|file of|archive|spreadsheet)")
 # More points would make a run long.
 MOST_POINTS = 4096
 
@@ -29,6 +32,13 @@ NUMBERS = ["0", "-0", "1", "-1", "+1", "1e-12", "1e12", "1e90", "-1e90", "1.1e90
            "3*1", "(1,2)", "1/2", "", "*", "1e99999", "0." + "9"*80, "9"*99, "9"*101, "1"*400, "½", "１", "NA", "null",
            "'1'", "1\x0b", "1\x00", "\x1b[31m1", "x"]
 GAPS = [" ", "  ", "\t", ",", ", ", ";", " ; ", ",,", ";;", "\x0b", "\x0c", "\u00a0", "|", ":", "\x00", "#"]
+# Of heads of binary files.
+HEAD_WORDS = [b"0", b"-1", b"-4", b"1", b"3", b"8193", b"65536", b"4294967296", b"99999999999999999999", b"1e9",
+              b"1e999", b"nan", b"inf", b"4.5", b"'<f8'", b"'<i8'", b"'|O'", b"'<f16'", b"True", b"()", b"(4,)", b"(2, 2, 4)",
+              b"{}", b"XRes", b"ZUnits", b"m", b"px", b"V", b"\xb5m", b"\x00"]
+# NaN, quiet and signalling, infinities, the least and the largest, in both byte orders.
+ODD_NUMBERS = [bytes.fromhex(word) for word in ("0000c07f", "0100807f", "0000807f", "000080ff", "01000000", "ffff7f7f",
+                                                "7fc00000", "7f800001", "7ff00000", "0000f07f")]
 LINE_ENDS = ["\r\n", "\r", "\n\n", "\n \n", "\n# remark\n", "\x0b\n", "\x85", "\u2028", ""]
 
 
@@ -189,6 +199,7 @@ def deck(stream, name="heights.dat"):
     """A deck for a map."""
     scale = stream.choice(("", "", ", height_scale = 1e-9", ", height_scale = 1e85", ", height_scale = 1e-85"))
     form = stream.choice(("", "", ", file_format = 'matrix'", ", file_format = 'xyz'"))
+    form += stream.choice(("", "", "", ", missing_value = 1"))
     length = ", length_x = 2" if "matrix" in form else ""   # refused beside coordinates
     return (f"&surface kind = 'file', file = '{name}'{form}{scale}{length} /\n"
             f"&load pbar_over_pstar = 0.05, 0.7, 1.2 /\n&output lines = t, line_points = 8 /\n")
@@ -209,21 +220,22 @@ def second_reading(content, form):
         return None
     shape = len(rows[0]), len(rows)
     if form == "xyz":
-        # Either coordinate may vary faster.
+        # In any order, and complete: the program fills no holes unasked.
         if len(rows[0]) != 3:
             return None
-        first = 0 if abs(rows[1][0] - rows[0][0]) > abs(rows[1][1] - rows[0][1]) else 1
-        step = rows[1][first] - rows[0][first]
-        row_length = 1
-        while step and row_length < len(rows) and (rows[row_length][first] - rows[row_length - 1][first])/step > 0:
-            row_length += 1
-        shape = row_length, len(rows)//row_length
-        shape = shape if first == 0 else shape[::-1]
+        shape = tuple(distinct([row[k] for row in rows]) for k in (0, 1))
         rows = [[row[2]] for row in rows]
     heights = [value for row in rows for value in row]
     mean = sum(heights)/len(heights)
     over = [value - mean for value in heights]
     return shape, min(over), max(over), (sum(value*value for value in over)/len(over))**0.5
+
+
+def distinct(coordinates):
+    """The number of coordinates that differ by more than rounding."""
+    coordinates = sorted(coordinates)
+    gaps = [after - before for before, after in zip(coordinates, coordinates[1:])]
+    return 1 + sum(gap > 0.02*max(gaps) for gap in gaps)
 
 
 def reading_complaints(outcome, content, text):
@@ -288,6 +300,97 @@ def fuzz_checks(program, seed, count, work, failures):
         accepted += outcome.status == 0
         if not part.count(f"map-check-{i}.nml", complaints):
             keep(failures, f"map-check-{i}", text, content)
+    part.worst = f"{accepted} accepted, {slowest:.2f} s"
+    return part
+
+
+def npy_file(stream, columns, rows):
+    """A file of numpy."""
+    order, letter = stream.choice("<>"), stream.choice("fd")
+    words = (f"{{'descr': '{order}f{struct.calcsize(letter)}', 'fortran_order': {stream.choice((True, False))}, "
+             f"'shape': ({rows}, {columns}), }}").encode()
+    version = stream.choice((1, 1, 2, 3))
+    words += b" "*stream.randrange(64) + b"\n"
+    head = b"\x93NUMPY" + bytes((version, 0)) + struct.pack("<H" if version == 1 else "<I", len(words)) + words
+    return head, struct.pack(f"{order}{columns*rows}{letter}", *(stream.uniform(-1, 1) for _ in range(columns*rows)))
+
+
+def gsf_file(stream, columns, rows):
+    """A file of Gwyddion."""
+    lines = [f"XRes = {columns}", f"YRes = {rows}"] + stream.sample(
+        ["XReal = 1e-3", "YReal = 0.5e-3", "XYUnits = m", "ZUnits = m", "ZUnits = nm", "Title = a = b", "Colour = 7"],
+        stream.randrange(6))
+    stream.shuffle(lines)
+    head = "".join(line + "\n" for line in ["Gwyddion Simple Field 1.0", *lines]).encode()
+    head += b"\0"*(4 - len(head) % 4)
+    return head, struct.pack(f"<{columns*rows}f", *(stream.uniform(-1, 1) for _ in range(columns*rows)))
+
+
+def gnuplot_file(stream, columns, rows):
+    """A binary matrix of gnuplot."""
+    order, step = stream.choice("<>"), stream.choice((1, -0.5, 0.1, 1e-6))
+    numbers = []
+    for j in range(rows):
+        numbers += [j*step, *(stream.uniform(-1, 1) for _ in range(columns))]
+    return (struct.pack(f"{order}{columns + 1}f", columns, *(i*step for i in range(columns))),
+            struct.pack(f"{order}{len(numbers)}f", *numbers))
+
+
+def mutate_head(stream, head):
+    """A number or a word of a head replaced, bytes changed, or the head cut."""
+    action = stream.randrange(6)
+    if action == 0:
+        return head[:stream.randrange(len(head) + 1)]
+    if action == 1:
+        return mutate_bytes(stream, head)
+    if action == 2:
+        return head.replace(b"\n", stream.choice((b"", b"\r\n", b"\0", b"\n\n")))
+    places = list(re.finditer(rb"-?\d+(\.\d+)?(e-?\d+)?|[A-Za-z]+|'[^']*'", head))
+    if not places:
+        return mutate_bytes(stream, head)
+    place = stream.choice(places)
+    word = stream.choice(HEAD_WORDS + [place.group()*2, b""])
+    return head[:place.start()] + word + head[place.end():]
+
+
+def fuzz_binary(program, seed, count, work, failures):
+    """Binary maps with mutated heads, numbers and lengths, with --check and limits of memory."""
+    part = Part("mutated binary height maps, --check")
+    limits = memory_limits(program, part, BINARY_ADDRESS_SPACE)
+    slowest, accepted = 0.0, 0
+    for i in range(count):
+        stream = random.Random(f"{seed} binary map {i}")
+        make, ending = stream.choice(((npy_file, "npy"), (gsf_file, "gsf"), (gnuplot_file, "bin")))
+        columns, lines = stream.choice(((4, 4), (5, 7), (16, 9), (31, 1)))
+        head, numbers = make(stream, columns, lines)
+        is_good = stream.random() < 0.1
+        if not is_good:
+            head = mutate_head(stream, head) if stream.random() < 0.7 else head
+            if stream.random() < 0.3:
+                numbers = mutate_bytes(stream, numbers)
+            if stream.random() < 0.3:
+                numbers = stream.choice((numbers[:stream.randrange(len(numbers))], numbers*2, numbers + b"\n", b""))
+            if stream.random() < 0.2:
+                place = 4*stream.randrange(len(numbers)//4 + 1)
+                numbers = numbers[:place] + stream.choice(ODD_NUMBERS) + numbers[place + 4:]
+        name = f"heights.{stream.choice((ending, ending, 'dat'))}"
+        form = stream.choice(("", "", "", *(f", file_format = '{word}'" for word in ("npy", "gsf", "gnuplot"))))
+        text = (f"&surface kind = 'file', file = '{name}'{'' if is_good else form} /\n"
+                "&load pbar_over_pstar = 0.05 /\n")
+        (work/name).write_bytes(head + numbers)
+        (work/"deck.nml").write_text(text)
+        outcome = run([program, "--check", "deck.nml"], work, limits=limits)
+        complaints = complaints_about(outcome, (0,) if is_good else (0, 1, 3))
+        if outcome.status in (1, 3) and not outcome.stderr.startswith(name.encode() + b":"):
+            complaints.append(f"no map is named: {outcome.stderr.decode(errors='replace')[:80]}")
+        if is_good and f"map       {columns} x {lines} points".encode() not in outcome.stdout:
+            complaints.append("a good map is not read as it is")
+        slowest = max(slowest, outcome.seconds)
+        accepted += outcome.status == 0
+        if not part.count(f"map-binary-{i}.nml", complaints):
+            save(failures, f"map-binary-{i}.nml", text.replace(name, f"map-binary-{i}.{name[-3:]}").encode())
+            save(failures, f"map-binary-{i}.{name[-3:]}", head + numbers)
+        empty(work)
     part.worst = f"{accepted} accepted, {slowest:.2f} s"
     return part
 
@@ -407,6 +510,8 @@ def odd_files(program, work, failures):
     """What is no map, and maps of odd sizes: the status and the words that each must give."""
     part = Part("odd height maps")
     good = matrix(random.Random("odd"), 8, 8)
+    stream_of_points = [f"{i} {j} {i - j*j}\n" for j in range(4) for i in range(5)]
+    random.Random("order").shuffle(stream_of_points)
     square = "0 1 0 -1\n"*4
 
     def attempt(name, content, status, words, map_name="heights.dat", make=None):
@@ -439,7 +544,7 @@ def odd_files(program, work, failures):
     attempt("one row of points", "0 0 1\n1 0 2\n2 0 1\n3 0 0\n", 0, "map       4 x 1 points (xyz)")
     attempt("8193 columns", "1 2 3 "*2731 + "\n", 1, "a map of 8193 x 1 points")
     attempt("text", "The quick brown fox\n", 1, "heights.dat:1: 'The' is no number")
-    attempt("two bytes a character", good.encode("utf-16"), 1, "heights.dat:1: '\\xFF\\xFE")
+    attempt("two bytes a character", good.encode("utf-16"), 1, "heights.dat: this is a text of two bytes a character")
     attempt("two bytes, no mark", good.encode("utf-16-le"), 1, "heights.dat:1: '")
     attempt("a mark before", b"\xef\xbb\xbf" + good.encode(), 0, "map       8 x 8 points")
     attempt("no last line end", good.rstrip("\n"), 0, "map       8 x 8 points")
@@ -449,11 +554,20 @@ def odd_files(program, work, failures):
     attempt("a program", open(sys.executable, "rb").read(100000), 1, "heights.dat:1: '\\x7FELF")
     attempt("ragged", "1 2 3 4\n1 2 3 4\n1 2 3\n1 2 3 4\n", 1, "heights.dat:3: this row has 3 heights, the first has 4")
     attempt("a decimal comma", "1,5 2,5\n"*4, 1, "heights.dat:1: is '1,5' a number with a decimal comma?")
-    attempt("a hole", "1 2 3 4\n1 nan 3 4\n" + square, 1, "heights.dat:2: 'nan' is not a height")
+    attempt("a hole", "1 2 3 4\n1 nan 3 4\n" + square, 1, "heights.dat: 1 of 24 heights are missing, the first in row 2")
     attempt("too large", "1 2 3 4\n1 2 3 1e400\n" + square, 1, "heights.dat:2: '1e400' is too large")
     attempt("much too large", "1e300 2 3 4\n" + square, 1, "heights.dat:1: '1e300' is too large")
     attempt("unsorted points", "0 0 1\n1 0 1\n0 1 1\n1 1 2\n2 0 1\n2 1 0\n"*3, 1,
-            "heights.dat:5: x = 2, y = 0 is out of step")
+            "a map of 3 x 2 points")
+    attempt("points in any order", "".join(stream_of_points), 0, "map       5 x 4 points (xyz)")
+    attempt("points without a grid", "".join(f"{i*i} {i} 1\n" for i in range(9)), 1, "the grid of these points has 65 x")
+    for name, head in ((".png", b"\x89PNG\r\n\x1a\n"), (".tif", b"II*\0"), (".sdf", b"bISO-1.0"),
+                       (".x3p", b"PK\3\4"),
+                       (".plux", b"PK\3\4"), (".al3d", b"AliconaImaging"), (".mat", b"MATLAB 5.0 MAT-file"),
+                       (".h5", b"\x89HDF\r\n\x1a\n"), (".gwy", b"GWYP"), (".npz", b"PK\3\4"), (".gz", b"\x1f\x8b")):
+        for kind, content in ("right", head + bytes(300)), ("wrong", b"no magic" + bytes(300)):
+            words = "expand" if name == ".gz" else "numpy.save"
+            attempt(f"a file {name} of the {kind} content", content, 1, words, f"heights{name}")
     attempt("too small", "1e-200 2e-200 1e-200 0\n", 1, "times height_scale, are up to 1e-200 [length]")
     for height in ("0", "0.1", "-1e90", "1e-90", "4.9e-324"):
         for side in (4, 7, 11, 16):

@@ -1,0 +1,192 @@
+#!/usr/bin/env python3
+"""Height maps that numpy, gsffile, SurfaceTopography and gnuplot write or read are the same surface to the program.
+
+usage: test_map_files.py --program WAVYCON --environment FOLDER
+
+The packages are installed into a virtual environment in FOLDER, once. Exit status: 77 if they cannot be.
+"""
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.dont_write_bytecode = True
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent/"support"))
+from virtual_environment import python_with  # noqa: E402
+
+try:
+    import gsffile
+    import numpy
+    from SurfaceTopography import Topography
+except ImportError:  # this Python only makes the environment
+    pass
+
+SKIPPED = 77
+PACKAGES = ["numpy", "gsffile", "SurfaceTopography"]
+M, N = 14, 9  # points along x and y
+STEP = 2.0**-20  # between points, so that sides and coordinates are exact in single precision
+
+
+class MapFiles(unittest.TestCase):
+    program = ""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.addCleanup(os.chdir, os.getcwd())
+        os.chdir(folder.name)
+        self.heights = numpy.random.default_rng(5).standard_normal((N, M))*STEP
+        self.single = self.heights.astype(numpy.float32)
+
+    def summary(self, name, keys="", scene=""):
+        """The rows of the summary for a map."""
+        pathlib.Path("deck.nml").write_text(
+            f"&surface kind = 'file', file = '{name}'{keys} /\n&load pbar_over_pstar = 0.02, 0.3 /\n{scene}\n",
+            encoding="utf-8")
+        subprocess.run([self.program, "deck.nml", "--quiet", "--output", "made"], check=True)
+        summary = rows_of("made/deck.summary.dat")
+        subprocess.run([self.program, "made/deck.resolved.nml", "--quiet", "--output", "again"], check=True)
+        self.assertEqual(summary, rows_of("again/deck.summary.dat"), f"the resolved deck of {name}")
+        return summary
+
+    def refusal(self, name, keys=""):
+        pathlib.Path("deck.nml").write_text(
+            f"&surface kind = 'file', file = '{name}'{keys} /\n&load pbar_over_pstar = 0.02 /\n", encoding="utf-8")
+        outcome = subprocess.run([self.program, "deck.nml"], capture_output=True, check=False)
+        self.assertEqual(1, outcome.returncode)
+        return outcome.stderr.decode()
+
+    def sides(self):
+        return f", length_x = {M*STEP!r}, length_y = {N*STEP!r}"
+
+    def test_arrays_of_numpy(self):
+        numpy.savetxt("map.dat", self.heights, "%.17g")
+        expected = self.summary("map.dat")
+        numpy.savetxt("full.dat", self.heights)
+        self.assertEqual(expected, self.summary("full.dat"))
+        for name, array in (("c", self.heights), ("fortran", numpy.asfortranarray(self.heights)),
+                            ("big", self.heights.astype(">f8"))):
+            numpy.save(name, array)
+            self.assertEqual(expected, self.summary(f"{name}.npy"), name)
+        for version in (2, 0), (3, 0):
+            with open("version.npy", "wb") as file:
+                numpy.lib.format.write_array(file, self.heights, version)
+            self.assertEqual(expected, self.summary("version.npy"), version)
+        os.rename("c.npy", "heights.data")
+        self.assertEqual(expected, self.summary("heights.data"))
+
+    def test_single_precision(self):
+        numpy.savetxt("map.dat", self.single.astype(float), "%.17g")
+        expected = self.summary("map.dat", self.sides())
+        for name, order in ("little", "<f4"), ("big", ">f4"):
+            numpy.save(name, numpy.asfortranarray(self.single.astype(order)))
+            self.assertEqual(expected, self.summary(f"{name}.npy", self.sides()), name)
+        gsffile.write_gsf("map.gsf", self.single, {"XReal": M*STEP, "YReal": N*STEP, "XYUnits": "m", "ZUnits": "m"})
+        self.assertEqual(expected, self.summary("map.gsf"))
+        self.assertIn("cell_x[m] = 1.33514404296875e-5", pathlib.Path("made/deck.summary.dat").read_text(encoding="utf-8"))
+        read, _ = gsffile.read_gsf("map.gsf")
+        self.assertTrue((read == self.single).all())
+
+    def test_a_unit_of_the_deck(self):
+        numpy.savetxt("map.dat", 1000*self.single.astype(float), "%.17g")
+        expected = self.summary("map.dat", f", length_x = {1000*M*STEP!r}, length_y = {1000*N*STEP!r}",
+                                "&scene length_unit = 'mm' /")
+        for name, height_unit, factor in ("m", "m", ""), ("nm", "nm", ", height_scale = 1e9"):
+            gsffile.write_gsf(f"{name}.gsf", self.single, {"XReal": M*STEP, "YReal": N*STEP, "XYUnits": "m",
+                                                           "ZUnits": height_unit})
+            found = self.summary(f"{name}.gsf", factor, "&scene length_unit = 'mm' /")
+            for one, other in zip(words_of(expected), words_of(found), strict=True):
+                # Powers of ten are rounded.
+                self.assertTrue(one == other or abs(float(one) - float(other)) <= 1e-9*abs(float(one)), (one, other))
+
+    def test_a_profile(self):
+        numpy.savetxt("map.dat", self.heights[:1], "%.17g")
+        numpy.save("map.npy", self.heights[0])
+        self.assertEqual(self.summary("map.dat"), self.summary("map.npy"))
+
+    def test_missing_heights(self):
+        self.heights[4, 3] = self.heights[8, 13] = self.heights[8, 12] = numpy.nan
+        numpy.save("map.npy", self.heights)
+        gsffile.write_gsf("map.gsf", self.heights.astype(numpy.float32))
+        numpy.savetxt("map.dat", self.heights)
+        numpy.savetxt("map.csv", self.heights, delimiter=",")
+        text = pathlib.Path("map.csv").read_text(encoding="utf-8")
+        pathlib.Path("blank.csv").write_text(text.replace("nan", ""), encoding="utf-8")
+        pathlib.Path("tab.txt").write_text(text.replace("nan", "").replace(",", "\t"), encoding="utf-8")
+        names = "map.npy", "map.gsf", "map.dat", "map.csv", "blank.csv", "tab.txt"
+        for name in names:
+            self.assertIn(f"{name}: 3 of {M*N} heights are missing, the first in row 5, column 4", self.refusal(name))
+        self.single[4, 3] = self.single[8, 13] = -1e30
+        numpy.save("value.npy", self.single)
+        self.assertIn("value.npy: 2 of 126 heights are missing, the first in row 5, column 4",
+                      self.refusal("value.npy", ", missing_value = -1e30"))
+        rows = [(i, j, self.heights[j, i]) for i in range(M) for j in range(N)]
+        numpy.savetxt("all.xyz", rows)
+        numpy.savetxt("some.xyz", [row for row in rows if not numpy.isnan(row[2])][::-1])
+        for name in "all.xyz", "some.xyz":
+            self.assertIn(f"{name}: 3 of {M*N} heights are missing, the first in row 5, column 4", self.refusal(name))
+
+    def test_surface_topography(self):
+        numpy.savetxt("map.dat", self.heights, "%.17g")
+        topography = Topography(self.heights.T, (M*STEP, N*STEP), unit="m")
+        topography.to_matrix("topography.dat")
+        numpy.save("topography.npy", topography.heights().T)
+        expected = self.summary("map.dat")
+        self.assertEqual(expected, self.summary("topography.dat"))
+        self.assertEqual(expected, self.summary("topography.npy"))
+        masked = numpy.ma.masked_where(numpy.arange(N*M).reshape(N, M) == 17, self.heights)
+        topography = Topography(masked.T, (M*STEP, N*STEP), unit="m")
+        topography.to_matrix("topography.dat")
+        numpy.save("topography.npy", numpy.ma.filled(topography.heights(), numpy.nan).T)
+        for name in "topography.dat", "topography.npy":
+            self.assertIn(f"{name}: 1 of {M*N} heights are missing, the first in row 2, column 4", self.refusal(name))
+
+    def test_a_matrix_that_gnuplot_reads(self):
+        if not shutil.which("gnuplot"):
+            self.skipTest("gnuplot is not installed")
+        matrix = numpy.zeros((N + 1, M + 1), numpy.float32)
+        matrix[0, 0] = M
+        matrix[0, 1:] = numpy.arange(M)*STEP
+        matrix[1:, 0] = numpy.arange(N)*STEP
+        matrix[1:, 1:] = self.single
+        matrix.tofile("map.bin")
+        subprocess.run(["gnuplot", "-e", "set format '%.17g'; set table 'map.xyz'; splot 'map.bin' binary matrix"],
+                       check=True)
+        # gnuplot adds the type of each point.
+        text = pathlib.Path("map.xyz").read_text(encoding="utf-8").replace(" i", "")
+        pathlib.Path("map.xyz").write_text(text, encoding="utf-8")
+        numpy.savetxt("map.dat", self.single.astype(float), "%.17g")
+        expected = self.summary("map.dat", self.sides())
+        self.assertEqual(expected, self.summary("map.xyz"))
+        self.assertEqual(expected, self.summary("map.bin"))
+        matrix.byteswap().tofile("map.bin")
+        self.assertEqual(expected, self.summary("map.bin"))
+
+
+def rows_of(path):
+    return [line for line in pathlib.Path(path).read_text(encoding="utf-8").splitlines()
+            if not line.startswith("#")][1:]
+
+
+def words_of(rows):
+    return " ".join(rows).split()
+
+
+def main():
+    program, environment = (str(pathlib.Path(sys.argv[sys.argv.index(name) + 1]).resolve())
+                            for name in ("--program", "--environment"))
+    python = python_with(environment, PACKAGES, PACKAGES, options=["--only-binary", ":all:"])
+    if not python:
+        print(f"SKIPPED: {', '.join(PACKAGES)} cannot be installed; see {environment}.log")
+        sys.exit(SKIPPED)
+    if pathlib.Path(sys.prefix).resolve() != pathlib.Path(environment):
+        os.execv(python, [python, *sys.argv])
+    MapFiles.program = program
+    unittest.main(argv=sys.argv[:1])
+
+
+if __name__ == "__main__":
+    main()
