@@ -133,7 +133,7 @@ contains
          up_to = up_to + bins(b)%power
          spectrum%height(b) = amplitude*sqrt(up_to(1))
          spectrum%slope(b) = 2*pi/unit*(amplitude*sqrt(up_to(2)))
-         spectrum%curvature(b) = 2*pi/unit*(2*pi/unit*(amplitude*sqrt(up_to(3))))
+         spectrum%curvature(b) = (2*pi/unit)**2*(amplitude*sqrt(up_to(3)))
       end do
    end function spectrum_of
 
