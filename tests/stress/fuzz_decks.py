@@ -13,8 +13,8 @@ SMALL = [
     "&scene title = 'a title', case = 'deck' /\n&material e1 = 210e9, nu1 = 0.3, e2 = 70e9, nu2 = 0.33 /\n"
     "&surface kind = 'wave_2d', amplitude = 1e-6, wavelength = 1e-3 /\n&load pbar_over_pstar = 0.05, 2*0.2, 0.9 /\n"
     "&method solver = 'beale', harmonics = 4, constraint_points = 9, symmetry = 'diagonal', edge_level = 0.05 /\n"
-    "&output directory = 'results', lines = t, map = .true., contours = T, coefficients = .t., theory = true, spectrum = t,\n"
-    "   line_points = 8, map_points = 8, 10, map_format = 'npy' /\n",
+    "&output directory = 'results', lines = t, map = .true., contours = T, coefficients = .t., theory = true,\n"
+    "   spectrum = t, line_points = 8, map_points = 8, 10, map_format = 'npy' /\n",
     "&surface kind = 'wave_1d' / ! remark\n&load\n   sweep_from = 1.0 ! down\n   sweep_to = 1e-3\n   sweep_steps = 5\n/\n"
     "&method\n   solver = 'auto'\n/\n&output lines = .true., line_points = 16 /\n",
     "&surface kind = 'crossed_1d', amplitude1 = 1, wavelength1 = 2.0d0, amplitude2 = 1, wavelength2 = 2 /\n"
