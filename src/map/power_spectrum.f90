@@ -79,22 +79,17 @@ contains
       type(power_spectrum) :: spectrum
 
       type(bin_sums) :: bins(0:ubound(series%c, direction))
-      real(dp) :: powers(0:ubound(series%c, 1))
+      real(dp) :: of_lines(0:ubound(series%c, direction)), powers(0:ubound(series%c, 1))
       integer :: first, k, l
 
+      of_lines = 0.0_dp
       do l = 0, ubound(series%c, 2)
          powers = wave_powers(series, points, l)
-         if (direction == 2) then
-            call add(bins(l), real(l, dp), 0, sum(powers))
-         else
-            do k = 0, ubound(powers, 1)
-               call add(bins(k), real(k, dp), 0, powers(k))
-            end do
-         end if
+         if (direction == 1) of_lines = of_lines + powers
+         if (direction == 2) of_lines(l) = sum(powers)
       end do
       do k = 0, ubound(bins, 1)
-         bins(k)%waves = waves_of_number(k, points(direction))
-         bins(k)%wave_number = real(k, dp)*bins(k)%waves
+         call add(bins(k), real(k, dp), waves_of_number(k, points(direction)), of_lines(k))
       end do
       first = merge(1, 0, ubound(series%c, 2) == 0)
       spectrum = spectrum_of(bins(first:), amplitude, length(direction), length(direction))
@@ -133,7 +128,7 @@ contains
          up_to = up_to + bins(b)%power
          spectrum%height(b) = amplitude*sqrt(up_to(1))
          spectrum%slope(b) = 2*pi/unit*(amplitude*sqrt(up_to(2)))
-         spectrum%curvature(b) = 2*pi/unit*(2*pi/unit*(amplitude*sqrt(up_to(3))))
+         spectrum%curvature(b) = (2*pi/unit)**2*(amplitude*sqrt(up_to(3)))
       end do
    end function spectrum_of
 

@@ -45,8 +45,7 @@ contains
       end do
       sums = amplitude*sqrt(sums)
       sums([2, 4]) = 2*pi/unit*sums([2, 4])
-      ! In two steps: the square of a long unit may overflow.
-      sums([3, 5]) = 2*pi/unit*(2*pi/unit*sums([3, 5]))
+      sums([3, 5]) = (2*pi/unit)**2*sums([3, 5])
       if (ubound(series%c, 2) > 0) sums([3, 5]) = 0.5_dp*sums([3, 5])
       roughness = roughness_type(sums(1), sums(2), sums(3), sums(4), sums(5))
    end function roughness_of

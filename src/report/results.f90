@@ -85,7 +85,7 @@ contains
       type(output_file), intent(inout) :: file
 
       associate (map => scene%map, roughness => scene%roughness, unit => scene%length_unit)
-         call file%put('# map: '//trim(map%format)//', points_x[-] = '//integer_text(map%points(1))// &
+         call file%put('# map: points_x[-] = '//integer_text(map%points(1))// &
                        ', points_y[-] = '//integer_text(map%points(2))// &
                        number_of('lowest', unit, map%lowest)//number_of('highest', unit, map%highest)// &
                        number_of('rms_height', unit, map%rms))

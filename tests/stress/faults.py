@@ -20,7 +20,8 @@ LONG_DECK = DECK.replace("sweep_steps = 19", "sweep_steps = 150").replace("map =
 # fields.
 TO_RESUME = {
     "series": LONG_DECK,
-    "grids": DECK.replace("theory = t, coefficients = t,\nspectrum = t, line_points = 64, map_points = 64", "line_points = 16, map_points = 16")
+    "grids": DECK.replace("theory = t, coefficients = t,\nspectrum = t, line_points = 64, map_points = 64",
+                          "line_points = 16, map_points = 16")
     + "&method solver = 'grid', accuracy = 1e-3 /\n",
     "expansions": "&surface kind = 'wave_2d' /\n&load sweep_from = 0.05, sweep_to = 0.95, sweep_steps = 91 /\n"
                   "&method solver = 'auto', accuracy = 1e-3 /\n",
