@@ -6,6 +6,11 @@ from axes import axis, quoted
 from variables import REFERENCE, array_of, mean_pressure_axis, names_of, numbers_in, of_column, put_range, put_scale
 
 
+# The status of a grid whose errors may be unknown. Those of the paper's series are NaN too, but never known.
+UNRESOLVED = 4
+LINEAR_LAW = "linear_area_fraction"
+
+
 def ends_of_bars(tables, factors, name, error_name, head=None):
     """The values of a column, on the axis, and the ends of their error bars as far as these are smaller than the values.
 
@@ -22,8 +27,8 @@ def ends_of_bars(tables, factors, name, error_name, head=None):
 
 
 def without_bar(table):
-    """Whether a good row has an error as large as the value, or the largest possible as nothing is known."""
-    return any(code < 10 and error > 0 and error >= value
+    """Whether a good row has an error as large as the value, or one that is unknown: then it is NaN."""
+    return any(code < 10 and error > 0 and error >= value or code == UNRESOLVED and math.isnan(error)
                for block in table.blocks for name in IN_THEORY.values()
                for code, value, error in zip(block.columns["status_code"], block.columns[name],
                                              block.columns[name + "_error"]))
@@ -60,6 +65,9 @@ def summary(tables, beside, choice, folder):
     if reference:
         entries += [("lines ls 31", "converged" if reference == "table" else "closed form"),
                     ("points ls 11", "the paper's series")]
+    with_linear_law = len(tables) == 1 and bool(first.column(LINEAR_LAW))
+    if with_linear_law:
+        entries += [("lines ls 33", "2 p̄/(E* h'), h' the rms slope")]
     if len(tables) > 1:
         entries += [(f"linespoints ls {30 + r}", name) for r, name in enumerate(names_of(tables), 1)]
     if len(tables) == 1 and without_bar(first):
@@ -72,7 +80,7 @@ def summary(tables, beside, choice, folder):
     title_high, key_high = (28, 24*(len(entries) > 0)) if len(tables) == 1 else (0, 40)
     facts += [f"title_high = {title_high}", f"key_high = {key_high}"]
     return "summary", (780, 272 + title_high + key_high), \
-        facts + [f"reference = '{reference}'", f"key_entries = {quoted(key)}"]
+        facts + [f"reference = '{reference}'", f"linear_law = {int(with_linear_law)}", f"key_entries = {quoted(key)}"]
 
 
 # The closed forms of a table of theory, in the order in which they are drawn.

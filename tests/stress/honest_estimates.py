@@ -1,5 +1,6 @@
 """Error estimates of random scenes against true errors, from a much finer solution, a closed form or an expansion."""
 import itertools
+import math
 import random
 
 from common import Part
@@ -34,7 +35,7 @@ def random_case(stream, kind, solver):
 def campaign(program, seed, kinds, scenes, work, failures):
     """So many scenes of each kind with each solver for it."""
     part = Part("error estimates")
-    ratios = {"grid": [], "fitted": []}
+    ratios, unknown = {"grid": [], "fitted": []}, {"grid": 0, "fitted": 0}
     for kind, solver, number in itertools.product(kinds, ratios, range(scenes)):
         if solver == "fitted" and kind not in FITTED:
             continue
@@ -46,6 +47,9 @@ def campaign(program, seed, kinds, scenes, work, failures):
             if not (row.has_numbers and truth.has_numbers):
                 continue  # spots have merged
             for which, value in enumerate(VALUES):
+                if math.isinf(row.errors[which] + truth.errors[which]):
+                    unknown[solver] += 1
+                    continue
                 error = abs(row.values[which] - truth.values[which])
                 ratio = max(error - truth.errors[which], 0.0)/row.errors[which]
                 ratios[solver].append(ratio)
@@ -58,7 +62,7 @@ def campaign(program, seed, kinds, scenes, work, failures):
     for solver, all_ratios in ratios.items():
         held = sum(ratio <= 1.0 for ratio in all_ratios)/max(len(all_ratios), 1)
         words.append(f"{solver} {max(all_ratios, default=0.0):.2f} times, "
-                     f"{100*held:.1f} % of {len(all_ratios)} hold")
+                     f"{100*held:.1f} % of {len(all_ratios)} hold, {unknown[solver]} are unknown")
         if len(all_ratios) >= FEWEST:
             part.count(f"estimates of {solver}", [] if held >= CONFIDENCE else [f"only {100*held:.1f} % hold"])
     part.worst = "; ".join(words)

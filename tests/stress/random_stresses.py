@@ -46,8 +46,13 @@ def solved(program, scene, loads, method, stresses, folder):
             complaints.append(f"there is no table stress_{name}")
         tables[name] = Table(path).records() if path.exists() else []
         for record in tables[name]:
-            record.update((key, float(word)) for key, word in record.items() if key != "status")
+            record.update((key, number(key, word)) for key, word in record.items() if key != "status")
     return files, rows, tables, complaints
+
+
+def number(key, word):
+    """An entry of a table; an error that is unknown may have any size."""
+    return math.inf if key.endswith("error") and word == "NaN" else float(word)
 
 
 def of_load(records, load):

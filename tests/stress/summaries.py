@@ -1,4 +1,5 @@
 """Running a scene and reading its summary."""
+import math
 import shutil
 
 from common import Table, complaints_about, files_below, result_complaints, run, save
@@ -17,12 +18,13 @@ class Row:
         self.status, self.solver = words["status"], words["solver"]
         self.load = float(words["pbar_over_pstar"])
         self.values = [float(words[name]) for name in VALUES]
-        self.errors = [max(float(words[name]), ROUNDING) for name in ERRORS]
+        # An error that is unknown may have any size.
+        self.errors = [max(error, ROUNDING) if error == error else math.inf for error in (float(words[name]) for name in ERRORS)]
 
     @property
     def has_numbers(self):
         """Whether there are numbers, as accurate as requested or not."""
-        return self.status in ("converged", "closed_form", "not_accurate")
+        return self.status in ("converged", "closed_form", "unresolved", "not_accurate")
 
     def differences(self, other, rounding=0.0):
         """Differences of gap, area and peak from another row beyond rounding, over the sum of both error estimates."""
