@@ -7,10 +7,12 @@ set the variables. It raises CannotBeDrawn if there is nothing to be shown.
 """
 from fields import edges, lines, maps, series
 from loading import details, summary, theory
+from spots import histogram, spot_sizes, spots
 from stresses import below_crest, largest, planes, section
 from surfaces import heights, spectra
 
 COMPANIONS = {"lines": ("theory_lines",), "map": ("contour",), "theory": ("summary",), "stress_planes": ("contour",)}
 FACTS = {"summary": summary, "lines": lines, "map": maps, "theory_lines": lines, "contour": edges,
          "coefficients": series, "theory": theory, "details": details, "spectrum": spectra, "height": heights,
+         "spots": spots, "spot_sizes": spot_sizes, "histogram": histogram,
          "stress_largest": largest, "stress_line": below_crest, "stress_section": section, "stress_planes": planes}

@@ -16,8 +16,8 @@ contains
    pure type(key_type) function accuracy_key() result(key)
       key = real_key('accuracy', '1e-3', '-', &
          'largest error allowed of mean gap [amplitude], contact area fraction and peak pressure [p*]; of '// &
-         'expansions with lines, map, contours or details also of the gap at a trough. A load that misses it has '// &
-         'the status not_accurate.', least=1.0e-12_dp, most=0.1_dp)
+         'expansions with lines, map, contours, spots, histograms or details also of the gap at a trough. A load '// &
+         'that misses it has the status not_accurate.', least=1.0e-12_dp, most=0.1_dp)
    end function accuracy_key
 
    pure type(key_type) function grid_points_key() result(key)

@@ -70,12 +70,15 @@ contains
       type(contact_spots), intent(out) :: answer
 
       type(contact_region), allocatable :: spots(:), pools(:)
+      integer, allocatable :: number(:)
 
       if (dimension == 1) then
          call find_strips(curves, spots, pools)
       else
-         call find_regions(curves%spot, 1, curves, length, spots)
-         call find_regions(curves%pool, -1, curves, length, pools)
+         number = curves%spot
+         call find_regions(number, 1, curves, length, spots)
+         number = curves%pool
+         call find_regions(number, -1, curves, length, pools)
       end if
       spots%load_fraction = nan()
       if (size(loads) == size(spots)) spots%load_fraction = loads
@@ -236,8 +239,10 @@ contains
       type(contact_region), allocatable, intent(out) :: sorted(:)   !! the largest first
 
       integer(c_size_t) :: places(size(regions))
+      real(dp) :: areas(size(regions))
 
-      call gsl_sort_index(places, -regions%area_fraction, 1_c_size_t, size(regions, kind=c_size_t))
+      areas = regions%area_fraction
+      call gsl_sort_index(places, -areas, 1_c_size_t, size(regions, kind=c_size_t))
       sorted = regions(int(places) + 1)
    end subroutine sort_by_area
 

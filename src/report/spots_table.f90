@@ -79,19 +79,20 @@ contains
       type(contact_spots), intent(in) :: regions
 
       integer, parameter :: numbers = 11
+      real(dp), allocatable :: pools(:), spots(:)   ! areas
       integer :: i
 
       if (.not. regions%known) then
          call file%add([(not_a_number(), i=1, numbers)])
          return
       end if
-      associate (spots => regions%spots%area_fraction, &
-                 pools => pack(regions%pools%area_fraction, regions%pools%is_closed()))
-         call file%add(size(spots))
-         call file%add([sum(spots), largest(spots)])
-         call file%add(size(pools))
-         call file%add([sum(pools), largest(pools), regions%perimeter()])
-      end associate
+      spots = regions%spots%area_fraction
+      pools = regions%pools%area_fraction
+      pools = pack(pools, regions%pools%is_closed())
+      call file%add(size(spots))
+      call file%add([sum(spots), largest(spots)])
+      call file%add(size(pools))
+      call file%add([sum(pools), largest(pools), regions%perimeter()])
       do i = 1, 2
          call file%add(merge(1, 0, any(regions%spots%percolates(i))))
       end do

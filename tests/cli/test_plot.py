@@ -30,7 +30,7 @@ WAVE = """\
 &surface kind = 'wave_2d' /
 &load pbar_over_pstar = 0, 0.1, 0.5 /
 """
-TABLES = "lines = t, map = t, contours = t, map_points = 16, line_points = 16"
+TABLES = "lines = t, map = t, contours = t, spots = t, histograms = t, map_points = 16, line_points = 16"
 TITLE = "Steel_1 {a}^2 'b' @c & 100 % \\n"   # marks that gnuplot or svg could take for commands
 DECKS = {
     "auto": WAVE + "&method solver = 'fitted' /\n&output " + TABLES + ", theory = t, details = t /",
@@ -118,7 +118,9 @@ class Plot(unittest.TestCase):
         """gnuplot's svg leaves out what lies outside of the picture."""
         expected = {"summary": "contact area A/A0 mean pressure p̄/p*", "lines": "pressure p/p*", "map": "gap g/Δ",
                     "theory_lines": "distance along the diagonal", "contour": "y mean pressure p̄/p*",
-                    "theory": "mean gap ḡ/Δ", "details": "perimeter", "coefficients": "harmonic"}
+                    "theory": "mean gap ḡ/Δ", "details": "perimeter", "coefficients": "harmonic",
+                    "spots": "closed pools percolates along", "spot_sizes": "number of at least this area",
+                    "histogram": "density of pressure gap g/Δ"}
         for kind, words in expected.items():
             case = "paper" if kind == "coefficients" else "auto"
             with self.subTest(kind=kind):

@@ -1,0 +1,48 @@
+"""What the pictures of contact spots and of histograms show. See facts.py."""
+from axes import axis
+from variables import MOST_CURVES, array_of, load_facts, numbers_in, of_column, put_range, \
+    put_scale, shown
+
+
+def spots(tables, beside, choice, folder):
+    """Numbers of spots and pools, their areas, and percolation, against the mean pressure."""
+    table = tables[0]
+    facts = put_range("load", table.column("pbar_over_pstar"), up_to=1.0)
+    wide = axis(table.column("pbar_over_pstar"))[-1]
+    numbers = table.column("spots") + table.column("closed_pools")
+    areas = [number for name in ("spots_area_fraction", "largest_spot_area_fraction", "closed_pools_area_fraction")
+             for number in table.column(name)]
+    facts += put_range("number", numbers) + put_range("area", areas, may_be_wide=wide, up_to=1.0)
+    facts.append("if (number_step < 1) { number_step = 1 }")
+    return "spots", (780, 300), facts
+
+
+def spot_sizes(tables, beside, choice, folder):
+    """How many spots and pools of each load have at least an area."""
+    table = tables[0]
+    places = shown(table, choice.loads, MOST_CURVES)
+    areas = [area for area in table.column("area_fraction", places) if area > 0]
+    facts = load_facts(table, places) + array_of("block_of", [str(place) for place in places])
+    facts += [f"least = {min(areas, default=0.1)/1.6!r}", f"most = {max(areas, default=1.0)*1.6!r}"]
+    facts += [f"highest = {1.6*max(table.column('rank', places), default=1.0)!r}"]
+    return "spot_sizes", (560, 340), facts
+
+
+def histogram(tables, beside, choice, folder):
+    """Densities of pressure over the contact, and of gap over the open area."""
+    table = tables[0]
+    places = shown(table, choice.loads, MOST_CURVES)
+    facts = load_facts(table, places) + array_of("block_of", [str(place) for place in places])
+    for name, unit, over, symbol, words in (("pressure", "p*", "p_star", "p", "pressure"),
+                                            ("gap", "Delta", "Delta", "gap_symbol", "gap")):
+        found = numbers_in(tables, of_column(name), unit, over)
+        facts += put_scale(name, found, symbol, words)
+        facts += put_range(name, [found[1][0]*number for number in table.column(name, places)], may_be_wide=False)
+        size = table.numbers.get(unit, 1.0)
+        # A bin in which nearly all of the area lies would hide the others.
+        heights = sorted(size*number for number in table.column(name + "_density", places))
+        facts += [f"{name}_size = {size!r}"]
+        facts += put_range(name + "_density", [0.0] + [number for number in heights
+                                                       if number <= 3*heights[int(0.98*(len(heights) - 1))]],
+                           may_be_wide=False)
+    return "histogram", (780, 320), facts

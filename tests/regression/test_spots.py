@@ -1,0 +1,277 @@
+#!/usr/bin/env python3
+"""Spots, pools, percolation and histograms agree with the map of the points that were solved.
+
+usage: test_spots.py --program WAVYCON
+"""
+import math
+import pathlib
+import random
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+from tables import Table  # noqa: E402
+
+SIDE = 72
+LOADS = 0.02, 0.1, 0.25, 0.4, 0.6, 0.8, 0.95
+# Sums of some thousand numbers, and the 16 digits of tables.
+ROUNDING = 1e-11
+EIGHT = [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1) if (i, j) != (0, 0)]
+FOUR = [(i, j) for i, j in EIGHT if i*j == 0]
+MAP = "&surface kind = 'file', file = '{}.dat', length_x = 2, length_y = 3 /\n"
+
+
+def heights(seed):
+    """A rough surface: random waves down to six points, rows along x."""
+    number = random.Random(seed)
+    waves = [(i, j, number.gauss(0, 1)/math.hypot(i, j)**1.8, 2*math.pi*number.random())
+             for i in range(-12, 13) for j in range(13) if 2 <= math.hypot(i, j) <= 12]
+    turn = 2*math.pi/SIDE
+    return [[sum(a*math.cos(turn*(i*k + j*l) + phase) for i, j, a, phase in waves) for k in range(SIDE)]
+            for l in range(SIDE)]
+
+
+def regions(inside, steps):
+    """The connected parts of a periodic map: sets of points with whether they go on from cell to cell along x and y.
+
+    inside: rows of truth values. steps: to the neighbours that connect.
+    """
+    rows, columns = len(inside), len(inside[0])
+    place_of, found = {}, []   # of each point: the region, and the place in the plane that it was reached at
+    for start in ((k, l) for l in range(rows) for k in range(columns)):
+        if not inside[start[1]][start[0]] or start in place_of:
+            continue
+        place_of[start] = start
+        points, ends, goes_on = {start}, [start], [0, 0]
+        while ends:
+            x, y = ends.pop()
+            for i, j in steps:
+                point = (x + i) % columns, (y + j) % rows
+                if not inside[point[1]][point[0]]:
+                    continue
+                if point not in place_of:
+                    place_of[point] = x + i, y + j
+                    points.add(point)
+                    ends.append((x + i, y + j))
+                else:
+                    goes_on[0] |= place_of[point][0] != x + i
+                    goes_on[1] |= place_of[point][1] != y + j
+        found.append((points, goes_on))
+    return found
+
+
+def total(rows, column):
+    """The sum of a column."""
+    return math.fsum(float(row[column]) for row in rows)
+
+
+class Spots(unittest.TestCase):
+    program = ""
+
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = pathlib.Path(folder.name)
+        rough = heights(7)
+        rolled = [row[30:] + row[:30] for row in rough[50:] + rough[:50]]
+        turned = [list(column) for column in zip(*rough)]
+        for name, rows in (("rough", rough), ("rolled", rolled), ("turned", turned), ("other", heights(8))):
+            (cls.folder/f"{name}.dat").write_text("\n".join(" ".join(map(repr, row)) for row in rows))
+            surface = MAP.format(name)
+            if name == "turned":
+                surface = surface.replace("length_x = 2, length_y = 3", "length_x = 3, length_y = 2")
+            cls.run_deck(name, surface)
+
+    @classmethod
+    def run_deck(cls, name, groups, loads=LOADS):
+        (cls.folder/f"{name}.nml").write_text(
+            f"{groups}&load pbar_over_pstar = {', '.join(map(str, loads))} /\n"
+            "&output map = t, spots = t, histograms = t, histogram_bins = 17 /\n")
+        subprocess.run([cls.program, f"{name}.nml", "--quiet", "--output", "."], cwd=cls.folder, check=True)
+
+    def table(self, name, kind):
+        return Table(self.folder/f"{name}.{kind}.dat").records()
+
+    def sizes(self, name, load, region):
+        return [row for row in self.table(name, "spot_sizes") if int(row["load"]) == load and row["region"] == region]
+
+    def fields(self, name, load):
+        """The pressures and the gaps of a load, rows along x."""
+        rows = [row for row in self.table(name, "map") if int(row["load"]) == load]
+        values = [(float(row["pressure"]), float(row["gap"])) for row in rows]
+        grid = [values[l*SIDE:(l + 1)*SIDE] for l in range(SIDE)]
+        return [[p for p, _ in row] for row in grid], [[g for _, g in row] for row in grid]
+
+    def test_regions_are_those_of_a_search_through_the_points(self):
+        seen = set()
+        for name in "rough", "other":
+            for load, row in enumerate(self.table(name, "spots"), 1):
+                pressure, _ = self.fields(name, load)
+                whole = math.fsum(map(math.fsum, pressure))
+                contact = [[p > 0 for p in line] for line in pressure]
+                spots = regions(contact, EIGHT)
+                pools = regions([[not value for value in line] for line in contact], FOUR)
+                closed = [points for points, goes_on in pools if not any(goes_on)]
+                with self.subTest(deck=name, load=load):
+                    self.assertEqual([len(spots), len(closed)], [int(row["spots"]), int(row["closed_pools"])])
+                    for i, way in enumerate("xy"):
+                        for kind, found in ("contact", spots), ("gap", pools):
+                            self.assertEqual(any(goes_on[i] for _, goes_on in found),
+                                             row[f"{kind}_percolates_{way}"] == "1")
+                    # Each spot by its load, which no two share.
+                    carried = sorted(math.fsum(pressure[l][k] for k, l in points)/whole for points, _ in spots)
+                    table = self.sizes(name, load, "spot")
+                    for one, other in zip(carried, sorted(float(spot["load_fraction"]) for spot in table), strict=True):
+                        self.assertAlmostEqual(one, other, delta=ROUNDING)
+                    # A pool that is closed is a hole of the spot about it, and a closed spot one of its pool.
+                    self.assertEqual(len(closed), sum(int(spot["holes"]) for spot in table))
+                    seen.add((len(spots) > 5, len(closed) > 5, row["contact_percolates_x"], row["gap_percolates_x"]))
+        # Light loads with many spots, heavy ones with many pools.
+        self.assertIn((True, False, "0", "1"), seen)
+        self.assertIn((False, True, "1", "0"), seen)
+
+    def test_areas_add_up(self):
+        for name in "rough", "other":
+            for load, row in enumerate(self.table(name, "spots"), 1):
+                with self.subTest(deck=name, load=load):
+                    spots, pools = self.sizes(name, load, "spot"), self.sizes(name, load, "pool")
+                    area = float(row["contact_area_fraction"])
+                    self.assertAlmostEqual(area, float(row["spots_area_fraction"]), delta=ROUNDING)
+                    self.assertAlmostEqual(area, total(spots, "area_fraction"), delta=ROUNDING)
+                    self.assertAlmostEqual(1 - area, total(pools, "area_fraction"), delta=ROUNDING)
+                    self.assertAlmostEqual(1.0, total(spots, "load_fraction"), delta=ROUNDING)
+                    perimeter = float(row["perimeter"])
+                    self.assertAlmostEqual(perimeter, total(spots, "perimeter"), delta=ROUNDING*perimeter)
+                    self.assertAlmostEqual(perimeter, total(pools, "perimeter"), delta=ROUNDING*perimeter)
+
+    def test_a_surface_moved_over_the_cell_has_the_same_regions(self):
+        # To what the iteration leaves of the pressures next to the edge.
+        for row, moved in zip(self.table("rough", "spots"), self.table("rolled", "spots"), strict=True):
+            for name, word in row.items():
+                with self.subTest(load=row["load"], column=name):
+                    if name.endswith("fraction") or name == "perimeter":
+                        self.assertAlmostEqual(float(word), float(moved[name]), delta=1e-4*(1 + float(word)))
+                    else:
+                        self.assertEqual(word, moved[name])
+
+    def test_a_surface_with_x_and_y_exchanged_percolates_likewise(self):
+        exchanged = {"x": "y", "y": "x"}
+        for row, turned in zip(self.table("rough", "spots"), self.table("turned", "spots"), strict=True):
+            self.assertEqual((row["spots"], row["closed_pools"]), (turned["spots"], turned["closed_pools"]))
+            for way, other in exchanged.items():
+                for kind in "contact", "gap":
+                    self.assertEqual(row[f"{kind}_percolates_{way}"], turned[f"{kind}_percolates_{other}"])
+
+    def test_spots_of_the_wave_merge_at_the_known_load(self):
+        # P = 0.22861 (outputs/reference/merging.dat). Expansions place it to their accuracy, grids to their step.
+        wave = "&surface kind = 'wave_2d', amplitude = 0.1, wavelength = 2 /\n"
+        for name, method, loads in (("expansions", "solver = 'auto', accuracy = 1e-5", (0.2, 0.2285, 0.2287, 0.3)),
+                                    ("grids", "solver = 'grid', accuracy = 1e-3", (0.2, 0.224, 0.234, 0.3)),
+                                    ("points", "solver = 'grid', grid_points = 256", (0.2, 0.225, 0.232, 0.3)),
+                                    ("series", "solver = 'beale'", (0.1, 0.15, 0.4, 0.6))):
+            self.run_deck(name, wave + f"&method {method} /\n", loads)
+            for row in self.table(name, "spots"):
+                with self.subTest(deck=name, load=row["pbar_over_pstar"]):
+                    apart = int(row["load"]) <= 2
+                    self.assertEqual(["2", "0"] if apart else ["1", "2"], [row["spots"], row["closed_pools"]])
+                    percolates = [row[f"{kind}_percolates_{way}"] for kind in ("contact", "gap") for way in "xy"]
+                    self.assertEqual(["0", "0", "1", "1"] if apart else ["1", "1", "0", "0"], percolates)
+                    self.assertAlmostEqual(float(row["contact_area_fraction"]), float(row["spots_area_fraction"]),
+                                           delta=ROUNDING)
+                    places = {(float(spot["x"]), float(spot["y"]))
+                              for spot in self.sizes(name, int(row["load"]), "spot" if apart else "pool")}
+                    for x, y in ((0.0, 0.0), (1.0, 1.0)) if apart else ((1.0, 0.0), (0.0, 1.0)):
+                        # 2 is 0 but for rounding.
+                        self.assertTrue(any(max(abs(math.remainder(x - u, 2)), abs(math.remainder(y - v, 2))) < 1e-3
+                                            for u, v in places), places)
+
+    def test_a_turned_cell_has_half_of_them(self):
+        crossed = "&surface kind = 'crossed_1d', amplitude1 = 1, amplitude2 = 1, wavelength1 = 2, wavelength2 = 2 /\n"
+        for name, method in (("turned_grid", "solver = 'grid', accuracy = 1e-2"), ("turned_series", "solver = 'beale'"),
+                             ("turned_expansion", "solver = 'fitted'")):
+            self.run_deck(name, crossed + f"&method {method} /\n", (0.1, 0.5))
+            found = [[row["spots"], row["closed_pools"]] for row in self.table(name, "spots")]
+            self.assertEqual([["1", "0"], ["1", "1"]], found, name)
+
+    def test_unlike_crossed_waves_touch_in_bands(self):
+        for name, amplitudes, way in (("along_y", (1, 0.1), "y"), ("along_x", (0.1, 1), "x")):
+            self.run_deck(name, "&surface kind = 'crossed_1d', wavelength1 = 1, wavelength2 = 1, "
+                          f"amplitude1 = {amplitudes[0]}, amplitude2 = {amplitudes[1]} /\n"
+                          "&method solver = 'grid', grid_points = 32 /\n", (0.4,))
+            row, = self.table(name, "spots")
+            for kind in "contact", "gap":
+                for each in "xy":
+                    self.assertEqual("1" if each == way else "0", row[f"{kind}_percolates_{each}"])
+            self.assertEqual(("1", "0"), (row["spots"], row["closed_pools"]))
+            area, = (float(spot["area_fraction"]) for spot in self.sizes(name, 1, "spot"))
+            self.assertAlmostEqual(float(row["contact_area_fraction"]), area, delta=ROUNDING)
+
+    def test_strips_of_a_profile(self):
+        profile = "&surface kind = 'sum', amplitudes = 1, 0.6, waves_x = 2, 3, length_x = 1 /\n"
+        self.run_deck("profile", profile + "&method solver = 'grid' /\n", (0.05, 0.5, 1.0))
+        self.assertEqual(["1", "2", "1"], [row["spots"] for row in self.table("profile", "spots")])
+        # The second strip lies about the middle of the cell.
+        first, second = self.sizes("profile", 2, "spot")
+        self.assertAlmostEqual(0.5, max(float(first["x"]), float(second["x"])), delta=ROUNDING)
+        for load, row in enumerate(self.table("profile", "spots"), 1):
+            area = float(row["contact_area_fraction"])
+            self.assertAlmostEqual(area, float(row["spots_area_fraction"]), delta=ROUNDING)
+            self.assertAlmostEqual(1.0, total(self.sizes("profile", load, "spot"), "load_fraction"), delta=ROUNDING)
+
+    def test_histograms_are_those_of_the_points(self):
+        for name in "rough", "other":
+            summary = self.table(name, "summary")
+            table = self.table(name, "histogram")
+            for load in range(1, len(LOADS) + 1):
+                rows = [{key: float(word) for key, word in row.items()} for row in table if int(row["load"]) == load]
+                pressure, gap = ([value for line in field for value in line] for field in self.fields(name, load))
+                with self.subTest(deck=name, load=load):
+                    self.assertEqual(17, len(rows))
+                    for kind, values, mean in (("pressure", [p for p in pressure if p > 0], "mean_pressure"),
+                                               ("gap", [g for p, g in zip(pressure, gap) if not p > 0], "mean_gap")):
+                        width = rows[1][kind] - rows[0][kind]
+                        self.assertAlmostEqual(max(values), 17*width, delta=ROUNDING*max(values))
+                        area = width*total(rows, kind + "_density")
+                        self.assertAlmostEqual(len(values)/SIDE**2, area, delta=ROUNDING)
+                        found = math.fsum(row[kind + "_fraction"]*row[kind + "_mean"] for row in rows)
+                        self.assertTrue(math.isclose(math.fsum(values)/SIDE**2, found, rel_tol=ROUNDING))
+                        # What the iteration leaves: overlaps at points without pressure count as no gap.
+                        self.assertTrue(math.isclose(float(summary[load - 1][mean]), found, rel_tol=1e-5))
+                        for i, row in enumerate(rows):
+                            low, high = i*width, (i + 1)*width if i < 16 else math.inf
+                            # Values at the end of a bin may be in the next.
+                            number = sum(low <= value < high for value in values)
+                            self.assertAlmostEqual(number/SIDE**2, row[kind + "_fraction"], delta=1.5/SIDE**2)
+                            self.assertTrue(low - 1e-9*width <= row[kind + "_mean"] <= (i + 1 + 1e-9)*width)
+
+    def test_histograms_of_solutions_without_a_grid(self):
+        # Areas and means of the summary, to the sampling: src/measure/README.md, (A6).
+        for name, surface, method, area_error in (("wave", "wave_2d", "solver = 'auto', accuracy = 1e-5", 3e-4),
+                                                  ("line", "wave_1d", "solver = 'auto'", 1e-5)):
+            self.run_deck(name, f"&surface kind = '{surface}' /\n&method {method} /\n", (0.05, 0.5, 0.9))
+            for load, summary in enumerate(self.table(name, "summary"), 1):
+                rows = [{key: float(word) for key, word in row.items()}
+                        for row in self.table(name, "histogram") if int(row["load"]) == load]
+                area = math.fsum(row["pressure_fraction"] for row in rows)
+                self.assertAlmostEqual(float(summary["contact_area_fraction"]), area, delta=area_error)
+                self.assertAlmostEqual(1.0, area + math.fsum(row["gap_fraction"] for row in rows), delta=ROUNDING)
+                for kind in "pressure", "gap":
+                    mean = math.fsum(row[kind + "_fraction"]*row[kind + "_mean"] for row in rows)
+                    self.assertTrue(math.isclose(float(summary["mean_" + kind]), mean, rel_tol=1e-4))
+
+    def test_loads_without_an_edge(self):
+        self.run_deck("edgeless", "&surface kind = 'wave_2d' /\n", (0.0, 1.0))
+        none, full = self.table("edgeless", "spots")
+        self.assertEqual(["0", "0", "1"], [none["spots"], none["closed_pools"], none["gap_percolates_x"]])
+        self.assertEqual(["1", "0", "0"], [full["spots"], full["closed_pools"], full["gap_percolates_x"]])
+        self.assertEqual(1.0, float(full["spots_area_fraction"]))
+
+
+if __name__ == "__main__":
+    Spots.program = str(pathlib.Path(sys.argv.pop(sys.argv.index("--program") + 1)).resolve())
+    sys.argv.remove("--program")
+    unittest.main()
