@@ -158,7 +158,7 @@ contains
       type(self_affine_spectrum), intent(in) :: spectrum
       type(problem_list_type), intent(inout) :: problems
 
-      integer :: i, least(2), points(2)
+      integer :: least(2), points(2)
 
       points = values%integers('points')
       if (points(1) < least_points .or. (points(2) < least_points .and. spectrum%dimension == 2)) then
@@ -167,19 +167,25 @@ contains
          return
       end if
       least = least_points_of(spectrum)
-      do i = 1, spectrum%dimension
-         if (points(i) >= least(i)) cycle
-         if (least(i) > most_points) then
-            call values%complain(problems, 'short_wavelength', 'short_wavelength = '// &
-               short_number(spectrum%shortest)//' needs '//integer_text(least(i))//' points along '//'xy'(i:i)// &
-               ', and more than '//integer_text(most_points)//' are not possible: give a longer one or a smaller cell')
-         else
-            call values%complain(problems, 'points', integer_text(points(i))//' points along '//'xy'(i:i)// &
-               ' are too few for short_wavelength = '//short_number(spectrum%shortest)//': it needs at least '// &
-               integer_text(least(i))//', and for contact areas to be true four points to a wave or more')
-         end if
-      end do
+      if (all(points >= least)) return
+      if (any(least > most_points)) then
+         call values%complain(problems, 'short_wavelength', 'short_wavelength = '// &
+            short_number(spectrum%shortest)//' needs '//grid_words(least)//' points, and more than '// &
+            integer_text(most_points)//' a side are not possible: give a longer one or a smaller cell')
+      else
+         call values%complain(problems, 'points', grid_words(points)//' points are too few for short_wavelength = '// &
+            short_number(spectrum%shortest)//': it needs '//grid_words(least)// &
+            ', and accurate contact areas twice as many each way or more')
+      end if
    end subroutine check_points
+
+   !> "2 x 3", as for the sides of a grid.
+   pure function grid_words(points) result(words)
+      integer, intent(in) :: points(2)
+      character(:), allocatable :: words
+
+      words = integer_text(points(1))//' x '//integer_text(points(2))
+   end function grid_words
 
    !> The spectrum that the keys describe.
    pure function spectrum_of(values) result(spectrum)

@@ -13,6 +13,7 @@ program bench_stresses
    use wavycon_hexagonal, only: hexagonal
    use wavycon_kinds, only: dp
    use wavycon_largest_stress, only: find_largest_stresses, largest_stress
+   use wavycon_self_affine_heights, only: make_heights, self_affine_spectrum
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_of_points, surface_type
    use wavycon_wave_1d, only: wave_1d
@@ -120,33 +121,15 @@ contains
       call fields%on_plane(points, [0.0_dp, 0.0_dp], 0.1_dp*2*pi, elastic_body(), stress, errors)
    end subroutine plane
 
-   !> A rough height map: waves of 8 to 64 in a cell whose amplitudes fall with the power 1.8 of their number, of
-   !> directions and phases from a recurrence.
+   !> A rough height map, waves of 8 to 64 in a cell.
    type(surface_type) function rough_surface(side) result(surface)
       integer, intent(in) :: side   !! points of a side
 
-      integer, parameter :: shortest = 64, longest = 8
-      complex(dp) :: along_x(side), along_y(side)
       real(dp), allocatable :: height(:, :)
-      real(dp) :: phase
-      integer :: i, k, l
+      logical :: is_made
 
-      allocate (height(side, side), source=0.0_dp)
-      phase = 0.0_dp
-      do l = -shortest, shortest
-         along_y = [(exp(cmplx(0.0_dp, 2*pi*modulo(l*(i - 1), side)/side, dp)), i=1, side)]
-         do k = 0, shortest, 4
-            associate (q => hypot(real(k, dp), real(l, dp)))
-               phase = modulo(phase + 0.6180339887_dp*(k + 1), 1.0_dp)
-               if (q < longest .or. q > shortest .or. modulo(l, 4) /= modulo(k/4, 4)) cycle
-               along_x = q**(-1.8_dp)*exp(cmplx(0.0_dp, 2*pi*phase, dp))* &
-                         [(exp(cmplx(0.0_dp, 2*pi*modulo(k*(i - 1), side)/side, dp)), i=1, side)]
-               do i = 1, side
-                  height(:, i) = height(:, i) + real(along_x*along_y(i))
-               end do
-            end associate
-         end do
-      end do
+      allocate (height(side, side))
+      call make_heights(self_affine_spectrum(longest=1/8.0_dp, rolloff=1/8.0_dp, shortest=1/64.0_dp), height, is_made)
       surface = surface_of_points([1.0_dp, 1.0_dp], height)
    end function rough_surface
 

@@ -253,6 +253,65 @@ class Yield(unittest.TestCase):
             self.assertAlmostEqual(self.place(key)[2], float(record["von_mises_depth"])/cell_x, delta=place_error)
 
 
+class Challenge(unittest.TestCase):
+    """Contact area, mean gap and stiffness of rough surfaces."""
+    loads = 4e-5, 1e-4, 3e-4, 1e-3, 3e-3, 0.01, 0.03, 0.08
+    e_star = 25.0
+    # By wavycon on 8192 x 8192 points, eight to the shortest wave, of seed 1: load: (area, mean gap).
+    finer = {0.01: (0.02035388, 1.0500160), 0.08: (0.1527274, 0.3017233)}
+    # A value of the table is the mean of those at two loads 2 % apart: its relative difference from that between them.
+    of_pairs = 1e-4
+
+    @classmethod
+    def setUpClass(cls):
+        cls.table = {(int(row["seed"]), float(row["pressure_over_e_star_slope"])): row
+                     for row in Table(REFERENCE / "challenge.dat").records()}
+
+    def test_rows_and_bounds(self):
+        self.assertEqual({(seed, load) for seed in (1, 2) for load in self.loads}, set(self.table))
+        for seed in (1, 2):
+            rows = [self.table[seed, load] for load in self.loads]
+            for name, way in (("contact_area_fraction", 1), ("mean_gap", -1), ("stiffness", 1)):
+                values = [way*pair(row, name)[0] for row in rows]
+                self.assertEqual(sorted(values), values, name)
+            for row in rows:
+                coarse, fine = (float(row[f"contact_area_fraction_{points}"]) for points in (2048, 4096))
+                area, error = pair(row, "contact_area_fraction")
+                self.assertAlmostEqual((4*fine - coarse)/3, area, delta=1e-3*area)
+                self.assertTrue(abs(fine - area) <= error <= 0.015*area)
+                self.assertLess(pair(row, "mean_gap")[1], 4e-4)
+                self.assertLess(pair(row, "stiffness")[1], 0.007*float(row["stiffness"]))
+
+    def test_finer_grid(self):
+        for load, (finer_area, finer_gap) in self.finer.items():
+            area, error = pair(self.table[1, load], "contact_area_fraction")
+            self.assertLessEqual(abs(area - finer_area), error)
+            gap, error = pair(self.table[1, load], "mean_gap")
+            self.assertLessEqual(abs(gap - finer_gap), error)
+
+    def test_stiffness_is_the_slope_of_the_gap(self):
+        """Its integral over the logarithm of the pressure, by trapezoids, whose error is the tolerance."""
+        for seed in (1, 2):
+            rows = [self.table[seed, load] for load in self.loads]
+            steepness = [self.e_star*load/float(row["stiffness"]) for load, row in zip(self.loads, rows)]
+            for i in range(len(rows) - 1):
+                fall = 0.5*(steepness[i] + steepness[i + 1])*math.log(self.loads[i + 1]/self.loads[i])
+                self.assertAlmostEqual(fall, float(rows[i]["mean_gap"]) - float(rows[i + 1]["mean_gap"]), delta=0.1*fall)
+
+    def test_recomputed(self):
+        load = 0.01
+        with tempfile.TemporaryDirectory() as scratch:
+            subprocess.run([ReferenceTable.program, ROOT / "inputs" / "challenge.nml", "--quiet", "--output", scratch,
+                            "--set", "scene.case=case", "--set", f"load.mean_pressure={load*self.e_star}",
+                            "--set", "surface.seed=2"], check=True)
+            record = Table(pathlib.Path(scratch) / "case.summary.dat").records()[0]
+        row = self.table[2, load]
+        area = float(record["contact_area_fraction"])
+        self.assertAlmostEqual(float(row["contact_area_fraction_2048"]), area, delta=self.of_pairs*area)
+        gap, error = pair(row, "mean_gap")
+        self.assertLessEqual(abs(float(record["mean_gap"]) - gap), error + self.of_pairs*gap)
+
+
 def simpson(values, step):
     return step/3*(values[0] + values[-1] + 4*sum(values[1:-1:2]) + 2*sum(values[2:-1:2]))
 

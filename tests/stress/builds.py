@@ -26,6 +26,9 @@ DECKS = {
                     "&method solver = 'auto' /\n&output lines = t, theory = t /\n"),
     "grid": ("grid", "&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0.05, 0.5, 0.9 /\n"
              "&method solver = 'grid', grid_points = 64, residual = 1e-12 /\n&output lines = t, line_points = 32 /\n"),
+    "self_affine": ("grid", "&surface kind = 'self_affine', rms_height = 0.01, spectrum = 'random', points = 64,\n"
+                    "short_wavelength = 0.05 /\n&load pbar_over_pstar = 0.02, 0.5 /\n"
+                    "&method solver = 'grid', residual = 1e-12 /\n&output lines = t /\n"),
 }
 
 
