@@ -1,5 +1,6 @@
 !> Reads height maps from files: a matrix in gnuplot's format, or lines of x, y and z.
 module wavycon_map_file
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_key_table, only: smallest_number
@@ -83,6 +84,12 @@ contains
          return
       end do
       map%height = reshape(table%values, [columns, table%rows()])
+      map%missing = ieee_is_nan(map%height)
+      if (any(map%missing)) then
+         where (map%missing) map%height = 0.0_dp
+      else
+         deallocate (map%missing)
+      end if
    end subroutine take_matrix
 
    !> Makes a map from lines of x, y and z; x or y varies fastest. Errors: exit_bad_input if the points do not form a

@@ -5,6 +5,7 @@
 module wavycon_number_table
    use, intrinsic :: ieee_exceptions, only: ieee_get_status, ieee_overflow, ieee_set_halting_mode, &
       ieee_set_status, ieee_status_type
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use wavycon_decimal_number, only: read_decimal
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_file_bytes, only: byte_order_mark, read_file
@@ -263,7 +264,9 @@ contains
          return
       end if
       select case (lower_case(word(merge(2, 1, scan(word(1:1), '+-') == 1):)))
-      case ('nan', 'inf', 'infinity')
+      case ('nan')
+         values(used) = ieee_value(1.0_dp, ieee_quiet_nan)
+      case ('inf', 'infinity')
          trouble = "'"//excerpt(word)//"' is not a height: maps must be complete"
       case default
          trouble = "'"//excerpt(word)//"' is no number"
