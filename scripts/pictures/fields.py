@@ -134,7 +134,8 @@ def cell_of(table):
 
 def write_closed(table, place, path, names=("pressure", "gap")):
     """Writes x, y and the named columns of a map for gnuplot's binary format. The first column and row stand once more
-    behind the last: the cell is closed. Points that a picture cannot show are left out. Returns the numbers of points.
+    behind the last, of a mirrored map the last ones: the cell is closed. Points that a picture cannot show are left
+    out. Returns the numbers of points.
     """
     block = table.blocks[place].columns
     columns = len(set(block["x"]))
@@ -147,22 +148,28 @@ def write_closed(table, place, path, names=("pressure", "gap")):
         for j in down:
             numbers = array.array("d")
             for i in across:
-                point = (j % rows)*columns + i % columns
-                numbers.extend((block["x"][point] + (cell[0] if i == columns else 0.0),
-                                block["y"][point] + (cell[1] if j == rows > 1 else 0.0),
+                place_of = (j % rows)*columns + i % columns
+                point = min(j, rows - 1)*columns + min(i, columns - 1) if table.mirrored else place_of
+                numbers.extend((block["x"][place_of] + (cell[0] if i == columns else 0.0),
+                                block["y"][place_of] + (cell[1] if j == rows > 1 else 0.0),
                                 *(block[name][point] for name in names)))
             numbers.tofile(file)
     return len(across), len(down)
 
 
 def edge_facts(contour, numbers, cell):
-    """The blocks of contours of loads, -1 without, and the cells in which copies of the curves are to be drawn."""
+    """The blocks of contours of loads, -1 without, and the cells in which copies of the curves are to be drawn.
+
+    Curves across the border of a mirrored map are their own mirror images: they have no copies.
+    """
     places, low, high = [-1]*len(numbers), [0, 0], [0, 0]
     if contour:
         blocks = {block.load: i for i, block in enumerate(contour.blocks)}
         places = [blocks.get(number, -1) for number in numbers]
         for axis_name, side, k in zip("xy", cell, (0, 1)):
             found = contour.column(axis_name, [place for place in places if place >= 0]) or [0.0]
+            if contour.mirrored:
+                continue
             low[k], high[k] = -math.floor(max(found)/side), -math.floor(min(found)/side)
     return array_of("edge_of", [str(place) for place in places]) + array_of("first_copy", [str(k) for k in low]) \
         + array_of("last_copy", [str(k) for k in high])

@@ -58,14 +58,15 @@ class Table:
     """A table: kind, names of columns, `blocks` in the order of gnuplot's `index`, and what the head says.
 
     `numbers` holds Delta, p*, cell_x, cell_y and edge_level as far as the head gives them, `units` their units;
-    `title` is the deck's, '' if it has none; `surface` and `method` are the first words of their lines. The rest of a
-    line that begins a block is not needed.
+    `title` is the deck's, '' if it has none; `surface` and `method` are the first words of their lines; `mirrored` says
+    whether the cell is a map that its mirror images continue. The rest of a line that begins a block is not needed.
     """
 
     def __init__(self, path):
         self.path = str(path)
         self.names, self.blocks = [], []
         self.numbers, self.units, self.surface, self.method, self.title = {}, {}, "", "", ""
+        self.mirrored = False
         self.points = self.skip = self.endian = None   # of a map in numpy's format
         with open(path, "rb") as file:
             binary = file.read(len(MAGIC)) == MAGIC
@@ -117,6 +118,8 @@ class Table:
             self.numbers[name], self.units[name] = float(number), unit
         if line.startswith("# title: "):
             self.title = line.removeprefix("# title: ").strip()
+        if line.startswith("# surface: "):
+            self.mirrored = line.rstrip().endswith(", mirrored")
         for name in ("surface", "method"):
             if line.startswith(f"# {name}: "):
                 setattr(self, name, line.split(":", 1)[1].split(",")[0].strip())

@@ -106,6 +106,31 @@ contains
       integer(c_int), value :: points_x, points_y
       real(c_double), value :: length_x, length_y
 
+      character(:), allocatable :: no_keys
+
+      no_keys = ''
+      handle = surface_of_heights(error, points_x, points_y, heights, length_x, length_y, no_keys)
+   end function new_heights
+
+   type(c_ptr) function new_measured_heights(error, points_x, points_y, heights, length_x, length_y, keys) &
+      result(handle) bind(c, name='wavycon_new_measured_heights')
+      type(c_ptr), value :: error, heights, keys
+      integer(c_int), value :: points_x, points_y
+      real(c_double), value :: length_x, length_y
+
+      character(:), allocatable :: text
+
+      call text_at(keys, text)
+      handle = surface_of_heights(error, points_x, points_y, heights, length_x, length_y, text)
+   end function new_measured_heights
+
+   !> The surface of a map in memory.
+   type(c_ptr) function surface_of_heights(error, points_x, points_y, heights, length_x, length_y, keys) result(handle)
+      type(c_ptr), value :: error, heights
+      integer(c_int), intent(in) :: points_x, points_y
+      real(c_double), intent(in) :: length_x, length_y
+      character(:), intent(in), allocatable :: keys   !! of &surface; not allocated for a null pointer
+
       type(error_type), allocatable :: trouble
       type(handle_type), pointer :: made
       real(c_double), pointer :: height(:, :)
@@ -117,12 +142,14 @@ contains
          call fatal_error(trouble, exit_bad_input, 'the number of points is out of range')
       else if (.not. c_associated(heights)) then
          call fatal_error(trouble, exit_bad_input, 'heights is NULL')
+      else if (.not. allocated(keys)) then
+         call fatal_error(trouble, exit_bad_input, 'keys is NULL')
       else
          call c_f_pointer(heights, height, [points_x, points_y])
-         call make_heights(height, length_x, length_y, made%surface, trouble)
+         call make_heights(height, length_x, length_y, made%surface, trouble, keys)
       end if
       handle = close_new(error, made, trouble)
-   end function new_heights
+   end function surface_of_heights
 
    type(c_ptr) function new_surface(error, keys) result(handle) bind(c, name='wavycon_new_surface')
       type(c_ptr), value :: error, keys

@@ -151,6 +151,12 @@ wavycon_surface wavycon_new_wave_sum(wavycon_error error, int waves, const doubl
 wavycon_surface wavycon_new_heights(wavycon_error error, int points_x, int points_y, const double *heights,
                                     double length_x, double length_y);
 
+/* A measured map: the same, with NaN where a height is missing. keys: of &surface of a deck, how the map is prepared,
+   such as "detrend = 'plane', fill_missing = 'harmonic', edges = 'mirror'"; "" for the defaults. With mirror images
+   lengths, areas and places are those of the map. */
+wavycon_surface wavycon_new_measured_heights(wavycon_error error, int points_x, int points_y, const double *heights,
+                                             double length_x, double length_y, const char *keys);
+
 /* Any surface of a deck: the keys of &surface, such as "kind = 'file', file = 'heights.dat', length_x = 2". */
 wavycon_surface wavycon_new_surface(wavycon_error error, const char *keys);
 

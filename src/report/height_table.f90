@@ -51,14 +51,15 @@ contains
       integer :: points(2)
 
       associate (surface => results%scene%surface)
-         points = surface%points
+         points = surface%points/surface%parts()
          if (all(points == 0)) points = map_points(results)
          call file%open(results%scene%directory, results%scene%case//'.height.npy', binary=.true.)
          call file%put_raw(npy_header_of_numbers([points(2), points(1)]))
          if (.not. has_memory_for(numbers_a_point*product(int(points, int64)))) call file%note_trouble( &
             'there is not enough memory for '//integer_text(points(1))//' x '//integer_text(points(2))//' points')
          if (file%is_open()) then
-            call sample_series(surface%shape, points, [0.0_dp, 0.0_dp], height)
+            call sample_series(surface%shape, points, spread(merge(0.5_dp, 0.0_dp, surface%mirrored), 1, 2), height, &
+                               surface%parts())
             height = surface%amplitude*height
             call file%put_raw(height)
          end if

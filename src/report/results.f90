@@ -75,6 +75,7 @@ contains
          words = ', cell_x['//self%scene%length_unit//'] = '//exact_number(side(1))
          if (self%scene%surface%dimension == 2) words = words//', cell_y['//self%scene%length_unit//'] = '// &
             exact_number(side(2))
+         if (self%scene%surface%mirrored) words = words//', mirrored'
       end function cell_sides
 
    end subroutine open_table

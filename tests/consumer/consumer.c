@@ -1,4 +1,5 @@
 /* A steel surface with waves 1 mm long and 1 um in amplitude against a rigid flat: lengths in m, pressures in Pa. */
+#include <math.h>
 #include <stdio.h>
 #include <wavycon.h>
 
@@ -50,6 +51,28 @@ static void stresses(wavycon_error error, wavycon_surface surface, double e_star
     wavycon_delete(&solver);
 }
 
+/* A measured map with a tilt and a hole. */
+static void measured(wavycon_error error)
+{
+    static double heights[12][16];
+    char text[100] = "";
+    wavycon_measures m = {0};
+    for (int j = 0; j < 12; j++)
+        for (int i = 0; i < 16; i++)
+            heights[j][i] = ((7*i*i + 3*j*j + i*j) % 11 + 0.25*i)/1048576;
+    heights[2][5] = NAN;
+    wavycon_surface surface = wavycon_new_measured_heights(
+        error, 16, 12, &heights[0][0], 4e-3, 3e-3, "detrend = 'plane', fill_missing = 'harmonic', edges = 'mirror'");
+    wavycon_solver solver = wavycon_new_solver(error, surface, 1e9, "residual = 1e-10", 1);
+    wavycon_solution solution = wavycon_solve(error, solver, "pbar_over_pstar", 0.2);
+    if (wavycon_get_measures(error, solution, &m) == 0)
+        wavycon_get_status(error, solution, text, sizeof text);
+    printf("%24.16e %24.16e %24.16e %s\n", m.mean_gap, m.contact_area, m.mean_pressure, text);
+    wavycon_delete(&solution);
+    wavycon_delete(&solver);
+    wavycon_delete(&surface);
+}
+
 int main(void)
 {
     const double loads[] = {0.9, 0.5, 0.2}, e_star = 210e9/(1 - 0.3*0.3);
@@ -79,6 +102,8 @@ int main(void)
     printf("%24.16e %24.16e %24.16e %d\n", highest, pressure[2][1], gap[2][23], edges);
     if (wavycon_check_error(error) == 0)
         stresses(error, surface, e_star, solution);
+    if (wavycon_check_error(error) == 0)
+        measured(error);
     int status = wavycon_check_error(error);
     wavycon_get_error_message(error, text, sizeof text);
     if (status != 0)

@@ -1,6 +1,7 @@
 !> A steel surface with waves 1 mm long and 1 um in amplitude against a rigid flat: lengths in m, pressures in Pa.
 program consumer
-   use wavycon, only: dp, error_type, largest_shear, make_solver, make_wave_2d, principal_stresses, von_mises, &
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use wavycon, only: dp, error_type, largest_shear, make_heights, make_solver, make_wave_2d, principal_stresses, von_mises, &
       wavy_edge, wavy_largest_stress, wavy_measures, wavy_solution, wavy_solver, wavy_surface
    implicit none (type, external)
 
@@ -14,7 +15,8 @@ program consumer
    real(dp), allocatable :: pressure(:, :), gap(:, :), displacement(:, :), stress(:, :), stress_error(:), plane(:, :, :)
    real(dp), parameter :: nu = 0.3_dp, depths(2) = [1e-4_dp, 3e-4_dp], crest(2) = 0.0_dp
    real(dp), parameter :: e_star = 210e9_dp/(1 - 0.3_dp**2), loads(*) = [0.9_dp, 0.5_dp, 0.2_dp]
-   integer :: i
+   real(dp) :: heights(0:15, 0:11)
+   integer :: i, j
 
    call make_wave_2d(1e-6_dp, 1e-3_dp, surface=surface, error=error)
    call make_solver(surface, e_star, "solver = 'auto', accuracy = 1e-4", .true., solver, error)
@@ -50,4 +52,20 @@ program consumer
    if (allocated(error)) error stop error%message
    m = solution%measures()
    print '(2es24.16, 1x, a)', m%mean_pressure, m%contact_area_fraction, solution%status()
+
+   ! A measured map with a tilt and a hole.
+   do j = 0, 11
+      do i = 0, 15
+         heights(i, j) = (mod(7*i*i + 3*j*j + i*j, 11) + 0.25_dp*i)/1048576
+      end do
+   end do
+   heights(5, 2) = ieee_value(1.0_dp, ieee_quiet_nan)
+   call make_heights(heights, 4e-3_dp, 3e-3_dp, surface, error, &
+                     "detrend = 'plane', fill_missing = 'harmonic', edges = 'mirror'")
+   call make_solver(surface, 1e9_dp, "residual = 1e-10", .true., solver, error)
+   if (allocated(error)) error stop error%message
+   call solver%solve('pbar_over_pstar', 0.2_dp, solution, error)
+   if (allocated(error)) error stop error%message
+   m = solution%measures()
+   print '(3es24.16, 1x, a)', m%mean_gap, m%contact_area, m%mean_pressure, solution%status()
 end program consumer

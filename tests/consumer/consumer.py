@@ -34,6 +34,7 @@ class LargestStress(ctypes.Structure):
 lib = ctypes.CDLL(sys.argv[1])
 for name, arguments in {
         "new_error": [], "new_wave_2d": [c_void_p, c_double, c_double, c_double],
+        "new_measured_heights": [c_void_p, c_int, c_int, c_void_p, c_double, c_double, c_char_p],
         "new_solver": [c_void_p, c_void_p, c_double, c_char_p, c_int],
         "solve": [c_void_p, c_void_p, c_char_p, c_double]}.items():
     getattr(lib, "wavycon_" + name).restype = c_void_p
@@ -106,5 +107,20 @@ check()
 lib.wavycon_get_measures(error, yielding, byref(m))
 lib.wavycon_get_status(error, yielding, status, ctypes.c_size_t(len(status)))
 print(f"{m.mean_pressure:24.16e} {m.contact_area_fraction:24.16e}", status.value.decode())
-for handle in (yielding, steel, solution, solver, surface, error):
+
+# A measured map with a tilt and a hole.
+heights, to_heights = field(12, 16)
+for j in range(12):
+    for i in range(16):
+        heights[j][i] = ((7*i*i + 3*j*j + i*j) % 11 + 0.25*i)/1048576
+heights[2][5] = float("nan")
+rough = c_void_p(lib.wavycon_new_measured_heights(
+    error, 16, 12, to_heights, 4e-3, 3e-3, b"detrend = 'plane', fill_missing = 'harmonic', edges = 'mirror'"))
+flat = c_void_p(lib.wavycon_new_solver(error, rough, 1e9, b"residual = 1e-10", 1))
+pressed = c_void_p(lib.wavycon_solve(error, flat, b"pbar_over_pstar", 0.2))
+check()
+lib.wavycon_get_measures(error, pressed, byref(m))
+lib.wavycon_get_status(error, pressed, status, ctypes.c_size_t(len(status)))
+print(*(f"{number:24.16e}" for number in (m.mean_gap, m.contact_area, m.mean_pressure)), status.value.decode())
+for handle in (pressed, flat, rough, yielding, steel, solution, solver, surface, error):
     lib.wavycon_delete(byref(handle))

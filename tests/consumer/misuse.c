@@ -71,6 +71,11 @@ static void surfaces(void)
     NOTHING(wavycon_new_wave_sum(error, 2, a, huge, none, zeros, 1, 1));
     NOTHING(wavycon_new_wave_sum(error, 2, a, one, none, nans, 1, 1));
     NOTHING(wavycon_new_heights(error, 8, 8, NULL, 1, 1));
+    NOTHING(wavycon_new_measured_heights(error, 8, 8, NULL, 1, 1, ""));
+    NOTHING(wavycon_new_measured_heights(error, 8, 8, heights, 1, 1, NULL));
+    NOTHING(wavycon_new_measured_heights(error, 8, 8, heights, 1, 1, "detrend = 'cubic'"));
+    NOTHING(wavycon_new_measured_heights(error, 8, 8, heights, 1, 1, "kind = 'file'"));
+    NOTHING(wavycon_new_measured_heights(error, 8, 8, heights, 1, 1, "length_x = 2"));
     NOTHING(wavycon_new_heights(error, 0, 8, heights, 1, 1));
     NOTHING(wavycon_new_heights(error, 8, -8, heights, 1, 1));
     NOTHING(wavycon_new_heights(error, 2, 2, heights, 1, 1));

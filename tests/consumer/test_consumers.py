@@ -7,6 +7,7 @@ usage: test_consumers.py --build BUILD --cmake CMAKE --sources SOURCES --generat
 PYTHON: one that may have numpy, if the one that runs this has not.
 """
 import argparse
+import math
 import os
 import pathlib
 import shlex
@@ -24,6 +25,12 @@ WAVE = f"""&surface kind = 'wave_2d', amplitude = 1e-6, wavelength = 1e-3 /
 DECK = WAVE + """&load pbar_over_pstar = 0.9, 0.5, 0.2 /
 &stress nu = 0.3, line = .true., planes = .true., depths = 1e-4, 3e-4 /
 &output contours = .true., map_points = 48, 32 /
+"""
+MEASURED_DECK = """&surface kind = 'file', file = 'measured.dat', length_x = 4e-3, length_y = 3e-3
+   detrend = 'plane', fill_missing = 'harmonic', edges = 'mirror' /
+&material e_star = 1e9 /
+&method residual = 1e-10 /
+&load pbar_over_pstar = 0.2 /
 """
 YIELD_DECK = WAVE + """&load yield = 1 /
 &stress nu = 0.3, yield_stress = 1e9 /
@@ -57,7 +64,7 @@ def run(*command, **options):
 def numbers(output):
     """The words of a consumer's lines, the numbers among them read."""
     rows = [line.split() for line in output.splitlines()]
-    if [len(row) for row in rows] != [6, 6, 6, 4, 12, 12, 6, 6, 3]:
+    if [len(row) for row in rows] != [6, 6, 6, 4, 12, 12, 6, 6, 3, 4]:
         raise AssertionError(f"this is not what a consumer prints:\n{output}")
     return [[float(word) if "." in word else word for word in row] for row in rows]
 
@@ -89,7 +96,10 @@ class Consumers(unittest.TestCase):
                 f"CMAKE_PREFIX_PATH={cls.prefix}", *cls.compilers())
             run(options.cmake, "--build", cls.folder / name)
         # The program that the digits are compared with is the installed one.
-        for name, deck in (("deck", DECK), ("yield", YIELD_DECK)):
+        heights = [[((7*i*i + 3*j*j + i*j) % 11 + 0.25*i)/1048576 for i in range(16)] for j in range(12)]
+        heights[2][5] = math.nan
+        (cls.folder / "measured.dat").write_text("".join(" ".join(map(repr, row)) + "\n" for row in heights))
+        for name, deck in (("deck", DECK), ("yield", YIELD_DECK), ("measured", MEASURED_DECK)):
             (cls.folder / f"{name}.nml").write_text(deck)
             run(cls.prefix / "bin" / "wavycon", f"{name}.nml", "--output", ".", "--quiet", cwd=cls.folder)
         cls.expected = numbers(run(cls.folder / "project" / "consumer_fortran"))
@@ -150,6 +160,12 @@ class Consumers(unittest.TestCase):
         self.assertEqual(first["status"], self.expected[8][-1])
         largest, = rows_of(self.folder / "yield.stress_largest.dat")
         self.assertAlmostEqual(float(largest["largest_von_mises"])/1e9, 1, delta=1e-4)
+
+    def test_digits_of_a_measured_map(self):
+        row, = rows_of(self.folder / "measured.summary.dat")
+        self.check_row(row, ["mean_gap", "contact_area", "mean_pressure"], self.expected[9][:3])
+        self.assertEqual(row["status"], self.expected[9][-1])
+        self.assertLess(float(row["contact_area"]), 4e-3*3e-3)
 
     def test_fortran_with_the_shared_library(self):
         self.assertEqual(self.expected, numbers(run(self.folder / "project" / "consumer_fortran_shared")))
