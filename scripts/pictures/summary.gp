@@ -12,7 +12,7 @@ unit_of_error(n, r) = n == 1 ? 1 : n == 2 ? Delta_of[r] : p_star_of[r]
 x(r) = load_factor[r]*column('mean_pressure')
 y(n, r) = factor(n, r)*column(quantity[n])
 code(x) = column('status_code')
-# Errors that are as large as the value or unknown, NaN, have no bar: the point is open. The paper's series has no errors.
+# Errors that are as large as the value or unknown, NaN, have no bar: the point is open. The paper's series has none.
 bar(error, value) = error > 0 && error < value ? error : NaN
 error_on_axis(n, r) = factor(n, r)*unit_of_error(n, r)*column(error_of[n])
 error(n, r) = bar(error_on_axis(n, r), y(n, r))

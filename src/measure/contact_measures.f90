@@ -78,9 +78,9 @@ contains
       if (.not. is_known(number)) or_nan = ieee_value(1.0_dp, ieee_quiet_nan)
    end function or_nan
 
-   !> Error estimates of mean gap [Delta], contact area fraction and peak pressure [p*], unknown where an estimate is no
-   !> smaller than the largest error that the value can have, and so says nothing: gap and area lie between zero and one,
-   !> the peak is below that of just full contact.
+   !> Error estimates of mean gap [Delta], contact area fraction and peak pressure [p*], unknown where an estimate is
+   !> no smaller than the largest error that the value can have, and so says nothing: gap and area lie between zero and
+   !> one, the peak is below that of just full contact.
    pure function known_errors(estimates, largest) result(errors)
       real(dp), intent(in) :: estimates(3)
       real(dp), intent(in) :: largest   !! p - P in full contact [p*], of the waves of the paper 1

@@ -4,11 +4,11 @@
 usage: area_errors.py --program WAVYCON [--quick]
 
 Surfaces whose area is known: the two-dimensional wave, by expansions; a sphere at light load, by Hertz, averaged over
-places of its centre between the points; self-affine maps of 128 x 128 points, whose shortest wave has 16 to 2 of them, by
-a grid of 2048 x 2048. Errors are root mean squares over the loads of a row, in percent of the area or, from half contact
-on, of the open part, each with the mean in brackets; the last column is the root mean square of the error estimate of the
-placed area in the same unit, NaN where one is unknown. `perimeter` is the number of changes from contact to gap over the
-number of points in contact or, from half contact on, of open points.
+places of its centre between the points; self-affine maps of 128 x 128 points, whose shortest wave has 16 to 2 of
+them, by the finest grid, which has its own rows. Errors are root mean squares over the loads of a row, in percent of
+the area or, from half contact on, of the open part, each with the mean in brackets; the last column is the root mean
+square of the error estimate of the placed area in the same unit, NaN where one is unknown. `perimeter` is the number
+of changes from contact to gap over the number of points in contact or, from half contact on, of open points.
 
 Run it with a Python that has numpy.
 """
@@ -92,7 +92,8 @@ def sphere(runs, quick):
             full = rough_surface.full_contact_pressure(heights)*math.pi/SPHERE_POINTS
             load = 4*radius**3/3/SPHERE_POINTS**2
             size = f"length_x = {SPHERE_POINTS}, length_y = {SPHERE_POINTS}"
-            found.append(runs.summary(f"kind = 'file', file = 'map.dat', {size}", "solver = 'grid'", [load/full], heights))
+            surface = f"kind = 'file', file = 'map.dat', {size}"
+            found.append(runs.summary(surface, "solver = 'grid'", [load/full], heights))
         together = {name: numpy.concatenate([one[name] for one in found]) for name in found[0]}
         truth = numpy.full(len(found), math.pi*radius**2/SPHERE_POINTS**2)
         row("sphere", SPHERE_POINTS, f"radius {radius:g} steps", together, truth)

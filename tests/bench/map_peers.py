@@ -3,12 +3,13 @@
 
 usage: map_peers.py --build DIRECTORY [--peers DIRECTORY] [--quick]
 
-Run it with a Python that has numpy. First 16 kinds of maps of 32 x 32 points at seven loads, against a direct solver: a
-dense matrix and the set of points in contact, changed until all conditions of contact hold. Then self-affine maps of 256 x
-256 points, against wavycon. The programs solve to the tolerances below, each in its own measure. Differences are the
-largest of a point, over the largest pressure.
+Run it with a Python that has numpy. First 16 kinds of maps of 32 x 32 points at seven loads, against a direct solver:
+a dense matrix and the set of points in contact, changed until all conditions of contact hold. Then self-affine maps of
+256 x 256 points, against wavycon. The programs solve to the tolerances below, each in its own measure. Differences are
+the largest of a point, over the largest pressure.
 """
 import argparse
+import collections
 import os
 import pathlib
 import sys
@@ -147,21 +148,22 @@ def small_maps(programs, quick):
                 continue
             differences, words = compare(programs, heights, load*full, expected)
             for code, difference in differences.items():
-                every[code].append((difference, kind, load))
+                every[code].append((difference, kind))
             print(f"{kind:<21} {load:>8g} {(expected > 0).mean():>8.4f} {words}", flush=True)
     for code, found in every.items():
-        far = [(difference, kind) for difference, kind, _ in found if not difference <= ALIKE]
-        near = max(difference for difference, _, _ in found if difference <= ALIKE)
+        far = [(difference, kind) for difference, kind in found if not difference <= ALIKE]
+        near = max(difference for difference, _ in found if difference <= ALIKE)
+        kinds = collections.Counter(kind for _, kind in far)
         print(f"# {code}: {len(found) - len(far)} of {len(found)} loads within {near:.1e}; farther: {len(far)}"
-              + "".join(f", {kind} {sum(one == kind for _, one in far)} times" for kind in dict.fromkeys(k for _, k in far))
-              + (f", by {min(d for d, _ in far):.1e} to {max(d for d, _ in far):.1e}" if far else ""))
+              + "".join(f", {kind} {times} times" for kind, times in kinds.items())
+              + (f", by {min(far)[0]:.1e} to {max(far)[0]:.1e}" if far else ""))
 
 
 def large_maps(programs, quick):
     """The table of the self-affine maps."""
     points = ROUGH_POINTS//2 if quick else ROUGH_POINTS
-    print(f"\n\n#{'shortest wave':<20} {'P':>8} {'contact':>8}  difference from {rough_runs.OWN}, residual and status of "
-          f"{', '.join(programs.commands)}; {points} points a side")
+    print(f"\n\n#{'shortest wave':<20} {'P':>8} {'contact':>8}  difference from {rough_runs.OWN}, residual and status "
+          f"of {', '.join(programs.commands)}; {points} points a side")
     for cutoff in ROUGH_CUTOFFS:
         heights = rough_surface.rough_surface(points, points/cutoff)
         full = rough_surface.full_contact_pressure(heights)

@@ -19,7 +19,8 @@ class Row:
         self.load = float(words["pbar_over_pstar"])
         self.values = [float(words[name]) for name in VALUES]
         # An error that is unknown may have any size.
-        self.errors = [max(error, ROUNDING) if error == error else math.inf for error in (float(words[name]) for name in ERRORS)]
+        errors = [float(words[name]) for name in ERRORS]
+        self.errors = [math.inf if math.isnan(error) else max(error, ROUNDING) for error in errors]
 
     @property
     def has_numbers(self):
