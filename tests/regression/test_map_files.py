@@ -120,6 +120,9 @@ class MapFiles(unittest.TestCase):
         for name in names:
             self.assertIn(f"{name}: 3 of {M*N} heights are missing, the first in row 5, column 4", self.refusal(name))
         self.single[4, 3] = self.single[8, 13] = -1e30
+        # In the file's unit, whatever the deck's.
+        gsffile.write_gsf("value.gsf", self.single, {"XReal": 1, "YReal": 1, "XYUnits": "m", "ZUnits": "nm"})
+        self.assertIn("value.gsf: 2 of 126 heights are missing", self.refusal("value.gsf", ", missing_value = -1e30"))
         numpy.save("value.npy", self.single)
         self.assertIn("value.npy: 2 of 126 heights are missing, the first in row 5, column 4",
                       self.refusal("value.npy", ", missing_value = -1e30"))
