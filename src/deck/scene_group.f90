@@ -28,7 +28,9 @@ contains
             ". The deck's name is that of its file without '.nml'.", longest_name), &
          text_key('pressure_unit', "'pressure'", "Label of the deck's unit of pressures and moduli in the heads of "// &
             "tables and in pictures, such as 'MPa'. No number is converted.", longest_unit), &
-         text_key('length_unit', "'length'", "Label of the deck's unit of lengths, such as 'mm'.", longest_unit)])
+         text_key('length_unit', "'length'", "Label of the deck's unit of lengths, such as 'mm'. "// &
+            "A height map whose file names units is converted to it or, if the deck gives none, sets it.", &
+            longest_unit)])
    end function scene_table
 
    !> Checks the labels of units and the name of the case, whose default is the name of the deck's file without '.nml'.

@@ -43,9 +43,9 @@ contains
       is_number = parse_number(number, value) == len(word)
    end subroutine read_decimal
 
-   !> Reads a number of few digits: a whole number below 2**53, times or over a power of ten up to 10**22. Both are exact
-   !> in double precision, so that the result is the nearest double (W. D. Clinger, How to read floating point numbers
-   !> accurately, Proc. ACM SIGPLAN 1990, 92-101). It takes a fifth of the time of the C library.
+   !> Reads a number of few digits: a whole number below 2**53, times or over a power of ten up to 10**22. Both are
+   !> exact in double precision, so that the result is the nearest double (W. D. Clinger, How to read floating point
+   !> numbers accurately, Proc. ACM SIGPLAN 1990, 92-101). It takes a fifth of the time of the C library.
    pure subroutine read_short(word, value, is_read)
       character(*), intent(in) :: word
       real(dp), intent(out) :: value    !! 0 if it is not read

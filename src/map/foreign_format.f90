@@ -6,8 +6,8 @@ module wavycon_foreign_format
 
    public :: remedy_of_content, remedy_of_name
 
-   character(*), parameter :: by_gwyddion = 'open it in Gwyddion and save it as .gsf (File > Save As), or read it in '// &
-      'Python with SurfaceTopography and write numpy.save(file, topography.heights().T)'
+   character(*), parameter :: by_gwyddion = 'open it in Gwyddion and save it as .gsf (File > Save As), or read it '// &
+      'in Python with SurfaceTopography and write numpy.save(file, topography.heights().T)'
    character(*), parameter :: by_spreadsheet = 'save the heights as text (.csv)'
    character(*), parameter :: by_numpy = 'read it in Python and write its heights by numpy.save'
 
@@ -18,6 +18,12 @@ contains
       character(*), intent(in) :: head   !! the first bytes of the file
       character(*), intent(in) :: path
       character(:), allocatable :: words
+
+      !> First bytes of files of instruments and their programs; the last is that of a family of containers.
+      character(*), parameter :: instruments(*) = [character(18) :: 'GWYP', 'Gwyddion XYZ Field', 'AliconaImaging', &
+         'DIGITAL SURF', 'DSCOMPRESSED', 'aISO-1.0', 'bISO-1.0', 'aBCR-', 'bBCR-', 'VK4_', 'VK6', '\*File list', &
+         char(208)//char(207)//char(17)//char(224)]
+      integer :: i
 
       words = ''
       if (begins(char(137)//'PNG') .or. begins(char(255)//char(216)//char(255)) .or. begins('GIF8') .or. &
@@ -35,10 +41,7 @@ contains
          ! Archives, which differ by their names.
          words = remedy_of_name(path)
          if (words == '') words = 'this is an archive: '//by_gwyddion
-      else if (begins('GWYP') .or. begins('AliconaImaging') .or. begins('DIGITAL SURF') .or. begins('DSCOMPRESSED') .or. &
-               begins('aISO-1.0') .or. begins('bISO-1.0') .or. begins('aBCR-') .or. begins('bBCR-') .or. &
-               begins('VK4_') .or. begins('VK6') .or. begins(char(208)//char(207)//char(17)//char(224)) .or. &
-               begins('\*File list') .or. begins('Gwyddion XYZ Field')) then
+      else if (any([(begins(trim(instruments(i))), i=1, size(instruments))])) then
          words = 'this is a file of an instrument or of Gwyddion: '//by_gwyddion
       end if
 

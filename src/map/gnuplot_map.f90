@@ -72,7 +72,8 @@ contains
       end do
       call find_step(x, map%step(1), is_regular)
       if (.not. is_regular) then
-         call file%refuse('the x of its first row are not equidistant: interpolate the heights to a regular grid', error)
+         call file%refuse('the x of its first row are not equidistant: interpolate the heights to a regular grid', &
+                          error)
          return
       end if
       if (n > 1) call find_step(y, map%step(2), is_regular)

@@ -8,7 +8,6 @@ module wavycon_gsf_map
    use wavycon_error, only: error_type
    use wavycon_key_table, only: largest_number, smallest_number
    use wavycon_kinds, only: dp
-   use wavycon_length_unit, only: find_factor
    use wavycon_measured_map, only: measured_map
    use wavycon_plain_text, only: excerpt, newline
    implicit none (type, external)
@@ -19,7 +18,6 @@ module wavycon_gsf_map
    character(*), parameter :: magic = 'Gwyddion Simple Field 1.'
    !> The numbers begin at a multiple of so many bytes, behind one to so many null characters.
    integer, parameter :: alignment = 4
-   character(*), parameter :: dimensions_and_units = ' (Gwyddion: Data Process > Basic Operations > Dimensions and Units)'
 
 contains
 
@@ -31,17 +29,15 @@ contains
    end function is_gsf
 
    !> Reads a map. The first row of the file is the first row of the map, as in the other formats: y counts from the top
-   !> of Gwyddion's picture downwards, as it does in Gwyddion. Heights become lengths in the unit of the sides. Errors:
-   !> exit_bad_input, exit_file_trouble.
+   !> of Gwyddion's picture downwards, as it does in Gwyddion. Errors: exit_bad_input, exit_file_trouble.
    subroutine read_gsf_map(file, map, error)
       class(binary_file), intent(inout) :: file
       type(measured_map), intent(inout) :: map
       type(error_type), allocatable, intent(out) :: error
 
       character(:), allocatable :: height_unit, unit
-      real(dp) :: factor, points(2), sides(2)
+      real(dp) :: points(2), sides(2)
       integer :: last
-      logical :: is_known
 
       if (.not. is_gsf(file%head)) then
          call file%refuse("this is no .gsf file: it does not begin with '"//magic//"0'", error)
@@ -70,18 +66,13 @@ contains
       if (any(sides > 0.0_dp)) map%step = merge(sides, 1.0_dp, sides > 0.0_dp)/points
       if (unit == '') unit = height_unit
       if (height_unit == '') height_unit = unit
-      call find_factor(height_unit, unit, factor, is_known)
-      if (.not. is_known) then
-         call file%refuse("the heights are in '"//excerpt(height_unit)//"' and the sides in '"//excerpt(unit)// &
-                          "': both must be lengths"//dimensions_and_units, error)
-         return
+      if (unit /= '') then
+         map%length_unit = unit
+         map%height_unit = height_unit
       end if
-      if (unit /= '') map%length_unit = unit
       file%number_bytes = 4
       file%big_end_first = .false.
       call file%read_heights(int(last + alignment - modulo(last, alignment), int64), nint(points), .false., map, error)
-      if (allocated(error)) return
-      if (factor > 1.0_dp .or. factor < 1.0_dp) map%height = factor*map%height
    end subroutine read_gsf_map
 
    !> Reads a number of the head; 0 if it is not there. Errors: exit_bad_input for a word that is no number, and for a

@@ -35,12 +35,12 @@ contains
       if (is_found) factor = 10.0_dp**(powers(i) - powers(j))
    end subroutine find_factor
 
-   !> Converts the lengths of a map from the unit that its file names to another one. A map without a unit is left as it
-   !> is. Errors: exit_bad_input for a unit that is not one of the metre.
+   !> Converts steps and heights of a map from the units that its file names to one unit. A map without units is left as
+   !> it is. Errors: exit_bad_input for a unit that is not one of the metre.
    subroutine convert_lengths(path, unit, map, error)
       character(*), intent(in) :: path   !! of the map, for the message
       character(*), intent(in) :: unit   !! the deck's length_unit; empty if it gives none
-      type(measured_map), intent(inout) :: map
+      type(measured_map), intent(inout) :: map   !! with the unit converted to
       type(error_type), allocatable, intent(out) :: error
 
       real(dp) :: factor
@@ -49,22 +49,38 @@ contains
       if (.not. allocated(map%length_unit)) return
       if (unit == '') then
          call find_factor(map%length_unit, 'm', factor, is_known)
-         if (.not. is_known) call fatal_error(error, exit_bad_input, escaped(path)//": its unit of length is '"// &
-            excerpt(map%length_unit)//"', which is none of "//listed(units, ' and ')//": give it as length_unit in "// &
-            '&scene to go on in this unit, or set another one in the program that wrote the file')
-         return
+         if (.not. is_known) then
+            call trouble("its unit of length is '"//excerpt(map%length_unit)//"', which is none of "// &
+                         listed(units, ' and ')//': give it as length_unit in &scene to go on in this unit, or set '// &
+                         'another one in the program that wrote the file')
+            return
+         end if
+      else
+         call find_factor(map%length_unit, unit, factor, is_known)
+         if (.not. is_known) then
+            call trouble("its lengths are in '"//excerpt(map%length_unit)//"' and cannot be converted to "// &
+                         "length_unit = '"//escaped(unit)//"' of &scene: both must be one of "// &
+                         listed(units, ' and ')//", or the same; without length_unit the unit is the file's")
+            return
+         end if
+         map%step = factor*map%step
+         map%length_unit = unit
       end if
-      call find_factor(map%length_unit, unit, factor, is_known)
-      if (.not. is_known) then
-         call fatal_error(error, exit_bad_input, escaped(path)//": its lengths are in '"//excerpt(map%length_unit)// &
-                          "' and cannot be converted to length_unit = '"//escaped(unit)//"' of &scene: both must be "// &
-                          'one of '//listed(units, ' and ')//', or the same; without length_unit the unit is the '// &
-                          "file's")
-         return
-      end if
-      map%step = factor*map%step
+      call find_factor(map%height_unit, map%length_unit, factor, is_known)
+      if (.not. is_known) call trouble("its heights are in '"//excerpt(map%height_unit)//"' and cannot be "// &
+         "converted to '"//escaped(map%length_unit)//"': they must be lengths, in one of "//listed(units, ' and ')// &
+         ' (Gwyddion: Data Process > Basic Operations > Dimensions and Units)')
       if (factor > 1.0_dp .or. factor < 1.0_dp) map%height = factor*map%height
-      map%length_unit = unit
+      map%height_unit = map%length_unit
+
+   contains
+
+      subroutine trouble(words)
+         character(*), intent(in) :: words
+
+         call fatal_error(error, exit_bad_input, escaped(path)//': '//words)
+      end subroutine trouble
+
    end subroutine convert_lengths
 
 end module wavycon_length_unit

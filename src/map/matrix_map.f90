@@ -14,8 +14,8 @@ module wavycon_matrix_map
 
 contains
 
-   !> Makes a map; missing heights are NaN. Errors: exit_bad_input for rows of unequal length and for too few or too many
-   !> points.
+   !> Makes a map; missing heights are NaN. Errors: exit_bad_input for rows of unequal length and for too few or too
+   !> many points.
    subroutine take_matrix(table, map, error)
       type(number_table), intent(in) :: table
       type(measured_map), intent(inout) :: map
@@ -25,7 +25,8 @@ contains
 
       ! A separator at the end of the first row may end it, or stand before a last height that is missing there.
       columns = table%length(1)
-      if (table%ends_open(1) .and. any(table%first(2:) - table%first(:table%rows()) == columns + 1)) columns = columns + 1
+      if (table%ends_open(1) .and. any(table%first(2:) - table%first(:table%rows()) == columns + 1)) &
+         columns = columns + 1
       do j = 2, table%rows()
          length = table%length(j)
          if (length == columns .or. (length == columns - 1 .and. table%ends_open(j))) cycle

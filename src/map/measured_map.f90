@@ -12,7 +12,8 @@ module wavycon_measured_map
       logical, allocatable :: missing(:, :)        !! shape of `height`; not allocated if no height is missing
       real(dp) :: step(2) = 0.0_dp                 !! between points along x and y; 0 where the file does not give it
       character(7) :: format = ''                  !! a value of the key file_format but 'auto'
-      character(:), allocatable :: length_unit     !! of steps and heights; not allocated if the file does not name it
+      character(:), allocatable :: length_unit     !! of the steps; not allocated if the file does not name units
+      character(:), allocatable :: height_unit     !! of the heights; allocated if length_unit is
    end type measured_map
 
 end module wavycon_measured_map

@@ -40,8 +40,8 @@ contains
       end if
       call find_words(file%head, first, last)
       if (last < first) then
-         call file%refuse('the head of this .npy file is cut off, longer than 65000 bytes, or of a version above 3: '// &
-                          'write it by numpy.save', error)
+         call file%refuse('the head of this .npy file is cut off, longer than 65000 bytes, or of a version above 3'// &
+                          ': write it by numpy.save', error)
          return
       end if
       type_words = entry_of(file%head(first:last), 'descr')

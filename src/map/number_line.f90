@@ -58,8 +58,8 @@ contains
       end do
       if (behind == 1) then
          ! One separator may be left behind by a spreadsheet or an editor; more stand for numbers.
-         if (separators > 1) trouble = 'this line has separators and no numbers: write nan for the numbers that are '// &
-                                       'missing, or take the line out'
+         if (separators > 1) trouble = 'this line has separators and no numbers: write nan for the numbers that '// &
+                                       'are missing, or take the line out'
          return
       end if
       ends_open = separators > 0

@@ -52,18 +52,19 @@ contains
       type(key_type), allocatable :: rows(:)
 
       rows = [ &
-         length_x_key(), length_y_key(), &
+         length_x_key(), &
+         length_y_key('side of the periodic cell along y; without it points are equally far apart along x and y.'), &
          text_key('file', '', &
             'a periodic map of heights, upwards to the other body; looked for beside the deck, then where the '// &
             "program is started. The last row and column are the cell's last, not copies of the first.", &
             longest_path, required=.true.), &
          choice_key('file_format', "'auto'", &
-            "'matrix', a row of heights for each y; 'xyz', lines of x, y, z on a regular grid; 'npy' of numpy; 'gsf', "// &
-            "the simple field of Gwyddion; 'gnuplot', its binary matrix; 'auto', what the file looks like, xyz if "// &
+            "'matrix', a row of heights for each y; 'xyz', lines of x, y, z on a regular grid; 'npy' of numpy; "// &
+            "'gsf' of Gwyddion; 'gnuplot', its binary matrix; 'auto', what the file looks like, xyz if "// &
             'all lines have three numbers. xyz and gnuplot give the sides of the cell, gsf also units: leave out '// &
             'length_x and length_y.', &
             [character(7) :: 'auto', 'matrix', 'xyz', 'npy', 'gsf', 'gnuplot']), &
-         real_key('missing_value', '', '-', "heights of the file that have this value are missing, as are 'nan' and "// &
+         real_key('missing_value', '', '-', 'heights of the file that have this value are missing, as are nan and '// &
             'empty fields between commas, semicolons or tabs.'), &
          real_key('height_scale', '1.0', 'length', "length of one unit of the file's heights; beside a file with "// &
             'units a factor.', above=0.0_dp), &
@@ -90,9 +91,9 @@ contains
          call values%complain(problems, 'window_width', "window_width is for edges = 'window'")
    end subroutine check
 
-   !> Reads the map. Errors: exit_file_trouble if the file cannot be read, exit_bad_input if it is not a map,
-   !> its holes are not to be filled, its heights are out of range, its unit is unknown, or the deck gives sides of the cell beside those of the
-   !> file, which may be in another unit.
+   !> Reads the map. Errors: exit_file_trouble if the file cannot be read, exit_bad_input if it is not a map, its holes
+   !> are not to be filled, its heights are out of range, its unit is unknown, or the deck gives sides of the cell beside
+   !> those of the file, which may be in another unit.
    subroutine make(values, surface, map, error)
       type(group_values), intent(inout) :: values
       type(surface_type), intent(out) :: surface

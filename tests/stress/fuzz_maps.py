@@ -554,7 +554,7 @@ def odd_files(program, work, failures):
     attempt("a program", open(sys.executable, "rb").read(100000), 1, "heights.dat:1: '\\x7FELF")
     attempt("ragged", "1 2 3 4\n1 2 3 4\n1 2 3\n1 2 3 4\n", 1, "heights.dat:3: this row has 3 heights, the first has 4")
     attempt("a decimal comma", "1,5 2,5\n"*4, 1, "heights.dat:1: is '1,5' a number with a decimal comma?")
-    attempt("a hole", "1 2 3 4\n1 nan 3 4\n" + square, 1, "heights.dat: 1 of 24 heights are missing, the first in row 2")
+    attempt("a hole", "1 2 3 4\n1 nan 3 4\n" + square, 1, "heights.dat: 1 of 24 heights are missing")
     attempt("too large", "1 2 3 4\n1 2 3 1e400\n" + square, 1, "heights.dat:2: '1e400' is too large")
     attempt("much too large", "1e300 2 3 4\n" + square, 1, "heights.dat:1: '1e300' is too large")
     attempt("unsorted points", "0 0 1\n1 0 1\n0 1 1\n1 1 2\n2 0 1\n2 1 0\n"*3, 1,
