@@ -6,7 +6,7 @@ module wavycon_self_affine
    use wavycon_kinds, only: dp
    use wavycon_map_file, only: check_room
    use wavycon_map_statistics, only: map_statistics, statistics_of
-   use wavycon_plain_text, only: integer_text, short_number
+   use wavycon_plain_text, only: escaped, integer_text, short_number
    use wavycon_problems, only: problem_list_type
    use wavycon_self_affine_heights, only: has_waves, least_points_of, make_heights, self_affine_spectrum
    use wavycon_surface, only: surface_of_points, surface_type
@@ -214,12 +214,13 @@ contains
       type(map_statistics), allocatable, intent(out) :: map
       type(error_type), allocatable, intent(out) :: error
 
-      character(*), parameter :: source = "kind = 'self_affine'"
+      character(:), allocatable :: source
       type(self_affine_spectrum) :: spectrum
       real(dp), allocatable :: height(:, :)
       integer :: points(2)
       logical :: is_made
 
+      source = escaped(values%deck_path)//": kind = 'self_affine'"
       points = values%integers('points')
       call check_room(source, product(points), error)
       if (allocated(error)) return

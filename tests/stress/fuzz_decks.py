@@ -32,6 +32,9 @@ LARGE = SMALL + [
     "&method solver = 'grid', accuracy = 1e-2 /\n",
     "&surface kind = 'file', file = 'heights.dat', file_format = 'matrix', height_scale = 1e-9, length_x = 1e-3 /\n"
     "&load mean_gap = 1e-10 /\n&method grid_points = 8 /\n",
+    "&surface kind = 'self_affine', length_x = 1, length_y = 2, hurst = 0.5, rms_slope = 0.1, long_wavelength = 1.5,\n"
+    "   rolloff_wavelength = 0.5, short_wavelength = 0.2, spectrum = 'random', seed = 3, points = 12, 24 /\n"
+    "&load pbar_over_pstar = 0.1 /\n&method grid_points = 16, 32 /\n",
 ]
 HEIGHTS = "".join(" ".join(str((3*i*i + 5*j + i*j) % 7) for i in range(8)) + "\n" for j in range(8))
 
