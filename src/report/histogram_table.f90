@@ -9,7 +9,7 @@ module wavycon_histogram_table
    use wavycon_error, only: error_type
    use wavycon_histogram, only: histogram, make_histogram
    use wavycon_kinds, only: dp
-   use wavycon_measure_tuning, only: histogram_points
+   use wavycon_measure_tuning, only: line_samples, plane_samples
    use wavycon_output_file, only: output_file
    use wavycon_results, only: results_type
    use wavycon_table, only: table_type
@@ -89,8 +89,7 @@ contains
          call fields%own_points(points, offset)
          linear = any(points == 0) .and. scene%surface%dimension == 2
          if (any(points == 0)) then
-            points = 1
-            points(:scene%surface%dimension) = histogram_points(scene%surface%dimension)
+            points = merge(plane_samples, [line_samples, 1], scene%surface%dimension == 2)
             offset = merge(0.5_dp, 0.0_dp, points > 1)
          end if
          call fields%on_grid(points, offset, pressure, displacement, gap)
