@@ -409,7 +409,7 @@ contains
             end associate
          end do
       end do
-      loads = loads/sum(loads)
+      if (numbers%spots > 0) loads = loads/sum(loads)
    end subroutine spot_loads
 
    !> The same of the strips of a 1-D contact, which begin with the one of the first point.

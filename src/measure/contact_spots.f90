@@ -61,7 +61,7 @@ contains
       if (size(self%pools) == 0) total_perimeter = sum(self%spots%perimeter)
    end function total_perimeter
 
-   !> The regions that curves divide a cell into.
+   !> The regions that curves divide a cell into. The numbers of spots and pools of the curves run from 1 without gaps.
    subroutine find_spots(curves, dimension, length, loads, answer)
       type(edge_curve), intent(in) :: curves(:)   !! all of the cell, at least one
       integer, intent(in) :: dimension            !! of the contact, 1 or 2
@@ -93,16 +93,15 @@ contains
       integer, intent(in) :: dimension
       type(contact_spots), intent(out) :: answer
 
-      type(contact_region) :: region(1)
+      type(contact_region) :: region
 
       region%area_fraction = 1.0_dp
-      region(1)%perimeter = merge(0.0_dp, nan(), dimension == 2)
+      region%perimeter = merge(0.0_dp, nan(), dimension == 2)
       region%load_fraction = merge(1.0_dp, nan(), is_contact)
-      region(1)%centre = nan()
-      region(1)%percolates = .true.
-      allocate (answer%spots(merge(1, 0, is_contact)), answer%pools(merge(0, 1, is_contact)))
-      answer%spots = region(:size(answer%spots))
-      answer%pools = region(:size(answer%pools))
+      region%centre = nan()
+      region%percolates = .true.
+      allocate (answer%spots(merge(1, 0, is_contact)), source=region)
+      allocate (answer%pools(merge(0, 1, is_contact)), source=region)
    end subroutine one_region
 
    !> The answer where there is no solution.
@@ -121,7 +120,7 @@ contains
       real(dp), intent(in) :: length(2)
       type(contact_region), allocatable, intent(out) :: regions(:)
 
-      integer :: i, windings(2)
+      integer :: i
       logical :: has_outer(maxval(number)), goes_around(maxval(number))
 
       allocate (regions(maxval(number)))
@@ -136,8 +135,7 @@ contains
                region%centre = centroid(curves(i))
             else if (curves(i)%turns == 0) then
                goes_around(number(i)) = .true.
-               windings = winding_numbers(curves(i))
-               region%percolates = region%percolates .or. windings /= 0
+               region%percolates = region%percolates .or. winding_numbers(curves(i)) /= 0
             else
                region%holes = region%holes + 1
             end if

@@ -9,7 +9,7 @@ module wavycon_histogram_table
    use wavycon_error, only: error_type
    use wavycon_histogram, only: histogram, make_histogram
    use wavycon_kinds, only: dp
-   use wavycon_measure_tuning, only: histogram_points
+   use wavycon_measure_tuning, only: line_samples, plane_samples
    use wavycon_output_file, only: output_file
    use wavycon_results, only: results_type
    use wavycon_table, only: table_type
@@ -89,8 +89,7 @@ contains
          call fields%own_points(points, offset)
          linear = any(points == 0) .and. scene%surface%dimension == 2
          if (any(points == 0)) then
-            points = 1
-            points(:scene%surface%dimension) = histogram_points(scene%surface%dimension)
+            points = merge(plane_samples, [line_samples, 1], scene%surface%dimension == 2)
             offset = merge(0.5_dp, 0.0_dp, points > 1)
          end if
          call fields%on_grid(points, offset, pressure, displacement, gap)
@@ -100,24 +99,25 @@ contains
          ! The pressure of a series waves about zero outside the contact, whose edge is an isobar.
          least = 0.0_dp
          if (scene%method%has('edge_level')) least = scene%method%real('edge_level')
-         call make_histogram(scene%p_star*pressure, pressure > least, bins, pressures, linear)
-         call make_histogram(scene%surface%amplitude*gap, .not. pressure > least, bins, gaps, linear)
+         call make_histogram(pressure, pressure > least, bins, pressures, linear)
+         call make_histogram(gap, .not. pressure > least, bins, gaps, linear)
       end associate
       call results%begin_block(file, load)
       do bin = 1, bins
          call file%add(load)
          call file%add(bin)
-         call put_bin(pressures)
-         call put_bin(gaps)
+         call put_bin(pressures, results%scene%p_star)
+         call put_bin(gaps, results%scene%surface%amplitude)
          call file%end_row()
       end do
 
    contains
 
-      subroutine put_bin(of)
+      subroutine put_bin(of, unit)
          type(histogram), intent(in) :: of
+         real(dp), intent(in) :: unit   !! of its values [pressure] or [length]
 
-         call file%add([of%middle(bin), of%mean(bin), of%fraction(bin), of%density(bin)])
+         call file%add([unit*of%middle(bin), unit*of%mean(bin), of%fraction(bin), of%density(bin)/unit])
       end subroutine put_bin
 
    end subroutine put_histogram

@@ -7,7 +7,7 @@ module wavycon_spot_sizes_table
    use wavycon_error, only: error_type
    use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
-   use wavycon_results, only: results_type
+   use wavycon_results, only: not_a_number, results_type
    use wavycon_scene, only: scene_type
    use wavycon_table, only: table_type
    implicit none (type, external)
@@ -92,18 +92,20 @@ contains
       type(contact_region), intent(in) :: regions(:)   !! the largest first
       character(*), intent(in) :: kind                 !! 'spot' or 'pool'
 
-      real(dp) :: area
+      real(dp) :: area, mean_pressure
       integer :: i, k
 
       associate (surface => results%scene%surface)
          do i = 1, size(regions)
             associate (region => regions(i))
                area = region%area_fraction*product(surface%length(:surface%dimension))
+               mean_pressure = not_a_number()
+               if (region%area_fraction > 0.0_dp) &
+                  mean_pressure = results%mean_pressure(load)*region%load_fraction/region%area_fraction
                call file%add(load)
                call file%add(i)
                call file%add([area, region%area_fraction, equivalent_radius(area, surface%dimension), &
-                              region%perimeter, region%load_fraction, &
-                              results%mean_pressure(load)*region%load_fraction/region%area_fraction, &
+                              region%perimeter, region%load_fraction, mean_pressure, &
                               surface%length*region%centre/(2*pi)])
                call file%add(region%holes)
                do k = 1, 2

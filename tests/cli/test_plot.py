@@ -30,18 +30,19 @@ WAVE = """\
 &surface kind = 'wave_2d' /
 &load pbar_over_pstar = 0, 0.1, 0.5 /
 """
-TABLES = "lines = t, map = t, contours = t, spots = t, histograms = t, map_points = 16, line_points = 16"
+TABLES = "lines = t, map = t, contours = t, map_points = 16, line_points = 16"
+SPOTS = "spots = t, histograms = t"
 TITLE = "Steel_1 {a}^2 'b' @c & 100 % \\n"   # marks that gnuplot or svg could take for commands
 DECKS = {
-    "auto": WAVE + "&method solver = 'fitted' /\n&output " + TABLES + ", theory = t, details = t /",
+    "auto": WAVE + "&method solver = 'fitted' /\n&output " + TABLES + f", {SPOTS}, theory = t, details = t /",
     "paper": WAVE + "&output " + TABLES + ", theory = t, coefficients = t /",
     "line": "&surface kind = 'wave_1d' /\n&load pbar_over_pstar = 0.1, 0.6 /\n&output " + TABLES +
-            ", theory = t, coefficients = t /",
+            f", {SPOTS}, theory = t, coefficients = t /",
     "oblong": "&surface kind = 'wave_2d', wavelength = 30, wavelength_y = 60 /\n&load pbar_over_pstar = 0.3 /\n&output " + TABLES + " /",
     "npy": WAVE + "&method solver = 'auto' /\n&output map = t, contours = t, map_points = 16, map_format = 'npy' /",
     "si": f"&scene title = \"{TITLE}\", pressure_unit = 'Pa', length_unit = 'm' /\n"
           "&surface kind = 'wave_2d', amplitude = 1e-6, wavelength = 1e-3 /\n&material e_star = 230e9 /\n"
-          "&load pbar_over_pstar = 0.05, 0.4 /\n&method solver = 'auto' /\n&output " + TABLES + " /",
+          "&load pbar_over_pstar = 0.05, 0.4 /\n&method solver = 'auto' /\n&output " + TABLES + f", {SPOTS} /",
     "sweep": "&surface kind = 'wave_1d' /\n&load sweep_from = 0.05, sweep_to = 0.95, sweep_steps = 19 /\n"
              "&method solver = 'auto' /\n&output lines = t, contours = t, line_points = 16 /",
     "stress": WAVE.replace("0, 0.1", "0.1") + "&stress nu = 0.3, line = t, section = 'x', planes = t,\n"

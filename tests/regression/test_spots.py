@@ -217,6 +217,20 @@ class Spots(unittest.TestCase):
         # The second strip lies about the middle of the cell.
         first, second = self.sizes("profile", 2, "spot")
         self.assertAlmostEqual(0.5, max(float(first["x"]), float(second["x"])), delta=ROUNDING)
+        # Phases make it uneven, so that the whole cell is solved. Each strip carries the pressures at its points.
+        self.run_deck("uneven", profile.replace("length_x", "phases = 50, 20, length_x")
+                      + "&method solver = 'grid', grid_points = 200 /\n", (0.1, 0.4, 0.8))
+        strips = 0
+        for load in 1, 2, 3:
+            points = [(float(row["x"]), float(row["pressure"]))
+                      for row in self.table("uneven", "map") if int(row["load"]) == load]
+            for strip in self.sizes("uneven", load, "spot"):
+                strips += 1
+                x, half_width = float(strip["x"]), float(strip["equivalent_radius"])
+                carried = math.fsum(p for place, p in points if abs(math.remainder(place - x, 1)) < half_width + 1/400)
+                self.assertAlmostEqual(carried/math.fsum(p for _, p in points), float(strip["load_fraction"]),
+                                       delta=ROUNDING)
+        self.assertGreater(strips, 4)
         for load, row in enumerate(self.table("profile", "spots"), 1):
             area = float(row["contact_area_fraction"])
             self.assertAlmostEqual(area, float(row["spots_area_fraction"]), delta=ROUNDING)
