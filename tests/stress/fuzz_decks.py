@@ -31,6 +31,8 @@ LARGE = SMALL + [
     "&method solver = 'grid', accuracy = 1e-2 /\n",
     "&surface kind = 'file', file = 'heights.dat', file_format = 'matrix', height_scale = 1e-9, length_x = 1e-3 /\n"
     "&load mean_gap = 1e-10 /\n&method grid_points = 8 /\n",
+    "&surface kind = 'file', file = 'heights.dat', detrend = 'plane', fill_missing = 'harmonic', edges = 'window',\n"
+    "   window_width = 0.25 /\n&load pbar_over_pstar = 0.3 /\n",
 ]
 HEIGHTS = "".join(" ".join(str((3*i*i + 5*j + i*j) % 7) for i in range(8)) + "\n" for j in range(8))
 

@@ -19,7 +19,7 @@ LOG_TOLERANCE = 1e-5  # of the numbers of the log, which have six digits
 # Errors of a file or of a map as a whole, which have no line.
 WITHOUT_LINE = re.compile(r"there are no numbers|a map of \d+ x \d+ points|the heights over their mean"
                           r"|there is no such file|this is a (directory|pipe)|cannot be (opened|read)"
-                          r"|there is not the memory")
+                          r"|there is not the memory|(\d+ of \d+|all) heights are missing")
 # More points would make a run long.
 MOST_POINTS = 4096
 
@@ -190,7 +190,8 @@ def deck(stream, name="heights.dat"):
     scale = stream.choice(("", "", ", height_scale = 1e-9", ", height_scale = 1e85", ", height_scale = 1e-85"))
     form = stream.choice(("", "", ", file_format = 'matrix'", ", file_format = 'xyz'"))
     length = ", length_x = 2" if "matrix" in form else ""   # refused beside coordinates
-    return (f"&surface kind = 'file', file = '{name}'{form}{scale}{length} /\n"
+    prepared = stream.choice(("", "", ", edges = 'mirror'", ", detrend = 'mean'"))   # which the second reader need not know
+    return (f"&surface kind = 'file', file = '{name}'{form}{scale}{length}{prepared} /\n"
             f"&load pbar_over_pstar = 0.05, 0.7, 1.2 /\n&output lines = t, line_points = 8 /\n")
 
 
@@ -449,7 +450,7 @@ def odd_files(program, work, failures):
     attempt("a program", open(sys.executable, "rb").read(100000), 1, "heights.dat:1: '\\x7FELF")
     attempt("ragged", "1 2 3 4\n1 2 3 4\n1 2 3\n1 2 3 4\n", 1, "heights.dat:3: this row has 3 heights, the first has 4")
     attempt("a decimal comma", "1,5 2,5\n"*4, 1, "heights.dat:1: is '1,5' a number with a decimal comma?")
-    attempt("a hole", "1 2 3 4\n1 nan 3 4\n" + square, 1, "heights.dat:2: 'nan' is not a height")
+    attempt("a hole", "1 2 3 4\n1 nan 3 4\n" + square, 1, "heights.dat: 1 of 24 heights are missing")
     attempt("too large", "1 2 3 4\n1 2 3 1e400\n" + square, 1, "heights.dat:2: '1e400' is too large")
     attempt("much too large", "1e300 2 3 4\n" + square, 1, "heights.dat:1: '1e300' is too large")
     attempt("unsorted points", "0 0 1\n1 0 1\n0 1 1\n1 1 2\n2 0 1\n2 1 0\n"*3, 1,
