@@ -24,6 +24,8 @@ SMALL = [
 ]
 # Also the other surfaces and kinds of load. The cases of --check start from these.
 LARGE = SMALL + [
+    "&surface kind = 'file', file = 'heights.dat', detrend = 'plane', fill_missing = 'harmonic', edges = 'window',\n"
+    "   window_width = 0.25 /\n&load pbar_over_pstar = 0.3 /\n",
     "&surface kind = 'sum', length_x = 2, length_y = 3, amplitudes = 1, 0.5, -0.25, waves_x = 1, 2, 0,\n"
     "   waves_y = 0, 1, -2, phases = 0, 90, -45 /\n&load contact_area_fraction = 0.1, 0.5 /\n"
     "&method solver = 'grid', grid_points = 32, 16 /\n",
@@ -31,8 +33,6 @@ LARGE = SMALL + [
     "&method solver = 'grid', accuracy = 1e-2 /\n",
     "&surface kind = 'file', file = 'heights.dat', file_format = 'matrix', height_scale = 1e-9, length_x = 1e-3 /\n"
     "&load mean_gap = 1e-10 /\n&method grid_points = 8 /\n",
-    "&surface kind = 'file', file = 'heights.dat', detrend = 'plane', fill_missing = 'harmonic', edges = 'window',\n"
-    "   window_width = 0.25 /\n&load pbar_over_pstar = 0.3 /\n",
 ]
 HEIGHTS = "".join(" ".join(str((3*i*i + 5*j + i*j) % 7) for i in range(8)) + "\n" for j in range(8))
 
