@@ -28,7 +28,8 @@ contains
       if (present(parts)) is_part = any(parts > 1)
       if (.not. is_part) then
          call sample_whole(series, points, offset, values)
-      else if (series%is_even() .and. all(parts == 2 .and. abs(offset - 0.5_dp) <= 0.0_dp .or. points == 1)) then
+      else if (series%is_even() .and. &
+               all(merge(abs(offset - 0.5_dp) <= 0.0_dp, ubound(series%c) == 0, parts == 2))) then
          call sample_quarter(series, points, values)
       else
          call sample_whole(series, parts*points, offset, all_values)

@@ -5,6 +5,7 @@ module wavycon_prepare_map
    use wavycon_fill_missing, only: fill_holes
    use wavycon_kinds, only: dp
    use wavycon_map_changes, only: map_changes, percent
+   use wavycon_map_tuning, only: usual_window_width
    use wavycon_measured_map, only: measured_map
    use wavycon_plain_text, only: escaped, integer_text
    use wavycon_window, only: taper_borders
@@ -17,7 +18,7 @@ module wavycon_prepare_map
    type :: map_preparation
       character(9) :: detrend = 'none'
       character(8) :: fill_missing = 'none', edges = 'periodic'
-      real(dp) :: window_width = 0.05_dp   !! over the side, 0 < window_width <= 1/2
+      real(dp) :: window_width = usual_window_width   !! over the side, 0 < window_width <= 1/2
    end type map_preparation
 
 contains

@@ -16,7 +16,7 @@ module wavycon_map_tuning
 
    !> Default of the key window_width: part of a side over which a taper rises from the mean to the heights. A wider
    !> taper changes more of the map, a narrower one adds slopes of its own: README.md in this directory has a table.
-   character(*), parameter, public :: usual_window_width = '0.05'
+   real(dp), parameter, public :: usual_window_width = 0.05_dp
 
    !> Steps across the border are too large above this multiple of those across any line inside, both root mean square.
    !> Over 200 periodic self-affine maps each (Hurst exponents 0.3 and 0.8) the ratio is at most 1.24 from 16 x 16 points

@@ -79,7 +79,7 @@ contains
             "how the map continues beyond its borders: 'periodic', its last points are neighbours of its first; "// &
             "'mirror', by its mirror images; 'window', periodic after a taper to the mean at the borders.", &
             [character(8) :: 'periodic', 'mirror', 'window']), &
-         real_key('window_width', usual_window_width, '-', &
+         real_key('window_width', short_number(usual_window_width), '-', &
             "with edges = 'window': width of the taper at each border, over the side.", above=0.0_dp, most=0.5_dp)]
    end function keys
 

@@ -282,7 +282,7 @@ contains
       class(surface_type), intent(in) :: self
 
       paper_wave = no_paper_wave
-      if (self%is_height_map() .or. .not. self%shape%is_even()) return
+      if (.not. self%shape%is_even()) return
       if (self%dimension == 1) then
          if (is_wave(1, 0)) paper_wave = straight_paper_wave
       else if (is_square(self)) then

@@ -21,14 +21,14 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent/'regression'))
 from tables import Table  # noqa: E402
 
-ROOMS = 'fitted', 'measure', 'contact', 'stress'
+ROOMS = 'fitted', 'map', 'measure', 'contact', 'stress'
 ROUNDING = 1e-13
 TIMEOUT = 20  # for a deck; the unchanged program takes less than two seconds [s]
 TIMEOUT_OF_REFERENCE = 600  # [s]
 SOLVED = 'converged', 'closed_form', 'full_contact'
 STATEMENT = re.compile(r'^( *(?:integer|real\(dp\)), parameter, public :: (\w+)(?:\([^)]*\))? = )([^!\n]*?)'
                        r'( *(?:!.*)?)$', re.MULTILINE)
-USE = re.compile(r'^ *use wavycon_(?:fitted|measure|contact|stress)_tuning, only: ((?:[^\n]*&\n)*[^\n]*)\n',
+USE = re.compile(r'^ *use wavycon_(?:fitted|map|measure|contact|stress)_tuning, only: ((?:[^\n]*&\n)*[^\n]*)\n',
                  re.MULTILINE)
 IMPLICIT = '   implicit none (type, external)\n'
 NUMBER = re.compile(r'(?<![\w.])(\d+\.?\d*(?:[ed][+-]?\d+)?)(_dp)?')
@@ -39,6 +39,8 @@ CROSSED = ("&surface kind = 'crossed_1d', amplitude1 = 0.5, wavelength1 = 1.0, a
 RHOMBIC = "&surface kind = 'wave_2d', wavelength = 1.0, wavelength_y = 1.5 /"
 LINE = "&surface kind = 'wave_1d' /"
 ROUGH = "&surface kind = 'file', file = 'rough_surface.dat', length_x = 1.0, height_scale = 0.01 /"
+MEASURED = ("&surface kind = 'file', file = 'measured_surface.dat', length_x = 128.0, length_y = 96.0,"
+            " detrend = 'plane', fill_missing = 'harmonic', edges = 'mirror' /")
 DETAILS = '&output details = .true. /'
 SUMMARY = '&output /'
 MAP = '&output map = .true., map_points = 64 /'  # enough points for a table
@@ -60,6 +62,9 @@ CASES = {
         (RHOMBIC, '0.02, 0.15, 0.4, 0.9', "solver = 'fitted', accuracy = 1e-6", DETAILS, TIGHT),
         (WAVE, '0.2', "solver = 'fitted', accuracy = 1e-7", MAP, TIGHT),
         (WAVE, '0.5', "solver = 'fitted', accuracy = 1e-7", MAP, TIGHT),
+    ],
+    'map': [
+        (MEASURED, '0.02, 0.2', "solver = 'grid', residual = 1e-10", SUMMARY, SAME),
     ],
     'measure': [
         (WAVE, '0.05, 0.2, 0.25, 0.5, 0.9', "solver = 'grid', accuracy = 1e-4", SUMMARY, 'wave_2d'),
@@ -351,7 +356,8 @@ def main():
         parser.error(f'no constant {unknown[0]} in src/*/tuning.f90')
     with tempfile.TemporaryDirectory() as scratch:
         directory = pathlib.Path(scratch)
-        shutil.copy(options.root/'inputs'/'rough_surface.dat', directory)
+        for name in ('rough_surface.dat', 'measured_surface.dat'):
+            shutil.copy(options.root/'inputs'/name, directory)
         tree = Tree(options.root, directory)
         base = tree.program('base', stop=True)
         for name, value in REFERENCE_CONSTANTS.items():

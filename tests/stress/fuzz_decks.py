@@ -25,6 +25,8 @@ SMALL = [
 ]
 # Also the other surfaces and kinds of load. The cases of --check start from these.
 LARGE = SMALL + [
+    "&surface kind = 'file', file = 'heights.dat', detrend = 'plane', fill_missing = 'harmonic', edges = 'window',\n"
+    "   window_width = 0.25 /\n&load pbar_over_pstar = 0.3 /\n",
     "&surface kind = 'sum', length_x = 2, length_y = 3, amplitudes = 1, 0.5, -0.25, waves_x = 1, 2, 0,\n"
     "   waves_y = 0, 1, -2, phases = 0, 90, -45 /\n&load contact_area_fraction = 0.1, 0.5 /\n"
     "&method solver = 'grid', grid_points = 32, 16 /\n",

@@ -201,7 +201,8 @@ def deck(stream, name="heights.dat"):
     form = stream.choice(("", "", ", file_format = 'matrix'", ", file_format = 'xyz'"))
     form += stream.choice(("", "", "", ", missing_value = 1"))
     length = ", length_x = 2" if "matrix" in form else ""   # refused beside coordinates
-    return (f"&surface kind = 'file', file = '{name}'{form}{scale}{length} /\n"
+    prepared = stream.choice(("", "", ", edges = 'mirror'", ", detrend = 'mean'"))   # which the second reader need not know
+    return (f"&surface kind = 'file', file = '{name}'{form}{scale}{length}{prepared} /\n"
             f"&load pbar_over_pstar = 0.05, 0.7, 1.2 /\n&output lines = t, line_points = 8 /\n")
 
 
