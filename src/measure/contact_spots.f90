@@ -1,7 +1,7 @@
 !> The spots of contact and the pools of gap of one cell, and whether contact and gap percolate: (A1) to (A4) of
 !> README.md.
 module wavycon_contact_spots
-   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_c_binding, only: c_size_t
    use wavycon_constants, only: pi
    use wavycon_edge_curves, only: edge_curve
@@ -62,16 +62,22 @@ contains
    end function total_perimeter
 
    !> The regions that curves divide a cell into. The numbers of spots and pools of the curves run from 1 without gaps.
-   subroutine find_spots(curves, dimension, length, loads, answer)
+   subroutine find_spots(curves, dimension, length, loads, answer, mirrored)
       type(edge_curve), intent(in) :: curves(:)   !! all of the cell, at least one
       integer, intent(in) :: dimension            !! of the contact, 1 or 2
       real(dp), intent(in) :: length(2)           !! L_x, L_y [length]
       real(dp), intent(in) :: loads(:)            !! of the spots, over the load; of no size if they are not known
       type(contact_spots), intent(out) :: answer
+      !> Whether the cell is a map and its mirror images, and the regions wanted are those of the map; absent: no. A
+      !> region and its images have one number.
+      logical, intent(in), optional :: mirrored
 
       type(contact_region), allocatable :: spots(:), pools(:)
       integer, allocatable :: number(:)
+      logical :: is_map
 
+      is_map = .false.
+      if (present(mirrored)) is_map = mirrored
       if (dimension == 1) then
          call find_strips(curves, spots, pools)
       else
@@ -83,6 +89,13 @@ contains
       spots%load_fraction = nan()
       if (size(loads) == size(spots)) spots%load_fraction = loads
       pools%load_fraction = nan()
+      if (is_map .and. dimension == 1) then
+         call keep_strips_of_map(spots)
+         call keep_strips_of_map(pools)
+      else if (is_map) then
+         call keep_map(spots)
+         call keep_map(pools)
+      end if
       call sort_by_area(spots, answer%spots)
       call sort_by_area(pools, answer%pools)
    end subroutine find_spots
@@ -136,11 +149,10 @@ contains
             else if (curves(i)%turns == 0) then
                goes_around(number(i)) = .true.
                region%percolates = region%percolates .or. winding_numbers(curves(i)) /= 0
-            else
-               region%holes = region%holes + 1
             end if
          end associate
       end do
+      call count_holes(number, outwards, curves, regions)
       do i = 1, size(regions)
          if (has_outer(i)) then
             regions(i)%area_fraction = max(regions(i)%area_fraction, 0.0_dp)
@@ -155,6 +167,52 @@ contains
          end if
       end do
    end subroutine find_regions
+
+   !> Counts the holes of regions: closed regions of the other kind next to them. Mirror images with one number are one.
+   pure subroutine count_holes(number, outwards, curves, regions)
+      integer, intent(in) :: number(:), outwards   !! as of find_regions
+      type(edge_curve), intent(in) :: curves(:)
+      type(contact_region), intent(inout) :: regions(:)
+
+      integer :: i, other
+      logical :: is_counted(max(maxval(curves%spot), maxval(curves%pool)))
+
+      ! A closed region is a hole of the only region outside it.
+      is_counted = .false.
+      do i = 1, size(curves)
+         if (curves(i)%turns /= -outwards) cycle
+         other = merge(curves(i)%pool, curves(i)%spot, outwards == 1)
+         if (is_counted(other)) cycle
+         is_counted(other) = .true.
+         regions(number(i))%holes = regions(number(i))%holes + 1
+      end do
+   end subroutine count_holes
+
+   !> Makes regions that are summed over the four images of a map those of the map: the perimeter is that of one image,
+   !> the centre that in the quarter of the cell that is the map. Fractions of the area are the same.
+   elemental subroutine keep_map(region)
+      type(contact_region), intent(inout) :: region
+
+      region%perimeter = region%perimeter/4
+      if (ieee_is_nan(region%centre(1))) return
+      region%centre = min(region%centre, 2*pi - region%centre)
+   end subroutine keep_map
+
+   !> Keeps the strips of a map in 0..pi. One across 0 or pi is its own mirror image; of all others there are two.
+   pure subroutine keep_strips_of_map(strips)
+      type(contact_region), allocatable, intent(inout) :: strips(:)
+
+      !> Centres that are nearer than this to the border of the map are on it [rad].
+      real(dp), parameter :: rounding = 1e-9_dp
+      real(dp) :: images(size(strips)), x(size(strips))
+
+      x = strips%centre(1)
+      images = merge(2.0_dp, 1.0_dp, x > rounding .and. x < pi - rounding)
+      strips%area_fraction = images*strips%area_fraction
+      strips%load_fraction = images*strips%load_fraction
+      strips%centre(1) = min(x, 2*pi - x)
+      strips = pack(strips, x < pi + rounding .or. x > 2*pi - rounding)
+   end subroutine keep_strips_of_map
 
    !> The strips of a 1-D contact and the gaps between them: all endless along y, none along x.
    subroutine find_strips(strips, spots, pools)

@@ -24,13 +24,14 @@ module wavycon_edge_curves
 contains
 
    !> All curves of one cell, which is the period of phi and theta unless another is given.
-   subroutine trace_edges(edge, curves, cell, skew, numbers)
+   subroutine trace_edges(edge, curves, cell, skew, numbers, mirrored)
       class(contact_edge), intent(in) :: edge
       type(edge_curve), allocatable, intent(out) :: curves(:)
       !> Points of the cell along phi and theta, and the steps along phi after which it comes again in the next row of
       !> cells. Absent: those of the period, 0.
       integer, intent(in), optional :: cell(2), skew
       type(region_numbers), intent(out), optional :: numbers   !! of the points
+      logical, intent(in), optional :: mirrored                !! as of find_region_numbers
 
       type(region_numbers) :: own
       integer(int8), allocatable :: seen(:, :)   ! a bit for each side of a cell
@@ -41,7 +42,7 @@ contains
       if (present(cell)) points = cell
       steps = 0
       if (present(skew)) steps = skew
-      call find_region_numbers(edge, points, steps, own)
+      call find_region_numbers(edge, points, steps, own, mirrored)
       allocate (curves(0), seen(0:points(1) - 1, 0:points(2) - 1))
       seen = 0_int8
       count = 0

@@ -24,11 +24,13 @@ module wavycon_region_numbers
 contains
 
    !> Numbers the regions of one cell, in the order in which its rows meet them.
-   subroutine find_region_numbers(edge, cell, skew, numbers)
+   subroutine find_region_numbers(edge, cell, skew, numbers, mirrored)
       class(contact_edge), intent(in) :: edge
       integer, intent(in) :: cell(2)    !! points of the cell along k and l, >= 1
       integer, intent(in) :: skew       !! as above; 0 if the cell is that of the grid's axes
       type(region_numbers), intent(out) :: numbers
+      !> Whether the points are a map and its mirror images, and a region and its images have one number; absent: no.
+      logical, intent(in), optional :: mirrored
 
       integer, allocatable :: parent(:), number_of(:)
       integer :: k, l, root, runs
@@ -40,6 +42,9 @@ contains
       do l = 0, cell(2) - 1
          call join_row(numbers, l, parent)
       end do
+      if (present(mirrored)) then
+         if (mirrored) call join_images(numbers%at, parent)
+      end if
 
       allocate (number_of(runs), source=0)
       do l = 0, cell(2) - 1
@@ -133,6 +138,21 @@ contains
          end do
       end associate
    end subroutine join_row
+
+   !> Joins the runs of points with those of their mirror images. The first border lies between the points 0 and 1.
+   pure subroutine join_images(at, parent)
+      integer, intent(in) :: at(0:, 0:)
+      integer, intent(inout) :: parent(:)
+
+      integer :: k, l
+
+      do l = 0, ubound(at, 2)
+         do k = 0, ubound(at, 1)
+            call join(parent, at(k, l), at(modulo(1 - k, size(at, 1)), l))
+            call join(parent, at(k, l), at(k, modulo(1 - l, size(at, 2))))
+         end do
+      end do
+   end subroutine join_images
 
    !> Joins two runs, if both or neither are in contact.
    pure subroutine join(parent, a, b)
