@@ -39,7 +39,7 @@ contains
       best = maxloc(edge%pressure_or_gap)
       base = best
       base(1) = merge(base(1) - 1, base(1), at(base(1) - 1, base(2)) > at(base(1) + 1, base(2)))
-      if (lines > 1) base(2) = merge(base(2) - 1, base(2), at(base(1), base(2) - 1) > at(base(1), base(2) + 1))
+      if (lines > 1) base(2) = merge(base(2) - 1, base(2), at(best(1), base(2) - 1) > at(best(1), base(2) + 1))
       field = peak_polynomial(least=-margin, most=1.0_dp + margin, in_plane=lines > 1)
       do j = first, last
          do i = first, last
