@@ -108,7 +108,8 @@ contains
       largest_error = maxval(self%measures%errors())
    end function largest_error
 
-   !> The spots of contact and the pools of gap. Not known if the solver was started without keep_fields.
+   !> The spots of contact and the pools of gap; of a mirrored height map those of the map. Not known if the solver was
+   !> started without keep_fields.
    subroutine spots(self, surface, answer)
       class(contact_solution), intent(in) :: self
       type(surface_type), intent(in) :: surface      !! that was solved
@@ -121,7 +122,7 @@ contains
       call self%edge_curves(surface, curves, loads)
       is_full = self%measures%contact_area_fraction > 0.5_dp
       if (size(curves) > 0) then
-         call find_spots(curves, surface%dimension, surface%length, loads, answer)
+         call find_spots(curves, surface%dimension, surface%length, loads, answer, surface%mirrored)
       else if (self%is_good() .or. is_full) then
          call one_region(is_full, surface%dimension, answer)
       else

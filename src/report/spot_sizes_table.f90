@@ -98,7 +98,7 @@ contains
       associate (surface => results%scene%surface)
          do i = 1, size(regions)
             associate (region => regions(i))
-               area = region%area_fraction*product(surface%length(:surface%dimension))
+               area = region%area_fraction*surface%nominal_area()
                mean_pressure = not_a_number()
                if (region%area_fraction > 0.0_dp) &
                   mean_pressure = results%mean_pressure(load)*region%load_fraction/region%area_fraction
