@@ -108,7 +108,8 @@ contains
       largest_error = maxval(self%measures%errors())
    end function largest_error
 
-   !> The spots of contact and the pools of gap, of a mirrored map those of the map. Not known if the solver was started without keep_fields.
+   !> The spots of contact and the pools of gap; of a mirrored height map those of the map. Not known if the solver was
+   !> started without keep_fields.
    subroutine spots(self, surface, answer)
       class(contact_solution), intent(in) :: self
       type(surface_type), intent(in) :: surface      !! that was solved

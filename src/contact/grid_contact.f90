@@ -259,7 +259,7 @@ contains
             ! The surface's cell is two of the grid's.
             call trace_edges(self%edge, curves, self%edge%period*[2, 1], self%edge%period(1), numbers)
          else
-            call trace_edges(self%edge, curves, numbers=numbers, mirrored=surface%mirrored)
+            call trace_edges(self%edge, curves, numbers=numbers, with_images=surface%mirrored)
          end if
          do i = 1, size(curves)
             call shift_curve(curves(i), self%edge%period, edge_offset)

@@ -1,7 +1,7 @@
-!> The spots of contact and the pools of gap of one cell, and whether contact and gap percolate: (A1) to (A4) of
-!> README.md.
+!> The spots of contact and the pools of gap of one cell, and whether contact and gap percolate: (A1) to (A5) of
+!> README.md. Of a mirrored height map they are those of the map, a quarter of the cell.
 module wavycon_contact_spots
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_c_binding, only: c_size_t
    use wavycon_constants, only: pi
    use wavycon_edge_curves, only: edge_curve
@@ -17,9 +17,10 @@ module wavycon_contact_spots
       real(dp) :: area_fraction = 0.0_dp   !! of the nominal area
       real(dp) :: perimeter = 0.0_dp       !! with that of its holes [length]; NaN in 1-D
       real(dp) :: load_fraction = 0.0_dp   !! of the load, of a spot; NaN if it is not known, and of pools
-      !> X, Y of the centroid of what its outer edge encloses, 0 to 2 pi [rad]; NaN if it has no outer edge.
+      !> X, Y of the centroid of what its outer edge encloses, 0 to 2 pi, on a mirrored map 0 to pi [rad]; NaN if it has
+      !> no outer edge.
       real(dp) :: centre(2) = 0.0_dp
-      integer :: holes = 0                 !! closed regions of the other kind next to it
+      integer :: holes = 0                 !! closed regions of the other kind in it
       logical :: percolates(2) = .false.   !! whether it goes on from cell to cell along x and y
    contains
       procedure :: is_closed
@@ -52,7 +53,7 @@ contains
       closed_pools = count(self%pools%is_closed())
    end function closed_pools
 
-   !> The length of the edge of contact in one cell [length]; NaN in 1-D.
+   !> The length of the edge of contact in one cell, or in the mirrored map [length]; NaN in 1-D.
    pure real(dp) function total_perimeter(self)
       class(contact_spots), intent(in) :: self
 
@@ -62,39 +63,36 @@ contains
    end function total_perimeter
 
    !> The regions that curves divide a cell into. The numbers of spots and pools of the curves run from 1 without gaps.
-   subroutine find_spots(curves, dimension, length, loads, answer, mirrored)
+   subroutine find_spots(curves, dimension, length, loads, answer, with_images)
       type(edge_curve), intent(in) :: curves(:)   !! all of the cell, at least one
       integer, intent(in) :: dimension            !! of the contact, 1 or 2
       real(dp), intent(in) :: length(2)           !! L_x, L_y [length]
       real(dp), intent(in) :: loads(:)            !! of the spots, over the load; of no size if they are not known
       type(contact_spots), intent(out) :: answer
-      !> Whether the cell is a map and its mirror images, and the regions wanted are those of the map; absent: no. A
-      !> region and its images have one number.
-      logical, intent(in), optional :: mirrored
+      !> Whether the cell is a map and its mirror images. In 2-D a region and its images then have one number. Absent: it
+      !> is not.
+      logical, intent(in), optional :: with_images
 
       type(contact_region), allocatable :: spots(:), pools(:)
-      integer, allocatable :: number(:)
+      integer, allocatable :: spot(:), pool(:)
       logical :: is_map
 
       is_map = .false.
-      if (present(mirrored)) is_map = mirrored
+      if (present(with_images)) is_map = with_images
       if (dimension == 1) then
          call find_strips(curves, spots, pools)
       else
-         number = curves%spot
-         call find_regions(number, 1, curves, length, spots)
-         number = curves%pool
-         call find_regions(number, -1, curves, length, pools)
+         spot = curves%spot
+         pool = curves%pool
+         call find_regions(spot, pool, 1, curves, length, is_map, spots)
+         call find_regions(pool, spot, -1, curves, length, is_map, pools)
       end if
       spots%load_fraction = nan()
       if (size(loads) == size(spots)) spots%load_fraction = loads
       pools%load_fraction = nan()
-      if (is_map .and. dimension == 1) then
+      if (dimension == 1 .and. is_map) then
          call keep_strips_of_map(spots)
          call keep_strips_of_map(pools)
-      else if (is_map) then
-         call keep_map(spots)
-         call keep_map(pools)
       end if
       call sort_by_area(spots, answer%spots)
       call sort_by_area(pools, answer%pools)
@@ -125,34 +123,41 @@ contains
       allocate (answer%spots(0), answer%pools(0))
    end subroutine no_spots
 
-   !> The regions of one kind on a surface: (A2), (A3).
-   subroutine find_regions(number, outwards, curves, length, regions)
+   !> The regions of one kind on a surface: (A2), (A3), (A5).
+   subroutine find_regions(number, other, outwards, curves, length, is_map, regions)
       integer, intent(in) :: number(:)    !! of the region of each curve, from 1
+      integer, intent(in) :: other(:)     !! of the region of the other kind on its other side, from 1
       integer, intent(in) :: outwards     !! turns of a curve about such a region: 1 for spots, -1 for pools
       type(edge_curve), intent(in) :: curves(:)
       real(dp), intent(in) :: length(2)
+      logical, intent(in) :: is_map       !! whether a number is that of a region and its mirror images
       type(contact_region), allocatable, intent(out) :: regions(:)
 
       integer :: i
-      logical :: has_outer(maxval(number)), goes_around(maxval(number))
+      logical :: has_outer(maxval(number)), goes_around(maxval(number)), is_counted(maxval(other))
 
       allocate (regions(maxval(number)))
       has_outer = .false.
       goes_around = .false.
+      is_counted = .false.
       do i = 1, size(curves)
          associate (region => regions(number(i)))
             region%area_fraction = region%area_fraction + outwards*curves(i)%area/cell_area
             region%perimeter = region%perimeter + curve_length(curves(i), length)
             if (curves(i)%turns == outwards) then
                has_outer(number(i)) = .true.
-               region%centre = centroid(curves(i))
+               region%centre = centroid(curves(i), is_map)
             else if (curves(i)%turns == 0) then
                goes_around(number(i)) = .true.
                region%percolates = region%percolates .or. winding_numbers(curves(i)) /= 0
+            else if (.not. is_counted(other(i))) then
+               ! A hole has one outer edge, but of a mirrored map it stands for its images too.
+               is_counted(other(i)) = .true.
+               region%holes = region%holes + 1
             end if
          end associate
       end do
-      call count_holes(number, outwards, curves, regions)
+      if (is_map) regions%perimeter = regions%perimeter/4
       do i = 1, size(regions)
          if (has_outer(i)) then
             regions(i)%area_fraction = max(regions(i)%area_fraction, 0.0_dp)
@@ -167,52 +172,6 @@ contains
          end if
       end do
    end subroutine find_regions
-
-   !> Counts the holes of regions: closed regions of the other kind next to them. Mirror images with one number are one.
-   pure subroutine count_holes(number, outwards, curves, regions)
-      integer, intent(in) :: number(:), outwards   !! as of find_regions
-      type(edge_curve), intent(in) :: curves(:)
-      type(contact_region), intent(inout) :: regions(:)
-
-      integer :: i, other
-      logical :: is_counted(max(maxval(curves%spot), maxval(curves%pool)))
-
-      ! A closed region is a hole of the only region outside it.
-      is_counted = .false.
-      do i = 1, size(curves)
-         if (curves(i)%turns /= -outwards) cycle
-         other = merge(curves(i)%pool, curves(i)%spot, outwards == 1)
-         if (is_counted(other)) cycle
-         is_counted(other) = .true.
-         regions(number(i))%holes = regions(number(i))%holes + 1
-      end do
-   end subroutine count_holes
-
-   !> Makes regions that are summed over the four images of a map those of the map: the perimeter is that of one image,
-   !> the centre that in the quarter of the cell that is the map. Fractions of the area are the same.
-   elemental subroutine keep_map(region)
-      type(contact_region), intent(inout) :: region
-
-      region%perimeter = region%perimeter/4
-      if (ieee_is_nan(region%centre(1))) return
-      region%centre = min(region%centre, 2*pi - region%centre)
-   end subroutine keep_map
-
-   !> Keeps the strips of a map in 0..pi. One across 0 or pi is its own mirror image; of all others there are two.
-   pure subroutine keep_strips_of_map(strips)
-      type(contact_region), allocatable, intent(inout) :: strips(:)
-
-      !> Centres that are nearer than this to the border of the map are on it [rad].
-      real(dp), parameter :: rounding = 1e-9_dp
-      real(dp) :: images(size(strips)), x(size(strips))
-
-      x = strips%centre(1)
-      images = merge(2.0_dp, 1.0_dp, x > rounding .and. x < pi - rounding)
-      strips%area_fraction = images*strips%area_fraction
-      strips%load_fraction = images*strips%load_fraction
-      strips%centre(1) = min(x, 2*pi - x)
-      strips = pack(strips, x < pi + rounding .or. x > 2*pi - rounding)
-   end subroutine keep_strips_of_map
 
    !> The strips of a 1-D contact and the gaps between them: all endless along y, none along x.
    subroutine find_strips(strips, spots, pools)
@@ -238,6 +197,33 @@ contains
       pools%perimeter = nan()
    end subroutine find_strips
 
+   !> The strips of a mirrored map, from those of the cell: two that are mirror images are one of twice the part of the
+   !> cell, and one across a border of the map is its own image.
+   pure subroutine keep_strips_of_map(strips)
+      type(contact_region), allocatable, intent(inout) :: strips(:)
+
+      type(contact_region), allocatable :: kept(:)
+      integer :: i
+
+      allocate (kept(0))
+      do i = 1, size(strips)
+         associate (centre => strips(i)%centre(1), half => pi*strips(i)%area_fraction)
+            if (abs(centre - pi) < half) then
+               centre = pi - 0.5_dp*half
+            else if (min(centre, 2*pi - centre) < half) then
+               centre = 0.5_dp*half
+            else if (centre <= pi) then
+               strips(i)%area_fraction = 2*strips(i)%area_fraction
+               strips(i)%load_fraction = 2*strips(i)%load_fraction
+            else
+               cycle
+            end if
+         end associate
+         kept = [kept, strips(i)]
+      end do
+      call move_alloc(kept, strips)
+   end subroutine keep_strips_of_map
+
    !> How many cells a curve goes on along X and Y until it comes again.
    pure function winding_numbers(curve) result(numbers)
       type(edge_curve), intent(in) :: curve
@@ -260,9 +246,11 @@ contains
       end associate
    end function curve_length
 
-   !> The centroid of the polygon in a closed curve, in the cell [rad].
-   pure function centroid(curve) result(centre)
+   !> The centroid of the polygon in a closed curve, in the cell [rad]; on a mirrored map that of its part in the map,
+   !> (A5).
+   pure function centroid(curve, is_map) result(centre)
       type(edge_curve), intent(in) :: curve
+      logical, intent(in) :: is_map
       real(dp) :: centre(2)
 
       real(dp), dimension(size(curve%phi)) :: x, y
@@ -279,7 +267,43 @@ contains
             centre = [sum((x(:n - 1) + x(2:))*parts), sum((y(:n - 1) + y(2:))*parts)]/(3*twice_area)
       end associate
       centre = in_cell(centre + [curve%phi(1), curve%theta(1)])
+      if (.not. is_map) return
+      centre = pi - abs(centre - pi)
+      if (.not. abs(twice_area) > 0.0_dp) return
+      if (crosses_border(curve%phi)) centre(1) = 2*moment(curve%phi, y)/twice_area
+      if (crosses_border(curve%theta)) centre(2) = -2*moment(curve%theta, x)/twice_area
    end function centroid
+
+   !> Whether a border of the map, a multiple of pi, lies between some of the angles.
+   pure logical function crosses_border(angles)
+      real(dp), intent(in) :: angles(:)
+
+      crosses_border = floor(minval(angles)/pi) < floor(maxval(angles)/pi)
+   end function crosses_border
+
+   !> The integral of F(a) db along the polygon through the points (a, b), by Simpson's rule: F' is the place in the map
+   !> of the angle a, pi - |pi - a| for 0 <= a <= 2 pi, and F(0) = 0.
+   pure real(dp) function moment(a, b)
+      real(dp), intent(in) :: a(:), b(:)
+
+      real(dp) :: at_point(size(a)), between(size(a) - 1)
+      integer :: n
+
+      n = size(a)
+      at_point = integral_of_place(a)
+      between = integral_of_place(0.5_dp*(a(:n - 1) + a(2:)))
+      moment = sum((b(2:) - b(:n - 1))*(at_point(:n - 1) + 4*between + at_point(2:)))/6
+   end function moment
+
+   !> F of `moment`.
+   elemental real(dp) function integral_of_place(angle) result(integral)
+      real(dp), intent(in) :: angle
+
+      real(dp) :: rest
+
+      rest = modulo(angle, 2*pi)
+      integral = pi**2*floor(angle/(2*pi)) + merge(0.5_dp*rest**2, pi**2 - 0.5_dp*(2*pi - rest)**2, rest <= pi)
+   end function integral_of_place
 
    !> The equivalent angle from 0 to 2 pi; one of 2 pi less rounding is 0, as 2 pi is.
    elemental real(dp) function in_cell(angle)

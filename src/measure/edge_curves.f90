@@ -16,7 +16,9 @@ module wavycon_edge_curves
       real(dp), allocatable :: phi(:), theta(:)   !! [rad], not reduced to one cell, so that the curve does not jump
       !> 1: closed, about contact; -1: closed, about a gap; 0: it goes around the periodic cell.
       integer :: turns = 0
-      integer :: spot = 0, pool = 0   !! numbers, from 1, of the regions on its left and right; in 1-D inside and after
+      !> Numbers, from 1, of the regions on its left and right; in 1-D inside and after. Of a mirrored height map in 2-D
+      !> a region and its mirror images have one number.
+      integer :: spot = 0, pool = 0
       real(dp) :: area = 0.0_dp       !! (A1), of a strip its width times 2 pi [rad^2]
       real(dp) :: length = 0.0_dp     !! [length] if it is known better than from the points; otherwise 0
    end type edge_curve
@@ -24,14 +26,14 @@ module wavycon_edge_curves
 contains
 
    !> All curves of one cell, which is the period of phi and theta unless another is given.
-   subroutine trace_edges(edge, curves, cell, skew, numbers, mirrored)
+   subroutine trace_edges(edge, curves, cell, skew, numbers, with_images)
       class(contact_edge), intent(in) :: edge
       type(edge_curve), allocatable, intent(out) :: curves(:)
       !> Points of the cell along phi and theta, and the steps along phi after which it comes again in the next row of
       !> cells. Absent: those of the period, 0.
       integer, intent(in), optional :: cell(2), skew
       type(region_numbers), intent(out), optional :: numbers   !! of the points
-      logical, intent(in), optional :: mirrored                !! as of find_region_numbers
+      logical, intent(in), optional :: with_images             !! as for find_region_numbers
 
       type(region_numbers) :: own
       integer(int8), allocatable :: seen(:, :)   ! a bit for each side of a cell
@@ -42,7 +44,7 @@ contains
       if (present(cell)) points = cell
       steps = 0
       if (present(skew)) steps = skew
-      call find_region_numbers(edge, points, steps, own, mirrored)
+      call find_region_numbers(edge, points, steps, own, with_images)
       allocate (curves(0), seen(0:points(1) - 1, 0:points(2) - 1))
       seen = 0_int8
       count = 0

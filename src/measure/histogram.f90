@@ -25,7 +25,7 @@ contains
       integer, intent(in) :: bins                !! >= 1
       type(histogram), intent(out) :: answer
       !> Whether the values are those at points of a periodic grid of a field that is linear between points that are
-      !> selected, (A6); absent: they are not.
+      !> selected, (A7); absent: they are not.
       logical, intent(in), optional :: is_continuous
 
       logical :: linear

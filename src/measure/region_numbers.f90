@@ -24,13 +24,14 @@ module wavycon_region_numbers
 contains
 
    !> Numbers the regions of one cell, in the order in which its rows meet them.
-   subroutine find_region_numbers(edge, cell, skew, numbers, mirrored)
+   subroutine find_region_numbers(edge, cell, skew, numbers, with_images)
       class(contact_edge), intent(in) :: edge
       integer, intent(in) :: cell(2)    !! points of the cell along k and l, >= 1
       integer, intent(in) :: skew       !! as above; 0 if the cell is that of the grid's axes
       type(region_numbers), intent(out) :: numbers
-      !> Whether the points are a map and its mirror images, and a region and its images have one number; absent: no.
-      logical, intent(in), optional :: mirrored
+      !> Whether a region and its mirror images have one number: the cell is a map, the points 1 .. cell/2, and its
+      !> images. Absent: they do not.
+      logical, intent(in), optional :: with_images
 
       integer, allocatable :: parent(:), number_of(:)
       integer :: k, l, root, runs
@@ -42,8 +43,8 @@ contains
       do l = 0, cell(2) - 1
          call join_row(numbers, l, parent)
       end do
-      if (present(mirrored)) then
-         if (mirrored) call join_images(numbers%at, parent)
+      if (present(with_images)) then
+         if (with_images) call join_images(numbers%at, parent)
       end if
 
       allocate (number_of(runs), source=0)
@@ -139,19 +140,21 @@ contains
       end associate
    end subroutine join_row
 
-   !> Joins the runs of points with those of their mirror images. The first border lies between the points 0 and 1.
+   !> Joins the runs of each point with those of its mirror images, which are of one kind.
    pure subroutine join_images(at, parent)
-      integer, intent(in) :: at(0:, 0:)
+      integer, intent(in) :: at(0:, 0:)   !! the numbers of runs
       integer, intent(inout) :: parent(:)
 
       integer :: k, l
 
-      do l = 0, ubound(at, 2)
-         do k = 0, ubound(at, 1)
-            call join(parent, at(k, l), at(modulo(1 - k, size(at, 1)), l))
-            call join(parent, at(k, l), at(k, modulo(1 - l, size(at, 2))))
+      associate (points => shape(at))
+         do l = 0, points(2) - 1
+            do k = 0, points(1) - 1
+               call join(parent, at(k, l), at(modulo(1 - k, points(1)), l))
+               call join(parent, at(k, l), at(k, modulo(1 - l, points(2))))
+            end do
          end do
-      end do
+      end associate
    end subroutine join_images
 
    !> Joins two runs, if both or neither are in contact.

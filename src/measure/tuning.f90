@@ -24,7 +24,7 @@ module wavycon_measure_tuning
    !> each hole, of which -0.15 and 0.95 do not come from the curvature.
    real(dp), parameter, public :: turn_area = 0.56_dp
 
-   ! Histograms, (A6) of README.md in this directory.
+   ! Histograms, (A7) of README.md in this directory.
 
    !> Points in 1-D at which solutions that have no grid are sampled: bins of 1 % of the period are right to 0.1 %.
    integer, parameter, public :: line_samples = 262144

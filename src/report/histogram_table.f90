@@ -1,7 +1,7 @@
 !> <case>.histogram.dat: how pressures are distributed over the contact, and gaps over the open area.
 !>
 !> The table has a block for each load, with a row for each bin of pressure and of gap. Values are those at the points
-!> of the grid that was solved; of other solutions those at equally spaced points, with which (A6) of README.md in
+!> of the grid that was solved; of other solutions those at equally spaced points, with which (A7) of README.md in
 !> src/measure deals.
 module wavycon_histogram_table
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
