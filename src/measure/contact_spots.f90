@@ -62,8 +62,9 @@ contains
    end function total_perimeter
 
    !> The regions that curves divide a cell into. The numbers of spots and pools of the curves run from 1 without gaps.
-   subroutine find_spots(curves, dimension, length, loads, answer)
+   subroutine find_spots(curves, area, dimension, length, loads, answer)
       type(edge_curve), intent(in) :: curves(:)   !! all of the cell, at least one
+      real(dp), intent(in) :: area                !! of the contact over the nominal area
       integer, intent(in) :: dimension            !! of the contact, 1 or 2
       real(dp), intent(in) :: length(2)           !! L_x, L_y [length]
       real(dp), intent(in) :: loads(:)            !! of the spots, over the load; of no size if they are not known
@@ -76,9 +77,9 @@ contains
          call find_strips(curves, spots, pools)
       else
          number = curves%spot
-         call find_regions(number, 1, curves, length, spots)
+         call find_regions(number, 1, curves, area, length, spots)
          number = curves%pool
-         call find_regions(number, -1, curves, length, pools)
+         call find_regions(number, -1, curves, 1.0_dp - area, length, pools)
       end if
       spots%load_fraction = nan()
       if (size(loads) == size(spots)) spots%load_fraction = loads
@@ -113,14 +114,15 @@ contains
    end subroutine no_spots
 
    !> The regions of one kind on a surface: (A2), (A3).
-   subroutine find_regions(number, outwards, curves, length, regions)
+   subroutine find_regions(number, outwards, curves, total, length, regions)
       integer, intent(in) :: number(:)    !! of the region of each curve, from 1
       integer, intent(in) :: outwards     !! turns of a curve about such a region: 1 for spots, -1 for pools
       type(edge_curve), intent(in) :: curves(:)
+      real(dp), intent(in) :: total       !! area of all regions over the nominal area
       real(dp), intent(in) :: length(2)
       type(contact_region), allocatable, intent(out) :: regions(:)
 
-      integer :: i
+      integer :: excess, i, k
       logical :: has_outer(maxval(number)), goes_around(maxval(number))
 
       allocate (regions(maxval(number)))
@@ -142,18 +144,22 @@ contains
          end associate
       end do
       do i = 1, size(regions)
-         if (has_outer(i)) then
-            regions(i)%area_fraction = max(regions(i)%area_fraction, 0.0_dp)
+         if (has_outer(i)) cycle
+         regions(i)%centre = nan()
+         if (goes_around(i)) then
+            regions(i)%area_fraction = modulo(regions(i)%area_fraction, 1.0_dp)
          else
-            regions(i)%centre = nan()
-            if (goes_around(i)) then
-               regions(i)%area_fraction = modulo(regions(i)%area_fraction, 1.0_dp)
-            else
-               regions(i)%area_fraction = 1.0_dp + regions(i)%area_fraction
-               regions(i)%percolates = .true.
-            end if
+            regions(i)%area_fraction = 1.0_dp + regions(i)%area_fraction
+            regions(i)%percolates = .true.
          end if
       end do
+      ! The area of a band one point wide may be below zero, and is then that of nearly the whole cell by `modulo`.
+      excess = merge(nint(sum(regions%area_fraction) - total), 0, any(goes_around))
+      do i = 1, abs(excess)
+         k = maxloc(sign(1, excess)*regions%area_fraction, 1, goes_around)
+         regions(k)%area_fraction = regions(k)%area_fraction - sign(1, excess)
+      end do
+      regions%area_fraction = min(max(regions%area_fraction, 0.0_dp), 1.0_dp)
    end subroutine find_regions
 
    !> The strips of a 1-D contact and the gaps between them: all endless along y, none along x.
