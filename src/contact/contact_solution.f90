@@ -122,7 +122,8 @@ contains
       call self%edge_curves(surface, curves, loads)
       is_full = self%measures%contact_area_fraction > 0.5_dp
       if (size(curves) > 0) then
-         call find_spots(curves, surface%dimension, surface%length, loads, answer, surface%mirrored)
+         call find_spots(curves, self%measures%contact_area_fraction, surface%dimension, surface%length, loads, answer, &
+                         surface%mirrored)
       else if (self%is_good() .or. is_full) then
          call one_region(is_full, surface%dimension, answer)
       else

@@ -63,8 +63,9 @@ contains
    end function total_perimeter
 
    !> The regions that curves divide a cell into. The numbers of spots and pools of the curves run from 1 without gaps.
-   subroutine find_spots(curves, dimension, length, loads, answer, with_images)
+   subroutine find_spots(curves, area, dimension, length, loads, answer, with_images)
       type(edge_curve), intent(in) :: curves(:)   !! all of the cell, at least one
+      real(dp), intent(in) :: area                !! of the contact over the nominal area
       integer, intent(in) :: dimension            !! of the contact, 1 or 2
       real(dp), intent(in) :: length(2)           !! L_x, L_y [length]
       real(dp), intent(in) :: loads(:)            !! of the spots, over the load; of no size if they are not known
@@ -84,8 +85,8 @@ contains
       else
          spot = curves%spot
          pool = curves%pool
-         call find_regions(spot, pool, 1, curves, length, is_map, spots)
-         call find_regions(pool, spot, -1, curves, length, is_map, pools)
+         call find_regions(spot, pool, 1, curves, area, length, is_map, spots)
+         call find_regions(pool, spot, -1, curves, 1.0_dp - area, length, is_map, pools)
       end if
       spots%load_fraction = nan()
       if (size(loads) == size(spots)) spots%load_fraction = loads
@@ -124,16 +125,17 @@ contains
    end subroutine no_spots
 
    !> The regions of one kind on a surface: (A2), (A3), (A5).
-   subroutine find_regions(number, other, outwards, curves, length, is_map, regions)
+   subroutine find_regions(number, other, outwards, curves, total, length, is_map, regions)
       integer, intent(in) :: number(:)    !! of the region of each curve, from 1
       integer, intent(in) :: other(:)     !! of the region of the other kind on its other side, from 1
       integer, intent(in) :: outwards     !! turns of a curve about such a region: 1 for spots, -1 for pools
       type(edge_curve), intent(in) :: curves(:)
+      real(dp), intent(in) :: total       !! area of all regions over the nominal area
       real(dp), intent(in) :: length(2)
       logical, intent(in) :: is_map       !! whether a number is that of a region and its mirror images
       type(contact_region), allocatable, intent(out) :: regions(:)
 
-      integer :: i
+      integer :: excess, i, k
       logical :: has_outer(maxval(number)), goes_around(maxval(number)), is_counted(maxval(other))
 
       allocate (regions(maxval(number)))
@@ -159,18 +161,22 @@ contains
       end do
       if (is_map) regions%perimeter = regions%perimeter/4
       do i = 1, size(regions)
-         if (has_outer(i)) then
-            regions(i)%area_fraction = max(regions(i)%area_fraction, 0.0_dp)
+         if (has_outer(i)) cycle
+         regions(i)%centre = nan()
+         if (goes_around(i)) then
+            regions(i)%area_fraction = modulo(regions(i)%area_fraction, 1.0_dp)
          else
-            regions(i)%centre = nan()
-            if (goes_around(i)) then
-               regions(i)%area_fraction = modulo(regions(i)%area_fraction, 1.0_dp)
-            else
-               regions(i)%area_fraction = 1.0_dp + regions(i)%area_fraction
-               regions(i)%percolates = .true.
-            end if
+            regions(i)%area_fraction = 1.0_dp + regions(i)%area_fraction
+            regions(i)%percolates = .true.
          end if
       end do
+      ! The area of a band one point wide may be below zero, and is then that of nearly the whole cell by `modulo`.
+      excess = merge(nint(sum(regions%area_fraction) - total), 0, any(goes_around))
+      do i = 1, abs(excess)
+         k = maxloc(sign(1, excess)*regions%area_fraction, 1, goes_around)
+         regions(k)%area_fraction = regions(k)%area_fraction - sign(1, excess)
+      end do
+      regions%area_fraction = min(max(regions%area_fraction, 0.0_dp), 1.0_dp)
    end subroutine find_regions
 
    !> The strips of a 1-D contact and the gaps between them: all endless along y, none along x.

@@ -12,7 +12,8 @@ CONFIDENCE, LARGEST_RATIO = 0.95, 3.0
 FEWEST = 100  # estimates of which the fraction is checked
 # Finest accuracies for which the finer solution takes about a second: by kind, where a quarter of the cell is solved,
 # and of other kinds.
-FINEST = {"wave_1d": 1e-4, "profile": 1e-4, "sum": 1e-2, "file": 1e-2, "even file": 1e-2}
+FINEST = {"wave_1d": 1e-4, "profile": 1e-4, "sum": 1e-2, "file": 1e-2, "even file": 1e-2,
+          "mirrored file": 1e-2}
 FINEST_OF_OTHERS = 3e-3
 COARSEST = 1e-1
 FITTED_ACCURACIES = (1e-10, 1e-3)

@@ -2,7 +2,7 @@
 import math
 
 KINDS = ("wave_1d", "wave_2d", "wave_2d of two lengths", "wave_2d alike", "crossed_1d", "crossed_1d alike",
-         "hexagonal", "profile", "sum", "even sum", "file", "even file")
+         "hexagonal", "profile", "sum", "even sum", "file", "even file", "mirrored file")
 FITTED = ("wave_2d", "wave_2d alike", "crossed_1d alike", "hexagonal")  # kinds that solver = 'fitted' can solve
 QUICK = ("wave_1d", "wave_2d", "profile", "even file")  # for the short form: one kind for each type of solution
 MERGING = 0.2286  # load at which the spots of the paper's wave merge
@@ -12,12 +12,13 @@ HEIGHTS = "heights.dat"
 class Scene:
     """A surface. All but height maps are also given as sums of waves, which can be shifted and rotated."""
 
-    def __init__(self, kind, cell, waves=(), words="", heights=None):
+    def __init__(self, kind, cell, waves=(), words="", heights=None, edges="periodic"):
         self.kind = kind
         self.cell = cell        # sides [length]
         self.waves = waves      # (amplitude [length], waves along x, along y, phase [turn]) of each
         self.words = words      # keys of &surface, in place of those of the sum
         self.heights = heights  # rows of a height map [length]
+        self.edges = edges      # of a height map
 
     def surface(self):
         """Keys of &surface."""
@@ -25,7 +26,7 @@ class Scene:
             return self.words
         cell = f"length_x = {self.cell[0]!r}, length_y = {self.cell[1]!r}"
         if self.heights:
-            return f"kind = 'file', file = '{HEIGHTS}', file_format = 'matrix', {cell}"
+            return f"kind = 'file', file = '{HEIGHTS}', file_format = 'matrix', edges = '{self.edges}', {cell}"
         columns = list(zip(*self.waves))
         keys = (("amplitudes", columns[0]), ("waves_x", columns[1]), ("waves_y", columns[2]),
                 ("phases", [360.0*math.remainder(phase, 1.0) for phase in columns[3]]))
@@ -42,32 +43,39 @@ class Scene:
         return files
 
     def moved(self, x, y):
-        """Shifted by fractions of the cell; a map by the nearest number of points."""
+        """Shifted by fractions of the cell; a map by the nearest number of points, a mirrored map by its whole sides, as
+        that leaves its borders where they are."""
+        if self.edges == "mirror":
+            return self.with_heights([row[::-1] for row in self.heights[::-1]])
         if self.heights:
             rows = round(y*len(self.heights))
             columns = round(x*len(self.heights[0]))
-            heights = [row[columns:] + row[:columns] for row in self.heights[rows:] + self.heights[:rows]]
-            return Scene(self.kind, self.cell, heights=heights)
+            return self.with_heights([row[columns:] + row[:columns]
+                                      for row in self.heights[rows:] + self.heights[:rows]])
         return Scene(self.kind, self.cell, [(a, m, n, phase + m*x + n*y) for a, m, n, phase in self.waves])
 
     def mirrored(self):
         if self.heights:
-            return Scene(self.kind, self.cell, heights=[row[::-1] for row in self.heights])
+            return self.with_heights([row[::-1] for row in self.heights])
         return Scene(self.kind, self.cell, [(a, -m, n, phase) for a, m, n, phase in self.waves])
 
     def turned(self):
         """Rotated by a right angle; not for a profile."""
         cell = self.cell[::-1]
         if self.heights:
-            return Scene(self.kind, cell, heights=[list(column)[::-1] for column in zip(*self.heights)])
+            return self.with_heights([list(column)[::-1] for column in zip(*self.heights)], cell)
         return Scene(self.kind, cell, [(a, -n, m, phase) for a, m, n, phase in self.waves])
 
     def scaled(self, length, height):
         """In other units of lengths and of heights."""
         cell = [length*side for side in self.cell]
         if self.heights:
-            return Scene(self.kind, cell, heights=[[height*value for value in row] for row in self.heights])
+            return self.with_heights([[height*value for value in row] for row in self.heights], cell)
         return Scene(self.kind, cell, [(height*a, m, n, phase) for a, m, n, phase in self.waves])
+
+    def with_heights(self, heights, cell=None):
+        """A map like this one with other heights."""
+        return Scene(self.kind, cell or self.cell, heights=heights, edges=self.edges)
 
     @property
     def is_profile(self):
@@ -98,9 +106,10 @@ def random_scene(stream, kind):
         return Scene(kind, (2.0/math.sqrt(3.0)*length, 2.0*length),
                      [(a/3, 0, 2, 0.0), (a/3, 1, 1, 0.0), (a/3, 1, -1, 0.0)],
                      f"kind = 'hexagonal', amplitude = {a!r}, wavelength = {length!r}")
-    if kind in ("file", "even file"):
+    if kind in ("file", "even file", "mirrored file"):
         cell = (length, length*stream.choice((0.5, 1.0, 1.5)))
-        return Scene(kind, cell, heights=random_map(stream, kind == "even file"))
+        return Scene(kind, cell, heights=random_map(stream, kind == "even file"),
+                     edges="mirror" if kind == "mirrored file" else "periodic")
     even = kind == "even sum"
     waves = []
     for _ in range(stream.randint(1, 4)):

@@ -34,11 +34,11 @@ class Row:
 
 
 def write(files, folder):
-    """Writes a deck and its height map into a new folder."""
+    """Writes a deck and its height map, text or bytes, into a new folder."""
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
-    for name, text in files.items():
-        (folder/name).write_text(text)
+    for name, content in files.items():
+        (folder/name).write_bytes(content if isinstance(content, bytes) else content.encode())
 
 
 def solve(program, files, folder, *words):

@@ -1,0 +1,255 @@
+"""Surfaces as they are made and as they are measured. A made one is solved a second time from the heights that the
+program writes, and on twice the points; a measured one is prepared by the program, checked here, and with mirror images
+solved a second time on the whole cell. Spots and summary have the same area, contours about the same."""
+import math
+import random
+import struct
+
+from common import Part, Table
+from random_scenes import random_loads
+from same_contact import LARGEST_RATIO, ROUNDING, SOLVED, difference
+from summaries import Row, keep, solve
+
+MOMENT = 1e-12  # relative error of the moment that was asked for
+FIT = 1e-10  # of trends and filled holes, over the range of the heights
+OF_AREAS = 1e-11  # differences of areas, over the nominal area
+TABLES = "&output height = t, spots = t, contours = t /\n"
+LATTICES = ("mean", "plane", "quadratic")
+
+
+def read_heights(path):
+    """The rows of <case>.height.npy."""
+    content = path.read_bytes()
+    begin = content.index(b"\n") + 1
+    shape = content[:begin].decode("latin-1").split("'shape': (")[1].split(")")[0]
+    rows, columns = (int(word) for word in shape.split(",")[:2])
+    numbers = struct.unpack(f"<{rows*columns}d", content[begin:])
+    return [list(numbers[columns*j:columns*(j + 1)]) for j in range(rows)]
+
+
+def map_text(heights):
+    """A matrix; None is a missing height."""
+    return "".join(" ".join("nan" if value is None else repr(value) for value in row) + "\n" for row in heights)
+
+
+def deck(surface, loads, method, hardness=None):
+    material = f"e_star = 1.0, hardness = {hardness!r}" if hardness else "e_star = 1.0"
+    return (f"&surface {surface} /\n&material {material} /\n&load mean_pressure = {', '.join(map(repr, loads))} /\n"
+            f"&method {method} /\n")
+
+
+def of_map(name, cell, more=""):
+    return f"kind = 'file', file = '{name}', length_x = {cell[0]!r}, length_y = {cell[1]!r}{more}"
+
+
+def made_surface(stream):
+    """Keys of a random made surface, its cell, points, and the key and value of its roughness."""
+    points = stream.choice(((64, 64), (64, 128), (96, 80), (75, 54), (512, 1)))
+    length = stream.uniform(0.5, 2.0)
+    step = length/points[0]
+    side = length if points[1] == 1 else stream.choice((1.0, 1.0, 1.5))*step*points[1]
+    cell = length, side
+    longest = stream.choice((1.0, 0.7))*min(cell)
+    shortest = stream.choice((2.2, 4.0, 8.0))*max(step, 0.0 if points[1] == 1 else side/points[1])
+    rolloff = max(shortest, longest*stream.choice((1.0, 0.5)))
+    roughness = stream.choice(("rms_height", "rms_slope")), 10.0**stream.uniform(-3.0, -0.5)
+    words = (f"kind = 'self_affine', length_x = {cell[0]!r}, length_y = {cell[1]!r}, points = {points[0]}, {points[1]},\n"
+             f"   hurst = {stream.choice((0.0, 0.8, 1.0, stream.random()))!r}, {roughness[0]} = {roughness[1]!r},\n"
+             f"   long_wavelength = {longest!r}, rolloff_wavelength = {rolloff!r}, short_wavelength = {shortest!r},\n"
+             f"   spectrum = '{stream.choice(('ideal', 'random'))}', seed = {stream.randint(1, 2**31 - 1)}")
+    return words, cell, points, roughness
+
+
+def moment(results, name):
+    """A moment of the surface, from the head of the summary."""
+    return float((results/"deck.summary.dat").read_text().split(f" {name}[")[1].split(" = ")[1].split(",")[0].split()[0])
+
+
+def pstar(results):
+    return moment(results, "p*")
+
+
+def area_complaints(results, cell):
+    """Spots and summary must have the same area, contours within the error estimate; those that wind about the cell are
+    left out."""
+    complaints = []
+    sizes = {}
+    for row in Table(results/"deck.spot_sizes.dat").records():
+        sizes.setdefault((row["load"], row["region"]), []).append(float(row["area_fraction"]))
+    curves = {}
+    for row in Table(results/"deck.contour.dat").records():
+        curves.setdefault(row["load"], {}).setdefault(row["curve"], []).append((float(row["x"]), float(row["y"])))
+    spots = {row["load"]: row for row in Table(results/"deck.spots.dat").records()}
+    for row in Table(results/"deck.summary.dat").records():
+        load, area = row["load"], float(row["contact_area_fraction"])
+        spot_sizes, pool_sizes = sizes.get((load, "spot"), []), sizes.get((load, "pool"), [])
+        areas = {}
+        # Areas below zero are zero in the tables.
+        if min(spot_sizes + pool_sizes) > 0.0:
+            areas = {"the sum of all spots": float(spots[load]["spots_area_fraction"]),
+                     "the table of spot sizes": math.fsum(spot_sizes),
+                     "what the pools leave": 1.0 - math.fsum(pool_sizes)}
+        ways = list(curves.get(load, {}).values())
+        if ways and all(math.dist(way[0], way[-1]) <= OF_AREAS*max(cell) for way in ways):
+            inside = math.fsum((a[0] - b[0])*(a[1] + b[1])/2.0 for way in ways for a, b in zip(way, way[1:]))
+            inside /= cell[0]*cell[1]
+            # The area that curves enclose does not tell whether the rest of the cell is inside or outside.
+            off = abs(math.remainder(inside - area, 1.0))
+            if off > LARGEST_RATIO*Row(row).errors[1]:
+                complaints.append(f"load {load}: area {area!r}, but contours enclose {inside!r}")
+        for name, other in areas.items():
+            if not abs(other - area) <= OF_AREAS:
+                complaints.append(f"load {load}: area {area!r}, but {other!r} is {name}")
+    return complaints
+
+
+def status_complaints(rows):
+    """On the points of a map a row is `unresolved` where an error is unknown or as large as its value, and only there."""
+    complaints = []
+    for row in rows:
+        known = all(error < value for error, value in zip(row.errors, row.values))
+        if row.status != ("converged" if known else "unresolved"):
+            complaints.append(f"{row.status} at P = {row.load!r}")
+    return complaints
+
+
+def made(program, stream, name, work, part, worst, failures):
+    """A surface from its spectrum."""
+    surface, cell, points, (key, value) = made_surface(stream)
+    loads = random_loads(stream, 4)
+    scale = pressure_scale(program, surface, work/name)
+    loads = [scale*load for load in loads]
+    files = {"deck.nml": deck(surface, loads, "solver = 'grid'") + TABLES}
+    rows, complaints = solve(program, files, work/name)
+    if rows:
+        results = work/name/"results"
+        off = abs(moment(results, key)/value - 1.0)
+        worst["moments"] = max(worst["moments"], off)
+        if not off <= MOMENT:
+            complaints.append(f"{key} is off by {off:.1e}")
+        complaints += area_complaints(results, cell) if points[1] > 1 else []
+        complaints += status_complaints(rows)
+        heights = (results/"deck.height.npy").read_bytes()
+    failed = not part.count(name, complaints)
+    if rows:
+        again = {"deck.nml": deck(of_map("height.npy", cell), loads, "solver = 'grid'"), "height.npy": heights}
+        others, complaints = solve(program, again, work/name)
+        off = difference(rows, others, ROUNDING)
+        worst["heights read"] = max(worst["heights read"], off)
+        if len(others) != len(rows) or off > SOLVED:
+            complaints.append(f"{off:.1e} times the estimates from its heights read again")
+        failed |= not part.count(f"{name}, read", complaints)
+        finer = ", ".join(str(2*n) for n in points if n > 1)
+        again = {"deck.nml": deck(surface, loads, f"solver = 'grid', grid_points = {finer}")}
+        others, complaints = solve(program, again, work/name)
+        off = difference(rows, others)
+        worst["points"] = max(worst["points"], off)
+        if len(others) != len(rows) or off > LARGEST_RATIO:
+            complaints.append(f"{off:.1e} times the estimates from that on twice the points")
+        failed |= not part.count(f"{name}, finer", complaints)
+    if failed:
+        keep(failures, name, files)
+
+
+def pressure_scale(program, surface, folder):
+    """p* of a surface."""
+    solve(program, {"deck.nml": f"&surface {surface} /\n&load pbar_over_pstar = 0 /\n"}, folder)
+    return pstar(folder/"results")
+
+
+def measured_heights(stream):
+    """Heights of some waves, tilt, form and noise, with holes."""
+    rows, columns = stream.choice(((48, 64), (64, 40), (33, 50), (80, 16)))
+    waves = [(stream.gauss(0.0, 1.0)/k, stream.randint(-k, k), k, stream.random()) for k in range(1, 6)]
+    tilt = [stream.choice((0.0, 1.0, 100.0))*stream.gauss(0.0, 1.0) for _ in range(5)]
+    noise = stream.choice((0.0, 1e-3, 0.1))
+    heights = [[sum(a*math.cos(2.0*math.pi*(m*j/columns + n*i/rows + phase)) for a, m, n, phase in waves)
+                + noise*stream.gauss(0.0, 1.0) + tilt[0] + tilt[1]*j + tilt[2]*i
+                + (tilt[3]*j*j + tilt[4]*i*i)/rows for j in range(columns)] for i in range(rows)]
+    for _ in range(stream.choice((0, 1, 3, 8))):
+        i, j = stream.randrange(rows), stream.randrange(columns)
+        for k in range(stream.randint(1, 4)):
+            for l in range(stream.randint(1, 5)):
+                heights[(i + k) % rows][(j + l) % columns] = None
+    return heights
+
+
+def preparation_complaints(raw, prepared, detrend, edges):
+    """What is wrong with a map without its trend and holes. Returns also the largest error over the range of the map."""
+    rows, columns = len(raw), len(raw[0])
+    there = [(i, j) for i in range(rows) for j in range(columns) if raw[i][j] is not None]
+    size = max(abs(raw[i][j]) for i, j in there)
+    terms = {"none": (), "mean": ((0, 0),), "plane": ((0, 0), (1, 0), (0, 1)),
+             "quadratic": ((0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2))}[detrend]
+    # The program's heights are over the mean of all, holes included: (0, 0) is that of the heights that are there.
+    mean = math.fsum(prepared[i][j] for i, j in there)/len(there)
+    worst = {}
+    for m, n in terms[1:]:
+        product = math.fsum((prepared[i][j] - mean)*(2*j/columns - 1.0)**m*(2*i/rows - 1.0)**n for i, j in there)
+        worst["trend"] = max(worst.get("trend", 0.0), abs(product)/(len(there)*size))
+    for i in range(rows):
+        for j in range(columns):
+            if raw[i][j] is not None:
+                continue
+            near = [(i + k, j + l) for k, l in ((1, 0), (-1, 0), (0, 1), (0, -1))]
+            if edges == "periodic":
+                near = [(k % rows, l % columns) for k, l in near]
+            near = [(k, l) for k, l in near if 0 <= k < rows and 0 <= l < columns]
+            off = math.fsum(prepared[k][l] - prepared[i][j] for k, l in near)
+            worst["holes"] = max(worst.get("holes", 0.0), abs(off)/size)
+    return [f"{name} is off by {off:.1e}" for name, off in worst.items() if not off <= FIT], max(worst.values(), default=0.0)
+
+
+def measured(program, stream, name, work, part, worst, failures):
+    """A map with holes and a trend."""
+    raw = measured_heights(stream)
+    rows, columns = len(raw), len(raw[0])
+    step = stream.uniform(0.01, 1.0)
+    cell = [step*columns, step*rows]  # equal steps along x and y, for the holes
+    detrend, edges = stream.choice(("none", *LATTICES)), stream.choice(("periodic", "mirror", "mirror"))
+    surface = of_map("heights.dat", cell, f",\n   file_format = 'matrix', detrend = '{detrend}', "
+                                          f"fill_missing = 'harmonic', edges = '{edges}'")
+    text = map_text(raw)
+    files = {"deck.nml": f"&surface {surface} /\n&load pbar_over_pstar = 0 /\n", "heights.dat": text}
+    solve(program, files, work/name)
+    scale = pstar(work/name/"results")
+    loads = [scale*load for load in random_loads(stream, 4)]
+    hardness = loads[-1]*(1.0 + 10.0**stream.uniform(-3.0, 1.0)) if stream.random() < 0.5 else None
+    files["deck.nml"] = deck(surface, loads, "solver = 'grid'", hardness) + TABLES
+    answers, complaints = solve(program, files, work/name)
+    if answers:
+        results = work/name/"results"
+        prepared = read_heights(results/"deck.height.npy")
+        more, off = preparation_complaints(raw, prepared, detrend, edges)
+        worst["trends and holes"] = max(worst["trends and holes"], off)
+        complaints += more + status_complaints(answers)
+        complaints += area_complaints(results, cell) if edges != "mirror" else []
+    failed = not part.count(name, complaints)
+    if answers:
+        if edges == "mirror":
+            prepared = [row + row[::-1] for row in prepared + prepared[::-1]]
+            cell = [2.0*side for side in cell]
+        again = {"deck.nml": deck(of_map("prepared.dat", cell), loads, "solver = 'grid'", hardness),
+                 "prepared.dat": map_text(prepared)}
+        others, complaints = solve(program, again, work/name)
+        off = difference(answers, others, ROUNDING)
+        worst["whole cell"] = max(worst["whole cell"], off)
+        if len(others) != len(answers) or off > SOLVED:
+            complaints.append(f"{off:.1e} times the estimates from the map prepared before")
+        failed |= not part.count(f"{name}, whole", complaints)
+    if failed:
+        keep(failures, name, files)
+
+
+def campaign(program, seed, _kinds, scenes, work, failures):
+    """So many of each kind, eight times."""
+    part = Part("made and measured surfaces")
+    worst = {"moments": 0.0, "trends and holes": 0.0, "heights read": 0.0, "whole cell": 0.0, "points": 0.0}
+    for make in (made, measured):
+        for number in range(8*scenes):
+            name = f"{make.__name__}-{number}"
+            make(program, random.Random(f"{seed} {name}"), name, work, part, worst, failures)
+    part.worst = (f"moments {worst['moments']:.1e}, trends and holes {worst['trends and holes']:.1e}; heights read "
+                  f"{worst['heights read']:.2g}, whole cell {worst['whole cell']:.2g}, twice the points "
+                  f"{worst['points']:.2g} times both estimates")
+    return part
