@@ -23,6 +23,12 @@ def marked_up(text):
     return re.sub(r"\^([+-]?\d+)?", lambda found: "^{" + found[1].replace("-", "−") + "}" if found[1] else r"\^", text)
 
 
+def label_of_unit(unit):
+    """A unit with its prefix for gnuplot's enhanced mode: um is shown as µm."""
+    known = CONVERTED.fullmatch(unit)
+    return marked_up(SHOWN[PREFIXES[known[1]]] + known[2] if known else unit)
+
+
 class Scale:
     """How the numbers of an axis are shown: times `factor`, beside a label.
 

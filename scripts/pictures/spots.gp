@@ -4,7 +4,9 @@ set xrange [load_low:load_high]
 set xtics load_step
 if (load_wide) { set logscale x }
 set format x (format_of(load_wide))
-set xlabel 'mean pressure '.load
+set xlabel load_label
+# On the axis p* is `full`.
+x(r) = full*column("pbar_over_pstar")
 set bmargin at screen 67.5/height
 set tmargin at screen 1 - 62.0/height
 set key at graph 0.5, 1.02 center bottom horizontal maxrows 2 samplen 1.5
@@ -17,8 +19,8 @@ if (number_wide) { set logscale y }
 set ytics number_step
 set format y (format_of(number_wide))
 set ylabel 'number'
-plot run(1) using "pbar_over_pstar":"spots" with linespoints ls 31 ps point_size title 'spots', \
-     run(1) using "pbar_over_pstar":"closed_pools" with linespoints ls 32 ps point_size title 'closed pools'
+plot run(1) using (x(1)):"spots" with linespoints ls 31 ps point_size title 'spots', \
+     run(1) using (x(1)):"closed_pools" with linespoints ls 32 ps point_size title 'closed pools'
 unset label 1
 
 set lmargin at screen 330.0/width
@@ -29,10 +31,10 @@ if (area_wide) { set logscale y }
 set ytics area_step
 set format y (format_of(area_wide))
 set ylabel 'area '.area.'/'.area_0
-plot run(1) using "pbar_over_pstar":"spots_area_fraction" with linespoints ls 31 ps point_size title 'contact', \
-     run(1) using "pbar_over_pstar":"largest_spot_area_fraction" with linespoints ls 33 ps point_size \
+plot run(1) using (x(1)):"spots_area_fraction" with linespoints ls 31 ps point_size title 'contact', \
+     run(1) using (x(1)):"largest_spot_area_fraction" with linespoints ls 33 ps point_size \
         title 'largest spot', \
-     run(1) using "pbar_over_pstar":"closed_pools_area_fraction" with linespoints ls 32 ps point_size \
+     run(1) using (x(1)):"closed_pools_area_fraction" with linespoints ls 32 ps point_size \
         title 'closed pools'
 
 set lmargin at screen 620.0/width
@@ -44,8 +46,8 @@ set format y '%s'
 set ytics ('contact, '.x_symbol 4, 'contact, '.y_symbol 3, 'gap, '.x_symbol 2, 'gap, '.y_symbol 1)
 set label 2 'percolates along' at graph 0.5, 1.04 center font small
 unset key
-plot run(1) using (column("contact_percolates_x") == 1 ? column("pbar_over_pstar") : NaN):(4) with points ls 31, \
-     run(1) using (column("contact_percolates_y") == 1 ? column("pbar_over_pstar") : NaN):(3) with points ls 31, \
-     run(1) using (column("gap_percolates_x") == 1 ? column("pbar_over_pstar") : NaN):(2) with points ls 32, \
-     run(1) using (column("gap_percolates_y") == 1 ? column("pbar_over_pstar") : NaN):(1) with points ls 32
+plot run(1) using (column("contact_percolates_x") == 1 ? x(1) : NaN):(4) with points ls 31, \
+     run(1) using (column("contact_percolates_y") == 1 ? x(1) : NaN):(3) with points ls 31, \
+     run(1) using (column("gap_percolates_x") == 1 ? x(1) : NaN):(2) with points ls 32, \
+     run(1) using (column("gap_percolates_y") == 1 ? x(1) : NaN):(1) with points ls 32
 unset multiplot

@@ -7,8 +7,15 @@ from variables import MOST_CURVES, array_of, load_facts, numbers_in, of_column, 
 def spots(tables, beside, choice, folder):
     """Numbers of spots and pools, their areas, and percolation, against the mean pressure."""
     table = tables[0]
-    facts = put_range("load", table.column("pbar_over_pstar"), up_to=1.0)
-    wide = axis(table.column("pbar_over_pstar"))[-1]
+    def pressures(table):
+        return [table.numbers.get("p*", 1.0)*number for number in table.column("pbar_over_pstar")]
+
+    load = numbers_in(tables, pressures, "p*", "p_star", may_be_wide=True)
+    means = [load[1][0]*pressure for pressure in pressures(table)]
+    wide = axis(means)[-1]
+    full = load[1][0]*table.numbers.get("p*", 1.0)
+    facts = put_scale("load", load, "p_bar", "mean pressure") + put_range("load", means, up_to=full)
+    facts += [f"full = {full!r}"]
     numbers = table.column("spots") + table.column("closed_pools")
     areas = [number for name in ("spots_area_fraction", "largest_spot_area_fraction", "closed_pools_area_fraction")
              for number in table.column(name)]

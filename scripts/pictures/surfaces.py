@@ -3,7 +3,7 @@ import array
 import math
 import os
 
-from axes import quoted, step_of
+from axes import label_of_unit, quoted, step_of
 from fields import MOST_PIXELS, cell_in_head
 from variables import CannotBeDrawn, array_of, numbers_in, put_range, put_scale
 
@@ -31,7 +31,7 @@ def spectra(tables, beside, choice, folder):
     if math.floor(math.log10(low)) == math.floor(math.log10(high)):
         # An axis needs a power of ten to have a number.
         low, high = 10.0**math.floor(math.log10(low)), 10.0**math.ceil(math.log10(high))
-    unit = table.label("cell_x")
+    unit = label_of_unit(table.label("cell_x"))
     facts = [f"lines = {int(len(blocks) == 3)}", f"panels = {len(limits)}"]
     facts += [f"q_label = '{{/:Italic q}}'.{quoted(unit and f' (rad/{unit})')}",
               f"q_low = {low!r}", f"q_high = {high!r}"]

@@ -1,6 +1,7 @@
 !> Runs a scene from beginning to end: starts the solver, solves all loads, writes the tables.
 module wavycon_run_scene
    use wavycon_checkpoint, only: checkpoint_file, checkpoint_name, read_checkpoint
+   use wavycon_contact_measures, only: is_known
    use wavycon_contact_status, only: converged, not_found, unresolved
    use wavycon_error, only: error_type, exit_file_trouble, exit_fine, exit_not_converged, fatal_error
    use wavycon_find_stresses, only: find_stresses
@@ -182,16 +183,13 @@ contains
       integer, intent(out) :: status
 
       character(:), allocatable :: loads
-      integer :: bad, i, unreached, unresolved_values(3), without_area
+      integer :: bad, i, unreached, without_area
 
       bad = 0
-      unresolved_values = 0
       without_area = 0
       do i = 1, size(results%loads)
          associate (solution => results%loads(i)%solution)
             if (.not. solution%is_good()) bad = bad + 1
-            if (solution%status == unresolved) &
-               unresolved_values = unresolved_values + merge(0, 1, solution%measures%are_resolved())
             if (solution%status == converged .and. solution%measures%contact_area_fraction <= 0.0_dp) &
                without_area = without_area + 1
          end associate
@@ -199,10 +197,7 @@ contains
       unreached = count([(results%loads(i)%solution%status == not_found, i=1, size(results%loads))])
       loads = integer_text(size(results%loads))
       associate (scene => results%scene)
-         if (any(unresolved_values > 0)) call log%say('note: unresolved on the grid given, as the error is '// &
-            'unknown or as large as the value: the mean gap at '//integer_text(unresolved_values(1))// &
-            ', the contact area at '//integer_text(unresolved_values(2))//' and the peak pressure at '// &
-            integer_text(unresolved_values(3))//' of '//loads//' loads')
+         call note_unresolved(results, log)
          if (without_area > 0) call log%say('note: at '//integer_text(without_area)//' loads '// &
                                             results%solver%why_no_area()//', so that their contact area shows as 0')
          if (scene%loads_by == by_yield .and. .not. results%solver%has_error_estimates()) call log%say( &
@@ -221,5 +216,46 @@ contains
       end associate
       status = merge(exit_fine, exit_not_converged, bad == 0)
    end subroutine sum_up
+
+   !> Says which values have no error estimate and which are no larger than theirs, and what helps.
+   subroutine note_unresolved(results, log)
+      type(results_type), intent(in) :: results
+      type(run_log), intent(inout) :: log
+
+      character(*), parameter :: names(*) = [character(17) :: 'the mean gap', 'the contact area', 'the peak pressure']
+      character(:), allocatable :: loads, words
+      integer :: coarse(3), i, listed, unknown
+
+      coarse = 0
+      unknown = 0
+      do i = 1, size(results%loads)
+         associate (solution => results%loads(i)%solution)
+            if (solution%status /= unresolved) cycle
+            if (any(is_known(solution%measures%errors()))) then
+               coarse = coarse + merge(0, 1, solution%measures%are_resolved())
+            else
+               unknown = unknown + 1
+            end if
+         end associate
+      end do
+      loads = ' of '//integer_text(size(results%loads))//' loads'
+      if (unknown > 0) call log%say('note: the errors of '//integer_text(unknown)//loads//' are unknown: a grid has'// &
+         ' error estimates if its points are multiples of 4, from 64 a side. Give such grid_points, or an accuracy')
+      if (all(coarse == 0)) return
+      words = ''
+      listed = 0
+      do i = 1, size(names)
+         if (coarse(i) == 0) cycle
+         listed = listed + 1
+         if (listed > 1 .and. listed == count(coarse > 0)) then
+            words = words//' and'
+         else if (listed > 1) then
+            words = words//','
+         end if
+         words = words//' '//trim(names(i))//' at '//integer_text(coarse(i))
+      end do
+      call log%say('note: the grid is too coarse for'//words//loads//': the error is as large as the value, or '// &
+                   'unknown. Give an accuracy, or more grid_points')
+   end subroutine note_unresolved
 
 end module wavycon_run_scene
