@@ -37,9 +37,12 @@ contains
 
       lines = size(edge%pressure_or_gap, 2)
       best = maxloc(edge%pressure_or_gap)
+      ! From the lines through the largest pressure both ways: a mirror image has the same peak.
       base = best
-      base(1) = merge(base(1) - 1, base(1), at(base(1) - 1, base(2)) > at(base(1) + 1, base(2)))
-      if (lines > 1) base(2) = merge(base(2) - 1, base(2), at(best(1), base(2) - 1) > at(best(1), base(2) + 1))
+      if (at(best(1) - 1, best(2)) > at(best(1) + 1, best(2))) base(1) = best(1) - 1
+      if (lines > 1) then
+         if (at(best(1), best(2) - 1) > at(best(1), best(2) + 1)) base(2) = best(2) - 1
+      end if
       field = peak_polynomial(least=-margin, most=1.0_dp + margin, in_plane=lines > 1)
       do j = first, last
          do i = first, last
