@@ -149,7 +149,7 @@ class Plot(unittest.TestCase):
 
     def test_spectra_have_the_units_of_their_axes(self):
         words = self.drawn("rough.spectrum.dat")
-        for label in ("q (rad/um)", "C (um4)", "C1 (um3)", "along x", "along y"):
+        for label in ("q (rad/µm)", "C (µm4)", "C1 (µm3)", "along x", "along y"):
             self.assertIn(label, words)
         words = self.drawn("profile.spectrum.dat")
         self.assertNotIn("along", words)
