@@ -11,8 +11,6 @@ module wavycon_detrend
    !> Least square of the part of a term that the other terms do not fit on the points that are there, over its mean
    !> square on the whole grid. Below it rounding would decide the coefficient.
    real(dp), parameter :: least_part = 1.0e-10_dp
-   !> Heights that a polynomial leaves are zero if they are all below this part of the largest one: they are rounding.
-   real(dp), parameter :: rounding = 64*epsilon(1.0_dp)
 
    !> The terms P_a(x) P_b(y) of a polynomial (M1) on the points of a map.
    type :: polynomial
@@ -33,11 +31,9 @@ contains
       logical, intent(out) :: is_determined
 
       type(polynomial) :: trend
-      real(dp) :: largest
       integer :: pass
 
       call start(trend, shape(map%height), degree)
-      largest = maxval(abs(map%height))
       rise = 0.0_dp
       ! The second pass removes what rounding left of a large mean or tilt in the first.
       do pass = 1, 2
@@ -46,7 +42,6 @@ contains
          call subtract(trend, map)
          rise = rise + rise_of(trend)
       end do
-      if (maxval(abs(map%height)) <= rounding*largest) map%height = 0.0_dp
    end subroutine detrend_map
 
    !> The terms up to a degree, as many as the points determine.

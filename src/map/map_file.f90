@@ -59,7 +59,9 @@ contains
       if (allocated(error)) return
       call mark_missing(map, missing_value)
       if (.not. allocated(map%missing)) return
-      if (all(map%missing)) call fatal_error(error, exit_bad_input, escaped(path)//': all heights are missing')
+      if (.not. all(map%missing)) return
+      call fatal_error(error, exit_bad_input, escaped(path)//': all heights are missing: some must be numbers')
+      if (present(missing_value)) error%message = error%message//' other than missing_value'
    end subroutine read_height_map
 
    !> The format of a file by its content or, if that does not tell, by its name: a text is 'auto'.

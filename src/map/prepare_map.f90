@@ -14,6 +14,10 @@ module wavycon_prepare_map
 
    public :: map_preparation, prepare_map
 
+   !> Heights that are left are zero if they differ by at most this part of the largest one that was there: they are
+   !> rounding.
+   real(dp), parameter :: rounding = 64*epsilon(1.0_dp)
+
    !> Values of the keys of the same names.
    type :: map_preparation
       character(9) :: detrend = 'none'
@@ -24,8 +28,8 @@ module wavycon_prepare_map
 contains
 
    !> Prepares a map. 'mirror' leaves the heights as they are: the surface adds the mirror images. Errors:
-   !> exit_bad_input for holes that are not to be filled, and for heights that do not determine the trend; exit_file_trouble without
-   !> memory.
+   !> exit_bad_input for holes that are not to be filled, and for heights that do not determine the trend;
+   !> exit_file_trouble without memory.
    subroutine prepare_map(source, preparation, length, map, changes, error)
       character(*), intent(in) :: source                !! of the map, for messages
       type(map_preparation), intent(in) :: preparation
@@ -37,7 +41,9 @@ contains
       character(*), parameter :: trends(*) = [character(9) :: 'mean', 'plane', 'quadratic']
       logical :: is_determined
       integer :: degree
+      real(dp) :: largest
 
+      largest = maxval(abs(map%height))
       changes%points = shape(map%height)
       if (allocated(map%missing)) changes%filled = count(map%missing)
       call check_holes(source, preparation, map, error)
@@ -52,6 +58,7 @@ contains
             return
          end if
          changes%detrend = preparation%detrend
+         where (abs(changes%rise) <= rounding*largest) changes%rise = 0.0_dp
       end if
       if (changes%filled > 0) then
          call fill_holes(source, length/shape(map%height), preparation%edges == 'periodic', map, error)
@@ -59,6 +66,8 @@ contains
       end if
       changes%edges = preparation%edges
       if (preparation%edges == 'window') call taper_borders(preparation%window_width, map%height, changes%tapered)
+      if (degree < 0 .and. changes%filled == 0 .and. preparation%edges /= 'window') return
+      if (maxval(map%height) - minval(map%height) <= rounding*largest) map%height = 0.0_dp
    end subroutine prepare_map
 
    !> Errors: exit_bad_input for missing heights that are not to be filled, or cannot be.
@@ -73,7 +82,7 @@ contains
       if (.not. allocated(map%missing)) return
       number = count(map%missing)
       if (number == size(map%missing)) then
-         call fatal_error(error, exit_bad_input, escaped(source)//': all heights are missing')
+         call fatal_error(error, exit_bad_input, escaped(source)//': all heights are missing: some must be numbers')
       else if (number > 0 .and. preparation%fill_missing == 'none') then
          first = findloc(map%missing, .true.)
          call fatal_error(error, exit_bad_input, escaped(source)//': '//integer_text(number)//' of '// &

@@ -20,7 +20,10 @@ contains
 
       along_x = window(size(height, 1), width)
       along_y = window(size(height, 2), width)
-      height = height - sum(height)/size(height)
+      ! The second pass removes what rounding left of a large mean in the first.
+      do j = 1, 2
+         height = height - sum(height)/size(height)
+      end do
       do j = 1, size(height, 2)
          height(:, j) = along_y(j)*along_x*height(:, j)
       end do

@@ -1,7 +1,7 @@
 !> A height map from a file.
 module wavycon_height_map
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use wavycon_error, only: error_type, exit_bad_input, fatal_error
+   use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: choice_key, key_type, largest_number, real_key, smallest_number, text_key
    use wavycon_kinds, only: dp
@@ -101,12 +101,18 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(measured_map) :: heights
-      character(:), allocatable :: path
+      character(:), allocatable :: file, path
       real(dp) :: length(2)
       logical :: is_equal_spacing
 
-      path = place_of_map(values%deck_path, values%text('file'))
-      call read_map(values, path, heights, error)
+      file = values%text('file')
+      path = place_of_map(values%deck_path, file)
+      if (path_kind(path) == path_absent .and. file(1:1) /= '/') then
+         call fatal_error(error, exit_file_trouble, escaped(file)// &
+                          ': there is no such file beside the deck, nor where the program was started')
+      else
+         call read_map(values, path, heights, error)
+      end if
       if (.not. allocated(error)) call take_sides(values, path, heights, length, is_equal_spacing, error)
       if (.not. allocated(error)) call surface_of_map(path, values, length, heights, surface, map, error)
       if (allocated(error)) then
