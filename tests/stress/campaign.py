@@ -26,6 +26,7 @@ import names
 import quadratic_programmes
 import random_scenes
 import random_stresses
+import rough_surfaces
 import same_contact
 import valgrind_runs
 
@@ -53,7 +54,8 @@ def solvers(settings, results):
             (contact_conditions.campaign, settings.programs/"stress_scenes", 12),
             (honest_estimates.campaign, settings.program, 5),
             (same_contact.order_and_symmetry, settings.program, 4),
-            (same_contact.alone_and_again, settings.program, 3)):
+            (same_contact.alone_and_again, settings.program, 3),
+            (rough_surfaces.campaign, settings.program, 6)):
         with work_folder() as work:
             yield campaign(program, settings.seed, kinds, 1 if settings.quick else scenes, work, results)
 

@@ -3,12 +3,14 @@ import random
 
 from common import RUNTIME_WORDS, Part, run
 from hard_maps import KINDS as HARD, QUICK as QUICK_HARD, hard_loads, hard_scene
-from random_scenes import FITTED, QUICK, random_loads, random_scene
+from random_scenes import FITTED, QUICK, Scene, random_loads, random_scene
+from rough_surfaces import made_surface
 from summaries import PATIENCE, keep, write
 
 RESIDUALS = (1e-11, 1e-8, None)  # of grids [mean gap]; None: the default
 EDGE_TOLERANCE = 5e-4  # the default is this part of the gap at the edge: (C10) of src/contact/README.md
 ROUNDING = 1e-13  # of the solver's own sums over some thousand points [P, the surface's depth; at least Delta]
+MADE = ((16, 16), (24, 12), (21, 30), (64, 1))  # points of made surfaces
 SAMPLES = 2  # random points of an expansion
 
 
@@ -27,6 +29,12 @@ def grid_case(stream, kind):
 def hard_case(stream, kind):
     """Likewise of a hard map."""
     return with_residual(stream, hard_scene(stream, kind), hard_loads(stream, 3), "solver = 'grid'")
+
+
+def made_case(stream, kind):
+    """Likewise of a surface made from its spectrum, on its own points."""
+    words, cell, _, _ = made_surface(stream, MADE)
+    return with_residual(stream, Scene(kind, cell, words=words), random_loads(stream, 3), "solver = 'grid'")
 
 
 def hardness(stream):
@@ -87,13 +95,13 @@ def expansion_complaints(line, accuracy):
     return words, worst if noise <= accuracy else 0.0
 
 
-CASES = {"grid": grid_case, "hard": hard_case, "fitted": fitted_case,
-         "grid with a hardness": grid_case, "hard with a hardness": hard_case}
+CASES = {"grid": grid_case, "hard": hard_case, "made": made_case, "fitted": fitted_case,
+         "grid with a hardness": grid_case, "hard with a hardness": hard_case, "made with a hardness": made_case}
 
 
 def campaign(program, seed, kinds, scenes, work, failures):
-    """So many scenes of each kind on grids, as many of each kind of hard map, both also with a hardness, and as many of
-    each kind that expansions can solve. Runs stress_scenes."""
+    """So many scenes of each kind on grids, as many of each kind of hard map and of made surfaces, all also with a
+    hardness, and as many of each kind that expansions can solve. Runs stress_scenes."""
     part = Part("conditions of contact")
     grid_worst = expansion_worst = 0.0
     unanswered = blunt = most = 0
@@ -102,6 +110,8 @@ def campaign(program, seed, kinds, scenes, work, failures):
     cases = [(kind, solver, number) for solver in ("grid", "grid with a hardness") for kind in kinds
              for number in range(scenes)]
     cases += [(kind, solver, number) for solver in ("hard", "hard with a hardness") for kind in hard
+              for number in range(scenes)]
+    cases += [("self_affine", solver, number) for solver in ("made", "made with a hardness")
               for number in range(scenes)]
     cases += [(kind, "fitted", number) for kind in kinds if kind in FITTED for number in range(scenes)]
     for kind, solver, number in cases:
