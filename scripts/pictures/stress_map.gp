@@ -45,7 +45,8 @@ do for [r = 1:down] {
       if (c == across && r == 1) {
          set colorbox user origin screen left(c) + (panel_wide + 8)/width, screen top(r) - 0.9*panel_tall/height \
             size screen 9.0/width, screen 0.8*panel_tall/height
-         set cblabel stress_label offset -0.5, 0
+         # Beside flat panels there is little room.
+         set cblabel stress_label offset -0.5, 0 font (panel_tall < 120 ? ',10' : '')
          set cbtics font ',11' offset -0.6, 0
       } else {
          unset colorbox

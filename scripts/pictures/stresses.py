@@ -53,8 +53,9 @@ def below_crest(tables, beside, choice, folder):
     limits = [axis(scaled(tables, found[1], name), may_be_wide=False) for name in names]
     for word, k in (("low", 0), ("high", 1)):
         facts += array_of(f"{word}_of", [repr(limit[k]) for limit in limits])
-    # Panels are narrow: fewer tics.
-    facts += array_of("step_of", [repr(step_of(1.5*(limit[1] - limit[0]))) for limit in limits])
+    # Panels are narrow: fewer tics, even fewer of numbers of four characters.
+    facts += array_of("step_of", [repr(step_of((2.2 if max(-10*limit[0], limit[1]) >= 1000 else 1.5)
+                                               *(limit[1] - limit[0]))) for limit in limits])
     depth = numbers_in(tables, of_column("depth"), "cell_x", "")
     facts += put_scale("depth", depth, "depth_symbol", "depth")
     deepest = max(scaled(tables, depth[1], "depth")) or 1.0
