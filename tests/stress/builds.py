@@ -1,5 +1,6 @@
 """The program compiled in other ways: the same numbers at every level of optimisation, and no report of the
 sanitizers."""
+import functools
 import os
 import pathlib
 import shutil
@@ -10,6 +11,7 @@ import fuzz_maps
 from common import Part, Table, complaints_about, files_below, run
 
 SECONDS = 120.0  # time limit of a deck; without optimisation none takes as long
+SANITIZED_SECONDS = 8.0  # most processor time of a mutated deck: five times as much as without sanitizers
 SANITIZERS = "-fsanitize=address,undefined -fno-omit-frame-pointer"
 LEVELS = {"O0": "-O0", "O3": "-O3", "native": "-O3 -march=native"}
 # Largest differences, relative to the largest number of a column. A series has the same active set at every level and
@@ -110,11 +112,13 @@ def sanitizers(source, builds, seed, quick, work, failures):
     suppressions = pathlib.Path(__file__).resolve().parent/"libgfortran.supp"
     os.environ.update(LSAN_OPTIONS=f"suppressions={suppressions}:print_suppressions=0",
                       UBSAN_OPTIONS="halt_on_error=1:print_stacktrace=1")
-    for fuzz, amount in ((fuzz_decks.fuzz_checks, 50 if quick else 500), (fuzz_decks.fuzz_runs, 10 if quick else 60),
-                         (fuzz_maps.fuzz_checks, 50 if quick else 500),
-                         (fuzz_maps.fuzz_binary, 50 if quick else 500), (fuzz_maps.fuzz_runs, 10 if quick else 60)):
-        folder = work/fuzz.__module__/fuzz.__name__
-        folder.mkdir(parents=True)
+    run_decks = functools.partial(fuzz_decks.fuzz_runs, seconds=SANITIZED_SECONDS)
+    for number, (fuzz, amount) in enumerate((
+            (fuzz_decks.fuzz_checks, 50 if quick else 500), (run_decks, 10 if quick else 60),
+            (fuzz_maps.fuzz_checks, 50 if quick else 500), (fuzz_maps.fuzz_binary, 50 if quick else 500),
+            (fuzz_maps.fuzz_runs, 10 if quick else 60))):
+        folder = work/f"mutated {number}"
+        folder.mkdir()
         fuzzed = fuzz(program, seed, amount, folder, failures)
         part.tried += fuzzed.tried
         part.passed += fuzzed.passed

@@ -324,7 +324,7 @@ def fuzz_monsters(program, seed, size, work, failures):
     return part
 
 
-def fuzz_runs(program, seed, count, work, failures):
+def fuzz_runs(program, seed, count, work, failures, seconds=SECONDS):
     """Runs mildly mutated decks that need little work, and checks their results."""
     part = Part("mutated decks, run")
     slowest = 0.0
@@ -346,7 +346,7 @@ def fuzz_runs(program, seed, count, work, failures):
             continue
         before = files_below(work)
         outcome = run([program, "deck.nml"], folder)
-        complaints = complaints_about(outcome)
+        complaints = complaints_about(outcome, seconds=seconds)
         made = files_below(work) - before
         if checked.status == 0 and outcome.status == 1:
             complaints.append("--check found the deck fine, the run does not")
