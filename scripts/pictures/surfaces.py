@@ -7,8 +7,8 @@ from axes import label_of_unit, quoted, step_of
 from fields import MOST_PIXELS, cell_in_head
 from variables import CannotBeDrawn, array_of, numbers_in, put_range, put_scale
 
-# Densities this far below the largest are rounding and not shown.
-ROUNDING = 1e-25
+# Densities this far below the largest are rounding of the heights, and not shown.
+ROUNDING = 1e-16
 # The columns of the directions; in the other one there is no number.
 DENSITIES = {"radial": "spectrum_2d", "x": "spectrum_1d", "y": "spectrum_1d"}
 
