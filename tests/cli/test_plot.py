@@ -139,6 +139,8 @@ class Plot(unittest.TestCase):
         words = self.drawn("si.map.dat")
         self.assertIn("(µm)", words)
         self.assertIn("(mm)", words)
+        self.assertIn("mean pressure p̄ (MPa)", self.drawn("si.spots.dat"))
+        self.assertIn("mean pressure p̄/p*", self.drawn("auto.spots.dat"))
         # Lengths without a label are those of the deck.
         for kind in ("map", "contour"):
             self.assertIn(" 60 ", self.drawn(f"oblong.{kind}.dat"))
@@ -149,7 +151,7 @@ class Plot(unittest.TestCase):
 
     def test_spectra_have_the_units_of_their_axes(self):
         words = self.drawn("rough.spectrum.dat")
-        for label in ("q (rad/um)", "C (um4)", "C1 (um3)", "along x", "along y"):
+        for label in ("q (rad/µm)", "C (µm4)", "C1 (µm3)", "along x", "along y"):
             self.assertIn(label, words)
         words = self.drawn("profile.spectrum.dat")
         self.assertNotIn("along", words)
