@@ -160,13 +160,17 @@ contains
       type(map_statistics), intent(in) :: map
       character(*), intent(in) :: length_unit
 
+      character(:), allocatable :: remedies
       integer :: direction
 
+      remedies = "edges = 'mirror', edges = 'window'"
+      if (map%changes%detrend /= 'plane' .and. map%changes%detrend /= 'quadratic') &
+         remedies = "detrend = 'plane', "//remedies
       do direction = 1, 2
          if (map%is_broken_along(direction)) call self%say('note: along '//'xy'(direction:direction)// &
             ' the last heights differ from the first by '//short_number(map%border_step(direction))//' ['// &
             length_unit//'] (rms), neighbours inside by at most '//short_number(map%largest_step(direction))// &
-            "; such steps carry load. Remedies: detrend = 'plane', edges = 'mirror', edges = 'window'")
+            '; such steps carry load. Remedies: '//remedies)
       end do
    end subroutine show_broken_borders
 
