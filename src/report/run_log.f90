@@ -112,7 +112,7 @@ contains
             ! A broken border is a step between two points.
             if (.not. any(scene%map%is_broken_along([1, 2]))) call show_unresolved_slopes(self, scene%roughness)
          end if
-         if (scene%has_units) call show_steep_slopes(self, scene%roughness%slope, has_file(scene))
+         if (scene%has_units) call show_steep_slopes(self, scene)
          call self%say('material  '//material_words(scene))
          call self%say('loads     '//integer_text(size(scene%target))//', '//target_words(scene%loads_by)// &
                        ' from '//short_number(minval(scene%target))//' to '//short_number(maxval(scene%target)))
@@ -160,13 +160,17 @@ contains
       type(map_statistics), intent(in) :: map
       character(*), intent(in) :: length_unit
 
+      character(:), allocatable :: remedies
       integer :: direction
 
+      remedies = "edges = 'mirror', edges = 'window'"
+      if (map%changes%detrend /= 'plane' .and. map%changes%detrend /= 'quadratic') &
+         remedies = "detrend = 'plane', "//remedies
       do direction = 1, 2
          if (map%is_broken_along(direction)) call self%say('note: along '//'xy'(direction:direction)// &
-            ' the last heights differ from the first by '//short_number(map%border_step(direction))//' ['//length_unit// &
-            '] (rms), neighbours inside by at most '//short_number(map%largest_step(direction))// &
-            "; such steps carry load. Remedies: detrend = 'plane', edges = 'mirror', edges = 'window'")
+            ' the last heights differ from the first by '//short_number(map%border_step(direction))//' ['// &
+            length_unit//'] (rms), neighbours inside by at most '//short_number(map%largest_step(direction))// &
+            '; such steps carry load. Remedies: '//remedies)
       end do
    end subroutine show_broken_borders
 
@@ -187,20 +191,23 @@ contains
    end subroutine show_unresolved_slopes
 
    !> Warns of a surface that is too steep for the theory, most likely by a mistake of units.
-   subroutine show_steep_slopes(self, slope, has_file)
+   subroutine show_steep_slopes(self, scene)
       class(run_log), intent(inout) :: self
-      real(dp), intent(in) :: slope     !! root mean square
-      logical, intent(in) :: has_file   !! whether the surface is a height map from a file
+      type(scene_type), intent(in) :: scene
 
       !> The theory of small slopes is off by the order of their square, here a tenth.
       real(dp), parameter :: steepest = 0.3_dp
-      character(:), allocatable :: cause
+      character(:), allocatable :: borders, cause
 
-      if (slope <= steepest) return
+      if (scene%roughness%slope <= steepest) return
+      borders = ''
       cause = 'Are amplitudes and wavelengths in one unit?'
-      if (has_file) cause = 'Do height_scale, and the sides of the cell, suit the units of the file?'
-      call self%say('note: the slopes of the surface are '//short_number(slope)// &
-                    ' (rms); the theory needs small ones. '//cause)
+      if (has_file(scene)) cause = 'Do height_scale, and the sides of the cell, suit the units of the file?'
+      if (allocated(scene%map)) then
+         if (any(scene%map%is_broken_along([1, 2]))) borders = ', with the steps across its borders'
+      end if
+      call self%say('note: the slopes of the surface are '//short_number(scene%roughness%slope)//' (rms)'//borders// &
+                    '; the theory needs small ones. '//cause)
    end subroutine show_steep_slopes
 
    !> Whether the surface is a height map from a file.

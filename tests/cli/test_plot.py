@@ -139,6 +139,8 @@ class Plot(unittest.TestCase):
         words = self.drawn("si.map.dat")
         self.assertIn("(µm)", words)
         self.assertIn("(mm)", words)
+        self.assertIn("mean pressure p̄ (MPa)", self.drawn("si.spots.dat"))
+        self.assertIn("mean pressure p̄/p*", self.drawn("auto.spots.dat"))
         # Lengths without a label are those of the deck.
         for kind in ("map", "contour"):
             self.assertIn(" 60 ", self.drawn(f"oblong.{kind}.dat"))

@@ -63,6 +63,17 @@ def regions(inside, steps):
     return found
 
 
+def regions_of_map(inside, steps):
+    """The same of a map that mirror images continue: those of all four, which are one if they are images."""
+    tiles = [line + line[::-1] for line in inside + inside[::-1]]
+    found = {}
+    for points, goes_on in regions(tiles, steps):
+        own = frozenset((min(k, len(tiles[0]) - 1 - k), min(l, len(tiles) - 1 - l)) for k, l in points)
+        before = found.get(own, [0, 0])
+        found[own] = [before[0] | goes_on[0], before[1] | goes_on[1]]
+    return list(found.items())
+
+
 def total(rows, column):
     """The sum of a column."""
     return math.fsum(float(row[column]) for row in rows)
@@ -85,6 +96,7 @@ class Spots(unittest.TestCase):
             if name == "turned":
                 surface = surface.replace("length_x = 2, length_y = 3", "length_x = 3, length_y = 2")
             cls.run_deck(name, surface)
+        cls.run_deck("mirrored", MAP.format("other").replace("/", "edges = 'mirror' /"))
 
     @classmethod
     def run_deck(cls, name, groups, loads=LOADS):
@@ -108,13 +120,13 @@ class Spots(unittest.TestCase):
 
     def test_regions_are_those_of_a_search_through_the_points(self):
         seen = set()
-        for name in "rough", "other":
+        for name, search in ("rough", regions), ("other", regions), ("mirrored", regions_of_map):
             for load, row in enumerate(self.table(name, "spots"), 1):
                 pressure, _ = self.fields(name, load)
                 whole = math.fsum(map(math.fsum, pressure))
                 contact = [[p > 0 for p in line] for line in pressure]
-                spots = regions(contact, EIGHT)
-                pools = regions([[not value for value in line] for line in contact], FOUR)
+                spots = search(contact, EIGHT)
+                pools = search([[not value for value in line] for line in contact], FOUR)
                 closed = [points for points, goes_on in pools if not any(goes_on)]
                 with self.subTest(deck=name, load=load):
                     self.assertEqual([len(spots), len(closed)], [int(row["spots"]), int(row["closed_pools"])])
@@ -135,13 +147,14 @@ class Spots(unittest.TestCase):
         self.assertIn((False, True, "1", "0"), seen)
 
     def test_areas_add_up(self):
-        for name in "rough", "other":
+        for name in "rough", "other", "mirrored":
             for load, row in enumerate(self.table(name, "spots"), 1):
                 with self.subTest(deck=name, load=load):
                     spots, pools = self.sizes(name, load, "spot"), self.sizes(name, load, "pool")
                     area = float(row["contact_area_fraction"])
                     self.assertAlmostEqual(area, float(row["spots_area_fraction"]), delta=ROUNDING)
                     self.assertAlmostEqual(area, total(spots, "area_fraction"), delta=ROUNDING)
+                    self.assertAlmostEqual(6*area, total(spots, "area"), delta=6*ROUNDING)
                     self.assertAlmostEqual(1 - area, total(pools, "area_fraction"), delta=ROUNDING)
                     self.assertAlmostEqual(1.0, total(spots, "load_fraction"), delta=ROUNDING)
                     perimeter = float(row["perimeter"])
