@@ -135,7 +135,8 @@ contains
    end subroutine sample_undeformed_gap
 
    !> Mean gap, contact area (C11), (C12) and peak pressure (C13) on the present grid, and their error estimates (C14)
-   !> to (C17). The area is at least that which carries the load at the hardness.
+   !> to (C17). The area is at least that which carries the load at the hardness. Its error is unknown where (C12) gives
+   !> no area although there is contact.
    subroutine measure_level(surface, mean_pressure, history, answer)
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: mean_pressure
@@ -143,11 +144,13 @@ contains
       type(cascade_answer), intent(inout) :: answer
 
       type(grid_edge) :: edge
+      real(dp) :: area
       logical :: peak_resolved
 
       call start_grid_edge(edge, answer%state%pressure, answer%state%gap, surface%shape%is_even(), &
                            pressure_per_gap(surface, shape(answer%state%gap)))
-      answer%values(:2) = [answer%state%open_gap(), grid_contact_area(edge)]
+      area = grid_contact_area(edge)
+      answer%values(:2) = [answer%state%open_gap(), area]
       answer%counted_area = counted_area_fraction(edge)
       if (surface%dimension == 2) answer%corrected_area = corrected_area_fraction(edge)
       call grid_peak_pressure(edge, answer%values(3), peak_resolved)
@@ -156,6 +159,7 @@ contains
       if (surface%has_hardness()) answer%values(2) = max(answer%values(2), mean_pressure/surface%hardness)
       call history%push(answer%values)
       answer%errors = estimate_errors(history, surface, edge, peak_resolved)
+      if (.not. area > 0.0_dp) answer%errors(2) = unknown
    end subroutine measure_level
 
    !> The area at which p = H, and its error estimate. H - p and minus the gap behave at its edge as gap and pressure

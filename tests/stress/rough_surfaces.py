@@ -5,14 +5,14 @@ import math
 import random
 import struct
 
-from common import Part, Table
+from common import Part
 from random_scenes import random_loads
 from same_contact import LARGEST_RATIO, difference
-from summaries import Row, keep, solve
+from spot_areas import area_complaints
+from summaries import keep, solve
 
 MOMENT = 1e-12  # relative error of the moment that was asked for
 FIT = 1e-10  # of trends and filled holes, over the range of the heights
-OF_AREAS = 1e-11  # differences of areas, over the nominal area
 # Of the same surface solved in two ways: the residual; relative differences of the values, as the residual moves the edge
 # of contact by its power 2/3; and what rounding adds [Delta].
 RESIDUAL, SOLVED, ROUNDING = 1e-12, 1e-8, 1e-13
@@ -74,40 +74,6 @@ def pstar(results):
     return moment(results, "p*")
 
 
-def area_complaints(results, cell):
-    """Spots and summary must have the same area, contours within the error estimate; those that wind about the cell are
-    left out."""
-    complaints = []
-    sizes = {}
-    for row in Table(results/"deck.spot_sizes.dat").records():
-        sizes.setdefault((row["load"], row["region"]), []).append(float(row["area_fraction"]))
-    curves = {}
-    for row in Table(results/"deck.contour.dat").records():
-        curves.setdefault(row["load"], {}).setdefault(row["curve"], []).append((float(row["x"]), float(row["y"])))
-    spots = {row["load"]: row for row in Table(results/"deck.spots.dat").records()}
-    for row in Table(results/"deck.summary.dat").records():
-        load, area = row["load"], float(row["contact_area_fraction"])
-        spot_sizes, pool_sizes = sizes.get((load, "spot"), []), sizes.get((load, "pool"), [])
-        areas = {}
-        # Areas below zero are zero in the tables.
-        if min(spot_sizes + pool_sizes) > 0.0:
-            areas = {"the sum of all spots": float(spots[load]["spots_area_fraction"]),
-                     "the table of spot sizes": math.fsum(spot_sizes),
-                     "what the pools leave": 1.0 - math.fsum(pool_sizes)}
-        ways = list(curves.get(load, {}).values())
-        if ways and all(math.dist(way[0], way[-1]) <= OF_AREAS*max(cell) for way in ways):
-            inside = math.fsum((a[0] - b[0])*(a[1] + b[1])/2.0 for way in ways for a, b in zip(way, way[1:]))
-            inside /= cell[0]*cell[1]
-            # The area that curves enclose does not tell whether the rest of the cell is inside or outside.
-            off = abs(math.remainder(inside - area, 1.0))
-            if off > LARGEST_RATIO*Row(row).errors[1]:
-                complaints.append(f"load {load}: area {area!r}, but contours enclose {inside!r}")
-        for name, other in areas.items():
-            if not abs(other - area) <= OF_AREAS:
-                complaints.append(f"load {load}: area {area!r}, but {other!r} is {name}")
-    return complaints
-
-
 def status_complaints(rows):
     """On the points of a map a row is `unresolved` where an error is unknown or as large as its value, and only there."""
     complaints = []
@@ -138,7 +104,7 @@ def made(program, stream, name, work, part, worst, failures):
         worst["moments"] = max(worst["moments"], off)
         if not off <= MOMENT:
             complaints.append(f"{key} is off by {off:.1e}")
-        complaints += area_complaints(results, cell) if points[1] > 1 else []
+        complaints += area_complaints(results, cell, points[1] > 1)
         complaints += status_complaints(rows)
         heights = (results/"deck.height.npy").read_bytes()
     failed = not part.count(name, complaints)
@@ -234,7 +200,7 @@ def measured(program, stream, name, work, part, worst, failures):
         more, off = preparation_complaints(raw, prepared, detrend, edges)
         worst["trends and holes"] = max(worst["trends and holes"], off)
         complaints += more + status_complaints(answers)
-        complaints += area_complaints(results, cell) if edges != "mirror" else []
+        complaints += area_complaints(results, cell, edges != "mirror")
     failed = not part.count(name, complaints)
     if answers:
         if edges == "mirror":

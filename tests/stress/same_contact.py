@@ -4,6 +4,7 @@ import random
 
 from common import Part, files_below
 from random_scenes import FITTED, random_loads, random_scene
+from spot_areas import area_complaints
 from summaries import keep, solve
 
 # Largest difference over the sum of two error estimates: as README states of one estimate.
@@ -87,6 +88,9 @@ def alone_and_again(program, seed, kinds, scenes, work, failures):
             files["deck.nml"] += "&output map = t, contours = t, spots = t, histograms = t, map_points = 16 /\n"
             rows, complaints = solve(program, files, work/name)
             tables = contents(work/name/"results")
+            if rows:
+                complaints += area_complaints(work/name/"results", scene.cell,
+                                              not scene.is_profile and scene.edges != "mirror")
             _, more = solve(program, files, work/name)
             if contents(work/name/"results") != tables:
                 complaints.append("other tables when they are made again")

@@ -39,12 +39,20 @@ DECKS = (
      + LOADS + "&method grid_points = 32 /\n" + TABLES, 0),
     ("map, matrix", "&surface kind = 'file', file = 'matrix.dat' /\n" + LOADS + TABLES, 0),
     ("map, points", "&surface kind = 'file', file = 'points.dat' /\n" + LOADS + TABLES, 0),
+    ("map, measured", "&surface kind = 'file', file = 'holes.dat', detrend = 'quadratic', fill_missing = 'harmonic',\n"
+     "   edges = 'mirror' /\n" + LOADS + TABLES.replace("map = t", "map = t, histograms = t"), 0),
+    ("map, window", "&surface kind = 'file', file = 'holes.dat', fill_missing = 'harmonic', edges = 'window' /\n"
+     + LOADS + TABLES, 0),
+    ("self-affine", "&surface kind = 'self_affine', rms_slope = 0.1, points = 32, 48, short_wavelength = 0.2,\n"
+     "   spectrum = 'random' /\n" + LOADS + TABLES.replace("map = t", "map = t, histograms = t"), 0),
     ("map, ragged", "&surface kind = 'file', file = 'ragged.dat' /\n" + LOADS, 1),
     ("flat", "&surface kind = 'wave_1d', amplitude = 0 /\n" + LOADS, 0),
     ("bad deck", "&surface knd = 'wave_3d', amplitude = 1e999, file = 'x /\n&lod pbar = 1,,2 /\n&load\n", 1),
 )
 MAPS = {"matrix.dat": "".join(" ".join(str((3*i*i + 5*j + i*j) % 7) for i in range(8)) + "\n" for j in range(8)),
         "points.dat": "".join(f"{i} {j} {(3*i*i + 5*j + i*j) % 7}\n" for i in range(5) for j in range(8)),
+        "holes.dat": "".join(" ".join("nan" if (i*j) % 11 == 9 else str((3*i*i + 5*j + i*j) % 7) for i in range(13))
+                             + "\n" for j in range(16)),
         "ragged.dat": "1 2 3 4\n1 2 3\n"}
 
 
