@@ -92,6 +92,8 @@ contains
          deallocate (answer%state%gap)
       end do
       answer%errors = known_errors(answer%errors, surface%full_contact_peak)
+      ! No pressure is negative: an estimate as large as the peak says nothing of it.
+      if (.not. answer%accurate .and. answer%errors(3) >= answer%values(3)) answer%errors(3) = unknown
    end subroutine solve_by_cascade
 
    !> Solves on one grid, that of answer%state%pressure, and starts from that pressure.
