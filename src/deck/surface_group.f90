@@ -25,7 +25,7 @@ contains
 
       call get_surface_kinds(kinds)
       call keys_of_kinds(kinds, alternatives)
-      table = key_group('surface', 'which waves the bodies carry', &
+      table = key_group('surface', 'which waves or heights the bodies carry', &
                         [selector_key('kind', '', alternatives, required=.true.), merged_keys(alternatives)], &
                         required=.true.)
    end function surface_table
