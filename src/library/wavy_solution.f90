@@ -184,8 +184,8 @@ contains
    end function exit_status
 
    !> Fields on a grid of the sides L of the surface: x = L_x (k + offset(1))/N_x, k = 0 .. N_x - 1, the same in y.
-   !> Pressure is exactly 0 outside contact and the gap exactly 0 in contact (not with solver 'beale', whose series is shown as it is). Errors:
-   !> exit_bad_input for a bad number of points, without fields, or without memory.
+   !> Pressure is exactly 0 outside contact and the gap exactly 0 in contact (not with solver 'beale', whose series is
+   !> shown as it is). Errors: exit_bad_input for a bad number of points, without fields, or without memory.
    subroutine map(self, points, pressure, gap, displacement, error, offset)
       class(wavy_solution), intent(inout) :: self
       integer, intent(in) :: points(2)                        !! N_x, N_y >= 1; N_y = 1 for a profile
