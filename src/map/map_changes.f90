@@ -37,7 +37,8 @@ contains
             words = words//' ['//length_unit//']'
          end if
       end if
-      if (self%filled > 0) words = joined(words, integer_text(self%filled)//' missing heights filled ('// &
+      if (self%filled > 0) words = joined(words, integer_text(self%filled)//' missing height'// &
+                                          trim(merge(' ', 's', self%filled == 1))//' filled ('// &
                                           percent(real(self%filled, dp)/product(self%points))//')')
       if (self%edges == 'mirror') words = joined(words, 'continued by its mirror images')
       if (self%edges == 'window') words = joined(words, 'tapered at its borders, which changes '// &

@@ -133,6 +133,7 @@ contains
             if (.not. ieee_is_nan(map%height(i, j))) then
                if (.not. present(missing_value)) cycle
                if (abs(map%height(i, j) - missing_value) > 0.0_dp .and. abs(map%height(i, j) - rounded) > 0.0_dp) cycle
+               map%has_missing_value = .true.
             end if
             if (.not. allocated(map%missing)) allocate (map%missing(size(map%height, 1), size(map%height, 2)), &
                                                         source=.false.)

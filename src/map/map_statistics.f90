@@ -19,6 +19,7 @@ module wavycon_map_statistics
       !> Root mean square of the steps from the last points to the first, which are their neighbours because the map is
       !> continued periodically [length].
       real(dp) :: border_step(2) = 0.0_dp
+      logical :: lacks_missing_value = .false.   !! whether the deck gives a missing_value that no height has
       logical :: is_equal_spacing = .false.   !! whether the side along y follows from equal steps along x and y
       character(:), allocatable :: length_unit                      !! that the file names, or the deck in its place
       type(map_changes) :: changes                                  !! of the measured map

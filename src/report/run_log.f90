@@ -108,6 +108,8 @@ contains
          if (allocated(scene%map)) then
             if (scene%map%changes%words(scene%length_unit) /= '') &
                call self%say('prepared  '//scene%map%changes%words(scene%length_unit))
+            if (scene%map%lacks_missing_value) &
+               call self%say('note: no height of the file has the missing_value of the deck')
             call show_broken_borders(self, scene%map, scene%length_unit)
             ! A broken border is a step between two points.
             if (.not. any(scene%map%is_broken_along([1, 2]))) call show_unresolved_slopes(self, scene%roughness)

@@ -121,6 +121,7 @@ contains
       end if
       map%path = full_path(path)
       map%is_equal_spacing = is_equal_spacing
+      map%lacks_missing_value = values%has('missing_value') .and. .not. heights%has_missing_value
       if (allocated(heights%length_unit)) map%length_unit = heights%length_unit
    end subroutine make
 
