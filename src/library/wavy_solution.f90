@@ -126,7 +126,7 @@ contains
             surface%nominal_area()*measures%contact_area_fraction, peak, from%residual, &
             int(from%active_constraints, c_int), int(from%iterations, c_int), int(status_code(from%status), c_int), &
             or_nan(measures%contact_area_counted_fraction), or_nan(measures%contact_area_corrected_fraction), &
-            or_nan(linear_area_fraction(surface, from%pbar_over_pstar)))
+            or_nan(linear_area_fraction(surface, surface%rms_slope(), from%pbar_over_pstar)))
       end associate
       solution%length = surface%length
       solution%amplitude = surface%amplitude

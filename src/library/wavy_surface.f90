@@ -7,7 +7,7 @@ module wavycon_wavy_surface
    use wavycon_group_text, only: read_group_text
    use wavycon_group_values, only: group_values
    use wavycon_height_map, only: surface_of_map
-   use wavycon_map_file, only: check_map_size, check_room
+   use wavycon_map_size, only: check_map_size, check_room
    use wavycon_key_table, only: key_index
    use wavycon_kinds, only: dp
    use wavycon_map_statistics, only: map_statistics

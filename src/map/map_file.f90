@@ -7,7 +7,7 @@ module wavycon_map_file
    use wavycon_gnuplot_map, only: is_gnuplot, read_gnuplot_map
    use wavycon_gsf_map, only: is_gsf, read_gsf_map
    use wavycon_kinds, only: dp, sp
-   use wavycon_map_size, only: check_map_size, check_room
+   use wavycon_map_size, only: check_room
    use wavycon_matrix_map, only: take_matrix
    use wavycon_measured_map, only: measured_map
    use wavycon_npy_map, only: is_npy, read_npy_map
@@ -18,7 +18,7 @@ module wavycon_map_file
    implicit none (type, external)
    private
 
-   public :: read_height_map, check_map_size, check_room
+   public :: read_height_map
 
    !> Most bytes of a text, near the largest default integer.
    integer, parameter :: most_bytes = 2000000000

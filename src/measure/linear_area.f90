@@ -19,13 +19,14 @@ contains
    !> The fraction of the nominal area in contact by the linear law, for comparison with those that are computed. It is
    !> a straight line at all loads, and exceeds 1 at heavy ones. Unknown for surfaces that are no height maps: the law
    !> is one of random surfaces.
-   pure real(dp) function linear_area_fraction(surface, pbar_over_pstar) result(fraction)
+   pure real(dp) function linear_area_fraction(surface, rms_slope, pbar_over_pstar) result(fraction)
       type(surface_type), intent(in) :: surface
+      real(dp), intent(in) :: rms_slope         !! of the surface; an argument because it takes a sum over all waves
       real(dp), intent(in) :: pbar_over_pstar   !! P >= 0
 
       fraction = unknown
-      if (surface%dimension == 1 .or. any(surface%points == 0) .or. .not. surface%amplitude > 0.0_dp) return
-      fraction = area_coefficient*pbar_over_pstar*surface%full_contact_pressure(e_star=1.0_dp)/surface%rms_slope()
+      if (surface%dimension == 1 .or. .not. surface%is_height_map() .or. .not. surface%amplitude > 0.0_dp) return
+      fraction = area_coefficient*pbar_over_pstar*surface%full_contact_pressure(e_star=1.0_dp)/rms_slope
    end function linear_area_fraction
 
 end module wavycon_linear_area

@@ -98,7 +98,8 @@ contains
                                 measures%min_pressure_over_pstar, errors, at_hardness, &
                                 or_nan(measures%contact_area_counted_fraction), &
                                 or_nan(measures%contact_area_corrected_fraction), &
-                                or_nan(linear_area_fraction(scene%surface, solution%pbar_over_pstar)), &
+                                or_nan(linear_area_fraction(scene%surface, scene%roughness%slope, &
+                                                            solution%pbar_over_pstar)), &
                                 results%mean_pressure(load), &
                                 scene%surface%amplitude*measures%mean_gap_over_amplitude, &
                                 scene%surface%amplitude*measures%approach_over_amplitude, &

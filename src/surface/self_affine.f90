@@ -4,7 +4,7 @@ module wavycon_self_affine
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: choice_key, integer_key, key_type, largest_number, real_key, smallest_number
    use wavycon_kinds, only: dp
-   use wavycon_map_file, only: check_room
+   use wavycon_map_size, only: check_room, least_points, most_points
    use wavycon_map_statistics, only: map_statistics, statistics_of
    use wavycon_plain_text, only: escaped, integer_text, short_number
    use wavycon_problems, only: problem_list_type
@@ -16,9 +16,6 @@ module wavycon_self_affine
    private
 
    public :: self_affine_kind, is_another_way
-
-   !> Fewest points along a side, and most, which is what maps may have.
-   integer, parameter :: least_points = 4, most_points = 8192
 
    type, extends(surface_kind) :: self_affine_kind
    contains
