@@ -1,0 +1,344 @@
+!> The processes that work on a run together. They are called ranks, as in MPI, and are numbered from zero.
+!>
+!> All ranks run the same program on the same decks. What a rank does alone, every rank does; what they share they
+!> exchange by the procedures of this module, which all ranks must call in the same order. The serial program is one
+!> rank: its procedures return at once, and nothing of it depends on MPI. The parallel program calls `use_team` first.
+module wavycon_ranks
+   use, intrinsic :: iso_fortran_env, only: int64
+   use wavycon_error, only: error_type
+   use wavycon_kinds, only: dp, sp
+   implicit none (type, external)
+   private
+
+   public :: rank_team, rank_transpose, use_team
+   public :: this_rank, rank_count, ranks_at_work, is_first_rank, work_alone, ranks_on_this_machine
+   public :: add_over_ranks, largest_over_ranks, any_rank, exchange_columns, gather_columns, new_transpose
+   public :: share_error, share_text, read_shared_columns, write_shared_columns, end_ranks
+
+   !> A matrix whose columns are spread over the ranks, turned into one whose rows are, and back. An element has one or
+   !> two real numbers of one precision. Ranks have adjacent columns: all the same number, `width`, but the last ones.
+   type, abstract :: rank_transpose
+      integer :: columns = 0      !! of the matrix
+      integer :: rows = 0         !! of the matrix
+      integer :: own_columns = 0
+      integer :: first_row = 1    !! of this rank's rows
+      integer :: own_rows = 0
+   contains
+      !> From the own columns, shape (numbers, rows, own_columns), to the own rows, shape (numbers, columns, own_rows).
+      procedure(exchange_matrix), deferred :: to_rows
+      !> The inverse.
+      procedure(exchange_matrix), deferred :: to_columns
+   end type rank_transpose
+
+   !> What the ranks exchange; the extension of the parallel program does it by MPI.
+   type, abstract :: rank_team
+   contains
+      procedure(get_number), deferred :: rank                  !! of this process, from 0
+      procedure(get_number), deferred :: ranks                 !! their number
+      procedure(get_number), deferred :: ranks_on_machine      !! those that share this machine's memory
+      procedure(add_real_numbers), deferred :: add_reals
+      procedure(add_whole_numbers), deferred :: add_integers
+      procedure(find_largest), deferred :: largest
+      procedure(exchange_two_blocks), deferred :: exchange
+      procedure(gather_blocks), deferred :: gather
+      procedure(make_transpose), deferred :: new_transpose
+      procedure(send_text), deferred :: share_text
+      procedure(transfer_columns), deferred :: read_columns
+      procedure(transfer_columns), deferred :: write_columns
+      procedure(end_run), deferred :: finish
+   end type rank_team
+
+   abstract interface
+      subroutine exchange_matrix(self, from, to)
+         import :: rank_transpose
+         class(rank_transpose), intent(inout) :: self
+         type(*), intent(inout), target :: from(*)   !! undefined on return
+         type(*), intent(inout), target :: to(*)     !! another array, of the same precision
+      end subroutine exchange_matrix
+
+      pure integer function get_number(self)
+         import :: rank_team
+         class(rank_team), intent(in) :: self
+      end function get_number
+
+      subroutine add_real_numbers(self, values)
+         import :: dp, rank_team
+         class(rank_team), intent(in) :: self
+         real(dp), intent(inout), contiguous :: values(:)
+      end subroutine add_real_numbers
+
+      subroutine add_whole_numbers(self, values)
+         import :: int64, rank_team
+         class(rank_team), intent(in) :: self
+         integer(int64), intent(inout), contiguous :: values(:)
+      end subroutine add_whole_numbers
+
+      subroutine find_largest(self, values)
+         import :: dp, rank_team
+         class(rank_team), intent(in) :: self
+         real(dp), intent(inout), contiguous :: values(:)
+      end subroutine find_largest
+
+      subroutine exchange_two_blocks(self, low, high, bytes, to_low, to_high, from_low, from_high)
+         import :: rank_team
+         class(rank_team), intent(in) :: self
+         integer, intent(in) :: low, high     !! ranks; -1: there is none
+         integer, intent(in) :: bytes         !! of each block
+         type(*), intent(in), target :: to_low(*), to_high(*)
+         type(*), intent(inout), target :: from_low(*), from_high(*)   !! unchanged where there is no rank
+      end subroutine exchange_two_blocks
+
+      subroutine gather_blocks(self, column_bytes, columns, own, whole, first_only)
+         import :: int64, rank_team
+         class(rank_team), intent(in) :: self
+         integer(int64), intent(in) :: column_bytes
+         integer, intent(in) :: columns(0:)              !! of each rank
+         type(*), intent(in), target :: own(*)
+         type(*), intent(inout), target :: whole(*)
+         logical, intent(in) :: first_only
+      end subroutine gather_blocks
+
+      subroutine make_transpose(self, columns, rows, width, numbers, precision, transpose)
+         import :: rank_team, rank_transpose
+         class(rank_team), intent(in) :: self
+         integer, intent(in) :: columns, rows, width, numbers, precision
+         class(rank_transpose), allocatable, intent(out) :: transpose
+      end subroutine make_transpose
+
+      subroutine send_text(self, from, text)
+         import :: rank_team
+         class(rank_team), intent(in) :: self
+         integer, intent(in) :: from
+         character(:), allocatable, intent(inout) :: text
+      end subroutine send_text
+
+      subroutine transfer_columns(self, path, start, number_bytes, rows, first, columns, values, failure)
+         import :: int64, rank_team
+         class(rank_team), intent(in) :: self
+         character(*), intent(in) :: path
+         integer(int64), intent(in) :: start       !! bytes before the first column of all
+         integer, intent(in) :: number_bytes       !! of a number
+         integer, intent(in) :: rows               !! numbers of a column
+         integer, intent(in) :: first, columns     !! of this rank; columns may be 0
+         type(*), intent(inout), target :: values(*)    !! shape (rows, columns)
+         character(:), allocatable, intent(out) :: failure   !! the system's words on this rank; allocated if it failed
+      end subroutine transfer_columns
+
+      subroutine end_run(self, status)
+         import :: rank_team
+         class(rank_team), intent(in) :: self
+         integer, intent(in) :: status
+      end subroutine end_run
+   end interface
+
+   !> The sums of arrays over the ranks, element by element, in place. Real sums do not depend on the number of ranks if
+   !> each element is zero on all ranks but one.
+   interface add_over_ranks
+      procedure :: add_reals_over_ranks, add_integers_over_ranks
+   end interface add_over_ranks
+
+   !> Sends columns to the neighbours and takes theirs: shape (M, reach).
+   interface exchange_columns
+      procedure :: exchange_dp, exchange_sp
+   end interface exchange_columns
+
+   !> Gathers the columns that the ranks have into whole matrices, on all ranks or on the first alone.
+   interface gather_columns
+      procedure :: gather_dp, gather_sp
+   end interface gather_columns
+
+   class(rank_team), allocatable :: team   !! not allocated: this process is the only one
+   logical :: is_alone = .false.           !! whether each rank works on something else, see work_alone
+
+contains
+
+   !> Makes the processes of a parallel program known.
+   subroutine use_team(new)
+      class(rank_team), allocatable, intent(inout) :: new   !! not allocated afterwards
+
+      call move_alloc(new, team)
+   end subroutine use_team
+
+   !> The number of this process, from zero.
+   integer function this_rank()
+      this_rank = 0
+      if (allocated(team)) this_rank = team%rank()
+   end function this_rank
+
+   !> The number of processes.
+   integer function rank_count()
+      rank_count = 1
+      if (allocated(team)) rank_count = team%ranks()
+   end function rank_count
+
+   !> The number of processes that share the present work: one while each has work of its own.
+   integer function ranks_at_work()
+      ranks_at_work = 1
+      if (.not. is_alone) ranks_at_work = rank_count()
+   end function ranks_at_work
+
+   !> Whether this process writes the log and the tables.
+   logical function is_first_rank()
+      is_first_rank = this_rank() == 0
+   end function is_first_rank
+
+   !> The processes that share the memory of this machine.
+   integer function ranks_on_this_machine() result(number)
+      number = 1
+      if (allocated(team)) number = team%ranks_on_machine()
+   end function ranks_on_this_machine
+
+   !> From now on each rank works on something else: no grid is spread, and nothing is exchanged until the ranks work
+   !> together again.
+   subroutine work_alone(alone)
+      logical, intent(in) :: alone
+
+      is_alone = alone
+   end subroutine work_alone
+
+   subroutine add_reals_over_ranks(values)
+      real(dp), intent(inout), contiguous :: values(:)
+
+      if (ranks_at_work() > 1) call team%add_reals(values)
+   end subroutine add_reals_over_ranks
+
+   subroutine add_integers_over_ranks(values)
+      integer(int64), intent(inout), contiguous :: values(:)
+
+      if (ranks_at_work() > 1) call team%add_integers(values)
+   end subroutine add_integers_over_ranks
+
+   !> The largest over the ranks, element by element, in place.
+   subroutine largest_over_ranks(values)
+      real(dp), intent(inout), contiguous :: values(:)
+
+      if (ranks_at_work() > 1) call team%largest(values)
+   end subroutine largest_over_ranks
+
+   !> Whether something is true on any rank.
+   logical function any_rank(mine)
+      logical, intent(in) :: mine
+
+      integer(int64) :: number(1)
+
+      number = merge(1, 0, mine)
+      call add_over_ranks(number)
+      any_rank = number(1) > 0
+   end function any_rank
+
+   subroutine exchange_dp(low, high, to_low, to_high, from_low, from_high)
+      integer, intent(in) :: low, high    !! ranks that have the columns before and after the own ones; -1: none
+      real(dp), intent(in), contiguous :: to_low(:, :), to_high(:, :)          !! the own first and last columns
+      real(dp), intent(inout), contiguous :: from_low(:, :), from_high(:, :)   !! theirs; unchanged where there is none
+
+      call team%exchange(low, high, size(to_low)*storage_size(to_low)/8, to_low, to_high, from_low, from_high)
+   end subroutine exchange_dp
+
+   !> As exchange_dp.
+   subroutine exchange_sp(low, high, to_low, to_high, from_low, from_high)
+      integer, intent(in) :: low, high
+      real(sp), intent(in), contiguous :: to_low(:, :), to_high(:, :)
+      real(sp), intent(inout), contiguous :: from_low(:, :), from_high(:, :)
+
+      call team%exchange(low, high, size(to_low)*storage_size(to_low)/8, to_low, to_high, from_low, from_high)
+   end subroutine exchange_sp
+
+   subroutine gather_dp(columns, own, whole, first_only)
+      integer, intent(in) :: columns(0:)                    !! of each rank
+      real(dp), intent(in), contiguous :: own(:, :)         !! shape (M, columns(this_rank()))
+      real(dp), intent(inout), contiguous :: whole(:, :)    !! shape (M, sum(columns)); of any size where not needed
+      logical, intent(in) :: first_only                     !! whether the first rank alone needs it
+
+      call team%gather(int(size(own, 1), int64)*storage_size(own)/8, columns, own, whole, first_only)
+   end subroutine gather_dp
+
+   !> As gather_dp.
+   subroutine gather_sp(columns, own, whole, first_only)
+      integer, intent(in) :: columns(0:)
+      real(sp), intent(in), contiguous :: own(:, :)
+      real(sp), intent(inout), contiguous :: whole(:, :)
+      logical, intent(in) :: first_only
+
+      call team%gather(int(size(own, 1), int64)*storage_size(own)/8, columns, own, whole, first_only)
+   end subroutine gather_sp
+
+   !> Prepares the transposition of a matrix that is spread over the ranks.
+   subroutine new_transpose(columns, rows, width, numbers, precision, transpose)
+      integer, intent(in) :: columns, rows   !! of the matrix
+      integer, intent(in) :: width           !! columns of each rank but the last ones
+      integer, intent(in) :: numbers         !! of an element: 1 or, for complex numbers, 2
+      integer, intent(in) :: precision       !! kind of the numbers: dp or sp
+      class(rank_transpose), allocatable, intent(out) :: transpose
+
+      call team%new_transpose(columns, rows, width, numbers, precision, transpose)
+   end subroutine new_transpose
+
+   !> Makes an error of any rank that of all: the message is that of the lowest rank that has one. Without errors nothing
+   !> happens.
+   subroutine share_error(error)
+      type(error_type), allocatable, intent(inout) :: error
+
+      character(:), allocatable :: message
+      integer(int64) :: status(1)
+      integer(int64), allocatable :: failed(:)
+      integer :: first
+
+      if (ranks_at_work() == 1) return
+      allocate (failed(0:rank_count() - 1), source=0_int64)
+      if (allocated(error)) failed(this_rank()) = 1
+      call add_over_ranks(failed)
+      if (all(failed == 0)) return
+      first = findloc(failed > 0, .true., dim=1) - 1
+      message = ''
+      status = 0
+      if (this_rank() == first) then
+         message = error%message
+         status = error%status
+      end if
+      call add_over_ranks(status)
+      call share_text(first, message)
+      if (.not. allocated(error)) allocate (error)
+      error%status = int(status(1))
+      error%message = message
+   end subroutine share_error
+
+   !> Makes a text of one rank known to all.
+   subroutine share_text(from, text)
+      integer, intent(in) :: from                              !! the rank
+      character(:), allocatable, intent(inout) :: text         !! allocated
+
+      if (ranks_at_work() > 1) call team%share_text(from, text)
+   end subroutine share_text
+
+   !> Reads the own columns of a matrix from a file, all ranks at a time: columns follow each other. More than one rank.
+   subroutine read_shared_columns(path, start, number_bytes, rows, first, columns, values, failure)
+      character(*), intent(in) :: path
+      integer(int64), intent(in) :: start            !! bytes of the file before the first column of all
+      integer, intent(in) :: number_bytes            !! of a number
+      integer, intent(in) :: rows                    !! numbers of a column
+      integer, intent(in) :: first, columns          !! the own columns; columns may be 0
+      type(*), intent(inout), target :: values(*)    !! shape (rows, columns)
+      character(:), allocatable, intent(out) :: failure   !! the system's words, on the ranks that failed
+
+      call team%read_columns(path, start, number_bytes, rows, first, columns, values, failure)
+   end subroutine read_shared_columns
+
+   !> Writes the own columns likewise to a file that exists.
+   subroutine write_shared_columns(path, start, number_bytes, rows, first, columns, values, failure)
+      character(*), intent(in) :: path
+      integer(int64), intent(in) :: start
+      integer, intent(in) :: number_bytes, rows, first, columns
+      type(*), intent(inout), target :: values(*)
+      character(:), allocatable, intent(out) :: failure
+
+      call team%write_columns(path, start, number_bytes, rows, first, columns, values, failure)
+   end subroutine write_shared_columns
+
+   !> Ends the work of all ranks, before the program ends; it need not be called by all of them.
+   subroutine end_ranks(status)
+      integer, intent(in) :: status   !! exit status
+
+      if (allocated(team)) call team%finish(status)
+   end subroutine end_ranks
+
+end module wavycon_ranks

@@ -1,0 +1,266 @@
+!> The ranks of the parallel program, by MPI.
+module wavycon_mpi_ranks
+   use, intrinsic :: iso_fortran_env, only: error_unit, int64
+   use mpi_f08, only: mpi_abort, mpi_allgatherv, mpi_allreduce, mpi_bcast, mpi_byte, mpi_character, mpi_comm, &
+      mpi_comm_free, mpi_comm_rank, mpi_comm_size, mpi_comm_split_type, mpi_comm_type_shared, mpi_comm_world, &
+      mpi_datatype, mpi_double_precision, mpi_error_string, mpi_file, mpi_file_close, mpi_file_open, &
+      mpi_file_read_at_all, mpi_file_write_at_all, mpi_finalize, mpi_gatherv, mpi_get_count, mpi_in_place, &
+      mpi_info_null, mpi_init_thread, mpi_integer, mpi_integer8, mpi_irecv, mpi_isend, mpi_max, &
+      mpi_max_error_string, mpi_mode_rdonly, mpi_mode_wronly, mpi_offset_kind, mpi_request, mpi_status, &
+      mpi_statuses_ignore, mpi_success, mpi_sum, mpi_thread_funneled, mpi_type_commit, mpi_type_contiguous, &
+      mpi_type_free, mpi_waitall
+   use wavycon_kinds, only: dp
+   use wavycon_mpi_transpose, only: start_mpi_transposes, start_mpi_transpose
+   use wavycon_ranks, only: rank_team, rank_transpose, use_team
+   implicit none (type, external)
+   private
+
+   public :: start_mpi
+
+   type, extends(rank_team) :: mpi_team
+      integer :: this = 0, number = 1, on_machine = 1
+   contains
+      procedure :: rank => own_rank
+      procedure :: ranks
+      procedure :: ranks_on_machine
+      procedure :: add_reals
+      procedure :: add_integers
+      procedure :: largest
+      procedure :: exchange
+      procedure :: gather
+      procedure :: new_transpose
+      procedure :: share_text
+      procedure :: read_columns
+      procedure :: write_columns
+      procedure :: finish
+   end type mpi_team
+
+contains
+
+   !> Starts MPI and makes its processes the ranks of the program. Threads within a rank do not call MPI.
+   subroutine start_mpi()
+      class(rank_team), allocatable :: team
+      type(mpi_team), allocatable :: own
+      type(mpi_comm) :: machine
+      integer :: provided
+
+      allocate (own)
+      call mpi_init_thread(mpi_thread_funneled, provided)
+      if (provided < mpi_thread_funneled) then
+         write (error_unit, '(a)') 'wavycon: this MPI library does not allow threads in its processes'
+         call mpi_abort(mpi_comm_world, 1)
+      end if
+      call mpi_comm_rank(mpi_comm_world, own%this)
+      call mpi_comm_size(mpi_comm_world, own%number)
+      call mpi_comm_split_type(mpi_comm_world, mpi_comm_type_shared, 0, mpi_info_null, machine)
+      call mpi_comm_size(machine, own%on_machine)
+      call mpi_comm_free(machine)
+      call start_mpi_transposes()
+      call move_alloc(own, team)
+      call use_team(team)
+   end subroutine start_mpi
+
+   pure integer function own_rank(self)
+      class(mpi_team), intent(in) :: self
+
+      own_rank = self%this
+   end function own_rank
+
+   pure integer function ranks(self)
+      class(mpi_team), intent(in) :: self
+
+      ranks = self%number
+   end function ranks
+
+   pure integer function ranks_on_machine(self)
+      class(mpi_team), intent(in) :: self
+
+      ranks_on_machine = self%on_machine
+   end function ranks_on_machine
+
+   subroutine add_reals(self, values)
+      class(mpi_team), intent(in) :: self
+      real(dp), intent(inout), contiguous :: values(:)
+
+      associate (unused => self); end associate
+      call mpi_allreduce(mpi_in_place, values, size(values), mpi_double_precision, mpi_sum, mpi_comm_world)
+   end subroutine add_reals
+
+   subroutine add_integers(self, values)
+      class(mpi_team), intent(in) :: self
+      integer(int64), intent(inout), contiguous :: values(:)
+
+      associate (unused => self); end associate
+      call mpi_allreduce(mpi_in_place, values, size(values), mpi_integer8, mpi_sum, mpi_comm_world)
+   end subroutine add_integers
+
+   subroutine largest(self, values)
+      class(mpi_team), intent(in) :: self
+      real(dp), intent(inout), contiguous :: values(:)
+
+      associate (unused => self); end associate
+      call mpi_allreduce(mpi_in_place, values, size(values), mpi_double_precision, mpi_max, mpi_comm_world)
+   end subroutine largest
+
+   subroutine exchange(self, low, high, bytes, to_low, to_high, from_low, from_high)
+      class(mpi_team), intent(in) :: self
+      integer, intent(in) :: low, high, bytes
+      type(*), intent(in), target :: to_low(*), to_high(*)
+      type(*), intent(inout), target :: from_low(*), from_high(*)
+
+      !> Two ranks may be neighbours on both sides: the tag tells which block a message is.
+      integer, parameter :: downwards = 1, upwards = 2
+      type(mpi_request) :: requests(4)
+      integer :: number
+
+      associate (unused => self); end associate
+      number = 0
+      if (low >= 0) then
+         call mpi_irecv(from_low, bytes, mpi_byte, low, upwards, mpi_comm_world, requests(number + 1))
+         call mpi_isend(to_low, bytes, mpi_byte, low, downwards, mpi_comm_world, requests(number + 2))
+         number = number + 2
+      end if
+      if (high >= 0) then
+         call mpi_irecv(from_high, bytes, mpi_byte, high, downwards, mpi_comm_world, requests(number + 1))
+         call mpi_isend(to_high, bytes, mpi_byte, high, upwards, mpi_comm_world, requests(number + 2))
+         number = number + 2
+      end if
+      call mpi_waitall(number, requests, mpi_statuses_ignore)
+   end subroutine exchange
+
+   !> N.B. Counts are numbers of columns: numbers of bytes may exceed the integers of MPI.
+   subroutine gather(self, column_bytes, columns, own, whole, first_only)
+      class(mpi_team), intent(in) :: self
+      integer(int64), intent(in) :: column_bytes
+      integer, intent(in) :: columns(0:)
+      type(*), intent(in), target :: own(*)
+      type(*), intent(inout), target :: whole(*)
+      logical, intent(in) :: first_only
+
+      integer :: i, places(0:size(columns) - 1)
+      type(mpi_datatype) :: column
+
+      places = [(sum(columns(0:i - 1)), i=0, size(columns) - 1)]
+      call mpi_type_contiguous(int(column_bytes), mpi_byte, column)
+      call mpi_type_commit(column)
+      if (first_only) then
+         call mpi_gatherv(own, columns(self%this), column, whole, columns, places, column, 0, mpi_comm_world)
+      else
+         call mpi_allgatherv(own, columns(self%this), column, whole, columns, places, column, mpi_comm_world)
+      end if
+      call mpi_type_free(column)
+   end subroutine gather
+
+   subroutine new_transpose(self, columns, rows, width, numbers, precision, transpose)
+      class(mpi_team), intent(in) :: self
+      integer, intent(in) :: columns, rows, width, numbers, precision
+      class(rank_transpose), allocatable, intent(out) :: transpose
+
+      call start_mpi_transpose(self%this, self%number, columns, rows, width, numbers, precision, transpose)
+   end subroutine new_transpose
+
+   subroutine share_text(self, from, text)
+      class(mpi_team), intent(in) :: self
+      integer, intent(in) :: from
+      character(:), allocatable, intent(inout) :: text
+
+      integer :: length
+
+      length = len(text)
+      call mpi_bcast(length, 1, mpi_integer, from, mpi_comm_world)
+      if (self%this /= from) then
+         deallocate (text)
+         allocate (character(length) :: text)
+      end if
+      call mpi_bcast(text, length, mpi_character, from, mpi_comm_world)
+   end subroutine share_text
+
+   subroutine read_columns(self, path, start, number_bytes, rows, first, columns, values, failure)
+      class(mpi_team), intent(in) :: self
+      character(*), intent(in) :: path
+      integer(int64), intent(in) :: start
+      integer, intent(in) :: number_bytes, rows, first, columns
+      type(*), intent(inout), target :: values(*)
+      character(:), allocatable, intent(out) :: failure
+
+      associate (unused => self); end associate
+      call transfer_columns(path, .false., start, number_bytes, rows, first, columns, values, failure)
+   end subroutine read_columns
+
+   subroutine write_columns(self, path, start, number_bytes, rows, first, columns, values, failure)
+      class(mpi_team), intent(in) :: self
+      character(*), intent(in) :: path
+      integer(int64), intent(in) :: start
+      integer, intent(in) :: number_bytes, rows, first, columns
+      type(*), intent(inout), target :: values(*)
+      character(:), allocatable, intent(out) :: failure
+
+      associate (unused => self); end associate
+      call transfer_columns(path, .true., start, number_bytes, rows, first, columns, values, failure)
+   end subroutine write_columns
+
+   !> Reads or writes the columns of all ranks at a time.
+   !>
+   !> N.B. Files report their errors by default, other procedures of MPI end the program. Counts are numbers of columns,
+   !> as in `gather`.
+   subroutine transfer_columns(path, is_output, start, number_bytes, rows, first, columns, values, failure)
+      character(*), intent(in) :: path
+      logical, intent(in) :: is_output
+      integer(int64), intent(in) :: start
+      integer, intent(in) :: number_bytes, rows, first, columns
+      type(*), intent(inout), target :: values(*)
+      character(:), allocatable, intent(out) :: failure
+
+      integer :: code, transferred
+      integer(mpi_offset_kind) :: place
+      type(mpi_datatype) :: column
+      type(mpi_file) :: file
+      type(mpi_status) :: status
+
+      call mpi_file_open(mpi_comm_world, path, merge(mpi_mode_wronly, mpi_mode_rdonly, is_output), mpi_info_null, &
+                         file, code)
+      if (code /= mpi_success) then
+         failure = words_of(code)
+         return
+      end if
+      call mpi_type_contiguous(rows*number_bytes, mpi_byte, column)
+      call mpi_type_commit(column)
+      place = start + int(first - 1, int64)*rows*number_bytes
+      if (is_output) then
+         call mpi_file_write_at_all(file, place, values, columns, column, status, code)
+      else
+         call mpi_file_read_at_all(file, place, values, columns, column, status, code)
+      end if
+      if (code /= mpi_success) then
+         failure = words_of(code)
+      else
+         call mpi_get_count(status, column, transferred)
+         if (transferred /= columns) failure = merge('the disk may be full    ', 'the file ends too early ', is_output)
+      end if
+      call mpi_type_free(column)
+      call mpi_file_close(file, code)
+      if (code /= mpi_success .and. .not. allocated(failure)) failure = words_of(code)
+   end subroutine transfer_columns
+
+   !> MPI's words for an error.
+   function words_of(code) result(words)
+      integer, intent(in) :: code
+      character(:), allocatable :: words
+
+      character(mpi_max_error_string) :: buffer
+      integer :: length
+
+      call mpi_error_string(code, buffer, length)
+      words = buffer(:length)
+   end function words_of
+
+   !> N.B. A rank that ends by an error of its own, which the others do not know of, ends them too.
+   subroutine finish(self, status)
+      class(mpi_team), intent(in) :: self
+      integer, intent(in) :: status
+
+      associate (unused => self, unused_too => status); end associate
+      call mpi_finalize()
+   end subroutine finish
+
+end module wavycon_mpi_ranks
