@@ -11,7 +11,7 @@ module wavycon_ranks
    private
 
    public :: rank_team, rank_transpose, use_team
-   public :: this_rank, rank_count, ranks_at_work, is_first_rank, work_alone, ranks_on_this_machine
+   public :: this_rank, rank_count, ranks_at_work, is_first_rank, work_alone, ranks_on_this_machine, rank_libraries
    public :: add_over_ranks, largest_over_ranks, any_rank, exchange_columns, gather_columns, new_transpose
    public :: share_error, share_text, read_shared_columns, write_shared_columns, end_ranks
 
@@ -46,6 +46,7 @@ module wavycon_ranks
       procedure(transfer_columns), deferred :: read_columns
       procedure(transfer_columns), deferred :: write_columns
       procedure(end_run), deferred :: finish
+      procedure(get_text), deferred :: libraries               !! names and versions
    end type rank_team
 
    abstract interface
@@ -129,6 +130,12 @@ module wavycon_ranks
          class(rank_team), intent(in) :: self
          integer, intent(in) :: status
       end subroutine end_run
+
+      function get_text(self) result(text)
+         import :: rank_team
+         class(rank_team), intent(in) :: self
+         character(:), allocatable :: text
+      end function get_text
    end interface
 
    !> The sums of arrays over the ranks, element by element, in place. Real sums do not depend on the number of ranks if
@@ -187,6 +194,15 @@ contains
       number = 1
       if (allocated(team)) number = team%ranks_on_machine()
    end function ranks_on_this_machine
+
+   !> Names and versions of the libraries by which the ranks of the parallel program work together; empty in the serial
+   !> program.
+   function rank_libraries() result(text)
+      character(:), allocatable :: text
+
+      text = ''
+      if (allocated(team)) text = team%libraries()
+   end function rank_libraries
 
    !> From now on each rank works on something else: no grid is spread, and nothing is exchanged until the ranks work
    !> together again.

@@ -1,14 +1,15 @@
 !> The ranks of the parallel program, by MPI.
 module wavycon_mpi_ranks
+   use, intrinsic :: iso_c_binding, only: c_char, c_f_pointer, c_ptr, c_size_t
    use, intrinsic :: iso_fortran_env, only: error_unit, int64
    use mpi_f08, only: mpi_abort, mpi_allgatherv, mpi_allreduce, mpi_bcast, mpi_byte, mpi_character, mpi_comm, &
       mpi_comm_free, mpi_comm_rank, mpi_comm_size, mpi_comm_split_type, mpi_comm_type_shared, mpi_comm_world, &
       mpi_datatype, mpi_double_precision, mpi_error_string, mpi_file, mpi_file_close, mpi_file_open, &
-      mpi_file_read_at_all, mpi_file_write_at_all, mpi_finalize, mpi_gatherv, mpi_get_count, mpi_in_place, &
-      mpi_info_null, mpi_init_thread, mpi_integer, mpi_integer8, mpi_irecv, mpi_isend, mpi_max, &
-      mpi_max_error_string, mpi_mode_rdonly, mpi_mode_wronly, mpi_offset_kind, mpi_request, mpi_status, &
-      mpi_statuses_ignore, mpi_success, mpi_sum, mpi_thread_funneled, mpi_type_commit, mpi_type_contiguous, &
-      mpi_type_free, mpi_waitall
+      mpi_file_read_at_all, mpi_file_write_at_all, mpi_finalize, mpi_gatherv, mpi_get_count, mpi_get_library_version, &
+      mpi_in_place, mpi_info_null, mpi_init_thread, mpi_integer, mpi_integer8, mpi_irecv, mpi_isend, mpi_max, &
+      mpi_max_error_string, mpi_max_library_version_string, mpi_mode_rdonly, mpi_mode_wronly, mpi_offset_kind, &
+      mpi_request, mpi_status, mpi_statuses_ignore, mpi_success, mpi_sum, mpi_thread_funneled, mpi_type_commit, &
+      mpi_type_contiguous, mpi_type_free, mpi_waitall
    use wavycon_kinds, only: dp
    use wavycon_mpi_transpose, only: start_mpi_transposes, start_mpi_transpose
    use wavycon_ranks, only: rank_team, rank_transpose, use_team
@@ -33,7 +34,21 @@ module wavycon_mpi_ranks
       procedure :: read_columns
       procedure :: write_columns
       procedure :: finish
+      procedure :: libraries
    end type mpi_team
+
+   interface
+      type(c_ptr) function c_fftw_version() bind(c, name='wavycon_fftw_version')
+         import :: c_ptr
+         implicit none (type, external)
+      end function c_fftw_version
+
+      integer(c_size_t) function c_length(text) bind(c, name='strlen')
+         import :: c_ptr, c_size_t
+         implicit none (type, external)
+         type(c_ptr), value :: text
+      end function c_length
+   end interface
 
 contains
 
@@ -262,5 +277,26 @@ contains
       associate (unused => self, unused_too => status); end associate
       call mpi_finalize()
    end subroutine finish
+
+   !> The library of MPI, as it calls itself up to the first comma or line, and that of FFTW.
+   function libraries(self) result(text)
+      class(mpi_team), intent(in) :: self
+      character(:), allocatable :: text
+
+      character(mpi_max_library_version_string) :: buffer
+      character(kind=c_char), pointer, contiguous :: letters(:)
+      integer :: i, length
+      type(c_ptr) :: of_fftw
+
+      associate (unused => self); end associate
+      call mpi_get_library_version(buffer, length)
+      i = scan(buffer(:length)//new_line('a'), ','//new_line('a'))
+      text = trim(buffer(:i - 1))//', '
+      of_fftw = c_fftw_version()
+      call c_f_pointer(of_fftw, letters, [c_length(of_fftw)])
+      do i = 1, size(letters)
+         text = text//letters(i)
+      end do
+   end function libraries
 
 end module wavycon_mpi_ranks
