@@ -5,7 +5,7 @@ module wavycon_command_line
    use wavycon_nearest_name, only: nearest_name
    use wavycon_output_group, only: longest_directory
    use wavycon_plain_text, only: escaped, integer_text, is_printable
-   use wavycon_ranks, only: rank_libraries
+   use wavycon_ranks, only: rank_library
    use wavycon_settings, only: read_setting, setting_type
    implicit none (type, external)
    private
@@ -257,7 +257,7 @@ contains
    function usage() result(text)
       character(:), allocatable :: text
 
-      if (rank_libraries() == '') then
+      if (rank_library() == '') then
          text = 'usage: wavycon'//arguments
       else
          text = 'usage: mpirun -n RANKS wavycon-mpi'//arguments
@@ -271,7 +271,7 @@ contains
       character, parameter :: newline = new_line('a')
 
       text = ''
-      if (rank_libraries() == '') return
+      if (rank_library() == '') return
       text = 'The RANKS processes share the work: large grids are divided among them, or else the loads.'//newline// &
              'Each needs the memory of its part, and has N threads of its own. The results are those of'//newline// &
              'wavycon.'//newline//newline

@@ -1,6 +1,5 @@
 !> The ranks of the parallel program, by MPI.
 module wavycon_mpi_ranks
-   use, intrinsic :: iso_c_binding, only: c_char, c_f_pointer, c_ptr, c_size_t
    use, intrinsic :: iso_fortran_env, only: error_unit, int64
    use mpi_f08, only: mpi_abort, mpi_allgatherv, mpi_allreduce, mpi_bcast, mpi_byte, mpi_character, mpi_comm, &
       mpi_comm_free, mpi_comm_rank, mpi_comm_size, mpi_comm_split_type, mpi_comm_type_shared, mpi_comm_world, &
@@ -11,8 +10,8 @@ module wavycon_mpi_ranks
       mpi_request, mpi_status, mpi_statuses_ignore, mpi_success, mpi_sum, mpi_thread_funneled, mpi_type_commit, &
       mpi_type_contiguous, mpi_type_free, mpi_waitall
    use wavycon_kinds, only: dp
-   use wavycon_mpi_transpose, only: start_mpi_transposes, start_mpi_transpose
-   use wavycon_ranks, only: rank_team, rank_transpose, use_team
+   use wavycon_mpi_rows, only: start_mpi_rows
+   use wavycon_ranks, only: rank_team, row_exchange, use_team
    implicit none (type, external)
    private
 
@@ -29,26 +28,13 @@ module wavycon_mpi_ranks
       procedure :: largest
       procedure :: exchange
       procedure :: gather
-      procedure :: new_transpose
+      procedure :: new_row_exchange
       procedure :: share_text
       procedure :: read_columns
       procedure :: write_columns
       procedure :: finish
-      procedure :: libraries
+      procedure :: library
    end type mpi_team
-
-   interface
-      type(c_ptr) function c_fftw_version() bind(c, name='wavycon_fftw_version')
-         import :: c_ptr
-         implicit none (type, external)
-      end function c_fftw_version
-
-      integer(c_size_t) function c_length(text) bind(c, name='strlen')
-         import :: c_ptr, c_size_t
-         implicit none (type, external)
-         type(c_ptr), value :: text
-      end function c_length
-   end interface
 
 contains
 
@@ -70,7 +56,6 @@ contains
       call mpi_comm_split_type(mpi_comm_world, mpi_comm_type_shared, 0, mpi_info_null, machine)
       call mpi_comm_size(machine, own%on_machine)
       call mpi_comm_free(machine)
-      call start_mpi_transposes()
       call move_alloc(own, team)
       call use_team(team)
    end subroutine start_mpi
@@ -166,13 +151,13 @@ contains
       call mpi_type_free(column)
    end subroutine gather
 
-   subroutine new_transpose(self, columns, rows, width, numbers, precision, transpose)
+   subroutine new_row_exchange(self, columns, rows, width, numbers, precision, exchange)
       class(mpi_team), intent(in) :: self
       integer, intent(in) :: columns, rows, width, numbers, precision
-      class(rank_transpose), allocatable, intent(out) :: transpose
+      class(row_exchange), allocatable, intent(out) :: exchange
 
-      call start_mpi_transpose(self%this, self%number, columns, rows, width, numbers, precision, transpose)
-   end subroutine new_transpose
+      call start_mpi_rows(self%this, self%number, columns, rows, width, numbers, precision, exchange)
+   end subroutine new_row_exchange
 
    subroutine share_text(self, from, text)
       class(mpi_team), intent(in) :: self
@@ -278,25 +263,17 @@ contains
       call mpi_finalize()
    end subroutine finish
 
-   !> The library of MPI, as it calls itself up to the first comma or line, and that of FFTW.
-   function libraries(self) result(text)
+   !> The library of MPI, as it calls itself up to the first comma or line.
+   function library(self) result(text)
       class(mpi_team), intent(in) :: self
       character(:), allocatable :: text
 
       character(mpi_max_library_version_string) :: buffer
-      character(kind=c_char), pointer, contiguous :: letters(:)
-      integer :: i, length
-      type(c_ptr) :: of_fftw
+      integer :: length
 
       associate (unused => self); end associate
       call mpi_get_library_version(buffer, length)
-      i = scan(buffer(:length)//new_line('a'), ','//new_line('a'))
-      text = trim(buffer(:i - 1))//', '
-      of_fftw = c_fftw_version()
-      call c_f_pointer(of_fftw, letters, [c_length(of_fftw)])
-      do i = 1, size(letters)
-         text = text//letters(i)
-      end do
-   end function libraries
+      text = trim(buffer(:scan(buffer(:length)//new_line('a'), ','//new_line('a')) - 1))
+   end function library
 
 end module wavycon_mpi_ranks
