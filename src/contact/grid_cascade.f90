@@ -108,13 +108,14 @@ contains
       integer :: points(2)
 
       points = shape(answer%state%pressure)
+      call answer%state%slab%start(points)
       allocate (h(points(1), points(2)))
       call sample_undeformed_gap(surface, h)
       call half_space%start(surface, points)
       answer%state%pressure = answer%state%pressure*(mean_pressure*size(h)/sum(answer%state%pressure))
       if (surface%has_hardness()) then
          if (any(answer%state%pressure >= surface%hardness)) &
-            call set_load(answer%state%pressure, mean_pressure*size(h), surface%hardness)
+            call set_load(answer%state%slab, answer%state%pressure, mean_pressure*size(h), surface%hardness)
       end if
       call stencil%start(surface, points)
       call solve_on_grid(half_space, stencil, h, residual, iteration_limit, answer%state)
