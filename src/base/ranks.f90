@@ -12,7 +12,7 @@ module wavycon_ranks
 
    public :: rank_team, rank_transpose, use_team
    public :: this_rank, rank_count, ranks_at_work, is_first_rank, work_alone, ranks_on_this_machine
-   public :: add_over_ranks, largest_over_ranks, any_rank, exchange_columns, gather_columns, new_transpose
+   public :: add_over_ranks, largest_over_ranks, any_rank, exchange_columns, gather_columns, move_columns, new_transpose
    public :: share_error, share_text, read_shared_columns, write_shared_columns, end_ranks
 
    !> A matrix whose columns are spread over the ranks, turned into one whose rows are, and back. An element has one or
@@ -41,6 +41,7 @@ module wavycon_ranks
       procedure(find_largest), deferred :: largest
       procedure(exchange_two_blocks), deferred :: exchange
       procedure(gather_blocks), deferred :: gather
+      procedure(move_blocks), deferred :: move
       procedure(make_transpose), deferred :: new_transpose
       procedure(send_text), deferred :: share_text
       procedure(transfer_columns), deferred :: read_columns
@@ -98,6 +99,15 @@ module wavycon_ranks
          logical, intent(in) :: first_only
       end subroutine gather_blocks
 
+      subroutine move_blocks(self, column_bytes, have, own, want, wanted)
+         import :: int64, rank_team
+         class(rank_team), intent(in) :: self
+         integer(int64), intent(in) :: column_bytes
+         integer, intent(in) :: have(:, 0:), want(:, 0:)   !! first and last column of each rank, shape (2, ranks)
+         type(*), intent(in), target :: own(*)
+         type(*), intent(inout), target :: wanted(*)
+      end subroutine move_blocks
+
       subroutine make_transpose(self, columns, rows, width, numbers, precision, transpose)
          import :: rank_team, rank_transpose
          class(rank_team), intent(in) :: self
@@ -146,6 +156,11 @@ module wavycon_ranks
    interface gather_columns
       procedure :: gather_dp, gather_sp
    end interface gather_columns
+
+   !> Moves columns of a matrix from the ranks that have them to those that want them.
+   interface move_columns
+      procedure :: move_dp, move_sp
+   end interface move_columns
 
    class(rank_team), allocatable :: team   !! not allocated: this process is the only one
    logical :: is_alone = .false.           !! whether each rank works on something else, see work_alone
@@ -261,6 +276,26 @@ contains
 
       call team%gather(int(size(own, 1), int64)*storage_size(own)/8, columns, own, whole, first_only)
    end subroutine gather_sp
+
+   !> N.B. Every rank knows what all others have and want: nothing but the columns is sent.
+   subroutine move_dp(have, own, want, wanted)
+      integer, intent(in) :: have(:, 0:)       !! first and last column that each rank has, shape (2, ranks); last < first:
+                                               !! none. No column is there twice
+      real(dp), intent(in), contiguous :: own(:, :)         !! the own columns, shape (M, any)
+      integer, intent(in) :: want(:, 0:)       !! likewise those that each wants; several ranks may want the same ones
+      real(dp), intent(inout), contiguous :: wanted(:, :)   !! those that this rank wants, shape (M, any)
+
+      call team%move(int(size(own, 1), int64)*storage_size(own)/8, have, own, want, wanted)
+   end subroutine move_dp
+
+   !> As move_dp.
+   subroutine move_sp(have, own, want, wanted)
+      integer, intent(in) :: have(:, 0:), want(:, 0:)
+      real(sp), intent(in), contiguous :: own(:, :)
+      real(sp), intent(inout), contiguous :: wanted(:, :)
+
+      call team%move(int(size(own, 1), int64)*storage_size(own)/8, have, own, want, wanted)
+   end subroutine move_sp
 
    !> Prepares the transposition of a matrix that is spread over the ranks.
    subroutine new_transpose(columns, rows, width, numbers, precision, transpose)
