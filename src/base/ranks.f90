@@ -279,11 +279,11 @@ contains
 
    !> N.B. Every rank knows what all others have and want: nothing but the columns is sent.
    subroutine move_dp(have, own, want, wanted)
-      integer, intent(in) :: have(:, 0:)       !! first and last column that each rank has, shape (2, ranks); last < first:
-                                               !! none. No column is there twice
-      real(dp), intent(in), contiguous :: own(:, :)         !! the own columns, shape (M, any)
-      integer, intent(in) :: want(:, 0:)       !! likewise those that each wants; several ranks may want the same ones
-      real(dp), intent(inout), contiguous :: wanted(:, :)   !! those that this rank wants, shape (M, any)
+      integer, intent(in) :: have(:, 0:)                   !! first and last column of each rank, shape (2, ranks);
+                                                           !! last < first: none. No column is there twice
+      real(dp), intent(in), contiguous :: own(:, :)        !! the own columns, shape (M, any)
+      integer, intent(in) :: want(:, 0:)                   !! likewise what each wants; some may be wanted by several
+      real(dp), intent(inout), contiguous :: wanted(:, :)  !! what this rank wants, shape (M, any)
 
       call team%move(int(size(own, 1), int64)*storage_size(own)/8, have, own, want, wanted)
    end subroutine move_dp

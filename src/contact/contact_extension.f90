@@ -2,8 +2,8 @@
 !> that: equations (C4a) to (C4c) of README.md in this directory.
 !>
 !> Each coarser grid has half the points each way: a point of it has the mean of four. It needs even numbers of points;
-!> where they become odd the sequence ends. If the grid is spread over the ranks, so are the coarser ones as long as they
-!> are large: smaller ones are whole on each rank.
+!> where they become odd the sequence ends. If the grid is spread over the ranks, so are the large ones among the coarser
+!> grids; small ones are whole on each rank.
 module wavycon_contact_extension
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_tuning, only: decay_alone, decay_growth
@@ -71,8 +71,8 @@ contains
       end do
    end subroutine start
 
-   !> The columns of a coarser grid that a rank holds: those whose means it takes, or all of them if the grid is small or
-   !> some means of the next one would need columns of two ranks.
+   !> The columns of a coarser grid that a rank holds: those whose means it takes, or all of them if the grid is small
+   !> or some means of the next one would need columns of two ranks.
    pure type(grid_slab) function spread_or_whole(part) result(slab)
       type(grid_slab), intent(in) :: part
 
@@ -128,8 +128,8 @@ contains
    subroutine collect(self, contact, field)
       class(contact_extension), intent(inout) :: self
       real(sp), intent(in) :: contact(:, :)     !! that of `set_contact`
-      real(sp), intent(inout) :: field(:, :)    !! own columns, shape (M, columns); its values outside the contact are of
-                                                !! no use afterwards
+      real(sp), intent(inout) :: field(:, :)    !! own columns, shape (M, columns); its values outside the contact are
+                                                !! of no use afterwards
 
       integer :: k, levels
 

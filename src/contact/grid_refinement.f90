@@ -86,7 +86,8 @@ contains
          other = near + merge(1, -1, mod(j, 2) == 0)
          if (other < start .or. other > ubound(coarse, 2)) other = image_of_point(other, fine_slab%points(2)/2, even)
          part = parts(2 - mod(j, 2), even)
-         call refine_line(part*coarse(:, near) + (1.0_dp - part)*coarse(:, other), even, fine(:, j - fine_slab%first + 1))
+         call refine_line(part*coarse(:, near) + (1.0_dp - part)*coarse(:, other), even, &
+                          fine(:, j - fine_slab%first + 1))
       end do
    end subroutine refine_columns
 

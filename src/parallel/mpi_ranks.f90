@@ -1,9 +1,9 @@
 !> The ranks of the parallel program, by MPI.
 module wavycon_mpi_ranks
    use, intrinsic :: iso_fortran_env, only: error_unit, int64
-   use mpi_f08, only: mpi_abort, mpi_allgatherv, mpi_allreduce, mpi_alltoallv, mpi_bcast, mpi_byte, mpi_character, mpi_comm, &
-      mpi_comm_free, mpi_comm_rank, mpi_comm_size, mpi_comm_split_type, mpi_comm_type_shared, mpi_comm_world, &
-      mpi_datatype, mpi_double_precision, mpi_error_string, mpi_file, mpi_file_close, mpi_file_open, &
+   use mpi_f08, only: mpi_abort, mpi_allgatherv, mpi_allreduce, mpi_alltoallv, mpi_bcast, mpi_byte, mpi_character, &
+      mpi_comm, mpi_comm_free, mpi_comm_rank, mpi_comm_size, mpi_comm_split_type, mpi_comm_type_shared, &
+      mpi_comm_world, mpi_datatype, mpi_double_precision, mpi_error_string, mpi_file, mpi_file_close, mpi_file_open, &
       mpi_file_read_at_all, mpi_file_write_at_all, mpi_finalize, mpi_gatherv, mpi_get_count, mpi_in_place, &
       mpi_info_null, mpi_init_thread, mpi_integer, mpi_integer8, mpi_irecv, mpi_isend, mpi_max, &
       mpi_max_error_string, mpi_mode_rdonly, mpi_mode_wronly, mpi_offset_kind, mpi_request, mpi_status, &
