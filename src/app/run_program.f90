@@ -1,0 +1,213 @@
+!> What the program does: reads all decks, then checks or runs them one after the other.
+module wavycon_run_program
+   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
+   use wavycon_check_scene, only: check_scene
+   use wavycon_collected_table, only: collected_table
+   use wavycon_command_line, only: command_line_type, help_text, read_command_line
+   use wavycon_deck, only: deck_type
+   use wavycon_deck_keys, only: deck_key, list_keys
+   use wavycon_error, only: error_type, exit_bad_input, exit_fine, fatal_error
+   use wavycon_make_scene, only: make_scene
+   use wavycon_output_group, only: plain_directory
+   use wavycon_plain_text, only: escaped, integer_text
+   use wavycon_ranks, only: end_ranks
+   use wavycon_read_deck, only: read_deck
+   use wavycon_results, only: results_type
+   use wavycon_run_scene, only: run_scene
+   use wavycon_scene, only: scene_type
+   use wavycon_system, only: outlive_file_size_limit
+   use wavycon_threads, only: set_threads, use_one_thread_for_matrices
+   use wavycon_version, only: revision, version
+   implicit none (type, external)
+   private
+
+   public :: run_program
+
+   interface
+      subroutine c_exit(status) bind(c, name='exit')
+         use, intrinsic :: iso_c_binding, only: c_int
+         implicit none (type, external)
+         integer(c_int), value :: status
+      end subroutine c_exit
+   end interface
+
+   type :: scene_item
+      type(scene_type), allocatable :: scene      !! not allocated for a bad deck
+      type(deck_key), allocatable :: keys(:)      !! of the deck
+   end type scene_item
+
+contains
+
+   !> Runs the program from its command line to its exit status, and ends it.
+   subroutine run_program()
+      type(command_line_type) :: command_line
+      type(scene_item), allocatable :: scenes(:)
+      type(error_type), allocatable :: error
+      integer :: i, worst
+
+      call use_one_thread_for_matrices()
+      call outlive_file_size_limit()
+      call read_command_line(command_line, error)
+      call stop_on(error)
+      if (command_line%help) then
+         write (output_unit, '(a)') help_text()
+         call finish(exit_fine)
+      else if (command_line%version) then
+         write (output_unit, '(a)') 'wavycon '//version//' ('//revision//')'
+         call finish(exit_fine)
+      end if
+
+      call read_decks(command_line, scenes, worst)
+      if (command_line%check) then
+         do i = 1, size(scenes)
+            if (.not. allocated(scenes(i)%scene)) cycle
+            call separate(i, command_line%quiet)
+            call check_scene(scenes(i)%scene, command_line%quiet)
+         end do
+         call finish(worst)
+      end if
+      call run_scenes(command_line, scenes, worst)
+      call finish(worst)
+   end subroutine run_program
+
+   !> Reads all decks before any is run. Shows the problems of all of them and ends the program if there are any, unless
+   !> it is to keep going without the bad decks.
+   subroutine read_decks(command_line, scenes, worst)
+      type(command_line_type), intent(in) :: command_line
+      type(scene_item), allocatable, intent(out) :: scenes(:)
+      integer, intent(out) :: worst   !! the worst exit status
+
+      type(deck_type) :: deck
+      type(error_type), allocatable :: error
+      integer :: i
+
+      allocate (scenes(size(command_line%decks)))
+      worst = exit_fine
+      do i = 1, size(scenes)
+         call read_deck(command_line%decks(i)%path, deck, error, command_line%settings)
+         if (.not. allocated(error)) then
+            if (allocated(command_line%output)) &
+               call deck%output%set('directory', plain_directory(command_line%output))
+            call list_keys(deck, scenes(i)%keys)
+            allocate (scenes(i)%scene)
+            call make_scene(deck, scenes(i)%scene)
+         end if
+         if (allocated(error)) then
+            write (error_unit, '(a)') error%message
+            worst = max(worst, error%status)
+            if (allocated(scenes(i)%scene)) deallocate (scenes(i)%scene)
+         end if
+      end do
+      if (worst /= exit_fine .and. .not. command_line%keep_going) call finish(worst)
+      do i = 2, size(scenes)
+         call find_rival(scenes(:i), error)
+         if (.not. allocated(error)) cycle
+         if (.not. command_line%keep_going) call stop_on(error)
+         call show(error)
+         worst = max(worst, error%status)
+         deallocate (scenes(i)%scene)
+      end do
+   end subroutine read_decks
+
+   !> Whether another scene would write the same files as the last one. Errors: exit_bad_input.
+   subroutine find_rival(scenes, error)
+      type(scene_item), intent(in) :: scenes(:)
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: j
+
+      if (.not. allocated(scenes(size(scenes))%scene)) return
+      do j = 1, size(scenes) - 1
+         if (.not. allocated(scenes(j)%scene)) cycle
+         associate (one => scenes(j)%scene, other => scenes(size(scenes))%scene)
+            if (one%case /= other%case .or. one%directory /= other%directory) cycle
+            call fatal_error(error, exit_bad_input, escaped(one%deck_path)//' and '//escaped(other%deck_path)// &
+                             ' would write the same files: both are case '//other%case//' in '// &
+                             escaped(other%directory)//'. Give them different cases.')
+            return
+         end associate
+      end do
+   end subroutine find_rival
+
+   !> Runs all scenes and writes the collected table.
+   subroutine run_scenes(command_line, scenes, worst)
+      type(command_line_type), intent(in) :: command_line
+      type(scene_item), intent(inout) :: scenes(:)
+      integer, intent(inout) :: worst   !! the worst exit status
+
+      type(collected_table) :: collected
+      type(error_type), allocatable :: error
+      type(results_type) :: results
+      integer :: failed, i, not_solved, status
+
+      call set_threads(command_line%threads)
+      if (allocated(command_line%table)) call collected%start(command_line%table, size(scenes), error)
+      call stop_on(error)
+      failed = 0
+      not_solved = 0
+      do i = 1, size(scenes)
+         if (allocated(scenes(i)%scene)) then
+            call separate(i, command_line%quiet)
+            call run_scene(scenes(i)%scene, command_line%quiet, command_line%resume, results, status, error)
+            if (.not. command_line%keep_going) call stop_on(error)
+            worst = max(worst, status)
+            if (status /= exit_fine) not_solved = not_solved + 1
+            if (.not. allocated(error)) then
+               if (allocated(command_line%table)) call collected%add(results, scenes(i)%keys)
+               cycle
+            end if
+            call show(error)
+            worst = max(worst, error%status)
+         end if
+         failed = failed + 1
+         if (allocated(command_line%table)) call collected%note_failure(command_line%decks(i)%path)
+      end do
+      if (allocated(command_line%table)) then
+         call collected%write(command_line%table, command_line%settings, error)
+         if (allocated(error)) worst = max(worst, error%status)
+         call show(error)
+      end if
+      if (.not. command_line%keep_going .or. command_line%quiet) return
+      call separate(size(scenes) + 1, command_line%quiet)
+      write (output_unit, '(a)') integer_text(size(scenes))//' decks: '// &
+         integer_text(size(scenes) - failed - not_solved)//' solved, '//integer_text(not_solved)// &
+         ' with loads NOT solved as requested, '//integer_text(failed)//' failed'
+   end subroutine run_scenes
+
+   !> Writes an empty line between two decks.
+   subroutine separate(deck, quiet)
+      integer, intent(in) :: deck   !! number of the one that follows
+      logical, intent(in) :: quiet
+
+      if (deck > 1 .and. .not. quiet) write (output_unit, '(a)') ''
+   end subroutine separate
+
+   !> Writes the message of an error, if there is one, and ends the program with its status.
+   subroutine stop_on(error)
+      type(error_type), allocatable, intent(in) :: error
+
+      if (.not. allocated(error)) return
+      call show(error)
+      call finish(error%status)
+   end subroutine stop_on
+
+   !> Writes the message of an error, if there is one.
+   subroutine show(error)
+      type(error_type), allocatable, intent(in) :: error
+
+      if (.not. allocated(error)) return
+      flush (output_unit)
+      write (error_unit, '(a)') 'wavycon: '//error%message
+   end subroutine show
+
+   !> Ends the program with an exit status. `stop` would write a message with some compilers.
+   subroutine finish(status)
+      use, intrinsic :: iso_c_binding, only: c_int
+      integer, intent(in) :: status
+
+      flush (output_unit)
+      call end_ranks(status)
+      call c_exit(int(status, c_int))
+   end subroutine finish
+
+end module wavycon_run_program

@@ -1,0 +1,12 @@
+# Sets WAVYCON_MPI to whether the parallel program is built, and finds MPI.
+if(NOT WAVYCON_MPI STREQUAL "AUTO" AND NOT WAVYCON_MPI)
+  return()
+endif()
+find_package(MPI COMPONENTS Fortran)
+if(MPI_Fortran_FOUND)
+  set(WAVYCON_MPI ON)
+elseif(WAVYCON_MPI STREQUAL "AUTO")
+  set(WAVYCON_MPI OFF)
+else()
+  message(FATAL_ERROR "wavycon: WAVYCON_MPI is ON, but MPI for Fortran was not found")
+endif()
