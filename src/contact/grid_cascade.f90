@@ -13,6 +13,7 @@ module wavycon_grid_cascade
    use wavycon_grid_peak, only: grid_peak_pressure
    use wavycon_grid_plan, only: finer_grid, fits_memory, grid_plan, plan_grids
    use wavycon_grid_refinement, only: refine_pressure
+   use wavycon_grid_slab, only: grid_slab
    use wavycon_grid_transform, only: grid_transform
    use wavycon_grid_solver, only: grid_state, solve_on_grid
    use wavycon_kinds, only: dp
@@ -57,6 +58,7 @@ contains
       real(dp), allocatable :: finer(:, :)
       type(change_history) :: history, history_at_hardness
       type(grid_plan) :: plan
+      type(grid_slab) :: coarse_slab, fine_slab
       real(dp) :: last_residual
       logical :: last
       integer :: grid(2)
@@ -87,7 +89,9 @@ contains
             answer%out_of_memory = .true.
             exit
          end if
-         call refine_pressure(answer%state%pressure, surface%shape%is_even(), finer)
+         call coarse_slab%start(shape(answer%state%pressure))
+         call fine_slab%start(grid)
+         call refine_pressure(answer%state%pressure, coarse_slab, surface%shape%is_even(), fine_slab, finer)
          call move_alloc(finer, answer%state%pressure)
          deallocate (answer%state%gap)
       end do
