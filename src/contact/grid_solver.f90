@@ -10,6 +10,7 @@ module wavycon_grid_solver
    use, intrinsic :: iso_c_binding, only: c_bool
    use wavycon_compliance_operator, only: compliance_operator
    use wavycon_contact_tuning, only: correction_limit, correction_margin, correction_part, edge_tolerance, halo
+   use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp
    use wavycon_local_stiffness, only: local_stiffness
    use wavycon_pressure_correction, only: pressure_correction
@@ -24,6 +25,7 @@ module wavycon_grid_solver
    real(dp), parameter :: rounding = 32*epsilon(1.0_dp), most_rounding = 1e-12_dp
 
    type :: grid_state
+      type(grid_slab) :: slab                   !! of the grid: the fields are the own columns
       real(dp), allocatable :: pressure(:, :)   !! p/p*, 0 <= p <= H, shape (m, n)
       !> gap/Delta, negative where the surfaces overlap: at free points its deviation from zero, shape (m, n)
       real(dp), allocatable :: gap(:, :)
