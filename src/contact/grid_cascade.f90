@@ -114,7 +114,7 @@ contains
       type(compliance_operator) :: half_space
       type(local_stiffness) :: stencil
       real(dp), allocatable :: h(:, :)
-      real(dp) :: load
+      real(dp) :: highest(1), load
 
       associate (slab => answer%state%slab, pressure => answer%state%pressure)
          allocate (h(slab%points(1), slab%columns()))
@@ -122,7 +122,11 @@ contains
          call half_space%start(surface, slab%points)
          load = mean_pressure*product(real(slab%points, dp))
          pressure = pressure*(load/sum(slab%column_totals(reshape(sum(pressure, dim=1), [1, slab%columns()]))))
-         if (surface%has_hardness()) call set_load(pressure, load, surface%hardness)
+         if (surface%has_hardness()) then
+            highest = maxval(pressure)
+            call slab%largest(highest)
+            if (highest(1) >= surface%hardness) call set_load(pressure, load, surface%hardness)
+         end if
          call stencil%start(surface, slab%points)
       end associate
       call solve_on_grid(half_space, stencil, h, residual, iteration_limit, answer%state)
