@@ -13,13 +13,14 @@ module wavycon_grid_cascade
    use wavycon_grid_peak, only: grid_peak_pressure
    use wavycon_grid_plan, only: finer_grid, fits_memory, grid_plan, plan_grids
    use wavycon_grid_refinement, only: refine_pressure
-   use wavycon_grid_transform, only: grid_transform
+   use wavycon_grid_slab, only: grid_slab
    use wavycon_grid_solver, only: grid_state, solve_on_grid
    use wavycon_kinds, only: dp
    use wavycon_local_stiffness, only: local_stiffness
    use wavycon_pressure_load, only: set_load
    use wavycon_solver_progress, only: solver_progress
    use wavycon_surface, only: surface_type
+   use wavycon_undeformed_gap, only: sample_undeformed_gap
    implicit none (type, external)
    private
 
@@ -104,12 +105,14 @@ contains
 
       type(compliance_operator) :: half_space
       type(local_stiffness) :: stencil
+      type(grid_slab) :: slab
       real(dp), allocatable :: h(:, :)
       integer :: points(2)
 
       points = shape(answer%state%pressure)
       allocate (h(points(1), points(2)))
-      call sample_undeformed_gap(surface, h)
+      call slab%start(points)
+      call sample_undeformed_gap(surface, slab, h)
       call half_space%start(surface, points)
       answer%state%pressure = answer%state%pressure*(mean_pressure*size(h)/sum(answer%state%pressure))
       if (surface%has_hardness()) then
@@ -123,18 +126,6 @@ contains
       answer%transform_pairs = answer%transform_pairs/2**surface%dimension &
                                + half_space%transform_pairs + half_space%single_pairs
    end subroutine solve_level
-
-   !> h/Delta at the points of a grid.
-   subroutine sample_undeformed_gap(surface, h)
-      type(surface_type), intent(in) :: surface
-      real(dp), intent(out), contiguous :: h(:, :)
-
-      type(grid_transform) :: transform
-
-      call transform%start(shape(h), surface%shape%is_even())
-      call transform%sample(surface%shape, h)
-      h = 1.0_dp - h
-   end subroutine sample_undeformed_gap
 
    !> Mean gap, contact area (C11), (C12) and peak pressure (C13) on the present grid, and their error estimates (C14)
    !> to (C17). The area is at least that which carries the load at the hardness. Its error is unknown where (C12) gives
