@@ -15,7 +15,7 @@ module wavycon_slab_transform
    use wavycon_kinds, only: dp
    use wavycon_line_plans, only: cosines_to_values, plan_of_line, real_to_waves, values_to_cosines, waves_backward, &
       waves_forward, waves_to_real
-   use wavycon_ranks, only: gather_columns, new_transpose, rank_transpose, ranks_at_work, this_rank
+   use wavycon_ranks, only: any_rank, gather_columns, new_transpose, rank_transpose, ranks_at_work, this_rank
    implicit none (type, external)
    private
 
@@ -188,12 +188,13 @@ contains
       end if
    end subroutine sample
 
-   !> Makes a spread series whole on the first rank, or on all; other ranks keep theirs. All ranks call this.
+   !> Makes a spread series whole on the first rank, or on all; other ranks keep theirs. All ranks call this;
+   !> nothing happens if the first rank has the whole series.
    subroutine gather_series(series, first_only)
       type(fourier_series), intent(inout) :: series
       logical, intent(in) :: first_only
 
-      if (.not. series%is_spread()) return
+      if (.not. any_rank(this_rank() == 0 .and. series%is_spread())) return
       call gather_array(series%c)
       if (.not. series%is_even()) then
          call gather_array(series%cs)

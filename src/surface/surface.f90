@@ -159,7 +159,8 @@ contains
    end subroutine find_crest
 
    !> Makes a surface that is spread whole, for tables: on the first rank alone, or on all. It stays spread on the others.
-   !> All ranks call this. The whole shape has 8 bytes a point, and takes three times as much for a moment.
+   !> All ranks call this; nothing happens if the first rank has it whole. The shape has 8 bytes a point, and takes twice
+   !> as much for a moment.
    subroutine whole_surface(surface, first_only)
       type(surface_type), intent(inout) :: surface
       logical, intent(in) :: first_only
