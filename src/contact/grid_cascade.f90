@@ -21,6 +21,7 @@ module wavycon_grid_cascade
    use wavycon_pressure_load, only: set_load
    use wavycon_solver_progress, only: solver_progress
    use wavycon_surface, only: surface_type
+   use wavycon_undeformed_gap, only: sample_undeformed_gap
    implicit none (type, external)
    private
 
@@ -135,26 +136,6 @@ contains
       answer%transform_pairs = answer%transform_pairs/2**surface%dimension &
                                + half_space%transform_pairs + half_space%single_pairs
    end subroutine solve_level
-
-   !> h/Delta at the own columns of a grid.
-   subroutine sample_undeformed_gap(surface, slab, h)
-      type(surface_type), intent(in) :: surface
-      type(grid_slab), intent(in) :: slab
-      real(dp), intent(out), contiguous :: h(:, :)
-
-      type(grid_transform) :: transform
-      real(dp), allocatable :: whole(:, :)
-
-      call transform%start(slab%points, surface%shape%is_even())
-      if (slab%is_spread) then
-         allocate (whole(slab%points(1), slab%points(2)))
-         call transform%sample(surface%shape, whole)
-         h = 1.0_dp - whole(:, slab%first:slab%last)
-      else
-         call transform%sample(surface%shape, h)
-         h = 1.0_dp - h
-      end if
-   end subroutine sample_undeformed_gap
 
    !> Mean gap, contact area (C11), (C12) and peak pressure (C13) on the present grid, and their error estimates (C14)
    !> to (C17). The area is at least that which carries the load at the hardness. Its error is unknown where (C12) gives
