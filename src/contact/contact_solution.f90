@@ -3,6 +3,7 @@
 !> Every solver extends `contact_solution`; callers use a solution without regard to its solver. Positions of fields and
 !> edges are the angles X, Y of the surface's cell.
 module wavycon_contact_solution
+   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_details, only: contact_details
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_measures, only: contact_measures, unmeasured
@@ -44,6 +45,8 @@ module wavycon_contact_solution
       procedure(stresses_of_solution), deferred :: stresses
       procedure :: coefficients
       procedure :: details
+      procedure :: spread_points
+      procedure :: collect_fields
       procedure :: is_kept
       procedure :: pack_kept => pack_common
       procedure :: unpack_kept => unpack_common
@@ -149,6 +152,22 @@ contains
       associate (unused => self, none => answer); end associate
       found = .false.
    end subroutine details
+
+   !> The points of the grid if its columns are spread over the ranks, otherwise 0.
+   pure integer(int64) function spread_points(self)
+      class(contact_solution), intent(in) :: self
+
+      associate (unused => self); end associate
+      spread_points = 0
+   end function spread_points
+
+   !> Brings fields whose columns are spread over the ranks to the first rank: afterwards it has them whole, the others
+   !> have none. All ranks call it. Here nothing is spread.
+   subroutine collect_fields(self)
+      class(contact_solution), intent(inout) :: self
+
+      associate (unused => self); end associate
+   end subroutine collect_fields
 
    !> Whether the solution is written to the checkpoint, so that a resumed run need not compute it again. Here it is
    !> not.
