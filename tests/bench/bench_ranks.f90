@@ -8,8 +8,9 @@
 !>    grid POINTS_X POINTS_Y RANKS COLUMNS           columns of the first rank; POINTS_X is even
 !>    part NAME MEDIAN LEAST REPEATS                 a part of an iteration on all points; `transposition` is one of two
 !>                                                   of a pair of transforms, `pair`
-!>    load P AREA ITERATIONS TIME PAIRS ALL          fraction of the points in contact; on the last grid iterations, the
-!>                                                   time of one, its transform pairs; the time of all grids
+!>    load P AREA ITERATIONS TIME PAIRS STEPS ALL    fraction of the points in contact; on the last grid iterations, the
+!>                                                   time of one, its transform pairs, those of them in double precision;
+!>                                                   the time of all grids
 program bench_ranks
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use grid_clock, only: equal_iterations, grid_iterations, grid_solved_at, grid_started, grid_times, start_grid_clock, &
@@ -176,9 +177,9 @@ contains
       call solve_by_cascade(scene%surface, load, 0.0_dp, scene%surface%points, answer, times, &
                             scene%method%real('residual'))
       if (.not. answer%state%converged) call stop_with('bench_ranks: a load has not converged')
-      if (is_first_rank()) write (output_unit, '(a,2es12.4,1x,i0,2es12.4,f10.3)') 'load', load, answer%counted_area, &
+      if (is_first_rank()) write (output_unit, '(a,2es12.4,1x,i0,3es12.4,f10.3)') 'load', load, answer%counted_area, &
          grid_iterations, (grid_solved_at - grid_started)/grid_iterations, answer%transform_pairs/equal_iterations, &
-         wall_clock() - start
+         real(answer%state%corrections + 1, dp)/grid_iterations, wall_clock() - start
    end subroutine measure_load
 
    subroutine stop_with(words)

@@ -41,7 +41,7 @@ Grid = collections.namedtuple('Grid', 'x y')
 RUN_COLUMNS = ['ranks', 'points_x', 'points_y', 'pressure', 'contact_area', 'iterations', 'total[s]', 'least_total[s]',
                'solve[s]', 'least_solve[s]', 'most_solve[s]', 'processor_time[s]', 'most_memory[MB]', 'bytes_a_point']
 ITERATION_COLUMNS = ['ranks', 'points_x', 'points_y', 'pressure', 'contact_area', 'iterations', 'iteration[ms]',
-                     'least[ms]', 'transform_pairs']
+                     'least[ms]', 'transform_pairs', 'double_pairs']
 PART_COLUMNS = ['ranks', 'points_x', 'points_y', 'part', 'time[ms]', 'least[ms]']
 
 
@@ -127,12 +127,12 @@ def run_program(given, ranks, grid, pressure):
 
 
 def run_bench(given, ranks, grid):
-    """Loads as (pressure over p*, area, iterations, time, pairs), and the times of the parts by their names."""
+    """Loads as (area, iterations, time, pairs, those in double precision), and the times of the parts by their names."""
     with tempfile.TemporaryDirectory(dir=os.getcwd()) as directory:
         write_deck(os.path.join(directory, 'rough.nml'), grid, given.pressures)
         words, _ = run([*launcher(given, ranks), os.path.abspath(given.bench), 'rough.nml', given.seconds], directory)
     lines = [line.split() for line in words.splitlines()]
-    loads = [[float(word) for word in line[2:6]] for line in lines if line[:1] == ['load']]
+    loads = [[float(word) for word in line[2:7]] for line in lines if line[:1] == ['load']]
     return loads, {line[1]: float(line[2]) for line in lines if line[:1] == ['part']}
 
 
@@ -153,6 +153,14 @@ def measure(given, cases):
     return runs, loads, parts
 
 
+def processor_name():
+    try:
+        with open('/proc/cpuinfo', encoding='utf-8') as lines:
+            return next(line.split(':')[1].strip() for line in lines if line.startswith('model name'))
+    except (OSError, StopIteration):
+        return os.uname().machine
+
+
 def median(values):
     return statistics.median(values)
 
@@ -169,9 +177,9 @@ def run_row(case, found):
 
 def iteration_row(case, found):
     ranks, grid, pressure = case
-    area, iterations, seconds, pairs = zip(*found)
+    area, iterations, seconds, pairs, double_pairs = zip(*found)
     return [ranks, grid.x, grid.y, pressure, f'{area[0]:.5f}', f'{iterations[0]:.0f}', f'{1e3*median(seconds):.4f}',
-            f'{1e3*min(seconds):.4f}', f'{pairs[0]:.3f}']
+            f'{1e3*min(seconds):.4f}', f'{pairs[0]:.3f}', f'{double_pairs[0]:.3f}']
 
 
 def part_row(case, found):
@@ -215,7 +223,7 @@ def main():
     runs, loads, parts = measure(given, cases)
     rows = [run_row(*item) for item in runs.items()]
     lines = [f'# wavycon-mpi on rough surfaces, to a residual of 1e-8: {os.path.basename(__file__)}',
-             f'# machine: {os.uname().nodename}, {os.cpu_count()} processors; load average before: {before:.2f}',
+             f'# machine: {processor_name()}, {os.cpu_count()} of them; load average before: {before:.2f}',
              f'# launched by: {given.launch}; {os.environ.get("OMP_NUM_THREADS", "1")} threads a rank; medians of '
              f'{given.repeats}',
              *speed_up_lines(rows), *block('runs', RUN_COLUMNS, rows),
