@@ -10,25 +10,26 @@ module wavycon_ranks
    implicit none (type, external)
    private
 
-   public :: rank_team, rank_transpose, use_team
+   public :: rank_team, row_exchange, use_team
    public :: this_rank, rank_count, ranks_at_work, is_first_rank, work_alone, ranks_on_this_machine
-   public :: add_over_ranks, largest_over_ranks, any_rank, exchange_columns, gather_columns, new_transpose
+   public :: add_over_ranks, largest_over_ranks, any_rank, exchange_columns, gather_columns, new_row_exchange
    public :: share_error, share_text, read_shared_columns, write_shared_columns, end_ranks
 
-   !> A matrix whose columns are spread over the ranks, turned into one whose rows are, and back. An element has one or
-   !> two real numbers of one precision. Ranks have adjacent columns: all the same number, `width`, but the last ones.
-   type, abstract :: rank_transpose
+   !> Exchanges a matrix whose columns are spread over the ranks for the same matrix with its rows spread, and back. In
+   !> both the elements of a column follow each other. An element has one or two real numbers of one precision. Ranks have
+   !> adjacent columns: all the same number, `width`, but the last ones; likewise rows.
+   type, abstract :: row_exchange
       integer :: columns = 0      !! of the matrix
       integer :: rows = 0         !! of the matrix
       integer :: own_columns = 0
       integer :: first_row = 1    !! of this rank's rows
       integer :: own_rows = 0
    contains
-      !> From the own columns, shape (numbers, rows, own_columns), to the own rows, shape (numbers, columns, own_rows).
-      procedure(exchange_matrix), deferred :: to_rows
+      !> From the own columns, shape (numbers, rows, own_columns), to the own rows, shape (numbers, own_rows, columns).
+      procedure(exchange_rows_and_columns), deferred :: to_rows
       !> The inverse.
-      procedure(exchange_matrix), deferred :: to_columns
-   end type rank_transpose
+      procedure(exchange_rows_and_columns), deferred :: to_columns
+   end type row_exchange
 
    !> What the ranks exchange; the extension of the parallel program does it by MPI.
    type, abstract :: rank_team
@@ -41,7 +42,7 @@ module wavycon_ranks
       procedure(find_largest), deferred :: largest
       procedure(exchange_two_blocks), deferred :: exchange
       procedure(gather_blocks), deferred :: gather
-      procedure(make_transpose), deferred :: new_transpose
+      procedure(make_row_exchange), deferred :: new_row_exchange
       procedure(send_text), deferred :: share_text
       procedure(transfer_columns), deferred :: read_columns
       procedure(transfer_columns), deferred :: write_columns
@@ -49,12 +50,12 @@ module wavycon_ranks
    end type rank_team
 
    abstract interface
-      subroutine exchange_matrix(self, from, to)
-         import :: rank_transpose
-         class(rank_transpose), intent(inout) :: self
-         type(*), intent(inout), target :: from(*)   !! undefined on return
+      subroutine exchange_rows_and_columns(self, from, to)
+         import :: row_exchange
+         class(row_exchange), intent(inout) :: self
+         type(*), intent(in), target :: from(*)
          type(*), intent(inout), target :: to(*)     !! another array, of the same precision
-      end subroutine exchange_matrix
+      end subroutine exchange_rows_and_columns
 
       pure integer function get_number(self)
          import :: rank_team
@@ -98,12 +99,12 @@ module wavycon_ranks
          logical, intent(in) :: first_only
       end subroutine gather_blocks
 
-      subroutine make_transpose(self, columns, rows, width, numbers, precision, transpose)
-         import :: rank_team, rank_transpose
+      subroutine make_row_exchange(self, columns, rows, width, numbers, precision, exchange)
+         import :: rank_team, row_exchange
          class(rank_team), intent(in) :: self
          integer, intent(in) :: columns, rows, width, numbers, precision
-         class(rank_transpose), allocatable, intent(out) :: transpose
-      end subroutine make_transpose
+         class(row_exchange), allocatable, intent(out) :: exchange
+      end subroutine make_row_exchange
 
       subroutine send_text(self, from, text)
          import :: rank_team
@@ -262,16 +263,16 @@ contains
       call team%gather(int(size(own, 1), int64)*storage_size(own)/8, columns, own, whole, first_only)
    end subroutine gather_sp
 
-   !> Prepares the transposition of a matrix that is spread over the ranks.
-   subroutine new_transpose(columns, rows, width, numbers, precision, transpose)
+   !> Prepares the exchange of columns and rows of a matrix.
+   subroutine new_row_exchange(columns, rows, width, numbers, precision, exchange)
       integer, intent(in) :: columns, rows   !! of the matrix
       integer, intent(in) :: width           !! columns of each rank but the last ones
       integer, intent(in) :: numbers         !! of an element: 1 or, for complex numbers, 2
       integer, intent(in) :: precision       !! kind of the numbers: dp or sp
-      class(rank_transpose), allocatable, intent(out) :: transpose
+      class(row_exchange), allocatable, intent(out) :: exchange
 
-      call team%new_transpose(columns, rows, width, numbers, precision, transpose)
-   end subroutine new_transpose
+      call team%new_row_exchange(columns, rows, width, numbers, precision, exchange)
+   end subroutine new_row_exchange
 
    !> Makes an error of any rank that of all: the message is that of the lowest rank that has one. Without errors nothing
    !> happens.

@@ -1,17 +1,12 @@
-# Sets WAVYCON_MPI to whether the parallel program is built, and finds what it needs: MPI and FFTW's MPI libraries.
+# Sets WAVYCON_MPI to whether the parallel program is built, and finds MPI.
 if(NOT WAVYCON_MPI STREQUAL "AUTO" AND NOT WAVYCON_MPI)
   return()
 endif()
 find_package(MPI COMPONENTS Fortran)
-find_library(wavycon-fftw-mpi_LIBRARY fftw3_mpi)
-find_library(wavycon-fftwf-mpi_LIBRARY fftw3f_mpi)
-if(MPI_Fortran_FOUND AND wavycon-fftw-mpi_LIBRARY AND wavycon-fftwf-mpi_LIBRARY)
+if(MPI_Fortran_FOUND)
   set(WAVYCON_MPI ON)
-  add_library(wavycon::fftw-mpi INTERFACE IMPORTED)
-  set_target_properties(wavycon::fftw-mpi PROPERTIES
-    INTERFACE_LINK_LIBRARIES "${wavycon-fftw-mpi_LIBRARY};${wavycon-fftwf-mpi_LIBRARY};wavycon::fftw")
 elseif(WAVYCON_MPI STREQUAL "AUTO")
   set(WAVYCON_MPI OFF)
 else()
-  message(FATAL_ERROR "wavycon: WAVYCON_MPI is ON, but MPI or FFTW's MPI libraries were not found")
+  message(FATAL_ERROR "wavycon: WAVYCON_MPI is ON, but MPI for Fortran was not found")
 endif()

@@ -10,8 +10,8 @@ module wavycon_mpi_ranks
       mpi_statuses_ignore, mpi_success, mpi_sum, mpi_thread_funneled, mpi_type_commit, mpi_type_contiguous, &
       mpi_type_free, mpi_waitall
    use wavycon_kinds, only: dp
-   use wavycon_mpi_transpose, only: start_mpi_transposes, start_mpi_transpose
-   use wavycon_ranks, only: rank_team, rank_transpose, use_team
+   use wavycon_mpi_rows, only: start_mpi_rows
+   use wavycon_ranks, only: rank_team, row_exchange, use_team
    implicit none (type, external)
    private
 
@@ -28,7 +28,7 @@ module wavycon_mpi_ranks
       procedure :: largest
       procedure :: exchange
       procedure :: gather
-      procedure :: new_transpose
+      procedure :: new_row_exchange
       procedure :: share_text
       procedure :: read_columns
       procedure :: write_columns
@@ -55,7 +55,6 @@ contains
       call mpi_comm_split_type(mpi_comm_world, mpi_comm_type_shared, 0, mpi_info_null, machine)
       call mpi_comm_size(machine, own%on_machine)
       call mpi_comm_free(machine)
-      call start_mpi_transposes()
       call move_alloc(own, team)
       call use_team(team)
    end subroutine start_mpi
@@ -151,13 +150,13 @@ contains
       call mpi_type_free(column)
    end subroutine gather
 
-   subroutine new_transpose(self, columns, rows, width, numbers, precision, transpose)
+   subroutine new_row_exchange(self, columns, rows, width, numbers, precision, exchange)
       class(mpi_team), intent(in) :: self
       integer, intent(in) :: columns, rows, width, numbers, precision
-      class(rank_transpose), allocatable, intent(out) :: transpose
+      class(row_exchange), allocatable, intent(out) :: exchange
 
-      call start_mpi_transpose(self%this, self%number, columns, rows, width, numbers, precision, transpose)
-   end subroutine new_transpose
+      call start_mpi_rows(self%this, self%number, columns, rows, width, numbers, precision, exchange)
+   end subroutine new_row_exchange
 
    subroutine share_text(self, from, text)
       class(mpi_team), intent(in) :: self
