@@ -5,16 +5,17 @@
 !> DECK gives a height map that is made or read, and loads as mean pressures. SECONDS are spent on each part. All
 !> times are those of the slowest rank [s]. The lines of standard output:
 !>
-!>    grid POINTS_X POINTS_Y RANKS COLUMNS           columns of the first rank; POINTS_X is even
-!>    part NAME MEDIAN LEAST REPEATS                 a part of an iteration on all points; `transposition` is one of two
-!>                                                   of a pair of transforms, `pair`
-!>    load P AREA ITERATIONS TIME PAIRS STEPS ALL    fraction of the points in contact; on the last grid iterations, the
-!>                                                   time of one, its transform pairs, those of them in double precision;
-!>                                                   the time of all grids
+!>    grid POINTS_X POINTS_Y RANKS COLUMNS
+!>       COLUMNS: of the first rank. POINTS_X is even
+!>    part NAME MEDIAN LEAST REPEATS
+!>       a part of an iteration on all points; `rows` is one of the two exchanges of `pair`, a pair of transforms
+!>    load P AREA ITERATIONS TIME PAIRS STEPS ALL
+!>       AREA: fraction of the points in contact. On the last grid the iterations, the time of one, its pairs of
+!>       transforms, those of them in double precision. ALL: the time of all grids
 program bench_ranks
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
-   use grid_clock, only: equal_iterations, grid_iterations, grid_solved_at, grid_started, grid_times, start_grid_clock, &
-      wall_clock
+   use grid_clock, only: equal_iterations, grid_iterations, grid_solved_at, grid_started, grid_times, &
+      start_grid_clock, wall_clock
    use samples, only: sample_set
    use wavycon_compliance_operator, only: compliance_operator
    use wavycon_contact_extension, only: contact_extension
@@ -25,16 +26,15 @@ program bench_ranks
    use wavycon_kinds, only: dp, sp
    use wavycon_make_scene, only: make_scene
    use wavycon_mpi_ranks, only: start_mpi
-   use wavycon_ranks, only: end_ranks, is_first_rank, largest_over_ranks, new_transpose, rank_count, &
-      rank_transpose
+   use wavycon_ranks, only: end_ranks, is_first_rank, largest_over_ranks, new_row_exchange, rank_count, &
+      row_exchange
    use wavycon_read_deck, only: read_deck
    use wavycon_scene, only: scene_type
    implicit none (type, external)
 
    !> The parts of an iteration.
-   integer, parameter :: pair = 1, transposition = 2, extension = 3, vectors = 4, sums = 5, halo = 6
-   character(*), parameter :: names(*) = [character(13) :: 'pair', 'transposition', 'extension', 'vectors', 'sums', &
-                                          'halo']
+   integer, parameter :: pair = 1, rows = 2, extension = 3, vectors = 4, sums = 5, halo = 6
+   character(*), parameter :: names(*) = [character(9) :: 'pair', 'rows', 'extension', 'vectors', 'sums', 'halo']
    !> Columns that the stencil and the edge need of each neighbour.
    integer, parameter :: reach = 3
    !> Sums that one message carries.
@@ -44,8 +44,8 @@ program bench_ranks
    type(grid_slab) :: slab
    type(compliance_operator) :: half_space
    type(contact_extension) :: extender
-   class(rank_transpose), allocatable :: transpose
-   real(sp), allocatable :: contact(:, :), field(:, :), low(:, :), high(:, :)
+   class(row_exchange), allocatable :: exchange
+   real(sp), allocatable :: contact(:, :), field(:, :), low(:, :), high(:, :), lines(:, :)
    real(dp) :: seconds
    integer :: i, part
 
@@ -56,14 +56,15 @@ program bench_ranks
       call half_space%start(scene%surface, points)
       call extender%start(points, scene%surface%shape%is_even())
       if (slab%is_spread) &
-         call new_transpose(points(2), (points(1) + 1)/2, slab%width, 2, sp, transpose)
+         call new_row_exchange(points(2), points(1)/2, slab%width, 2, sp, exchange)
       if (is_first_rank()) write (output_unit, '(a,4(1x,i0))') 'grid', points, rank_count(), slab%columns()
    end associate
    call make_fields()
    do part = 1, size(names)
-      if (slab%is_spread .or. all(part /= [transposition, sums, halo])) call measure_part(part)
+      if (slab%is_spread .or. all(part /= [rows, sums, halo])) call measure_part(part)
    end do
    deallocate (contact, field, low, high)
+   if (allocated(lines)) deallocate (lines)
    do i = 1, size(scene%target)
       call measure_load(scene%target(i))
    end do
@@ -98,6 +99,7 @@ contains
       associate (m => slab%points(1))
          allocate (contact(m, slab%columns()), field(m, slab%columns()))
          allocate (low(m, reach), high(m, reach), source=0.0_sp)
+         if (slab%is_spread) allocate (lines(2*exchange%own_rows, exchange%columns))
       end associate
       do j = 1, slab%columns()
          contact(:, j) = merge(1.0_sp, 0.0_sp, modulo(j - 1, 16) < 8)
@@ -144,14 +146,11 @@ contains
       integer, intent(in) :: part
 
       real(dp) :: parts(sums_together, slab%strips()), totals(sums_together)
-      real(sp), allocatable :: other(:, :)
-
       select case (part)
       case (pair)
          call half_space%displacement(field)
-      case (transposition)
-         allocate (other(2*transpose%columns, transpose%own_rows))
-         call transpose%to_rows(field, other)
+      case (rows)
+         call exchange%to_rows(field, lines)
       case (extension)
          call extender%extend(contact, field)
          call extender%collect(contact, field)

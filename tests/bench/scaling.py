@@ -5,8 +5,8 @@ Surface: self-affine, Hurst exponent 0.8, rms slope 1, roll-off at a tenth of th
 Loads: mean pressures over E* rms slope. Residual: 1e-8. Series:
 
     strong   grids of given points a side on all numbers of ranks
-    weak     N x N points a rank: cells of N x (ranks N) points, the same spectrum. Loads have about the same contact area
-             and number of iterations on all of them
+    weak     N x N points a rank: cells of N x (ranks N) points with the same spectrum. A load has about the same contact
+             area and number of iterations on all of them
 
 All runs are repeated in turn, so that other work on the machine meets all of them alike; times are medians. `total` is
 the time from start to end, `solve` what the log gives as solved and measured. A rank's memory is the most that its
@@ -56,7 +56,7 @@ def arguments():
     parser.add_argument('--program', default=os.path.join(build, 'wavycon-mpi'), help='wavycon-mpi')
     parser.add_argument('--bench', help='bench_ranks, which the target bench builds')
     parser.add_argument('--serial', help='wavycon, measured beside it; its number of ranks is shown as 0')
-    parser.add_argument('--launch', default='mpirun -n {ranks}', help='command that starts programs on ranks [%(default)s]')
+    parser.add_argument('--launch', default='mpirun -n {ranks}', help='starts programs on ranks [%(default)s]')
     parser.add_argument('--ranks', type=numbers, default=[1, 2], help='[1,2]')
     parser.add_argument('--strong', type=numbers, default=[1024], help='points a side [1024]')
     parser.add_argument('--weak', type=numbers, default=[], help='N; none if not given')
@@ -127,7 +127,7 @@ def run_program(given, ranks, grid, pressure):
 
 
 def run_bench(given, ranks, grid):
-    """Loads as (area, iterations, time, pairs, those in double precision), and the times of the parts by their names."""
+    """Loads as (area, iterations, time, pairs, those in double precision), and the times of parts by their names."""
     with tempfile.TemporaryDirectory(dir=os.getcwd()) as directory:
         write_deck(os.path.join(directory, 'rough.nml'), grid, given.pressures)
         words, _ = run([*launcher(given, ranks), os.path.abspath(given.bench), 'rough.nml', given.seconds], directory)
@@ -149,7 +149,8 @@ def measure(given, cases):
                     loads[ranks, grid, pressure].append(load)
                 for name, seconds in times.items():
                     parts[ranks, grid, name].append(seconds)
-            print(f'scaling: {repeat + 1} of {given.repeats}, {grid.x} x {grid.y} points, {ranks} ranks', file=sys.stderr)
+            print(f'scaling: {repeat + 1} of {given.repeats}, {grid.x} x {grid.y} points, {ranks} ranks',
+                  file=sys.stderr)
     return runs, loads, parts
 
 
