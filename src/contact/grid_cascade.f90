@@ -2,7 +2,8 @@
 !> within an accuracy.
 !>
 !> The solution on one grid is the start on the next, and the error estimates follow from the changes from grid to grid.
-!> Grids may be spread over ranks: all ranks then solve the same loads, and have the same numbers. Numbers (C..) are the equations of README.md in this directory.
+!> Grids may be spread over ranks: all ranks then solve the same loads, and have the same numbers. Numbers
+!> (C..) are the equations of README.md in this directory.
 module wavycon_grid_cascade
    use wavycon_compliance_operator, only: compliance_operator
    use wavycon_contact_measures, only: known_errors, unknown
@@ -15,7 +16,6 @@ module wavycon_grid_cascade
    use wavycon_grid_refinement, only: refine_pressure
    use wavycon_grid_slab, only: grid_slab
    use wavycon_grid_solver, only: grid_state, solve_on_grid
-   use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
    use wavycon_local_stiffness, only: local_stiffness
    use wavycon_pressure_load, only: set_load
