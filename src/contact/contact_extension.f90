@@ -106,8 +106,8 @@ contains
    !> Continues a field to the points outside the contact.
    subroutine extend(self, contact, field)
       class(contact_extension), intent(inout) :: self
-      real(sp), intent(in), contiguous :: contact(:, :)     !! that of `set_contact`
-      real(sp), intent(inout), contiguous :: field(:, :)    !! zero outside the contact, own columns, shape (M, columns)
+      real(sp), intent(in), contiguous :: contact(:, :)    !! that of `set_contact`
+      real(sp), intent(inout), contiguous :: field(:, :)   !! zero outside the contact, own columns, shape (M, columns)
 
       integer :: k, levels
 
@@ -127,9 +127,9 @@ contains
    !> The adjoint of `extend`: adds to the values in contact those outside that the extension takes from them.
    subroutine collect(self, contact, field)
       class(contact_extension), intent(inout) :: self
-      real(sp), intent(in), contiguous :: contact(:, :)     !! that of `set_contact`
-      real(sp), intent(inout), contiguous :: field(:, :)    !! own columns, shape (M, columns); its values outside the contact are
-                                                !! of no use afterwards
+      real(sp), intent(in), contiguous :: contact(:, :)    !! that of `set_contact`
+      real(sp), intent(inout), contiguous :: field(:, :)   !! own columns, shape (M, columns); its values outside the
+                                                           !! contact are of no use afterwards
 
       integer :: k, levels
 
@@ -160,9 +160,9 @@ contains
 
    !> Means of two by two points; in 1-D of two.
    subroutine average(fine, part, slab, coarse)
-      real(sp), intent(in), contiguous :: fine(:, :)                   !! own columns
-      type(grid_slab), intent(in) :: part, slab            !! of the coarser grid
-      real(sp), intent(inout), contiguous :: coarse(:, :)  !! shape (any, slab%columns())
+      real(sp), intent(in), contiguous :: fine(:, :)        !! own columns
+      type(grid_slab), intent(in) :: part, slab             !! of the coarser grid
+      real(sp), intent(inout), contiguous :: coarse(:, :)   !! shape (any, slab%columns())
 
       integer :: before, i, j
 
@@ -213,8 +213,8 @@ contains
    subroutine fill(self, coarse, contact, fine)
       type(contact_extension), intent(in) :: self
       type(coarse_grid), intent(in) :: coarse
-      real(sp), intent(in), contiguous :: contact(:, :)     !! own columns
-      real(sp), intent(inout), contiguous :: fine(:, :)     !! likewise
+      real(sp), intent(in), contiguous :: contact(:, :)   !! own columns
+      real(sp), intent(inout), contiguous :: fine(:, :)   !! likewise
 
       real(sp) :: column(0:size(coarse%values, 1) + 1)
       real(sp) :: beside(size(coarse%values, 1), 2)   !! the columns before and after those of the coarser grid
@@ -252,8 +252,8 @@ contains
    !> The adjoint of `fill` without the field itself.
    subroutine adjoint_fill(self, slab, fine, contact, coarse)
       type(contact_extension), intent(in) :: self
-      type(grid_slab), intent(in) :: slab                     !! of the finer grid
-      real(sp), intent(in), contiguous :: fine(:, :), contact(:, :)       !! own columns
+      type(grid_slab), intent(in) :: slab                             !! of the finer grid
+      real(sp), intent(in), contiguous :: fine(:, :), contact(:, :)   !! own columns
       type(coarse_grid), intent(inout) :: coarse
 
       !> The columns before and after the own ones.
