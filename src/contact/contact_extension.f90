@@ -2,8 +2,8 @@
 !> that: equations (C4a) to (C4c) of README.md in this directory.
 !>
 !> Each coarser grid has half the points each way: a point of it has the mean of four. It needs even numbers of points;
-!> where they become odd the sequence ends. If the grid is spread over the ranks, so are the large ones among the coarser
-!> grids; small ones are whole on each rank.
+!> where they become odd the sequence ends. If the grid is spread over the ranks, so are those coarser ones that are
+!> large; small ones are whole on each rank.
 module wavycon_contact_extension
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_tuning, only: decay_alone, decay_growth
