@@ -12,7 +12,7 @@ module wavycon_run_program
    use wavycon_make_scene, only: make_scene
    use wavycon_output_group, only: plain_directory
    use wavycon_plain_text, only: escaped, integer_text
-   use wavycon_ranks, only: end_ranks, is_first_rank, share_error
+   use wavycon_ranks, only: end_ranks, is_first_rank, rank_library, share_error
    use wavycon_read_deck, only: read_deck
    use wavycon_results, only: results_type
    use wavycon_run_scene, only: run_scene
@@ -42,6 +42,7 @@ contains
 
    !> Runs the program from its command line to its exit status, and ends it.
    subroutine run_program()
+      character(:), allocatable :: library
       type(command_line_type) :: command_line
       type(scene_item), allocatable :: scenes(:)
       type(error_type), allocatable :: error
@@ -55,7 +56,9 @@ contains
          call say(help_text())
          call finish(exit_fine)
       else if (command_line%version) then
-         call say('wavycon '//version//' ('//revision//')')
+         library = rank_library()
+         if (library /= '') library = ', '//library
+         call say('wavycon '//version//' ('//revision//')'//library)
          call finish(exit_fine)
       end if
       if (.not. is_first_rank()) command_line%quiet = .true.

@@ -32,7 +32,7 @@ module wavycon_contact_solution
       real(dp) :: pbar_over_pstar = 0.0_dp    !! P >= 0, the mean pressure over p*
       type(contact_measures) :: measures
       character(12) :: solver = 'none'        !! name of the solver; 'none' if no solver was needed
-      integer :: active_constraints = 0       !! points at which the pressure is held at zero or at the hardness
+      integer(int64) :: active_constraints = 0   !! points at which the pressure is held at zero or at the hardness
       integer :: iterations = 0               !! for a quadratic programme, exchanges of variables since the last load
       real(dp) :: residual = 0.0_dp           !! relative, as each solver defines it
       character(16) :: status = ''            !! one of wavycon_contact_status, or of wavycon_qp_problem
@@ -191,7 +191,7 @@ contains
                    measures%peak_pressure_error, measures%area_at_hardness_fraction, &
                    measures%load_at_hardness_fraction, measures%contact_area_counted_fraction, &
                    measures%contact_area_corrected_fraction, &
-                   real([self%active_constraints, self%iterations], dp), self%residual]
+                   real(self%active_constraints, dp), real(self%iterations, dp), self%residual]
       end associate
    end subroutine pack_common
 
@@ -206,7 +206,7 @@ contains
       self%pbar_over_pstar = values(1)
       self%measures = contact_measures(values(2), values(3), values(4), values(5), values(6), values(7), values(8), &
                                        values(9), values(10), values(11), values(12), values(13))
-      self%active_constraints = nint(values(14))
+      self%active_constraints = nint(values(14), int64)
       self%iterations = nint(values(15))
       self%residual = values(16)
    end subroutine unpack_common
