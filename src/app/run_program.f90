@@ -10,7 +10,7 @@ module wavycon_run_program
    use wavycon_make_scene, only: make_scene
    use wavycon_output_group, only: plain_directory
    use wavycon_plain_text, only: escaped, integer_text
-   use wavycon_ranks, only: end_ranks
+   use wavycon_ranks, only: end_ranks, rank_library
    use wavycon_read_deck, only: read_deck
    use wavycon_results, only: results_type
    use wavycon_run_scene, only: run_scene
@@ -40,6 +40,7 @@ contains
 
    !> Runs the program from its command line to its exit status, and ends it.
    subroutine run_program()
+      character(:), allocatable :: library
       type(command_line_type) :: command_line
       type(scene_item), allocatable :: scenes(:)
       type(error_type), allocatable :: error
@@ -53,7 +54,9 @@ contains
          write (output_unit, '(a)') help_text()
          call finish(exit_fine)
       else if (command_line%version) then
-         write (output_unit, '(a)') 'wavycon '//version//' ('//revision//')'
+         library = rank_library()
+         if (library /= '') library = ', '//library
+         write (output_unit, '(a)') 'wavycon '//version//' ('//revision//')'//library
          call finish(exit_fine)
       end if
 
