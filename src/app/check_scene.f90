@@ -6,7 +6,7 @@ module wavycon_check_scene
    use wavycon_plain_text, only: escaped, integer_text, short_number
    use wavycon_results, only: results_type
    use wavycon_run_log, only: run_log
-   use wavycon_run_scene, only: need_fields, start_results
+   use wavycon_run_scene, only: keep_fields, start_results
    use wavycon_scene, only: scene_type
    use wavycon_system, only: available_memory
    use wavycon_tables, only: table_item
@@ -30,7 +30,7 @@ contains
       call start_results(scene, results, tables)
       call log%show_scene(results)
       if (reason(results) /= '') call log%say('because   '//reason(results))
-      if (all(results%solver%finest_grid() > 0)) call log%say('memory    '//memory(results, need_fields(tables)))
+      if (all(results%solver%finest_grid() > 0)) call log%say('memory    '//memory(results, keep_fields(results%scene, tables)))
       call log%say('tables    '//names_of(tables)//' in '//escaped(results%scene%directory))
       call log%say(escaped(results%scene%deck_path)//': the deck is fine')
    end subroutine check_scene

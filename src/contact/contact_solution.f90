@@ -45,6 +45,7 @@ module wavycon_contact_solution
       procedure(stresses_of_solution), deferred :: stresses
       procedure :: coefficients
       procedure :: details
+      procedure :: spread_points
       procedure :: collect_fields
       procedure :: is_kept
       procedure :: pack_kept => pack_common
@@ -152,8 +153,16 @@ contains
       found = .false.
    end subroutine details
 
-   !> Gathers fields that are spread over ranks on the first of them, so that it can make any table; the others have
-   !> none afterwards. All ranks must call it. Here no fields are spread.
+   !> The points of the grid if its columns are spread over the ranks, otherwise 0.
+   pure integer(int64) function spread_points(self)
+      class(contact_solution), intent(in) :: self
+
+      associate (unused => self); end associate
+      spread_points = 0
+   end function spread_points
+
+   !> Brings fields whose columns are spread over the ranks to the first rank: afterwards it has them whole, the others
+   !> have none. All ranks call it. Here nothing is spread.
    subroutine collect_fields(self)
       class(contact_solution), intent(inout) :: self
 

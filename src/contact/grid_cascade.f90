@@ -2,7 +2,8 @@
 !> within an accuracy.
 !>
 !> The solution on one grid is the start on the next, and the error estimates follow from the changes from grid to grid.
-!> Grids may be spread over ranks: all ranks then solve the same loads, and have the same numbers. Numbers (C..) are the equations of README.md in this directory.
+!> Grids may be spread over ranks: all ranks then solve the same loads, and have the same numbers. Numbers
+!> (C..) are the equations of README.md in this directory.
 module wavycon_grid_cascade
    use wavycon_compliance_operator, only: compliance_operator
    use wavycon_contact_measures, only: known_errors, unknown
@@ -15,12 +16,12 @@ module wavycon_grid_cascade
    use wavycon_grid_refinement, only: refine_pressure
    use wavycon_grid_slab, only: grid_slab
    use wavycon_grid_solver, only: grid_state, solve_on_grid
-   use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
    use wavycon_local_stiffness, only: local_stiffness
    use wavycon_pressure_load, only: set_load
    use wavycon_solver_progress, only: solver_progress
    use wavycon_surface, only: surface_type
+   use wavycon_undeformed_gap, only: sample_undeformed_gap
    implicit none (type, external)
    private
 
@@ -135,26 +136,6 @@ contains
       answer%transform_pairs = answer%transform_pairs/2**surface%dimension &
                                + half_space%transform_pairs + half_space%single_pairs
    end subroutine solve_level
-
-   !> h/Delta at the own columns of a grid.
-   subroutine sample_undeformed_gap(surface, slab, h)
-      type(surface_type), intent(in) :: surface
-      type(grid_slab), intent(in) :: slab
-      real(dp), intent(out), contiguous :: h(:, :)
-
-      type(grid_transform) :: transform
-      real(dp), allocatable :: whole(:, :)
-
-      call transform%start(slab%points, surface%shape%is_even())
-      if (slab%is_spread) then
-         allocate (whole(slab%points(1), slab%points(2)))
-         call transform%sample(surface%shape, whole)
-         h = 1.0_dp - whole(:, slab%first:slab%last)
-      else
-         call transform%sample(surface%shape, h)
-         h = 1.0_dp - h
-      end if
-   end subroutine sample_undeformed_gap
 
    !> Mean gap, contact area (C11), (C12) and peak pressure (C13) on the present grid, and their error estimates (C14)
    !> to (C17). The area is at least that which carries the load at the hardness. Its error is unknown where (C12) gives

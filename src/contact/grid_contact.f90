@@ -64,6 +64,7 @@ module wavycon_grid_contact
       procedure :: use_level
       procedure :: new_kept_solution
       procedure :: finest_grid
+      procedure :: given_grid
    end type grid_contact
 
    type, extends(contact_solution) :: grid_solution
@@ -454,6 +455,14 @@ contains
       plan = plan_grids(self%solved, self%points)
       points = plan%last
    end function finest_grid
+
+   function given_grid(self) result(points)
+      class(grid_contact), intent(in) :: self
+      integer :: points(2)
+
+      points = 0
+      if (all(self%points > 0)) points = self%finest_grid()
+   end function given_grid
 
    !> What each spot carries of the load: the pressures at its points.
    pure subroutine spot_loads(edge, numbers, loads)

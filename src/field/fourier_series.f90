@@ -13,8 +13,12 @@ module wavycon_fourier_series
    type :: fourier_series
       real(dp), allocatable :: c(:, :)   !! shape (0:m, 0:n)
       real(dp), allocatable :: cs(:, :), sc(:, :), ss(:, :)   !! of the same shape; not allocated for an even field
+      !> m + 1 of a series that is spread over the ranks: each has some of the first indices, see wavycon_slab_transform.
+      !> 0: it is whole.
+      integer :: spread_waves = 0
    contains
       procedure :: is_even
+      procedure :: is_spread
       procedure :: at
       procedure :: evaluate_on_grid
    end type fourier_series
@@ -27,7 +31,13 @@ contains
       is_even = .not. allocated(self%ss)
    end function is_even
 
-   !> The field at a point.
+   pure logical function is_spread(self)
+      class(fourier_series), intent(in) :: self
+
+      is_spread = self%spread_waves > 0
+   end function is_spread
+
+   !> The field at a point. The series is whole.
    pure real(dp) function at(self, x, y)
       class(fourier_series), intent(in) :: self
       real(dp), intent(in) :: x, y   !! X, Y [rad]

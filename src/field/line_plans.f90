@@ -5,8 +5,8 @@
 module wavycon_line_plans
    use, intrinsic :: iso_c_binding, only: c_double, c_double_complex, c_float, c_float_complex, c_int, c_null_ptr, c_ptr
    use wavycon_fftw, only: FFTW_BACKWARD, FFTW_DESTROY_INPUT, FFTW_ESTIMATE, FFTW_FORWARD, fftw_plan_dft_1d, &
-                           fftw_plan_dft_c2r_1d, fftw_plan_dft_r2c_1d, fftwf_plan_dft_1d, fftwf_plan_dft_c2r_1d, &
-                           fftwf_plan_dft_r2c_1d
+                           fftw_plan_dft_c2r_1d, fftw_plan_dft_r2c_1d, fftw_plan_r2r_1d, FFTW_REDFT01, FFTW_REDFT10, &
+                           fftwf_plan_dft_1d, fftwf_plan_dft_c2r_1d, fftwf_plan_dft_r2c_1d
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
@@ -15,6 +15,8 @@ module wavycon_line_plans
 
    !> The transforms: of real numbers to complex waves and back, of complex numbers to complex waves and back.
    integer, parameter, public :: real_to_waves = 1, waves_to_real = 2, waves_forward = 3, waves_backward = 4
+   !> In double precision only: of the values of an even field to its cosines (DCT-II), and back (DCT-III).
+   integer, parameter, public :: values_to_cosines = 5, cosines_to_values = 6
 
    type :: kept_plan
       integer :: transform = 0, length = 0, precision = 0
@@ -28,7 +30,7 @@ contains
    !> The plan of a transform from one array to another, both aligned as `allocate` does it. The input is overwritten.
    !> It may be executed by several threads at a time, and is never destroyed.
    type(c_ptr) function plan_of_line(transform, length, precision) result(plan)
-      integer, intent(in) :: transform   !! one of the four above
+      integer, intent(in) :: transform   !! one of the six above
       integer, intent(in) :: length      !! number of real values, or of complex ones, >= 1
       integer, intent(in) :: precision   !! kind of the numbers: dp or sp
 
@@ -59,11 +61,11 @@ contains
       integer(c_int), parameter :: flags = ior(FFTW_ESTIMATE, FFTW_DESTROY_INPUT)
       complex(c_double_complex), allocatable :: waves(:), more_waves(:)
       complex(c_float_complex), allocatable :: single_waves(:), more_single_waves(:)
-      real(c_double), allocatable :: values(:)
+      real(c_double), allocatable :: more_values(:), values(:)
       real(c_float), allocatable :: single_values(:)
 
       if (is_double) then
-         allocate (values(length), waves(length), more_waves(length))
+         allocate (values(length), more_values(length), waves(length), more_waves(length))
          select case (transform)
          case (real_to_waves)
             plan = fftw_plan_dft_r2c_1d(length, values, waves, flags)
@@ -71,6 +73,10 @@ contains
             plan = fftw_plan_dft_c2r_1d(length, waves, values, flags)
          case (waves_forward)
             plan = fftw_plan_dft_1d(length, waves, more_waves, FFTW_FORWARD, flags)
+         case (values_to_cosines)
+            plan = fftw_plan_r2r_1d(length, values, more_values, FFTW_REDFT10, flags)
+         case (cosines_to_values)
+            plan = fftw_plan_r2r_1d(length, values, more_values, FFTW_REDFT01, flags)
          case default
             plan = fftw_plan_dft_1d(length, waves, more_waves, FFTW_BACKWARD, flags)
          end select

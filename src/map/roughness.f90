@@ -4,6 +4,7 @@ module wavycon_roughness
    use wavycon_constants, only: pi
    use wavycon_fourier_series, only: fourier_series
    use wavycon_kinds, only: dp
+   use wavycon_ranks, only: add_over_ranks
    implicit none (type, external)
    private
 
@@ -19,50 +20,83 @@ module wavycon_roughness
 
 contains
 
-   !> The roughness of a surface.
-   pure type(roughness_type) function roughness_of(series, amplitude, length, points) result(roughness)
+   !> The roughness of a surface. All ranks call this if the series is spread.
+   type(roughness_type) function roughness_of(series, amplitude, length, points) result(roughness)
       type(fourier_series), intent(in) :: series   !! of the height over `amplitude`; its mean is ignored
       real(dp), intent(in) :: amplitude            !! unit of the series, >= 0 [length]
       real(dp), intent(in) :: length(2)            !! L_x, L_y, sides of the periodic cell, > 0 [length]
       integer, intent(in) :: points(2)             !! of the grid that the series interpolates; zeros if there is none
 
-      !> Squared wave numbers, of the surface and of its differences, in units of 2 pi/unit.
-      real(dp), dimension(0:ubound(series%c, 1)) :: q_squared, s_squared, x_squared, x_steps
-      real(dp) :: powers(0:ubound(series%c, 1)), sums(5), unit
-      integer :: k, l
+      real(dp) :: every(5, max(series%spread_waves, ubound(series%c, 1) + 1)), sums(5), unit
 
       ! Wave numbers over 2 pi/unit neither overflow nor make all squares underflow, whatever the unit of length.
       unit = minval(length)
-      x_squared = [((k*(unit/length(1)))**2, k=0, ubound(series%c, 1))]
-      x_steps = [(step_squared(k, points(1), unit/length(1)), k=0, ubound(series%c, 1))]
-      sums = 0.0_dp
-      do l = 0, ubound(series%c, 2)
-         powers = wave_powers(series, points, l)
-         q_squared = x_squared + (l*(unit/length(2)))**2
-         s_squared = x_steps + step_squared(l, points(2), unit/length(2))
-         sums = sums + [sum(powers), sum(powers*q_squared), sum(powers*q_squared**2), sum(powers*s_squared), &
-                        sum(powers*s_squared**2)]
-      end do
-      sums = amplitude*sqrt(sums)
+      every = 0.0_dp
+      every(:, lbound(series%c, 1) + 1:ubound(series%c, 1) + 1) = moments_of_rows(series, unit/length, points)
+      if (series%is_spread()) call add_moments(every)
+      sums = amplitude*sqrt(sum(every, dim=2))
       sums([2, 4]) = 2*pi/unit*sums([2, 4])
       sums([3, 5]) = (2*pi/unit)**2*sums([3, 5])
       if (ubound(series%c, 2) > 0) sums([3, 5]) = 0.5_dp*sums([3, 5])
       roughness = roughness_type(sums(1), sums(2), sums(3), sums(4), sums(5))
+
+   contains
+
+      !> Adds the rows of all ranks.
+      subroutine add_moments(values)
+         real(dp), intent(inout), target :: values(:, :)
+
+         real(dp), allocatable :: list(:)
+
+         allocate (list(size(values)))
+         list(:) = reshape(values, [size(values)])
+         call add_over_ranks(list)
+         values = reshape(list, shape(values))
+      end subroutine add_moments
+
    end function roughness_of
 
-   !> The mean square of all waves of wave numbers +-k and +-l in X and Y, for k = 0, 1, ..., eq. (M21); 0 for the mean.
+   !> The sums of (M22) to (M25) over the waves of each wave number in X, of height, slope, curvature, and slope and
+   !> curvature by differences, in the order of roughness_type; wave numbers are in units of 2 pi/unit.
+   pure function moments_of_rows(series, over_length, points) result(moments)
+      type(fourier_series), intent(in) :: series
+      real(dp), intent(in) :: over_length(2)             !! unit/L_x, unit/L_y
+      integer, intent(in) :: points(2)                   !! as of roughness_of
+      real(dp), allocatable :: moments(:, :)             !! shape (5, that of the series' first index)
+
+      !> Squared wave numbers, of the surface and of its differences.
+      real(dp), dimension(lbound(series%c, 1):ubound(series%c, 1)) :: powers, q_squared, s_squared, x_squared, x_steps
+      integer :: k, l
+
+      x_squared = [((k*over_length(1))**2, k=lbound(series%c, 1), ubound(series%c, 1))]
+      x_steps = [(step_squared(k, points(1), over_length(1)), k=lbound(series%c, 1), ubound(series%c, 1))]
+      allocate (moments(5, size(powers)), source=0.0_dp)
+      do l = 0, ubound(series%c, 2)
+         powers = wave_powers(series, points, l)
+         q_squared = x_squared + (l*over_length(2))**2
+         s_squared = x_steps + step_squared(l, points(2), over_length(2))
+         moments(1, :) = moments(1, :) + powers
+         moments(2, :) = moments(2, :) + powers*q_squared
+         moments(3, :) = moments(3, :) + powers*q_squared**2
+         moments(4, :) = moments(4, :) + powers*s_squared
+         moments(5, :) = moments(5, :) + powers*s_squared**2
+      end do
+   end function moments_of_rows
+
+   !> The mean square of all waves of wave numbers +-k and +-l in X and Y, for all k of the series, eq. (M21); 0 for the
+   !> mean.
    pure function wave_powers(series, points, l) result(powers)
       type(fourier_series), intent(in) :: series
       integer, intent(in) :: points(2)             !! as of roughness_of
       integer, intent(in) :: l                     !! 0 to ubound(series%c, 2)
-      real(dp) :: powers(0:ubound(series%c, 1))
+      real(dp) :: powers(lbound(series%c, 1):ubound(series%c, 1))
 
       integer :: k
 
       powers = series%c(:, l)**2
       if (.not. series%is_even()) powers = powers + series%cs(:, l)**2 + series%sc(:, l)**2 + series%ss(:, l)**2
-      powers = powers/(waves_of_number([(k, k=0, ubound(powers, 1))], points(1))*waves_of_number(l, points(2)))
-      if (l == 0) powers(0) = 0.0_dp
+      powers = powers/(waves_of_number([(k, k=lbound(powers, 1), ubound(powers, 1))], points(1))*waves_of_number(l, points(2)))
+      if (l == 0 .and. lbound(powers, 1) == 0) powers(0) = 0.0_dp
    end function wave_powers
 
    !> How many of the wave numbers k and -k are different waves: the mean has none beside it, and at the points of a

@@ -1,16 +1,18 @@
 !> Periodic surfaces: the gap h before deformation, and the pressure that closes it.
 module wavycon_surface
+   use wavycon_assertion, only: assert
    use wavycon_constants, only: pi, sqrt2
    use wavycon_fourier_series, only: fourier_series
-   use wavycon_grid_transform, only: grid_transform
+   use wavycon_grid_transform, only: point_angle
    use wavycon_kinds, only: dp
    use wavycon_roughness, only: roughness_of, roughness_type
    use wavycon_series_peak, only: find_peak
+   use wavycon_slab_transform, only: gather_series, slab_transform
    use wavycon_turned_series, only: to_sum_angles
    implicit none (type, external)
    private
 
-   public :: surface_type, surface_of_series, surface_of_points
+   public :: surface_type, surface_of_series, surface_of_points, whole_surface
 
    !> Whether the surface is a wave of Johnson, Greenwood & Higginson (1985), and in which angles. Straight: eq. (3) or
    !> (21) with phi = X, theta = Y. Turned: eq. (21) with phi = (X + Y)/2, theta = (X - Y)/2.
@@ -22,6 +24,7 @@ module wavycon_surface
       integer :: dimension = 2
       real(dp) :: length(2) = 1.0_dp            !! L_x, L_y, sides of the periodic cell [length]
       real(dp) :: amplitude = 1.0_dp            !! Delta [length], >= 0
+      !> Of a height map whose points are spread over the ranks each rank has some of its coefficients, see is_spread.
       type(fourier_series) :: shape
       integer :: points(2) = 0                  !! of the grid of a height map on the cell; zeros for a sum of waves
       !> Whether the cell consists of a height map and its mirror images. The map is then the quarter 0 <= X, Y <= pi.
@@ -36,6 +39,7 @@ module wavycon_surface
       procedure :: sides
       procedure :: nominal_area
       procedure :: is_height_map
+      procedure :: is_spread
       procedure :: has_hardness
       procedure :: full_contact_pressure
       procedure :: undeformed_gap_over_amplitude
@@ -83,44 +87,86 @@ contains
    end function surface_of_series
 
    !> The surface through given heights on a grid. Between the points it is their Fourier series. Crest, full-contact
-   !> pressure and curvature are the extremes over the points.
+   !> pressure and curvature are the extremes over the points. If the grid is spread over the ranks all of them call this,
+   !> each with its columns, and the surface is spread; its numbers are the same on all ranks.
    !>
    !> The grid is that of the whole cell, with the first point at X = Y = 0, or that of a quarter, which mirror images
    !> continue: equation (M6) of src/map/README.md.
-   type(surface_type) function surface_of_points(sides, height, mirrored) result(surface)
-      real(dp), intent(in) :: sides(2)                       !! of the map along x and y [length], > 0
-      real(dp), intent(inout), contiguous :: height(:, :)    !! [length], shape (M, N), N = 1 for a profile; unchanged
-      logical, intent(in), optional :: mirrored              !! whether mirror images continue it; .false. if absent
+   type(surface_type) function surface_of_points(sides, height, mirrored, points) result(surface)
+      real(dp), intent(in) :: sides(2)                 !! of the map along x and y [length], > 0
+      !> [length], shape (M, N), N = 1 for a profile, or (M, columns of the grid's slab).
+      real(dp), intent(in), contiguous :: height(:, :)
+      logical, intent(in), optional :: mirrored        !! whether mirror images continue it; .false. if absent
+      integer, intent(in), optional :: points(2)       !! M, N of a grid that may be spread; the shape of height if absent
 
-      type(grid_transform) :: transform
-      type(fourier_series) :: waves
+      type(slab_transform) :: transform
       real(dp), allocatable :: values(:, :)
-      integer :: best(2)
+      real(dp) :: extremes(2), per_wave(2)
+      integer :: grid(2)
 
-      surface%dimension = merge(1, 2, size(height, 2) == 1)
+      grid = shape(height)
+      if (present(points)) grid = points
+      surface%dimension = merge(1, 2, grid(2) == 1)
       if (present(mirrored)) surface%mirrored = mirrored
       surface%length = surface%parts()*sides
-      surface%points = surface%parts()*shape(height)
-      call transform%start(shape(height), even=surface%mirrored)
-      call transform%series(height, waves)
-      waves%c(0, 0) = 0.0_dp
+      surface%points = surface%parts()*grid
+      call transform%start(grid, even=surface%mirrored)
+      call transform%series(height, surface%shape)
+      if (lbound(surface%shape%c, 1) == 0) surface%shape%c(0, 0) = 0.0_dp
       allocate (values, mold=height)
-      call transform%sample(waves, values)
-      best = maxloc(values)
-      surface%crest = [transform%x_angle(best(1)), transform%y_angle(best(2))]
-      if (surface%dimension == 1) surface%crest(2) = 0.0_dp
-      surface%amplitude = values(best(1), best(2))
-      surface%shape = divided(waves, surface%amplitude)
+      call transform%sample(surface%shape, values)
+      call find_crest(transform, values, surface)
       if (surface%amplitude <= 0.0_dp) return
-      waves = surface%shape
-      call weigh(surface, waves, 1)
-      call transform%sample(waves, values)
-      surface%stiffness = -1.0_dp/minval(values)
-      surface%full_contact_peak = maxval(values)*surface%stiffness
-      call weigh(surface, waves, 1)
-      call transform%sample(waves, values)
-      surface%crest_curvature = maxval(values)
+      call divide(surface%shape, surface%amplitude)
+      per_wave = 1.0_dp/surface%length
+      call transform%sample(surface%shape, values, 1, per_wave)
+      extremes = [maxval(values), -minval(values)]
+      call transform%slab%largest(extremes)
+      surface%stiffness = 1.0_dp/extremes(2)
+      surface%full_contact_peak = extremes(1)*surface%stiffness
+      call transform%sample(surface%shape, values, 2, per_wave)
+      extremes(1) = maxval(values)
+      call transform%slab%largest(extremes)
+      surface%crest_curvature = extremes(1)
    end function surface_of_points
+
+   !> The largest value at the points and the first of the points that have it.
+   subroutine find_crest(transform, values, surface)
+      type(slab_transform), intent(in) :: transform
+      real(dp), intent(in) :: values(:, :)            !! own columns
+      type(surface_type), intent(inout) :: surface    !! gets amplitude and crest
+
+      integer :: best(2)
+      real(dp) :: place(1), value(1)
+
+      value = maxval(values)
+      call transform%slab%largest(value)
+      surface%amplitude = value(1)
+      ! Numbers of points are whole in a real number up to 2^53.
+      place = -huge(place)
+      associate (m => transform%points(1))
+         if (any(values >= value(1))) then
+            best = maxloc(values)
+            place = -(best(1) - 1.0_dp + real(m, dp)*(transform%slab%first + best(2) - 2))
+         end if
+         call transform%slab%largest(place)
+         best(2) = int(-place(1)/m)
+         best(1) = nint(-place(1) - real(m, dp)*best(2))
+         if (best(1) < 0) best = best + [m, -1]
+      end associate
+      surface%crest = point_angle(best + 1, transform%points, transform%even)
+      if (surface%dimension == 1) surface%crest(2) = 0.0_dp
+   end subroutine find_crest
+
+   !> Makes a surface that is spread whole, for tables: on the first rank alone, or on all. It stays spread on the others.
+   !> All ranks call this; nothing happens if the first rank has it whole. The shape has 8 bytes a point, and takes twice
+   !> as much for a moment.
+   subroutine whole_surface(surface, first_only)
+      type(surface_type), intent(inout) :: surface
+      logical, intent(in) :: first_only
+
+      call gather_series(surface%shape, first_only)
+   end subroutine whole_surface
 
    !> How often the part of the cell that decks and tables refer to lies in it along x and y: the map of a mirrored map
    !> twice, any other whole cell once.
@@ -157,6 +203,15 @@ contains
       is_height_map = all(self%points > 0)
    end function is_height_map
 
+   !> Whether each rank has some coefficients of the shape only: those of some wave numbers in X, see
+   !> wavycon_slab_transform. The shape cannot be evaluated then but by wavycon_undeformed_gap; `whole_surface` makes it
+   !> whole. All other components are the same on all ranks.
+   pure logical function is_spread(self)
+      class(surface_type), intent(in) :: self
+
+      is_spread = self%shape%is_spread()
+   end function is_spread
+
    !> Whether the pressure has an upper bound.
    elemental logical function has_hardness(self)
       class(surface_type), intent(in) :: self
@@ -178,18 +233,20 @@ contains
       class(surface_type), intent(in) :: self
       real(dp), intent(in) :: x, y   !! X, Y [rad]
 
+      call assert(.not. self%is_spread(), 'the surface is whole')
       gap = 1.0_dp - self%shape%at(x, y)
    end function undeformed_gap_over_amplitude
 
-   !> Root mean squares of height, slope and curvature.
-   pure type(roughness_type) function roughness(self)
+   !> Root mean squares of height, slope and curvature. All ranks call this if the surface is spread.
+   type(roughness_type) function roughness(self)
       class(surface_type), intent(in) :: self
 
       roughness = roughness_of(self%shape, self%amplitude, self%length, self%points)
    end function roughness
 
    !> The root mean square of the slope, the size of the gradient of h: sqrt2 pi Delta/lambda for the paper's waves.
-   pure real(dp) function rms_slope(self)
+   !> All ranks call this if the surface is spread.
+   real(dp) function rms_slope(self)
       class(surface_type), intent(in) :: self
 
       type(roughness_type) :: roughness
@@ -247,14 +304,16 @@ contains
       type(fourier_series), intent(inout) :: series
       integer, intent(in) :: power
 
-      real(dp) :: weight(0:ubound(series%c, 1))
+      real(dp) :: weight(lbound(series%c, 1):ubound(series%c, 1))
+      logical :: has_mean
       integer :: i, j
 
       do j = 0, ubound(series%c, 2)
-         weight = surface%frequency([(i, i=0, ubound(series%c, 1))], j)
-         if (j == 0) weight(0) = 1.0_dp
+         has_mean = j == 0 .and. lbound(series%c, 1) == 0
+         weight = surface%frequency([(i, i=lbound(series%c, 1), ubound(series%c, 1))], j)
+         if (has_mean) weight(0) = 1.0_dp
          weight = weight**power
-         if (j == 0) weight(0) = 0.0_dp
+         if (has_mean) weight(0) = 0.0_dp
          series%c(:, j) = weight*series%c(:, j)
          if (series%is_even()) cycle
          series%cs(:, j) = weight*series%cs(:, j)
@@ -269,20 +328,28 @@ contains
       real(dp), intent(in) :: unit
 
       divided = series
-      if (.not. abs(unit) > 0.0_dp) return
-      divided%c = divided%c/unit
-      if (series%is_even()) return
-      divided%cs = divided%cs/unit
-      divided%sc = divided%sc/unit
-      divided%ss = divided%ss/unit
+      if (abs(unit) > 0.0_dp) call divide(divided, unit)
    end function divided
 
-   !> Whether the surface is a wave of the paper: no_paper_wave, straight_paper_wave or turned_paper_wave.
+   !> Divides a series by a number, which is not 0.
+   pure subroutine divide(series, unit)
+      type(fourier_series), intent(inout) :: series
+      real(dp), intent(in) :: unit
+
+      series%c = series%c/unit
+      if (series%is_even()) return
+      series%cs = series%cs/unit
+      series%sc = series%sc/unit
+      series%ss = series%ss/unit
+   end subroutine divide
+
+   !> Whether the surface is a wave of the paper: no_paper_wave, straight_paper_wave or turned_paper_wave. A surface that
+   !> is spread is taken for none.
    pure integer function paper_wave(self)
       class(surface_type), intent(in) :: self
 
       paper_wave = no_paper_wave
-      if (.not. self%shape%is_even()) return
+      if (.not. self%shape%is_even() .or. self%is_spread()) return
       if (self%dimension == 1) then
          if (is_wave(1, 0)) paper_wave = straight_paper_wave
       else if (is_square(self)) then

@@ -1,0 +1,28 @@
+!> The gap before deformation at the points of a grid that may be spread over the ranks.
+module wavycon_undeformed_gap
+   use wavycon_grid_slab, only: grid_slab
+   use wavycon_kinds, only: dp
+   use wavycon_slab_transform, only: slab_transform
+   use wavycon_surface, only: surface_type
+   implicit none (type, external)
+   private
+
+   public :: sample_undeformed_gap
+
+contains
+
+   !> h/Delta at the points of a grid. Waves of the surface beyond the grid's highest wave number are left out. If the
+   !> grid or the surface is spread all ranks call this. The result does not depend on the number of ranks.
+   subroutine sample_undeformed_gap(surface, slab, h)
+      type(surface_type), intent(in) :: surface
+      type(grid_slab), intent(in) :: slab                !! of the grid, of a quarter of the cell if the surface is even
+      real(dp), intent(out), contiguous :: h(:, :)       !! shape (M, slab%columns())
+
+      type(slab_transform) :: transform
+
+      call transform%start(slab%points, surface%shape%is_even())
+      call transform%sample(surface%shape, h)
+      h = 1.0_dp - h
+   end subroutine sample_undeformed_gap
+
+end module wavycon_undeformed_gap
