@@ -48,8 +48,8 @@ module wavycon_grid_contact
       real(dp), private :: residual = 0.0_dp                 !! requested on these points
       integer, private :: level = 0                          !! of `use_level`
       logical, private :: keep_fields = .true.
-      logical, private :: turned = .false.                   !! whether the smaller cell is solved
-      type(surface_type), private :: solved                  !! the surface, on the smaller cell if it has one
+      !> The surface on its smaller cell, if that is solved: turned by 45 degrees.
+      type(surface_type), allocatable, private :: smaller
    contains
       procedure, nopass :: name
       procedure, nopass :: meaning
@@ -141,9 +141,9 @@ contains
       self%keep_fields = keep_fields
       if (present(points)) self%points = points
       if (surface%dimension == 1) self%points(2) = min(self%points(2), 1)
-      self%solved = surface
-      self%turned = all(self%points == 0) .and. surface%has_smaller_cell()
-      if (self%turned) self%solved = surface%smaller_cell()
+      if (any(self%points > 0) .or. .not. surface%has_smaller_cell()) return
+      allocate (self%smaller)
+      self%smaller = surface%smaller_cell()
    end subroutine start
 
    !> Each level has ten times the error of the one before it or, if the points are given, half the points each way.
@@ -179,13 +179,11 @@ contains
       type(cascade_answer) :: answer
       type(grid_solution), allocatable :: own
 
-      associate (accuracy => self%accuracy*10.0_dp**self%level, points => self%points/2**self%level)
-         if (associated(self%progress)) then
-            call solve_by_cascade(self%solved, pbar_over_pstar, accuracy, points, answer, self%progress, self%residual)
-         else
-            call solve_by_cascade(self%solved, pbar_over_pstar, accuracy, points, answer, residual=self%residual)
-         end if
-      end associate
+      if (allocated(self%smaller)) then
+         call solve_cell(self, self%smaller, pbar_over_pstar, answer)
+      else
+         call solve_cell(self, self%surface, pbar_over_pstar, answer)
+      end if
       if (.not. allocated(answer%edge)) then
          call no_solution(pbar_over_pstar, solver_name, no_memory, solution)
          return
@@ -193,7 +191,7 @@ contains
       allocate (own)
       own%pbar_over_pstar = pbar_over_pstar
       own%solver = solver_name
-      own%turned = self%turned
+      own%turned = allocated(self%smaller)
       own%measures = contact_measures(mean_gap_over_amplitude=answer%values(1), &
                                       approach_over_amplitude=1.0_dp - answer%state%mean_gap, &
                                       contact_area_fraction=answer%values(2), &
@@ -226,6 +224,22 @@ contains
       if (self%keep_fields) call move_alloc(answer%edge, own%edge)
       call move_alloc(own, solution)
    end subroutine solve_partial_contact
+
+   !> Solves a load on the surface or its smaller cell.
+   subroutine solve_cell(self, surface, pbar_over_pstar, answer)
+      class(grid_contact), intent(in) :: self
+      type(surface_type), intent(in) :: surface
+      real(dp), intent(in) :: pbar_over_pstar
+      type(cascade_answer), intent(out) :: answer
+
+      associate (accuracy => self%accuracy*10.0_dp**self%level, points => self%points/2**self%level)
+         if (associated(self%progress)) then
+            call solve_by_cascade(surface, pbar_over_pstar, accuracy, points, answer, self%progress, self%residual)
+         else
+            call solve_by_cascade(surface, pbar_over_pstar, accuracy, points, answer, residual=self%residual)
+         end if
+      end associate
+   end subroutine solve_cell
 
    !> The least pressure at the points of the grid.
    real(dp) function least_pressure(edge) result(least)
@@ -461,7 +475,11 @@ contains
 
       type(grid_plan) :: plan
 
-      plan = plan_grids(self%solved, self%points)
+      if (allocated(self%smaller)) then
+         plan = plan_grids(self%smaller, self%points)
+      else
+         plan = plan_grids(self%surface, self%points)
+      end if
       points = plan%last
    end function finest_grid
 
@@ -518,20 +536,20 @@ contains
       integer :: points(2)
 
       if (all(self%points > 0)) then
-         points = self%points/self%solved%parts()
+         points = self%points/self%surface%parts()
          words = 'a grid of '//integer_text(points(1))
-         if (self%solved%dimension == 2) words = words//' x '//integer_text(points(2))
+         if (self%surface%dimension == 2) words = words//' x '//integer_text(points(2))
          words = words//' points'
          if (self%residual > 0.0_dp) words = words//' to a residual of '//short_number(self%residual)
       else
          words = 'grids refined until mean gap, area and peak pressure are within '//short_number(self%accuracy)
       end if
-      if (self%solved%mirrored) then
+      if (self%surface%mirrored) then
          words = words//', on the map without its mirror images'
-      else if (self%solved%shape%is_even()) then
+      else if (self%surface%shape%is_even()) then
          words = words//', on a quarter of the cell'
       end if
-      if (self%turned) words = words//' turned by 45 degrees'
+      if (allocated(self%smaller)) words = words//' turned by 45 degrees'
    end function describe
 
 end module wavycon_grid_contact
