@@ -18,7 +18,7 @@ module wavycon_grid_cascade
    use wavycon_grid_solver, only: grid_state, solve_on_grid
    use wavycon_kinds, only: dp
    use wavycon_local_stiffness, only: local_stiffness
-   use wavycon_pressure_load, only: set_load
+   use wavycon_pressure_load, only: set_load, sum_of_field
    use wavycon_solver_progress, only: solver_progress
    use wavycon_surface, only: surface_type
    use wavycon_undeformed_gap, only: sample_undeformed_gap
@@ -59,7 +59,7 @@ contains
 
       real(dp), allocatable :: finer(:, :)
       type(change_history) :: history, history_at_hardness
-      type(grid_edge) :: edge_at_hardness
+      type(grid_edge), allocatable :: edge_at_hardness
       type(grid_plan) :: plan
       type(grid_slab) :: coarser
       real(dp) :: last_residual
@@ -78,10 +78,14 @@ contains
       do
          last = all(grid == plan%last)
          call solve_level(surface, mean_pressure, merge(last_residual, 0.0_dp, last), answer)
-         if (surface%has_hardness()) call find_edge_at_hardness(surface, answer%state, edge_at_hardness)
-         call measure_level(surface, mean_pressure, history, answer)
-         if (surface%has_hardness()) &
+         if (surface%has_hardness()) then
+            call find_edge_at_hardness(surface, answer%state, edge_at_hardness)
+            call measure_level(surface, mean_pressure, history, answer)
             call measure_at_hardness(surface, mean_pressure, edge_at_hardness, history_at_hardness, answer)
+            deallocate (edge_at_hardness)
+         else
+            call measure_level(surface, mean_pressure, history, answer)
+         end if
          answer%accurate = answer%state%converged .and. all(answer%errors <= accuracy) .and. &
             all(grid >= plan%trusted)
          if (present(progress)) &
@@ -122,7 +126,7 @@ contains
          call sample_undeformed_gap(surface, slab, h)
          call half_space%start(surface, slab%points)
          load = mean_pressure*product(real(slab%points, dp))
-         pressure = pressure*(load/sum(slab%column_totals(reshape(sum(pressure, dim=1), [1, slab%columns()]))))
+         pressure = pressure*(load/sum_of_field(slab, pressure))
          if (surface%has_hardness()) then
             highest = maxval(pressure)
             call slab%largest(highest)
@@ -176,8 +180,9 @@ contains
    subroutine find_edge_at_hardness(surface, state, edge)
       type(surface_type), intent(in) :: surface
       type(grid_state), intent(in) :: state   !! solved, with the gap
-      type(grid_edge), intent(out) :: edge
+      type(grid_edge), allocatable, intent(out) :: edge
 
+      allocate (edge)
       call start_grid_edge(edge, surface%hardness - state%pressure, -state%gap, surface%shape%is_even(), &
                            pressure_per_gap(surface, state%slab%points), state%slab)
       call edge%fetch_neighbours()
