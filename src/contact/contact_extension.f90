@@ -2,8 +2,8 @@
 !> that: equations (C4a) to (C4c) of README.md in this directory.
 !>
 !> Each coarser grid has half the points each way: a point of it has the mean of four. It needs even numbers of points;
-!> where they become odd the sequence ends. If the grid is spread over the ranks, so are the large ones among the coarser
-!> grids; small ones are whole on each rank.
+!> where they become odd the sequence ends. If the grid is spread over the ranks, so are those coarser ones that are
+!> large; small ones are whole on each rank.
 module wavycon_contact_extension
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_tuning, only: decay_alone, decay_growth
@@ -84,7 +84,7 @@ contains
    !> Sets the points in contact.
    subroutine set_contact(self, contact)
       class(contact_extension), intent(inout) :: self
-      real(sp), intent(in) :: contact(:, :)   !! 1 in contact, 0 outside, own columns, shape (M, columns)
+      real(sp), intent(in), contiguous :: contact(:, :)   !! 1 in contact, 0 outside, own columns, shape (M, columns)
 
       real(dp) :: total(1)
       integer :: k, levels
@@ -106,8 +106,8 @@ contains
    !> Continues a field to the points outside the contact.
    subroutine extend(self, contact, field)
       class(contact_extension), intent(inout) :: self
-      real(sp), intent(in) :: contact(:, :)     !! that of `set_contact`
-      real(sp), intent(inout) :: field(:, :)    !! zero outside the contact, own columns, shape (M, columns)
+      real(sp), intent(in), contiguous :: contact(:, :)    !! that of `set_contact`
+      real(sp), intent(inout), contiguous :: field(:, :)   !! zero outside the contact, own columns, shape (M, columns)
 
       integer :: k, levels
 
@@ -127,9 +127,9 @@ contains
    !> The adjoint of `extend`: adds to the values in contact those outside that the extension takes from them.
    subroutine collect(self, contact, field)
       class(contact_extension), intent(inout) :: self
-      real(sp), intent(in) :: contact(:, :)     !! that of `set_contact`
-      real(sp), intent(inout) :: field(:, :)    !! own columns, shape (M, columns); its values outside the contact are
-                                                !! of no use afterwards
+      real(sp), intent(in), contiguous :: contact(:, :)    !! that of `set_contact`
+      real(sp), intent(inout), contiguous :: field(:, :)   !! own columns, shape (M, columns); its values outside the
+                                                           !! contact are of no use afterwards
 
       integer :: k, levels
 
@@ -160,9 +160,9 @@ contains
 
    !> Means of two by two points; in 1-D of two.
    subroutine average(fine, part, slab, coarse)
-      real(sp), intent(in) :: fine(:, :)                   !! own columns
-      type(grid_slab), intent(in) :: part, slab            !! of the coarser grid
-      real(sp), intent(inout), contiguous :: coarse(:, :)  !! shape (any, slab%columns())
+      real(sp), intent(in), contiguous :: fine(:, :)        !! own columns
+      type(grid_slab), intent(in) :: part, slab             !! of the coarser grid
+      real(sp), intent(inout), contiguous :: coarse(:, :)   !! shape (any, slab%columns())
 
       integer :: before, i, j
 
@@ -192,7 +192,7 @@ contains
    !> The adjoint of `average`, added to a field.
    subroutine adjoint_average(coarse, fine)
       type(coarse_grid), intent(in) :: coarse
-      real(sp), intent(inout) :: fine(:, :)   !! own columns
+      real(sp), intent(inout), contiguous :: fine(:, :)   !! own columns
 
       integer :: before, i, j
       real(sp) :: part
@@ -213,8 +213,8 @@ contains
    subroutine fill(self, coarse, contact, fine)
       type(contact_extension), intent(in) :: self
       type(coarse_grid), intent(in) :: coarse
-      real(sp), intent(in) :: contact(:, :)     !! own columns
-      real(sp), intent(inout) :: fine(:, :)     !! likewise
+      real(sp), intent(in), contiguous :: contact(:, :)   !! own columns
+      real(sp), intent(inout), contiguous :: fine(:, :)   !! likewise
 
       real(sp) :: column(0:size(coarse%values, 1) + 1)
       real(sp) :: beside(size(coarse%values, 1), 2)   !! the columns before and after those of the coarser grid
@@ -252,8 +252,8 @@ contains
    !> The adjoint of `fill` without the field itself.
    subroutine adjoint_fill(self, slab, fine, contact, coarse)
       type(contact_extension), intent(in) :: self
-      type(grid_slab), intent(in) :: slab                     !! of the finer grid
-      real(sp), intent(in) :: fine(:, :), contact(:, :)       !! own columns
+      type(grid_slab), intent(in) :: slab                             !! of the finer grid
+      real(sp), intent(in), contiguous :: fine(:, :), contact(:, :)   !! own columns
       type(coarse_grid), intent(inout) :: coarse
 
       !> The columns before and after the own ones.
@@ -300,8 +300,9 @@ contains
 
    !> Adds the open part of a column times a factor.
    pure subroutine add_open(factor, contact, column, total)
-      real(sp), intent(in) :: factor, contact(:), column(:)
-      real(sp), intent(inout) :: total(:)
+      real(sp), intent(in) :: factor
+      real(sp), intent(in), contiguous :: contact(:), column(:)
+      real(sp), intent(inout), contiguous :: total(:)
 
       total = total + factor*(1.0_sp - contact)*column
    end subroutine add_open

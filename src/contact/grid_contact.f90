@@ -75,6 +75,7 @@ module wavycon_grid_contact
       procedure :: fields
       procedure :: edge_curves
       procedure :: stresses
+      procedure :: spread_points
       procedure :: collect_fields
       procedure :: is_kept
       procedure :: pack_kept
@@ -248,6 +249,14 @@ contains
       call edge%slab%add(total)
       number = total(1)
    end function bound_points
+
+   pure integer(int64) function spread_points(self)
+      class(grid_solution), intent(in) :: self
+
+      spread_points = 0
+      if (.not. allocated(self%edge)) return
+      if (self%edge%slab%is_spread) spread_points = product(int(self%edge%slab%points, int64))
+   end function spread_points
 
    !> Gathers the fields of a solution whose grid is spread over the ranks on the first of them; the others have none
    !> afterwards. All ranks must call it.

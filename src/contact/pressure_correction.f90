@@ -465,7 +465,7 @@ contains
       real(dp), allocatable :: parts(:, :)
       real(dp) :: start(1)
       real(sp) :: excess, factor
-      real(sp), dimension(longest_chunk) :: growth, image, pressure
+      real(sp), dimension(longest_chunk) :: contact, growth, image, pressure
       integer :: c, n
       logical :: shrinks
 
@@ -484,21 +484,23 @@ contains
          start = self%totals(parts)
          factor = real(start(1)/load, sp)
       end if
-      !$omp parallel do num_threads(self%region%threads) private(growth, image, n, pressure)
+      !$omp parallel do num_threads(self%region%threads) private(contact, growth, image, n, pressure)
       do c = 1, self%region%chunks
          associate (a => self%region%chunk(c), b => self%region%chunk(c + 1) - 1)
             n = b - a + 1
             pressure(:n) = self%start_pressure(a:b) + self%change(a:b)
+            contact(:n) = self%contact(a:b)
+            ! Of points that have left; at others the pressure is not negative.
+            image(:n) = max(-pressure(:n), 0.0_sp)
             if (shrinks) then
-               growth(:n) = factor*pressure(:n) - self%start_pressure(a:b) - self%change(a:b)
+               growth(:n) = contact(:n)*(factor*pressure(:n) - self%start_pressure(a:b) - self%change(a:b))
+               self%change(a:b) = merge(factor*pressure(:n) - self%start_pressure(a:b), &
+                                        max(self%change(a:b), -self%start_pressure(a:b)), contact(:n) > 0.0_sp)
             else
-               growth(:n) = excess*pressure(:n)
+               growth(:n) = contact(:n)*(excess*pressure(:n))
+               self%change(a:b) = max(self%change(a:b), -self%start_pressure(a:b)) + growth(:n)
             end if
-            growth(:n) = self%contact(a:b)*growth(:n)
-            image(:n) = growth(:n) + (1 - self%contact(a:b))*max(-pressure(:n), 0.0_sp)
-            self%change(a:b) = merge(merge(factor*pressure(:n) - self%start_pressure(a:b), &
-                                           self%change(a:b) + growth(:n), shrinks), &
-                                     max(self%change(a:b), -self%start_pressure(a:b)), self%contact(a:b) > 0)
+            image(:n) = image(:n) + growth(:n)
             call self%region%put_chunk(c, image, self%field)
          end associate
       end do
@@ -562,13 +564,16 @@ contains
       real(sp), intent(inout) :: contact(longest_chunk)   !! 1 at free points, 0 at others; then those that enter too
       real(dp), intent(out) :: sums(gap_sums)
 
-      real(sp), dimension(longest_chunk) :: enter, gap, violation
+      real(sp), dimension(longest_chunk) :: enter, gap, outside, violation
+      real(sp) :: least
       integer :: n
 
       associate (a => self%region%chunk(c), b => self%region%chunk(c + 1) - 1)
          n = b - a + 1
+         least = -allowance
          gap(:n) = self%gap(a:b) - mean
-         enter(:n) = merge(1.0_sp - contact(:n), 0.0_sp, gap(:n) < -allowance)
+         outside(:n) = 1.0_sp - contact(:n)
+         enter(:n) = merge(outside(:n), 0.0_sp, gap(:n) < least)
          violation(:n) = min(gap(:n), 0.0_sp)
          if (allocated(self%room)) then
             where (contact(:n) <= 0.0_sp .and. self%room(a:b) <= self%change(a:b))

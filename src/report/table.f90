@@ -19,6 +19,7 @@ module wavycon_table
       procedure :: is_requested
       procedure :: refusal
       procedure :: needs_fields
+      procedure :: needs_surface
       procedure :: is_written_by_all
       procedure :: is_for_flat_surfaces
       procedure(write_table), deferred, nopass :: write
@@ -82,6 +83,14 @@ contains
       associate (unused => self); end associate
       needs_fields = .false.
    end function needs_fields
+
+   !> Whether the table is made from the whole surface. Here it is.
+   pure logical function needs_surface(self)
+      class(table_type), intent(in) :: self
+
+      associate (unused => self); end associate
+      needs_surface = .true.
+   end function needs_surface
 
    !> Whether all ranks write the table together, each from its columns of grids that are spread; called before the
    !> loads are solved and after. Here the first rank writes it.

@@ -15,6 +15,7 @@ module wavycon_run_scene
    use wavycon_scene, only: by_yield, scene_type
    use wavycon_solve_loads, only: solve_loads
    use wavycon_solver_list, only: start_solver
+   use wavycon_surface, only: whole_surface
    use wavycon_system, only: has_memory_for, make_directories
    use wavycon_tables, only: all_tables, table_item
    use wavycon_work_sharing, only: choose_sharing, spread_grids
@@ -65,12 +66,16 @@ contains
       type(table_item), intent(in) :: tables(:)
       type(error_type), allocatable, intent(out) :: error
 
+      integer(int64) :: points
       integer :: i
+      logical :: by_first(size(tables))
 
       if (results%sharing%kind /= spread_grids) return
-      if (asks_for_largest(results%scene) .or. &
-          need_fields(tables, [(.not. tables(i)%table%is_written_by_all(results), i=1, size(tables))])) &
-         call check_memory(size(results%scene%target)*product(int(results%solver%given_grid(), int64)), error)
+      by_first = [(.not. tables(i)%table%is_written_by_all(results), i=1, size(tables))]
+      points = 0
+      if (need_fields(tables, by_first) .or. asks_for_largest(results%scene)) &
+         points = size(results%scene%target)*product(int(results%solver%given_grid(), int64))
+      call check_memory(results, points, need_surface(tables, by_first), error)
       call share_error(error)
    end subroutine check_sharing
 
@@ -135,8 +140,8 @@ contains
       call write_tables(results, tables, by_all, error)
       if (allocated(error)) return
       if (by_first) then
-         if (need_fields(tables, .not. by_all) .or. asks_for_largest(results%scene)) &
-            call collect_solutions(results, error)
+         call collect(results, need_fields(tables, .not. by_all) .or. asks_for_largest(results%scene), &
+                      need_surface(tables, .not. by_all), error)
          if (allocated(error)) return
          call work_alone(.true.)
       end if
@@ -172,6 +177,10 @@ contains
          call start_solver(scene%surface, scene%method, keep_fields(scene, tables), results%solver)
          results%sharing = choose_sharing(results%solver, size(scene%target), need_fields(tables), &
                                           scene%loads_by == by_yield)
+         if (scene%surface%is_spread() .and. results%sharing%kind /= spread_grids) then
+            call whole_surface(scene%surface, first_only=.not. results%sharing%is_shared())
+            call start_solver(scene%surface, scene%method, keep_fields(scene, tables), results%solver)
+         end if
       end associate
    end subroutine start_results
 
@@ -214,6 +223,16 @@ contains
          need_fields = need_fields .or. tables(i)%table%needs_fields()
       end do
    end function need_fields
+
+   !> Whether any of the tables is made from the whole surface.
+   pure logical function need_surface(tables, selected)
+      type(table_item), intent(in) :: tables(:)
+      logical, intent(in) :: selected(:)   !! the tables that count
+
+      integer :: i
+
+      need_surface = any([(selected(i) .and. tables(i)%table%needs_surface(), i=1, size(tables))])
+   end function need_surface
 
    !> Whether the solutions keep their fields.
    logical function keep_fields(scene, tables)
@@ -293,35 +312,50 @@ contains
       end do
    end subroutine write_tables
 
-   !> Brings what is spread over the ranks to the first one, load by load. Errors: exit_file_trouble if it has not the
-   !> memory.
-   subroutine collect_solutions(results, error)
+   !> Brings what is spread over the ranks to the first one: the fields load by load, the surface. Errors:
+   !> exit_file_trouble if it has not the memory.
+   subroutine collect(results, fields, surface, error)
       type(results_type), intent(inout) :: results
+      logical, intent(in) :: fields, surface   !! what is needed
       type(error_type), allocatable, intent(out) :: error
 
+      integer(int64) :: points
       integer :: load
 
-      call check_memory(sum([(results%loads(load)%solution%spread_points(), load=1, size(results%loads))]), error)
+      points = 0
+      if (fields) points = sum([(results%loads(load)%solution%spread_points(), load=1, size(results%loads))])
+      call check_memory(results, points, surface, error)
       call share_error(error)
       if (allocated(error)) return
-      do load = 1, size(results%loads)
-         call results%loads(load)%solution%collect_fields()
-      end do
-   end subroutine collect_solutions
+      if (fields) then
+         do load = 1, size(results%loads)
+            call results%loads(load)%solution%collect_fields()
+         end do
+      end if
+      if (surface) call whole_surface(results%scene%surface, first_only=.true.)
+   end subroutine collect
 
-   !> Whether the first rank has the memory for the fields of all loads. Errors: exit_file_trouble.
-   subroutine check_memory(points, error)
-      integer(int64), intent(in) :: points   !! of the grids of all loads
+   !> Whether the first rank has the memory for what is spread over the ranks. Errors: exit_file_trouble.
+   subroutine check_memory(results, points, surface, error)
+      type(results_type), intent(in) :: results
+      integer(int64), intent(in) :: points   !! of the grids of all loads whose fields are needed
+      logical, intent(in) :: surface         !! whether the surface is needed
       type(error_type), allocatable, intent(out) :: error
 
       integer, parameter :: bytes_of_number = storage_size(1.0_dp)/8
+      integer(int64) :: numbers
 
       if (.not. is_first_rank()) return
-      if (has_memory_for(points)) return
-      call fatal_error(error, exit_file_trouble, 'the first rank has not the memory for the tables: the fields of '// &
-                       'all loads take '//short_number(real(bytes_of_number*points, dp)/1e9_dp)//' GB. Ask for '// &
-                       "fewer loads, or in place of these tables for a map with map_format = 'npy' and the points "// &
-                       'of the grid, which all ranks write')
+      numbers = points
+      ! The series, and twice as much while it is gathered.
+      if (surface .and. results%scene%surface%is_spread()) &
+         numbers = numbers + 3*product(int(results%scene%surface%points, int64)/results%scene%surface%parts())
+      if (has_memory_for(numbers)) return
+      call fatal_error(error, exit_file_trouble, 'the first rank has too little memory for the tables: the whole '// &
+                       'fields of all loads, and the surface, take '// &
+                       short_number(real(bytes_of_number*numbers, dp)/1e9_dp)//' GB. Leave out tables but the '// &
+                       "summary, a map with map_format = 'npy' and the points of the grid, and the heights, "// &
+                       'or solve fewer loads')
    end subroutine check_memory
 
    !> Writes the last lines of the log and finds the exit status.

@@ -20,7 +20,7 @@ module wavycon_solve_loads
    !> Loads that one rank solves one after the other, where each starts from the last one and loads are spread over the
    !> ranks. The first of a block starts as the first load of a sweep does. The length does not depend on the number of
    !> ranks, and so the digits do not.
-   integer, parameter :: block_length = 16
+   integer, parameter :: block_length = 8
 
 contains
 

@@ -37,15 +37,15 @@ contains
       logical, intent(in) :: need_fields            !! whether tables need fields, edges or details of all loads
       logical, intent(in) :: need_stresses          !! whether a load is found by its stresses
 
-      logical :: can_spread_loads
+      logical :: can_spread_loads, is_large
       type(grid_slab) :: slab
 
       sharing%ranks = rank_count()
       if (sharing%ranks == 1) return
       call slab%start(max(solver%finest_grid(), 1))
       can_spread_loads = loads >= sharing%ranks .and. .not. need_fields
-      if (slab%is_spread .and. .not. need_stresses .and. &
-          (.not. can_spread_loads .or. product(int(solver%given_grid(), int64)) >= large_grid)) then
+      is_large = product(int(solver%given_grid(), int64)) >= large_grid
+      if (slab%is_spread .and. .not. need_stresses .and. (is_large .or. .not. can_spread_loads)) then
          sharing%kind = spread_grids
       else if (can_spread_loads) then
          sharing%kind = spread_loads

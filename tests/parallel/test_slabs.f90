@@ -284,8 +284,8 @@ contains
    subroutine extend_and_collect(points, even, contact, extended, collected)
       integer, intent(in) :: points(2)
       logical, intent(in) :: even
-      real(sp), intent(in) :: contact(:, :)
-      real(sp), intent(inout) :: extended(:, :), collected(:, :)
+      real(sp), intent(in), contiguous :: contact(:, :)
+      real(sp), intent(inout), contiguous :: extended(:, :), collected(:, :)
 
       type(contact_extension) :: extension
 
