@@ -8,7 +8,8 @@ On P points and R ranks, n = P/R points on each, an iteration takes
     + what messages between machines take
 
 a log2 P + b: a pair of transforms. e: the continuation of the gap; each rank does its coarse grids whole, the first
-of which has P_whole points. t: an exchange in single precision. c: the rest, the vectors and the steps in double precision.
+of which has P_whole points. t: an exchange in single precision. c: the rest, the vectors and the steps in double
+precision.
 On one rank nothing is exchanged, and b and c have other values. All are fitted to grids that are not left out: a and b
 to pairs, t to exchanges, e to the continuation, c to iterations on one rank and on two. The check is against measured
 iterations on all grids and ranks. Ranks that are more than the processors take turns.
@@ -203,7 +204,7 @@ def check_lines(model, iterations, left_out):
 
 def table_lines(model, given, one, net, bytes_a_point):
     lines = ['', '', f'# {net.name}',
-             '# modelled: seconds of an iteration and of its parts; speed-up over one rank with enough memory; GB of a rank',
+             '# modelled: seconds of an iteration and of its parts; speed-up over one rank, if it had the memory',
              '#    side   ranks    used  iteration[s]  transforms[s]    rest[s]  exchanges[s]  messages[s]'
              '   speed_up  efficiency  memory[GB]']
     for side in (int(word) for word in given.sides.split(',')):
@@ -234,13 +235,14 @@ def main():
         f'# Time of an iteration of wavycon-mpi: {os.path.basename(__file__)} says how it is modelled.',
         f'# MEASURED are the times and bytes of {os.path.basename(given.table)} and the errors of the block check; all '
         'other numbers are MODELLED.',
-        f'# Mean pressure {pressure} E* rms slope, {100*largest.contact:.0f} % of the points in contact. An iteration has',
-        f'# {largest.pairs:.2f} pairs of transforms, {largest.double_pairs:.2f} of them in double precision. {largest.iterations} iterations on the '
-        'last grid, to a residual of 1e-8.',
+        f'# Mean pressure {pressure} E* rms slope, {100*largest.contact:.0f} % of the points in contact.',
+        f'# An iteration has {largest.pairs:.2f} pairs of transforms, {largest.double_pairs:.2f} of them in double '
+        'precision.',
+        f'# {largest.iterations} iterations on the last grid, to a residual of 1e-8.',
         f'# Fitted [ns a point]: a {nano*model.a:.4f}, t {nano*model.t:.3f}, e {nano*model.e:.3f}; on one rank '
         f'b {nano*model.b:.3f} and c {nano*model.c:.3f},',
         f'# on several b {nano*model.b_spread:.3f} and c {nano*model.c_spread:.3f}.',
-        f'# Memory: {bytes_a_point:.1f} bytes a point, measured on {largest.points[0]} x {largest.points[1]} points and '
+        f'# Memory: {bytes_a_point:.1f} bytes a point, measured on {largest.points[0]} x {largest.points[1]} points, '
         f'{largest.ranks} ranks.',
         f'# ASSUMED of the cluster: {given.ranks_per_node} ranks on a node, each as fast as one of '
         f'{min(2, given.processors)} here; networks of which each node has',
