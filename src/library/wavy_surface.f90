@@ -162,7 +162,7 @@ contains
       type(measured_map) :: map
 
       call check_map_size(source, shape(heights), error)
-      if (.not. allocated(error)) call check_room(source, size(heights), error)
+      if (.not. allocated(error)) call check_room(source, shape(heights), error)
       if (.not. allocated(error)) call read_map_keys(length_x, length_y, keys, values, error)
       if (.not. allocated(error)) then
          map%missing = ieee_is_nan(heights)

@@ -146,8 +146,8 @@ wavycon_surface wavycon_new_crossed_1d(wavycon_error error, double amplitude1, d
 wavycon_surface wavycon_new_wave_sum(wavycon_error error, int waves, const double *amplitudes, const int *waves_x,
                                      const int *waves_y, const double *phases, double length_x, double length_y);
 
-/* A periodic map of heights [length], upwards to the other body: heights[points_y][points_x]. 4 to 8192 points a side,
-   points_y = 1 for a profile. The last row and column are the cell's last, not copies of the first. */
+/* A periodic map of heights [length], upwards to the other body: heights[points_y][points_x]. 4 to 1048576 points a
+   side, points_y = 1 for a profile. The last row and column are the cell's last, not copies of the first. */
 wavycon_surface wavycon_new_heights(wavycon_error error, int points_x, int points_y, const double *heights,
                                     double length_x, double length_y);
 

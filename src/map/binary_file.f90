@@ -158,7 +158,7 @@ contains
                           long_text(self%bytes)//': was it copied in full, as binary data?', error)
          return
       end if
-      call check_room(self%path, product(points), error)
+      call check_room(self%path, points, error)
       if (.not. allocated(error)) call self%go_to(start, error)
       if (allocated(error)) return
       allocate (map%height(points(1), points(2)))

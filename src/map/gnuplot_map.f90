@@ -55,7 +55,7 @@ contains
       end if
       n = int(file%bytes/(number_bytes*(m + 1))) - 1
       call check_map_size(file%path, [m, n], error)
-      if (.not. allocated(error)) call check_room(file%path, m*n, error)
+      if (.not. allocated(error)) call check_room(file%path, [m, n], error)
       if (.not. allocated(error)) call file%go_to(int(number_bytes*(m + 1), int64), error)
       if (allocated(error)) return
       allocate (map%height(m, n), numbers(m + 1), y(n))

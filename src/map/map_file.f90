@@ -107,7 +107,7 @@ contains
          return
       end if
       if (map%format == 'auto') map%format = merge('xyz   ', 'matrix', are_points(table))
-      call check_room(file%path, size(table%values)/merge(3, 1, map%format == 'xyz'), error)
+      call check_room(file%path, [size(table%values)/merge(3, 1, map%format == 'xyz'), 1], error)
       if (allocated(error)) return
       if (map%format == 'xyz') then
          call take_points(table, map, error)

@@ -5,7 +5,7 @@ module wavycon_point_map
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_key_table, only: smallest_number
    use wavycon_kinds, only: dp
-   use wavycon_map_size, only: check_map_size, check_room, most_points
+   use wavycon_map_size, only: check_map_size, check_room
    use wavycon_measured_map, only: measured_map
    use wavycon_number_table, only: number_table
    use wavycon_plain_text, only: escaped, integer_text, short_number
@@ -82,9 +82,9 @@ contains
       points = axis%number
       call check_grid()
       if (.not. allocated(error)) call check_map_size(table%path, points, error)
-      if (.not. allocated(error)) call check_room(table%path, product(points), error)
+      if (.not. allocated(error)) call check_room(table%path, points, error)
       if (allocated(error)) return
-      if (int(least_percentage, int64)*product(points) > 100*int(table%rows(), int64)) then
+      if (int(least_percentage, int64)*product(int(points, int64)) > 100*int(table%rows(), int64)) then
          call fatal_error(error, exit_bad_input, escaped(table%path)//': the grid of these points has '// &
                           grid_words()//' and only '//integer_text(table%rows())//' of them are there: interpolate '// &
                           'the heights to a regular grid')
@@ -147,7 +147,8 @@ contains
    pure type(axis_type) function axis_of(coordinate) result(axis)
       real(dp), intent(in) :: coordinate(:)   !! at least one
 
-      integer, parameter :: bins = 4*most_points
+      !> Four to a step of 65536 points, more than texts have along a side.
+      integer, parameter :: bins = 262144
       real(dp), allocatable :: lowest(:)
       logical, allocatable :: is_filled(:)
       real(dp) :: extent, gap, largest, last, step, steps

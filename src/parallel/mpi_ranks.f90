@@ -1,14 +1,14 @@
 !> The ranks of the parallel program, by MPI.
 module wavycon_mpi_ranks
    use, intrinsic :: iso_fortran_env, only: error_unit, int64
-   use mpi_f08, only: mpi_abort, mpi_allgatherv, mpi_allreduce, mpi_alltoallv, mpi_bcast, mpi_byte, &
-      mpi_character, mpi_comm, mpi_comm_free, mpi_comm_rank, mpi_comm_size, mpi_comm_split_type, &
-      mpi_comm_type_shared, mpi_comm_world, mpi_datatype, mpi_double_precision, mpi_error_string, mpi_file, &
-      mpi_file_close, mpi_file_open, mpi_file_read_at_all, mpi_file_write_at_all, mpi_finalize, mpi_gatherv, &
-      mpi_get_count, mpi_get_library_version, mpi_in_place, mpi_info_null, mpi_init_thread, mpi_integer, &
-      mpi_integer8, mpi_irecv, mpi_isend, mpi_max, mpi_max_error_string, mpi_max_library_version_string, &
-      mpi_mode_rdonly, mpi_mode_wronly, mpi_offset_kind, mpi_request, mpi_status, mpi_statuses_ignore, &
-      mpi_success, mpi_sum, mpi_thread_funneled, mpi_type_commit, mpi_type_contiguous, mpi_type_free, mpi_waitall
+   use mpi_f08, only: mpi_abort, mpi_allgatherv, mpi_allreduce, mpi_alltoallv, mpi_bcast, mpi_byte, mpi_character, &
+      mpi_comm, mpi_comm_free, mpi_comm_rank, mpi_comm_size, mpi_comm_split_type, mpi_comm_type_shared, &
+      mpi_comm_world, mpi_datatype, mpi_double_precision, mpi_error_string, mpi_file, mpi_file_close, mpi_file_open, &
+      mpi_file_read_at_all, mpi_file_write_at_all, mpi_finalize, mpi_gatherv, mpi_get_count, mpi_get_library_version, &
+      mpi_in_place, mpi_info_null, mpi_init_thread, mpi_integer, mpi_integer8, mpi_irecv, mpi_isend, mpi_logical, &
+      mpi_lor, mpi_max, mpi_max_error_string, mpi_max_library_version_string, mpi_mode_rdonly, mpi_mode_wronly, &
+      mpi_offset_kind, mpi_request, mpi_status, mpi_statuses_ignore, mpi_success, mpi_sum, mpi_thread_funneled, &
+      mpi_type_commit, mpi_type_contiguous, mpi_type_free, mpi_waitall
    use wavycon_kinds, only: dp
    use wavycon_mpi_rows, only: start_mpi_rows
    use wavycon_ranks, only: rank_team, row_exchange, use_team
@@ -16,6 +16,8 @@ module wavycon_mpi_ranks
    private
 
    public :: start_mpi
+
+   integer, parameter :: message_length = 512   !! of the compiler's messages
 
    type, extends(rank_team) :: mpi_team
       integer :: this = 0, number = 1, on_machine = 1
@@ -237,10 +239,14 @@ contains
 
       integer :: code, transferred
       integer(mpi_offset_kind) :: place
+      logical :: is_missing
       type(mpi_datatype) :: column
       type(mpi_file) :: file
       type(mpi_status) :: status
 
+      call check_access(path, is_output, failure)
+      call mpi_allreduce(allocated(failure), is_missing, 1, mpi_logical, mpi_lor, mpi_comm_world)
+      if (is_missing) return
       call mpi_file_open(mpi_comm_world, path, merge(mpi_mode_wronly, mpi_mode_rdonly, is_output), mpi_info_null, &
                          file, code)
       if (code /= mpi_success) then
@@ -265,6 +271,25 @@ contains
       call mpi_file_close(file, code)
       if (code /= mpi_success .and. .not. allocated(failure)) failure = words_of(code)
    end subroutine transfer_columns
+
+   !> Whether this rank can open a file that exists. If one rank cannot, as on a machine that does not share the disk,
+   !> Open MPI 4 opens the file on the others, and these would wait for it for ever.
+   subroutine check_access(path, is_output, failure)
+      character(*), intent(in) :: path
+      logical, intent(in) :: is_output
+      character(:), allocatable, intent(out) :: failure   !! the system's words; not allocated: it can
+
+      character(message_length) :: words
+      integer :: status, unit
+
+      open (newunit=unit, file=path, status='old', access='stream', action=merge('write', 'read ', is_output), &
+            iostat=status, iomsg=words)
+      if (status == 0) then
+         close (unit)
+      else
+         failure = trim(words)
+      end if
+   end subroutine check_access
 
    !> MPI's words for an error.
    function words_of(code) result(words)

@@ -1,10 +1,11 @@
 !> A random self-affine surface, made from its spectrum.
 module wavycon_self_affine
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
+   use wavycon_grid_slab, only: grid_slab
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: choice_key, integer_key, key_type, largest_number, real_key, smallest_number
    use wavycon_kinds, only: dp
-   use wavycon_map_size, only: check_room, least_points, most_points
+   use wavycon_map_size, only: check_slab_room, least_points, most_points
    use wavycon_map_statistics, only: map_statistics, statistics_of
    use wavycon_plain_text, only: escaped, integer_text, short_number
    use wavycon_problems, only: problem_list_type
@@ -26,6 +27,9 @@ module wavycon_self_affine
       procedure, nopass :: check
       procedure, nopass :: make
    end type self_affine_kind
+
+   !> Most points along a side that a deck without `points` gets.
+   integer, parameter :: most_default_points = 8192
 
 contains
 
@@ -106,7 +110,7 @@ contains
       real(dp), intent(in) :: waves   !! of the shortest wavelength along a side
 
       points = least_points
-      do while (points < 4*waves .and. points < most_points)
+      do while (points < 4*waves .and. points < most_default_points)
          points = 2*points
       end do
    end function default_points
@@ -213,31 +217,34 @@ contains
 
       character(:), allocatable :: source
       type(self_affine_spectrum) :: spectrum
+      type(grid_slab) :: slab
       real(dp), allocatable :: height(:, :)
+      real(dp) :: largest(1)
       integer :: points(2)
       logical :: is_made
 
       source = escaped(values%deck_path)//": kind = 'self_affine'"
       points = values%integers('points')
-      call check_room(source, product(points), error)
+      call check_slab_room(source, points, error)
       if (allocated(error)) return
       spectrum = spectrum_of(values)
-      allocate (height(points(1), points(2)))
-      call make_heights(spectrum, height, is_made)
+      call slab%start(points)
+      allocate (height(points(1), slab%columns()))
+      call make_heights(spectrum, height, is_made, points)
       if (.not. is_made) then
          call fatal_error(error, exit_file_trouble, source//': there is not the memory for random numbers')
          return
       end if
-      associate (largest => maxval(abs(height)))
-         if (largest > largest_number .or. largest < smallest_number) then
-            call fatal_error(error, exit_bad_input, source//': heights are up to '//short_number(largest)// &
-                             ' [length]: lengths may be from '//short_number(smallest_number)//' to '// &
-                             short_number(largest_number))
-            return
-         end if
-      end associate
-      surface = surface_of_points(spectrum%length, height)
-      map = statistics_of(height, 'made', '')
+      largest = maxval(abs(height))
+      call slab%largest(largest)
+      if (largest(1) > largest_number .or. largest(1) < smallest_number) then
+         call fatal_error(error, exit_bad_input, source//': heights are up to '//short_number(largest(1))// &
+                          ' [length]: lengths may be from '//short_number(smallest_number)//' to '// &
+                          short_number(largest_number))
+         return
+      end if
+      map = statistics_of(height, 'made', '', points)
+      surface = surface_of_points(spectrum%length, height, points=points)
    end subroutine make
 
    !> Whether two keys of &surface give the roughness in different ways: rms_height, or rms_slope.

@@ -2,10 +2,12 @@
 module wavycon_self_affine_heights
    use, intrinsic :: iso_c_binding, only: c_associated, c_long, c_ptr
    use wavycon_constants, only: pi
-   use wavycon_grid_transform, only: grid_transform
+   use wavycon_fourier_series, only: fourier_series
    use wavycon_gsl, only: gsl_rng_alloc, gsl_rng_free, gsl_rng_mt19937, gsl_rng_set, gsl_rng_uniform, &
       return_gsl_errors
    use wavycon_kinds, only: dp
+   use wavycon_ranks, only: add_over_ranks
+   use wavycon_slab_transform, only: allocate_series, slab_transform
    implicit none (type, external)
    private
 
@@ -90,33 +92,41 @@ contains
       mean_square = max(1.0_dp, frequency*spectrum%rolloff)**(-spectrum%dimension - 2*spectrum%hurst)
    end function mean_square
 
-   !> Makes the heights on the points of a grid of the cell (G1).
+   !> Makes the heights on the points of a grid of the cell (G1). If it is spread over the ranks all of them call this,
+   !> each for its columns; each has the waves of some wave numbers along x. The heights do not depend on the number of
+   !> ranks.
    !>
    !> N.B. The random numbers are drawn in the order of (G5), for waves beyond the cut-offs too: the phase of a wave
    !> depends on the seed and its wave numbers only, and the surface does not depend on the grid.
-   subroutine make_heights(spectrum, height, is_made)
+   subroutine make_heights(spectrum, height, is_made, points)
       type(self_affine_spectrum), intent(in) :: spectrum   !! has_waves
-      !> [length], shape (M, N), N = 1 in 1-D, not below least_points_of.
+      !> [length], shape (M, N), N = 1 in 1-D, or (M, columns of the grid's slab).
       real(dp), intent(inout), contiguous :: height(:, :)
       logical, intent(out) :: is_made                      !! .false. if there is no memory for the generator
+      !> M, N, not below least_points_of, of a grid that may be spread; the shape of height if absent.
+      integer, intent(in), optional :: points(2)
 
-      type(grid_transform) :: transform
       type(c_ptr) :: generator
-      integer :: highest(2), k, m, n
-      real(dp) :: moment, of_square
+      type(fourier_series) :: waves
+      type(slab_transform) :: transform
+      real(dp), allocatable :: moments(:)   ! of the waves of each wave number along x
+      integer :: first, grid(2), highest(2), k, last, m, n
 
       call return_gsl_errors()
       generator = gsl_rng_alloc(gsl_rng_mt19937)
       is_made = c_associated(generator)
       if (.not. is_made) return
       call gsl_rng_set(generator, int(spectrum%seed, c_long))
-      call transform%start(shape(height), even=.false.)
-      transform%waves = 0.0_dp
+      grid = shape(height)
+      if (present(points)) grid = points
       highest = highest_waves(spectrum)
-      moment = 0.0_dp
+      call transform%start(grid, even=.false.)
+      call transform%rows_of_waves(first, last)
+      call allocate_series(waves, first, last, grid(2)/2, even=.false.)
+      if (transform%slab%is_spread) waves%spread_waves = transform%waves_x()
+      ! Each wave number is summed by itself: rounding then grows with the square root of the number of waves.
+      allocate (moments(0:highest(1)), source=0.0_dp)
       do k = 1, maxval(highest)
-         ! Each square is summed by itself: rounding then grows with the square root of the number of waves.
-         of_square = 0.0_dp
          if (spectrum%dimension == 1) then
             call add_wave(k, 0)
          else
@@ -128,36 +138,40 @@ contains
                call add_wave(k, n)
             end do
          end if
-         moment = moment + of_square
       end do
       call gsl_rng_free(generator)
-      call transform%backward(height)
-      height = spectrum%rms/sqrt(moment)*height
+      if (waves%is_spread()) call add_over_ranks(moments)
+      call transform%sample(waves, height)
+      height = spectrum%rms/sqrt(sum(moments))*height
 
    contains
 
-      !> Draws a wave and, if it is within the cut-offs, adds it to the spectrum and its part to the moment.
+      !> Draws a wave and, if it is within the cut-offs and one of this rank's, adds it to the series and its part to the
+      !> moments.
       subroutine add_wave(m, n)
          integer, intent(in) :: m, n   !! wave numbers, m >= 0
 
          !> Half of the generator's step: no number is 0, and its logarithm exists.
          real(dp), parameter :: half_step = 2.0_dp**(-33)
-         complex(dp) :: wave
-         real(dp) :: square, turn, uniform
+         real(dp) :: cosine, f, sine, square, turn, uniform
 
          turn = 2*pi*gsl_rng_uniform(generator)
          uniform = gsl_rng_uniform(generator) + half_step
-         associate (f => frequency(spectrum, m, n))
-            if (any(abs([m, n]) > highest) .or. .not. is_within(spectrum, f)) return
-            square = mean_square(spectrum, f)
-            if (spectrum%random_amplitudes) square = -log(uniform)*square
-            of_square = of_square + square*merge((2*pi*f)**2, 1.0_dp, spectrum%by_slope)
-         end associate
-         ! cos(mX + nY + phase) is half the sum of two conjugate waves; the transform keeps those with m >= 0.
-         wave = sqrt(0.5_dp*square)*cmplx(cos(turn), sin(turn), dp)
-         associate (columns => size(height, 2))
-            transform%waves(m + 1, modulo(n, columns) + 1) = wave
-            if (m == 0) transform%waves(1, modulo(-n, columns) + 1) = conjg(wave)
+         if (any(abs([m, n]) > highest) .or. m < first .or. m > last) return
+         f = frequency(spectrum, m, n)
+         if (.not. is_within(spectrum, f)) return
+         square = mean_square(spectrum, f)
+         if (spectrum%random_amplitudes) square = -log(uniform)*square
+         moments(m) = moments(m) + square*merge((2*pi*f)**2, 1.0_dp, spectrum%by_slope)
+         ! cos(mX + nY + turn), in the sines and cosines of each angle.
+         cosine = sqrt(2*square)*cos(turn)
+         sine = sqrt(2*square)*sin(turn)
+         associate (l => abs(n))
+            waves%c(m, l) = waves%c(m, l) + cosine
+            waves%sc(m, l) = waves%sc(m, l) - sine
+            if (n == 0) return
+            waves%cs(m, l) = waves%cs(m, l) - sign(1, n)*sine
+            waves%ss(m, l) = waves%ss(m, l) - sign(1, n)*cosine
          end associate
       end subroutine add_wave
 

@@ -20,8 +20,8 @@ set xrange [0.9:1.1*most]
 
 # The solve time on one rank of a grid, and what of a row belongs to it; NaN leaves out the others.
 of_grid(x, y, value) = $1 >= 1 && $2 == x && $3 == y && strcol(4) eq pressure ? value : NaN
-alone(points) = real(system(sprintf("awk '$1 == 1 && $2 == %d && $3 == %d && $4 == \"%s\" && NF > 10 {print $9; exit}' %s", \
-   points, points, pressure, runs)))
+chosen = "awk '$1 == 1 && $2 == %d && $3 == %d && $4 == \"%s\" && NF > 10 {print $9; exit}' %s"
+alone(points) = real(system(sprintf(chosen, points, points, pressure, runs)))
 
 set multiplot layout 2, 2 margins 0.09, 0.98, 0.1, 0.96 spacing 0.12, 0.14
 set key top left Left reverse samplen 2 font small

@@ -5,8 +5,8 @@ Surface: self-affine, Hurst exponent 0.8, rms slope 1, roll-off at a tenth of th
 Loads: mean pressures over E* rms slope. Residual: 1e-8. Series:
 
     strong   grids of given points a side on all numbers of ranks
-    weak     N x N points a rank: cells of N x (ranks N) points with the same spectrum. A load has about the same contact
-             area and number of iterations on all of them
+    weak     N x N points a rank: cells of N x (ranks N) points with the same spectrum. A load has about the same
+             contact area and number of iterations on all of them
 
 All runs are repeated in turn, so that other work on the machine meets all of them alike; times are medians. `total` is
 the time from start to end, `solve` what the log gives as solved and measured. A rank's memory is the most that its
