@@ -16,9 +16,9 @@ module wavycon_grid_plan
 
    public :: bytes_of_grid, fast_size, finer_grid, fits_memory, grid_plan, plan_grids
 
-   !> Real numbers for each point: pressure, gap, undeformed gap, four fields of the iteration, spectrum, the start
-   !> interpolated from the coarser grid, the edge.
-   integer, parameter :: numbers_of_point = 10
+   !> Real numbers for each point besides the surface: pressure, undeformed gap, and what a correction or the measures
+   !> take. On maps of 2048 x 2048 points they were 5.5, with a hardness 6.5.
+   integer, parameter :: numbers_of_point = 7
 
    type :: grid_plan
       integer :: first(2) = 1     !! the coarsest grid
