@@ -4,6 +4,9 @@
 root=$(CDPATH='' cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd -P)
 build=$root/build
 
+# Fedora and its kin keep the programs of MPI where `module load mpi` adds them to PATH.
+if ! command -v mpifort >/dev/null 2>&1 && [ -d /usr/lib64/openmpi ]; then PATH=$PATH:/usr/lib64/openmpi/bin; fi
+
 # say WORDS...: a message on standard error, after the script's name.
 say() {
    echo "${0##*/}: $*" >&2

@@ -2,14 +2,17 @@
 module wavycon_check_scene
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_grid_plan, only: bytes_of_grid
+   use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: escaped, integer_text, short_number
+   use wavycon_ranks, only: ranks_on_this_machine
    use wavycon_results, only: results_type
    use wavycon_run_log, only: run_log
-   use wavycon_run_scene, only: need_fields, start_results
+   use wavycon_run_scene, only: keep_fields, start_results
    use wavycon_scene, only: scene_type
    use wavycon_system, only: available_memory
    use wavycon_tables, only: table_item
+   use wavycon_work_sharing, only: spread_grids, spread_loads
    implicit none (type, external)
    private
 
@@ -30,7 +33,7 @@ contains
       call start_results(scene, results, tables)
       call log%show_scene(results)
       if (reason(results) /= '') call log%say('because   '//reason(results))
-      if (all(results%solver%finest_grid() > 0)) call log%say('memory    '//memory(results, need_fields(tables)))
+      if (all(results%solver%finest_grid() > 0)) call log%say('memory    '//memory(results, keep_fields(results%scene, tables)))
       call log%say('tables    '//names_of(tables)//' in '//escaped(results%scene%directory))
       call log%say(escaped(results%scene%deck_path)//': the deck is fine')
    end subroutine check_scene
@@ -54,17 +57,34 @@ contains
 
       integer, parameter :: bytes_of_point = 2*storage_size(1.0_dp)/8
       integer(int64) :: available, bytes
-      integer :: points(2)
+      integer :: loads, own(2), points(2)
+      type(grid_slab) :: slab
 
       points = results%solver%finest_grid()
-      bytes = bytes_of_grid(points)
-      if (with_fields) &
-         bytes = bytes + bytes_of_point*product(int(points, int64))*size(results%scene%target, kind=int64)
-      words = 'at most '//megabytes(bytes)//' for grids of up to '//integer_text(points(1))
+      own = points
+      loads = size(results%scene%target)
+      associate (sharing => results%sharing)
+         if (sharing%kind == spread_grids) then
+            call slab%start(points)
+            own(2) = slab%width
+         else if (sharing%kind == spread_loads) then
+            loads = (loads - 1)/sharing%ranks + 1
+         end if
+         bytes = bytes_of_grid(own)
+         if (with_fields) bytes = bytes + bytes_of_point*product(int(own, int64))*loads
+         words = 'at most '//megabytes(bytes)
+         if (sharing%is_shared()) words = words//' on each rank'
+      end associate
+      words = words//' for grids of up to '//integer_text(points(1))
       if (results%scene%surface%dimension == 2) words = words//' x '//integer_text(points(2))
       words = words//' points in the part of the cell that is solved'
       available = available_memory()
-      if (available >= 0) words = words//'; '//megabytes(available)//' available'
+      if (available < 0) return
+      if (results%sharing%is_shared()) then
+         words = words//'; '//megabytes(available/ranks_on_this_machine())//' available to each'
+      else
+         words = words//'; '//megabytes(available)//' available'
+      end if
    end function memory
 
    !> Bytes as a number of MB.

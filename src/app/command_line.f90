@@ -5,6 +5,7 @@ module wavycon_command_line
    use wavycon_nearest_name, only: nearest_name
    use wavycon_output_group, only: longest_directory
    use wavycon_plain_text, only: escaped, integer_text, is_printable
+   use wavycon_ranks, only: rank_library
    use wavycon_settings, only: read_setting, setting_type
    implicit none (type, external)
    private
@@ -33,8 +34,8 @@ module wavycon_command_line
    character(*), parameter :: options(*) = [character(12) :: '--check', '--set', '--output', '--table', &
       '--keep-going', '--resume', '--threads', '--quiet', '--version', '--help']
    character(*), parameter :: options_with_values(*) = [character(9) :: '--set', '--output', '--table', '--threads']
-   character(*), parameter :: usage = &
-      'usage: wavycon DECK... [--check] [--set GROUP.KEY=VALUE]... [--output DIR] [--table FILE]'//new_line('a')// &
+   character(*), parameter :: arguments = &
+      ' DECK... [--check] [--set GROUP.KEY=VALUE]... [--output DIR] [--table FILE]'//new_line('a')// &
       '               [--keep-going] [--resume] [--threads N] [--quiet] [--version] [--help]'
 
 contains
@@ -57,7 +58,7 @@ contains
          word = argument(i)
          if (options_over .or. index(word, '-') /= 1) then
             if (word == '') call fatal_error(error, exit_bad_input, 'the name of a deck is empty'//new_line('a')// &
-                                             usage)
+                                             usage())
             if (allocated(error)) return
             call add_deck(command_line%decks, word)
             cycle
@@ -87,7 +88,7 @@ contains
          case ('--set')
             call take_value(value)
             call read_setting(value, setting, trouble)
-            if (allocated(trouble)) call fatal_error(error, exit_bad_input, trouble//new_line('a')//usage)
+            if (allocated(trouble)) call fatal_error(error, exit_bad_input, trouble//new_line('a')//usage())
             if (allocated(error)) return
             call add_setting(command_line%settings, setting)
          case ('--output')
@@ -108,15 +109,15 @@ contains
             near = nearest_name(word, options)
             if (near > 0) then
                call fatal_error(error, exit_bad_input, "unknown option '"//escaped(word)//"': did you mean "// &
-                                trim(options(near))//'?'//new_line('a')//usage)
+                                trim(options(near))//'?'//new_line('a')//usage())
             else
-               call fatal_error(error, exit_bad_input, "unknown option '"//escaped(word)//"'"//new_line('a')//usage)
+               call fatal_error(error, exit_bad_input, "unknown option '"//escaped(word)//"'"//new_line('a')//usage())
             end if
             return
          end select
       end do
       if (size(command_line%decks) == 0 .and. .not. (command_line%version .or. command_line%help)) &
-         call fatal_error(error, exit_bad_input, 'no deck is given'//new_line('a')//usage)
+         call fatal_error(error, exit_bad_input, 'no deck is given'//new_line('a')//usage())
 
    contains
 
@@ -150,7 +151,7 @@ contains
          read (text, *, iostat=status) threads
       if (status /= 0 .or. threads < 1 .or. threads > most_threads) &
          call fatal_error(error, exit_bad_input, "--threads needs a number from 1 to "// &
-                          integer_text(most_threads)//", got '"//escaped(text)//"'"//new_line('a')//usage)
+                          integer_text(most_threads)//", got '"//escaped(text)//"'"//new_line('a')//usage())
    end subroutine read_threads
 
    !> Adds the path of a deck.
@@ -194,7 +195,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       if (path == '' .or. index(path, '--') == 1) then
-         call fatal_error(error, exit_bad_input, option//' needs the name of '//what//new_line('a')//usage)
+         call fatal_error(error, exit_bad_input, option//' needs the name of '//what//new_line('a')//usage())
       else if (len(path) > longest_directory) then
          call fatal_error(error, exit_bad_input, option//': the name of '//what//' must be at most '// &
                           integer_text(longest_directory)//' bytes long, got '//integer_text(len(path)))
@@ -212,7 +213,7 @@ contains
 
       text = 'wavycon: elastic contact of regular wavy surfaces, from namelist decks to tables.'//newline// &
              newline// &
-             usage//newline// &
+             usage()//newline// &
              newline// &
              '   --check        validate the decks, say what a run would do, and stop'//newline// &
              '   --set GROUP.KEY=VALUE'//newline// &
@@ -233,6 +234,7 @@ contains
              '   --version      show the version and stop'//newline// &
              '   --help, -h     show this and stop'//newline// &
              newline// &
+             note_on_ranks()// &
              'Exit status: 0 fine, 1 bad input, 2 a load did not converge, 3 file trouble; of several'//newline// &
              'decks the worst.'//newline// &
              newline// &
@@ -250,5 +252,29 @@ contains
       allocate (character(length) :: word)
       if (length > 0) call get_command_argument(i, word)
    end function argument
+
+   !> How the program is started.
+   function usage() result(text)
+      character(:), allocatable :: text
+
+      if (rank_library() == '') then
+         text = 'usage: wavycon'//arguments
+      else
+         text = 'usage: mpirun -n RANKS wavycon-mpi'//arguments
+      end if
+   end function usage
+
+   !> What --help says of the processes of the parallel program.
+   function note_on_ranks() result(text)
+      character(:), allocatable :: text
+
+      character, parameter :: newline = new_line('a')
+
+      text = ''
+      if (rank_library() == '') return
+      text = 'The RANKS processes share the work: large grids are divided among them, or else the loads.'//newline// &
+             'Each needs the memory of its part, and has N threads of its own. The results are those of'//newline// &
+             'wavycon.'//newline//newline
+   end function note_on_ranks
 
 end module wavycon_command_line

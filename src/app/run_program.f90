@@ -1,4 +1,6 @@
 !> What the program does: reads all decks, then checks or runs them one after the other.
+!>
+!> All ranks do the same; only the first one writes. Errors are those of all ranks.
 module wavycon_run_program
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use wavycon_check_scene, only: check_scene
@@ -10,7 +12,7 @@ module wavycon_run_program
    use wavycon_make_scene, only: make_scene
    use wavycon_output_group, only: plain_directory
    use wavycon_plain_text, only: escaped, integer_text
-   use wavycon_ranks, only: end_ranks
+   use wavycon_ranks, only: end_ranks, is_first_rank, rank_library, share_error
    use wavycon_read_deck, only: read_deck
    use wavycon_results, only: results_type
    use wavycon_run_scene, only: run_scene
@@ -40,6 +42,7 @@ contains
 
    !> Runs the program from its command line to its exit status, and ends it.
    subroutine run_program()
+      character(:), allocatable :: library
       type(command_line_type) :: command_line
       type(scene_item), allocatable :: scenes(:)
       type(error_type), allocatable :: error
@@ -50,12 +53,15 @@ contains
       call read_command_line(command_line, error)
       call stop_on(error)
       if (command_line%help) then
-         write (output_unit, '(a)') help_text()
+         call say(help_text())
          call finish(exit_fine)
       else if (command_line%version) then
-         write (output_unit, '(a)') 'wavycon '//version//' ('//revision//')'
+         library = rank_library()
+         if (library /= '') library = ', '//library
+         call say('wavycon '//version//' ('//revision//')'//library)
          call finish(exit_fine)
       end if
+      if (.not. is_first_rank()) command_line%quiet = .true.
 
       call read_decks(command_line, scenes, worst)
       if (command_line%check) then
@@ -93,7 +99,7 @@ contains
             call make_scene(deck, scenes(i)%scene)
          end if
          if (allocated(error)) then
-            write (error_unit, '(a)') error%message
+            if (is_first_rank()) write (error_unit, '(a)') error%message
             worst = max(worst, error%status)
             if (allocated(scenes(i)%scene)) deallocate (scenes(i)%scene)
          end if
@@ -139,9 +145,13 @@ contains
       type(error_type), allocatable :: error
       type(results_type) :: results
       integer :: failed, i, not_solved, status
+      logical :: with_table
 
       call set_threads(command_line%threads)
-      if (allocated(command_line%table)) call collected%start(command_line%table, size(scenes), error)
+      with_table = .false.
+      if (is_first_rank()) with_table = allocated(command_line%table)
+      if (with_table) call collected%start(command_line%table, size(scenes), error)
+      call share_error(error)
       call stop_on(error)
       failed = 0
       not_solved = 0
@@ -153,26 +163,33 @@ contains
             worst = max(worst, status)
             if (status /= exit_fine) not_solved = not_solved + 1
             if (.not. allocated(error)) then
-               if (allocated(command_line%table)) call collected%add(results, scenes(i)%keys)
+               if (with_table) call collected%add(results, scenes(i)%keys)
                cycle
             end if
             call show(error)
             worst = max(worst, error%status)
          end if
          failed = failed + 1
-         if (allocated(command_line%table)) call collected%note_failure(command_line%decks(i)%path)
+         if (with_table) call collected%note_failure(command_line%decks(i)%path)
       end do
-      if (allocated(command_line%table)) then
-         call collected%write(command_line%table, command_line%settings, error)
-         if (allocated(error)) worst = max(worst, error%status)
-         call show(error)
-      end if
+      if (allocated(error)) deallocate (error)
+      if (with_table) call collected%write(command_line%table, command_line%settings, error)
+      call share_error(error)
+      if (allocated(error)) worst = max(worst, error%status)
+      call show(error)
       if (.not. command_line%keep_going .or. command_line%quiet) return
       call separate(size(scenes) + 1, command_line%quiet)
       write (output_unit, '(a)') integer_text(size(scenes))//' decks: '// &
          integer_text(size(scenes) - failed - not_solved)//' solved, '//integer_text(not_solved)// &
          ' with loads NOT solved as requested, '//integer_text(failed)//' failed'
    end subroutine run_scenes
+
+   !> Writes a text.
+   subroutine say(text)
+      character(*), intent(in) :: text
+
+      if (is_first_rank()) write (output_unit, '(a)') text
+   end subroutine say
 
    !> Writes an empty line between two decks.
    subroutine separate(deck, quiet)
@@ -197,7 +214,7 @@ contains
 
       if (.not. allocated(error)) return
       flush (output_unit)
-      write (error_unit, '(a)') 'wavycon: '//error%message
+      if (is_first_rank()) write (error_unit, '(a)') 'wavycon: '//error%message
    end subroutine show
 
    !> Ends the program with an exit status. `stop` would write a message with some compilers.

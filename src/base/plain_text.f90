@@ -1,11 +1,17 @@
 !> Text for messages and decks: lower case, numbers, quotes, and escapes for bytes that do not print.
 module wavycon_plain_text
+   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
 
    public :: lower_case, integer_text, short_number, exact_number, quoted, unquoted, system_words
    public :: is_printable, escaped, excerpt, character_count, is_continuation
+
+   !> An integer in decimal, without blanks.
+   interface integer_text
+      procedure :: default_integer_text, long_integer_text
+   end interface integer_text
 
    character(*), parameter, public :: newline = achar(10)
 
@@ -26,16 +32,22 @@ contains
       end do
    end function lower_case
 
-   !> An integer in decimal, without blanks.
-   pure function integer_text(number) result(text)
+   pure function default_integer_text(number) result(text)
       integer, intent(in) :: number
       character(:), allocatable :: text
 
-      character(12) :: buffer
+      text = long_integer_text(int(number, int64))
+   end function default_integer_text
+
+   pure function long_integer_text(number) result(text)
+      integer(int64), intent(in) :: number
+      character(:), allocatable :: text
+
+      character(20) :: buffer
 
       write (buffer, '(i0)') number
       text = trim(buffer)
-   end function integer_text
+   end function long_integer_text
 
    !> A number to six significant digits: 0.01, 4.44288, 1e-7, -2.5e6.
    pure function short_number(number) result(text)

@@ -10,25 +10,26 @@ module wavycon_ranks
    implicit none (type, external)
    private
 
-   public :: rank_team, rank_transpose, use_team
-   public :: this_rank, rank_count, ranks_at_work, is_first_rank, work_alone, ranks_on_this_machine
-   public :: add_over_ranks, largest_over_ranks, any_rank, exchange_columns, gather_columns, new_transpose
-   public :: share_error, share_text, read_shared_columns, write_shared_columns, end_ranks
+   public :: rank_team, row_exchange, use_team
+   public :: this_rank, rank_count, ranks_at_work, is_first_rank, work_alone, ranks_on_this_machine, rank_library
+   public :: add_over_ranks, largest_over_ranks, any_rank, exchange_columns, gather_columns, move_columns
+   public :: new_row_exchange, share_error, share_text, read_shared_columns, write_shared_columns, end_ranks
 
-   !> A matrix whose columns are spread over the ranks, turned into one whose rows are, and back. An element has one or
-   !> two real numbers of one precision. Ranks have adjacent columns: all the same number, `width`, but the last ones.
-   type, abstract :: rank_transpose
+   !> Exchanges a matrix whose columns are spread over the ranks for the same matrix with its rows spread, and back. In
+   !> both the elements of a column follow each other. An element has one or two real numbers of one precision. Ranks have
+   !> adjacent columns: all the same number, `width`, but the last ones; likewise rows.
+   type, abstract :: row_exchange
       integer :: columns = 0      !! of the matrix
       integer :: rows = 0         !! of the matrix
       integer :: own_columns = 0
       integer :: first_row = 1    !! of this rank's rows
       integer :: own_rows = 0
    contains
-      !> From the own columns, shape (numbers, rows, own_columns), to the own rows, shape (numbers, columns, own_rows).
-      procedure(exchange_matrix), deferred :: to_rows
+      !> From the own columns, shape (numbers, rows, own_columns), to the own rows, shape (numbers, own_rows, columns).
+      procedure(exchange_rows_and_columns), deferred :: to_rows
       !> The inverse.
-      procedure(exchange_matrix), deferred :: to_columns
-   end type rank_transpose
+      procedure(exchange_rows_and_columns), deferred :: to_columns
+   end type row_exchange
 
    !> What the ranks exchange; the extension of the parallel program does it by MPI.
    type, abstract :: rank_team
@@ -41,20 +42,22 @@ module wavycon_ranks
       procedure(find_largest), deferred :: largest
       procedure(exchange_two_blocks), deferred :: exchange
       procedure(gather_blocks), deferred :: gather
-      procedure(make_transpose), deferred :: new_transpose
+      procedure(move_blocks), deferred :: move
+      procedure(make_row_exchange), deferred :: new_row_exchange
       procedure(send_text), deferred :: share_text
       procedure(transfer_columns), deferred :: read_columns
       procedure(transfer_columns), deferred :: write_columns
       procedure(end_run), deferred :: finish
+      procedure(get_text), deferred :: library                 !! name and version
    end type rank_team
 
    abstract interface
-      subroutine exchange_matrix(self, from, to)
-         import :: rank_transpose
-         class(rank_transpose), intent(inout) :: self
-         type(*), intent(inout), target :: from(*)   !! undefined on return
+      subroutine exchange_rows_and_columns(self, from, to)
+         import :: row_exchange
+         class(row_exchange), intent(inout) :: self
+         type(*), intent(in), target :: from(*)
          type(*), intent(inout), target :: to(*)     !! another array, of the same precision
-      end subroutine exchange_matrix
+      end subroutine exchange_rows_and_columns
 
       pure integer function get_number(self)
          import :: rank_team
@@ -98,12 +101,21 @@ module wavycon_ranks
          logical, intent(in) :: first_only
       end subroutine gather_blocks
 
-      subroutine make_transpose(self, columns, rows, width, numbers, precision, transpose)
-         import :: rank_team, rank_transpose
+      subroutine move_blocks(self, column_bytes, have, own, want, wanted)
+         import :: int64, rank_team
+         class(rank_team), intent(in) :: self
+         integer(int64), intent(in) :: column_bytes
+         integer, intent(in) :: have(:, 0:), want(:, 0:)   !! first and last column of each rank, shape (2, ranks)
+         type(*), intent(in), target :: own(*)
+         type(*), intent(inout), target :: wanted(*)
+      end subroutine move_blocks
+
+      subroutine make_row_exchange(self, columns, rows, width, numbers, precision, exchange)
+         import :: rank_team, row_exchange
          class(rank_team), intent(in) :: self
          integer, intent(in) :: columns, rows, width, numbers, precision
-         class(rank_transpose), allocatable, intent(out) :: transpose
-      end subroutine make_transpose
+         class(row_exchange), allocatable, intent(out) :: exchange
+      end subroutine make_row_exchange
 
       subroutine send_text(self, from, text)
          import :: rank_team
@@ -129,6 +141,12 @@ module wavycon_ranks
          class(rank_team), intent(in) :: self
          integer, intent(in) :: status
       end subroutine end_run
+
+      function get_text(self) result(text)
+         import :: rank_team
+         class(rank_team), intent(in) :: self
+         character(:), allocatable :: text
+      end function get_text
    end interface
 
    !> The sums of arrays over the ranks, element by element, in place. Real sums do not depend on the number of ranks if
@@ -146,6 +164,11 @@ module wavycon_ranks
    interface gather_columns
       procedure :: gather_dp, gather_sp
    end interface gather_columns
+
+   !> Moves columns of a matrix from the ranks that have them to those that want them.
+   interface move_columns
+      procedure :: move_dp, move_sp
+   end interface move_columns
 
    class(rank_team), allocatable :: team   !! not allocated: this process is the only one
    logical :: is_alone = .false.           !! whether each rank works on something else, see work_alone
@@ -187,6 +210,14 @@ contains
       number = 1
       if (allocated(team)) number = team%ranks_on_machine()
    end function ranks_on_this_machine
+
+   !> Name and version of the library by which the ranks exchange; empty in the serial program.
+   function rank_library() result(text)
+      character(:), allocatable :: text
+
+      text = ''
+      if (allocated(team)) text = team%library()
+   end function rank_library
 
    !> From now on each rank works on something else: no grid is spread, and nothing is exchanged until the ranks work
    !> together again.
@@ -262,16 +293,36 @@ contains
       call team%gather(int(size(own, 1), int64)*storage_size(own)/8, columns, own, whole, first_only)
    end subroutine gather_sp
 
-   !> Prepares the transposition of a matrix that is spread over the ranks.
-   subroutine new_transpose(columns, rows, width, numbers, precision, transpose)
+   !> N.B. Every rank knows what all others have and want: nothing but the columns is sent.
+   subroutine move_dp(have, own, want, wanted)
+      integer, intent(in) :: have(:, 0:)                   !! first and last column of each rank, shape (2, ranks);
+                                                           !! last < first: none. No column is there twice
+      real(dp), intent(in), contiguous :: own(:, :)        !! the own columns, shape (M, any)
+      integer, intent(in) :: want(:, 0:)                   !! likewise what each wants; some may be wanted by several
+      real(dp), intent(inout), contiguous :: wanted(:, :)  !! what this rank wants, shape (M, any)
+
+      call team%move(int(size(own, 1), int64)*storage_size(own)/8, have, own, want, wanted)
+   end subroutine move_dp
+
+   !> As move_dp.
+   subroutine move_sp(have, own, want, wanted)
+      integer, intent(in) :: have(:, 0:), want(:, 0:)
+      real(sp), intent(in), contiguous :: own(:, :)
+      real(sp), intent(inout), contiguous :: wanted(:, :)
+
+      call team%move(int(size(own, 1), int64)*storage_size(own)/8, have, own, want, wanted)
+   end subroutine move_sp
+
+   !> Prepares the exchange of columns and rows of a matrix.
+   subroutine new_row_exchange(columns, rows, width, numbers, precision, exchange)
       integer, intent(in) :: columns, rows   !! of the matrix
       integer, intent(in) :: width           !! columns of each rank but the last ones
       integer, intent(in) :: numbers         !! of an element: 1 or, for complex numbers, 2
       integer, intent(in) :: precision       !! kind of the numbers: dp or sp
-      class(rank_transpose), allocatable, intent(out) :: transpose
+      class(row_exchange), allocatable, intent(out) :: exchange
 
-      call team%new_transpose(columns, rows, width, numbers, precision, transpose)
-   end subroutine new_transpose
+      call team%new_row_exchange(columns, rows, width, numbers, precision, exchange)
+   end subroutine new_row_exchange
 
    !> Makes an error of any rank that of all: the message is that of the lowest rank that has one. Without errors nothing
    !> happens.

@@ -13,6 +13,7 @@ module wavycon_auto_contact
    use wavycon_key_table, only: key_type
    use wavycon_kinds, only: dp
    use wavycon_problems, only: problem_list_type
+   use wavycon_ranks, only: any_rank
    use wavycon_solver_keys, only: accuracy_key, check_grid_points, grid_points_key, points_of_grid, residual_key, &
                                   set_grid_defaults
    use wavycon_solver_progress, only: solver_progress
@@ -41,10 +42,12 @@ module wavycon_auto_contact
       procedure :: coarser_levels
       procedure :: use_level
       procedure :: starts_from_last_load
+      procedure :: forget_last_load
       procedure :: skip_load
       procedure :: new_kept_solution
       procedure :: why_chosen
       procedure :: finest_grid
+      procedure :: given_grid
    end type auto_contact
 
 contains
@@ -140,7 +143,7 @@ contains
    end subroutine start
 
    !> If the first solution is not good, the load is solved on grids too, and the better of the two solutions is
-   !> returned.
+   !> returned. Ranks on different machines may have first solutions of different digits: they decide together.
    subroutine solve_partial_contact(self, pbar_over_pstar, solution)
       class(auto_contact), intent(inout) :: self
       real(dp), intent(in) :: pbar_over_pstar
@@ -149,9 +152,10 @@ contains
       class(contact_solution), allocatable :: on_grids
 
       call self%first%solve(pbar_over_pstar, solution)
-      if (.not. allocated(self%second) .or. solution%is_good()) return
+      if (.not. allocated(self%second)) return
+      if (.not. any_rank(.not. solution%is_good())) return
       call self%second%solve(pbar_over_pstar, on_grids)
-      if (on_grids%status == converged .or. on_grids%largest_error() <= solution%largest_error()) &
+      if (any_rank(on_grids%status == converged .or. on_grids%largest_error() <= solution%largest_error())) &
          call move_alloc(on_grids, solution)
    end subroutine solve_partial_contact
 
@@ -183,6 +187,12 @@ contains
       starts_from_last_load = .false.
       if (allocated(self%first)) starts_from_last_load = self%first%starts_from_last_load()
    end function starts_from_last_load
+
+   subroutine forget_last_load(self)
+      class(auto_contact), intent(inout) :: self
+
+      if (allocated(self%first)) call self%first%forget_last_load()
+   end subroutine forget_last_load
 
    !> The expansion of the next load starts from the expansion of this one. Only loads solved on grids are in
    !> checkpoints, so that the expansion is computed again.
@@ -225,6 +235,14 @@ contains
          points = self%first%finest_grid()
       end if
    end function finest_grid
+
+   function given_grid(self) result(points)
+      class(auto_contact), intent(in) :: self
+      integer :: points(2)
+
+      points = 0
+      if (allocated(self%first)) points = self%first%given_grid()
+   end function given_grid
 
    pure function describe(self) result(words)
       class(auto_contact), intent(in) :: self

@@ -73,6 +73,7 @@ module wavycon_beale_contact
       procedure :: why_no_area
       procedure :: has_coefficients
       procedure :: starts_from_last_load
+      procedure :: forget_last_load
    end type beale_contact
 
    type, extends(contact_solution) :: beale_solution
@@ -346,6 +347,12 @@ contains
 
       starts_from_last_load = .not. self%by_beale
    end function starts_from_last_load
+
+   subroutine forget_last_load(self)
+      class(beale_contact), intent(inout) :: self
+
+      if (allocated(self%solver)) deallocate (self%solver)
+   end subroutine forget_last_load
 
    !> p/p* as a series in phi and theta.
    type(fourier_series) function pressure_series(solution) result(series)

@@ -2,9 +2,12 @@
 !> that: equations (C4a) to (C4c) of README.md in this directory.
 !>
 !> Each coarser grid has half the points each way: a point of it has the mean of four. It needs even numbers of points;
-!> where they become odd the sequence ends.
+!> where they become odd the sequence ends. If the grid is spread over the ranks, so are those coarser ones that are
+!> large; small ones are whole on each rank.
 module wavycon_contact_extension
+   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_tuning, only: decay_alone, decay_growth
+   use wavycon_grid_slab, only: grid_slab, least_spread_points
    use wavycon_grid_transform, only: image_of_point
    use wavycon_kinds, only: dp, sp
    use wavycon_threads, only: threads_for
@@ -17,6 +20,8 @@ module wavycon_contact_extension
    integer, parameter :: least_points = 4
 
    type :: coarse_grid
+      type(grid_slab) :: slab                  !! the columns of the arrays
+      type(grid_slab) :: part                  !! those whose means this rank takes from the finer grid: all or some
       real(sp), allocatable :: contact(:, :)   !! part of a point's area that is in contact, 0 to 1
       real(sp), allocatable :: values(:, :)
    end type coarse_grid
@@ -25,6 +30,7 @@ module wavycon_contact_extension
       private
       logical :: even = .false.                !! whether the field is mirrored at the borders; otherwise it is periodic
       real(sp) :: decay = 1.0_sp               !! factor of a value for each doubling of the distance from the contact
+      type(grid_slab) :: slab
       type(coarse_grid), allocatable :: grids(:)
    contains
       procedure :: start
@@ -38,12 +44,14 @@ contains
    !> Allocates the coarser grids of a grid.
    subroutine start(self, points, even)
       class(contact_extension), intent(out) :: self
-      integer, intent(in) :: points(2)   !! M, N; N = 1 in 1-D
+      integer, intent(in) :: points(2)   !! M, N of the whole grid; N = 1 in 1-D
       logical, intent(in) :: even        !! whether the points are those of a quarter of an even field's cell
 
+      type(grid_slab) :: finer
       integer :: grid(2), k, levels
 
       self%even = even
+      call self%slab%start(points)
       grid = points
       levels = 0
       do while (all((mod(grid, 2) == 0 .and. grid >= 2*least_points) .or. grid == 1))
@@ -51,70 +59,92 @@ contains
          levels = levels + 1
       end do
       allocate (self%grids(levels))
+      finer = self%slab
       do k = 1, levels
-         grid = max(points/2**k, 1)
-         allocate (self%grids(k)%contact(grid(1), grid(2)), self%grids(k)%values(grid(1), grid(2)))
+         associate (grid_k => self%grids(k))
+            grid_k%part = finer%coarser()
+            grid_k%slab = spread_or_whole(grid_k%part)
+            allocate (grid_k%contact(grid_k%slab%points(1), grid_k%slab%columns()))
+            allocate (grid_k%values, mold=grid_k%contact)
+            finer = grid_k%slab
+         end associate
       end do
    end subroutine start
+
+   !> The columns of a coarser grid that a rank holds: those whose means it takes, or all of them if the grid is small
+   !> or some means of the next one would need columns of two ranks.
+   pure type(grid_slab) function spread_or_whole(part) result(slab)
+      type(grid_slab), intent(in) :: part
+
+      slab = part
+      if (mod(part%width, 2) /= 0 .or. product(int(part%points, int64)) < least_spread_points) &
+         slab = grid_slab(points=part%points, width=part%points(2), last=part%points(2))
+   end function spread_or_whole
 
    !> Sets the points in contact.
    subroutine set_contact(self, contact)
       class(contact_extension), intent(inout) :: self
-      real(sp), intent(in) :: contact(:, :)   !! 1 in contact, 0 outside, shape (M, N)
+      real(sp), intent(in), contiguous :: contact(:, :)   !! 1 in contact, 0 outside, own columns, shape (M, columns)
 
+      real(dp) :: total(1)
       integer :: k, levels
 
       levels = size(self%grids)
       if (levels == 0) return
-      call average(contact, self%grids(1)%contact)
+      call average(contact, self%grids(1)%part, self%grids(1)%slab, self%grids(1)%contact)
       do k = 2, levels
-         call average(self%grids(k - 1)%contact, self%grids(k)%contact)
+         call average(self%grids(k - 1)%contact, self%grids(k)%part, self%grids(k)%slab, self%grids(k)%contact)
       end do
-      associate (parts => self%grids(levels)%contact)
-         self%decay = real(min(1.0_dp, decay_alone + decay_growth*sqrt(sum(real(parts, dp))/size(parts))), sp)
+      associate (coarsest => self%grids(levels))
+         total = coarsest%slab%column_totals( &
+            reshape(sum(real(coarsest%contact, dp), dim=1), [1, coarsest%slab%columns()]))
+         self%decay = real(min(1.0_dp, decay_alone &
+                                       + decay_growth*sqrt(total(1)/product(real(coarsest%slab%points, dp)))), sp)
       end associate
    end subroutine set_contact
 
    !> Continues a field to the points outside the contact.
    subroutine extend(self, contact, field)
       class(contact_extension), intent(inout) :: self
-      real(sp), intent(in) :: contact(:, :)     !! that of `set_contact`
-      real(sp), intent(inout) :: field(:, :)    !! zero outside the contact, shape (M, N)
+      real(sp), intent(in), contiguous :: contact(:, :)    !! that of `set_contact`
+      real(sp), intent(inout), contiguous :: field(:, :)   !! zero outside the contact, own columns, shape (M, columns)
 
       integer :: k, levels
 
       levels = size(self%grids)
       if (levels == 0) return
-      call average(field, self%grids(1)%values)
+      call average(field, self%grids(1)%part, self%grids(1)%slab, self%grids(1)%values)
       do k = 2, levels
-         call average(self%grids(k - 1)%values, self%grids(k)%values)
+         call average(self%grids(k - 1)%values, self%grids(k)%part, self%grids(k)%slab, self%grids(k)%values)
       end do
       call normalise(self%grids(levels))
       do k = levels - 1, 1, -1
-         call fill(self, self%grids(k + 1)%values, self%grids(k)%contact, self%grids(k)%values)
+         call fill(self, self%grids(k + 1), self%grids(k)%contact, self%grids(k)%values)
       end do
-      call fill(self, self%grids(1)%values, contact, field)
+      call fill(self, self%grids(1), contact, field)
    end subroutine extend
 
    !> The adjoint of `extend`: adds to the values in contact those outside that the extension takes from them.
    subroutine collect(self, contact, field)
       class(contact_extension), intent(inout) :: self
-      real(sp), intent(in) :: contact(:, :)     !! that of `set_contact`
-      real(sp), intent(inout) :: field(:, :)    !! shape (M, N); its values outside the contact are of no use afterwards
+      real(sp), intent(in), contiguous :: contact(:, :)    !! that of `set_contact`
+      real(sp), intent(inout), contiguous :: field(:, :)   !! own columns, shape (M, columns); its values outside the
+                                                           !! contact are of no use afterwards
 
       integer :: k, levels
 
       levels = size(self%grids)
       if (levels == 0) return
-      call adjoint_fill(self, field, contact, self%grids(1)%values)
+      call adjoint_fill(self, self%slab, field, contact, self%grids(1))
       do k = 2, levels
-         call adjoint_fill(self, self%grids(k - 1)%values, self%grids(k - 1)%contact, self%grids(k)%values)
+         call adjoint_fill(self, self%grids(k - 1)%slab, self%grids(k - 1)%values, self%grids(k - 1)%contact, &
+                           self%grids(k))
       end do
       call normalise(self%grids(levels))
       do k = levels - 1, 1, -1
-         call adjoint_average(self%grids(k + 1)%values, self%grids(k)%values)
+         call adjoint_average(self%grids(k + 1), self%grids(k)%values)
       end do
-      call adjoint_average(self%grids(1)%values, field)
+      call adjoint_average(self%grids(1), field)
    end subroutine collect
 
    !> Divides the values by the part of their area in contact; points without contact get zero.
@@ -129,40 +159,52 @@ contains
    end subroutine normalise
 
    !> Means of two by two points; in 1-D of two.
-   subroutine average(fine, coarse)
-      real(sp), intent(in) :: fine(:, :)
-      real(sp), intent(out) :: coarse(:, :)
+   subroutine average(fine, part, slab, coarse)
+      real(sp), intent(in), contiguous :: fine(:, :)        !! own columns
+      type(grid_slab), intent(in) :: part, slab             !! of the coarser grid
+      real(sp), intent(inout), contiguous :: coarse(:, :)   !! shape (any, slab%columns())
 
-      integer :: i, j
+      integer :: before, i, j
 
-      if (size(fine, 2) == 1) then
+      if (slab%points(2) == 1) then
          coarse(:, 1) = 0.5_sp*(fine(1::2, 1) + fine(2::2, 1))
          return
       end if
+      before = part%first - slab%first
       !$omp parallel do num_threads(threads_for(size(fine))) private(i)
-      do j = 1, size(coarse, 2)
+      do j = 1, part%columns()
          do i = 1, size(coarse, 1)
-            coarse(i, j) = 0.25_sp*((fine(2*i - 1, 2*j - 1) + fine(2*i, 2*j - 1)) &
-                                    + (fine(2*i - 1, 2*j) + fine(2*i, 2*j)))
+            coarse(i, before + j) = 0.25_sp*((fine(2*i - 1, 2*j - 1) + fine(2*i, 2*j - 1)) &
+                                             + (fine(2*i - 1, 2*j) + fine(2*i, 2*j)))
          end do
       end do
+      call complete(part, slab, coarse)
    end subroutine average
+
+   !> Takes the columns of the other ranks where a grid that is whole follows one that is spread.
+   subroutine complete(part, slab, coarse)
+      type(grid_slab), intent(in) :: part, slab
+      real(sp), intent(inout), contiguous :: coarse(:, :)
+
+      if (part%is_spread .and. .not. slab%is_spread) call part%gather((coarse(:, part%first:part%last)), coarse)
+   end subroutine complete
 
    !> The adjoint of `average`, added to a field.
    subroutine adjoint_average(coarse, fine)
-      real(sp), intent(in) :: coarse(:, :)
-      real(sp), intent(inout) :: fine(:, :)
+      type(coarse_grid), intent(in) :: coarse
+      real(sp), intent(inout), contiguous :: fine(:, :)   !! own columns
 
-      integer :: i, j
+      integer :: before, i, j
       real(sp) :: part
 
       part = 0.25_sp
-      if (size(fine, 2) == 1) part = 0.5_sp
+      if (coarse%slab%points(2) == 1) part = 0.5_sp
+      before = coarse%part%first - coarse%slab%first
       !$omp parallel do num_threads(threads_for(size(fine))) private(i)
       do j = 1, size(fine, 2)
-         do i = 1, size(coarse, 1)
-            fine(2*i - 1, j) = fine(2*i - 1, j) + part*coarse(i, (j + 1)/2)
-            fine(2*i, j) = fine(2*i, j) + part*coarse(i, (j + 1)/2)
+         do i = 1, size(coarse%values, 1)
+            fine(2*i - 1, j) = fine(2*i - 1, j) + part*coarse%values(i, before + (j + 1)/2)
+            fine(2*i, j) = fine(2*i, j) + part*coarse%values(i, before + (j + 1)/2)
          end do
       end do
    end subroutine adjoint_average
@@ -170,70 +212,99 @@ contains
    !> Adds to a field, outside the contact, the decayed values of the coarser grid, linear between its points.
    subroutine fill(self, coarse, contact, fine)
       type(contact_extension), intent(in) :: self
-      real(sp), intent(in) :: coarse(:, :), contact(:, :)
-      real(sp), intent(inout) :: fine(:, :)
+      type(coarse_grid), intent(in) :: coarse
+      real(sp), intent(in), contiguous :: contact(:, :)   !! own columns
+      real(sp), intent(inout), contiguous :: fine(:, :)   !! likewise
 
-      real(sp) :: column(0:size(coarse, 1) + 1)
-      integer :: i, j, other
+      real(sp) :: column(0:size(coarse%values, 1) + 1)
+      real(sp) :: beside(size(coarse%values, 1), 2)   !! the columns before and after those of the coarser grid
+      real(sp) :: a, b
+      integer :: before, i, j, m
 
-      associate (m => size(coarse, 1), n => size(coarse, 2), a => 0.75_sp*self%decay, b => 0.25_sp*self%decay)
-         !$omp parallel do num_threads(threads_for(size(fine))) private(column, i, other)
-         do j = 1, size(fine, 2)
-            if (n < size(fine, 2)) then
-               other = image_of_point((j + 1)/2 + merge(-1, 1, mod(j, 2) == 1), n, self%even)
-               column(1:m) = a*coarse(:, (j + 1)/2) + b*coarse(:, other)
+      m = size(coarse%values, 1)
+      before = coarse%part%first - coarse%slab%first
+      a = 0.75_sp*self%decay
+      b = 0.25_sp*self%decay
+      call coarse%slab%halo(coarse%values, self%even, beside(:, :1), beside(:, 2:))
+      !$omp parallel do num_threads(threads_for(size(fine))) private(column, i)
+      do j = 1, size(fine, 2)
+         associate (near => before + (j + 1)/2, other => before + (j + 1)/2 + merge(-1, 1, mod(j, 2) == 1))
+            if (coarse%slab%points(2) == 1) then
+               column(1:m) = self%decay*coarse%values(:, near)
+            else if (other < 1) then
+               column(1:m) = a*coarse%values(:, near) + b*beside(:, 1)
+            else if (other > size(coarse%values, 2)) then
+               column(1:m) = a*coarse%values(:, near) + b*beside(:, 2)
             else
-               column(1:m) = self%decay*coarse(:, j)
+               column(1:m) = a*coarse%values(:, near) + b*coarse%values(:, other)
             end if
-            column(0) = column(image_of_point(0, m, self%even))
-            column(m + 1) = column(image_of_point(m + 1, m, self%even))
-            do i = 1, m
-               fine(2*i - 1, j) = fine(2*i - 1, j) + (1.0_sp - contact(2*i - 1, j)) &
-                  *(0.75_sp*column(i) + 0.25_sp*column(i - 1))
-               fine(2*i, j) = fine(2*i, j) + (1.0_sp - contact(2*i, j))*(0.75_sp*column(i) + 0.25_sp*column(i + 1))
-            end do
+         end associate
+         column(0) = column(image_of_point(0, m, self%even))
+         column(m + 1) = column(image_of_point(m + 1, m, self%even))
+         do i = 1, m
+            fine(2*i - 1, j) = fine(2*i - 1, j) + (1.0_sp - contact(2*i - 1, j)) &
+               *(0.75_sp*column(i) + 0.25_sp*column(i - 1))
+            fine(2*i, j) = fine(2*i, j) + (1.0_sp - contact(2*i, j))*(0.75_sp*column(i) + 0.25_sp*column(i + 1))
          end do
-      end associate
+      end do
    end subroutine fill
 
    !> The adjoint of `fill` without the field itself.
-   subroutine adjoint_fill(self, fine, contact, coarse)
+   subroutine adjoint_fill(self, slab, fine, contact, coarse)
       type(contact_extension), intent(in) :: self
-      real(sp), intent(in) :: fine(:, :), contact(:, :)
-      real(sp), intent(out) :: coarse(:, :)
+      type(grid_slab), intent(in) :: slab                             !! of the finer grid
+      real(sp), intent(in), contiguous :: fine(:, :), contact(:, :)   !! own columns
+      type(coarse_grid), intent(inout) :: coarse
 
+      !> The columns before and after the own ones.
+      real(sp), dimension(size(fine, 1), 2) :: contact_beside, fine_beside
       real(sp) :: open_part(0:size(fine, 1) + 1)
       real(sp) :: near, far
-      integer :: i, j, k, columns(4)
-      real(sp) :: parts(4)
+      integer :: before, i, j, m, n
 
-      associate (m => size(coarse, 1), n => size(coarse, 2))
-         near = 0.75_sp*self%decay
-         far = 0.25_sp*self%decay
-         !$omp parallel do num_threads(threads_for(size(fine))) private(open_part, i, k, columns, parts)
-         do j = 1, n
-            if (n < size(fine, 2)) then
-               columns = [2*j - 1, 2*j, image_of_point(2*j - 2, 2*n, self%even), &
-                          image_of_point(2*j + 1, 2*n, self%even)]
-               parts = [near, near, far, far]
+      m = size(fine, 1)/2
+      n = coarse%part%columns()
+      before = coarse%part%first - coarse%slab%first
+      near = 0.75_sp*self%decay
+      far = 0.25_sp*self%decay
+      call slab%halo(fine, self%even, fine_beside(:, :1), fine_beside(:, 2:))
+      call slab%halo(contact, self%even, contact_beside(:, :1), contact_beside(:, 2:))
+      !$omp parallel do num_threads(threads_for(size(fine))) private(open_part, i)
+      do j = 1, n
+         open_part = 0.0_sp
+         if (slab%points(2) == 1) then
+            call add_open(self%decay, contact(:, j), fine(:, j), open_part(1:2*m))
+         else
+            call add_open(near, contact(:, 2*j - 1), fine(:, 2*j - 1), open_part(1:2*m))
+            call add_open(near, contact(:, 2*j), fine(:, 2*j), open_part(1:2*m))
+            if (j > 1) then
+               call add_open(far, contact(:, 2*j - 2), fine(:, 2*j - 2), open_part(1:2*m))
             else
-               columns = j
-               parts = [self%decay, 0.0_sp, 0.0_sp, 0.0_sp]
+               call add_open(far, contact_beside(:, 1), fine_beside(:, 1), open_part(1:2*m))
             end if
-            open_part(1:2*m) = 0.0_sp
-            do k = 1, 4
-               do i = 1, 2*m
-                  open_part(i) = open_part(i) + parts(k)*(1.0_sp - contact(i, columns(k)))*fine(i, columns(k))
-               end do
-            end do
-            open_part(0) = open_part(image_of_point(0, 2*m, self%even))
-            open_part(2*m + 1) = open_part(image_of_point(2*m + 1, 2*m, self%even))
-            do i = 1, m
-               coarse(i, j) = 0.75_sp*(open_part(2*i - 1) + open_part(2*i)) &
-                  + 0.25_sp*(open_part(2*i - 2) + open_part(2*i + 1))
-            end do
+            if (j < n) then
+               call add_open(far, contact(:, 2*j + 1), fine(:, 2*j + 1), open_part(1:2*m))
+            else
+               call add_open(far, contact_beside(:, 2), fine_beside(:, 2), open_part(1:2*m))
+            end if
+         end if
+         open_part(0) = open_part(image_of_point(0, 2*m, self%even))
+         open_part(2*m + 1) = open_part(image_of_point(2*m + 1, 2*m, self%even))
+         do i = 1, m
+            coarse%values(i, before + j) = 0.75_sp*(open_part(2*i - 1) + open_part(2*i)) &
+               + 0.25_sp*(open_part(2*i - 2) + open_part(2*i + 1))
          end do
-      end associate
+      end do
+      call complete(coarse%part, coarse%slab, coarse%values)
    end subroutine adjoint_fill
+
+   !> Adds the open part of a column times a factor.
+   pure subroutine add_open(factor, contact, column, total)
+      real(sp), intent(in) :: factor
+      real(sp), intent(in), contiguous :: contact(:), column(:)
+      real(sp), intent(inout), contiguous :: total(:)
+
+      total = total + factor*(1.0_sp - contact)*column
+   end subroutine add_open
 
 end module wavycon_contact_extension

@@ -4,6 +4,8 @@
 !> the gap is, unless an extension says otherwise. Gap, displacement u and undeformed gap h agree everywhere:
 !> gap = h + u - approach.
 module wavycon_contact_fields
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
@@ -15,6 +17,8 @@ module wavycon_contact_fields
       procedure(fields_at_point), deferred :: at
       procedure(fields_on_grid), deferred :: on_grid
       procedure :: own_points
+      procedure :: own_slab
+      procedure :: at_own_column
    end type contact_fields
 
    abstract interface
@@ -52,5 +56,27 @@ contains
       points = 0
       offset = 0.0_dp
    end subroutine own_points
+
+   !> The columns of that grid, of the part of the cell that was solved, that this rank has if the grid is spread over
+   !> the ranks. Here none is.
+   pure type(grid_slab) function own_slab(self)
+      class(contact_fields), intent(in) :: self
+
+      associate (unused => self); end associate
+      own_slab%is_spread = .false.
+   end function own_slab
+
+   !> The fields at the points of one of these columns; NaN here, where there are none.
+   subroutine at_own_column(self, column, shape, pressure, displacement, gap)
+      class(contact_fields), intent(in) :: self
+      integer, intent(in) :: column                  !! of own_slab, first .. last
+      real(dp), intent(in) :: shape(:)               !! 1 - h/Delta at the points
+      real(dp), intent(out) :: pressure(:), displacement(:), gap(:)   !! as of on_grid, shape (M)
+
+      associate (unused => self, unused_too => column); end associate
+      pressure = ieee_value(shape, ieee_quiet_nan)
+      displacement = pressure
+      gap = pressure
+   end subroutine at_own_column
 
 end module wavycon_contact_fields

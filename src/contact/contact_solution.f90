@@ -3,6 +3,7 @@
 !> Every solver extends `contact_solution`; callers use a solution without regard to its solver. Positions of fields and
 !> edges are the angles X, Y of the surface's cell.
 module wavycon_contact_solution
+   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_details, only: contact_details
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_measures, only: contact_measures, unmeasured
@@ -31,7 +32,7 @@ module wavycon_contact_solution
       real(dp) :: pbar_over_pstar = 0.0_dp    !! P >= 0, the mean pressure over p*
       type(contact_measures) :: measures
       character(12) :: solver = 'none'        !! name of the solver; 'none' if no solver was needed
-      integer :: active_constraints = 0       !! points at which the pressure is held at zero or at the hardness
+      integer(int64) :: active_constraints = 0   !! points at which the pressure is held at zero or at the hardness
       integer :: iterations = 0               !! for a quadratic programme, exchanges of variables since the last load
       real(dp) :: residual = 0.0_dp           !! relative, as each solver defines it
       character(16) :: status = ''            !! one of wavycon_contact_status, or of wavycon_qp_problem
@@ -44,6 +45,8 @@ module wavycon_contact_solution
       procedure(stresses_of_solution), deferred :: stresses
       procedure :: coefficients
       procedure :: details
+      procedure :: spread_points
+      procedure :: collect_fields
       procedure :: is_kept
       procedure :: pack_kept => pack_common
       procedure :: unpack_kept => unpack_common
@@ -150,6 +153,22 @@ contains
       found = .false.
    end subroutine details
 
+   !> The points of the grid if its columns are spread over the ranks, otherwise 0.
+   pure integer(int64) function spread_points(self)
+      class(contact_solution), intent(in) :: self
+
+      associate (unused => self); end associate
+      spread_points = 0
+   end function spread_points
+
+   !> Brings fields whose columns are spread over the ranks to the first rank: afterwards it has them whole, the others
+   !> have none. All ranks call it. Here nothing is spread.
+   subroutine collect_fields(self)
+      class(contact_solution), intent(inout) :: self
+
+      associate (unused => self); end associate
+   end subroutine collect_fields
+
    !> Whether the solution is written to the checkpoint, so that a resumed run need not compute it again. Here it is
    !> not.
    pure logical function is_kept(self)
@@ -172,7 +191,7 @@ contains
                    measures%peak_pressure_error, measures%area_at_hardness_fraction, &
                    measures%load_at_hardness_fraction, measures%contact_area_counted_fraction, &
                    measures%contact_area_corrected_fraction, &
-                   real([self%active_constraints, self%iterations], dp), self%residual]
+                   real(self%active_constraints, dp), real(self%iterations, dp), self%residual]
       end associate
    end subroutine pack_common
 
@@ -187,7 +206,7 @@ contains
       self%pbar_over_pstar = values(1)
       self%measures = contact_measures(values(2), values(3), values(4), values(5), values(6), values(7), values(8), &
                                        values(9), values(10), values(11), values(12), values(13))
-      self%active_constraints = nint(values(14))
+      self%active_constraints = nint(values(14), int64)
       self%iterations = nint(values(15))
       self%residual = values(16)
    end subroutine unpack_common

@@ -38,12 +38,14 @@ module wavycon_contact_solver
       procedure :: why_no_area
       procedure :: why_chosen
       procedure :: finest_grid
+      procedure :: given_grid
       procedure :: has_coefficients
       procedure :: has_details
       procedure :: show_progress
       procedure :: coarser_levels
       procedure :: use_level
       procedure :: starts_from_last_load
+      procedure :: forget_last_load
       procedure :: skip_load
       procedure :: new_kept_solution
    end type contact_solver
@@ -224,6 +226,15 @@ contains
       points = 0
    end function finest_grid
 
+   !> The same of the grid whose points the deck gives. Zeros if it gives none.
+   function given_grid(self) result(points)
+      class(contact_solver), intent(in) :: self   !! started
+      integer :: points(2)
+
+      associate (unused => self); end associate
+      points = 0
+   end function given_grid
+
    !> Whether every solution has `coefficients`: those of the Fourier series of the pressure that the solver computed.
    pure logical function has_coefficients(self)
       class(contact_solver), intent(in) :: self
@@ -273,6 +284,13 @@ contains
       associate (unused => self); end associate
       starts_from_last_load = .false.
    end function starts_from_last_load
+
+   !> Makes the next load start as the first one does.
+   subroutine forget_last_load(self)
+      class(contact_solver), intent(inout) :: self
+
+      associate (unused => self); end associate
+   end subroutine forget_last_load
 
    !> Makes the state of the solver that which it would have after solving a load. Called for loads whose solutions were
    !> read from the checkpoint of an interrupted run.

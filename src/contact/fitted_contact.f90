@@ -40,6 +40,7 @@ module wavycon_fitted_contact
       procedure :: solve_partial_contact
       procedure :: has_details
       procedure :: starts_from_last_load
+      procedure :: forget_last_load
    end type fitted_contact
 
 contains
@@ -167,6 +168,14 @@ contains
       associate (unused => self); end associate
       starts_from_last_load = .true.
    end function starts_from_last_load
+
+   subroutine forget_last_load(self)
+      class(fitted_contact), intent(inout) :: self
+
+      type(fitted_answer) :: none
+
+      self%last = none
+   end subroutine forget_last_load
 
    pure function describe(self) result(words)
       class(fitted_contact), intent(in) :: self

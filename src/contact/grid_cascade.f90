@@ -2,13 +2,14 @@
 !> within an accuracy.
 !>
 !> The solution on one grid is the start on the next, and the error estimates follow from the changes from grid to grid.
-!> Numbers (C..) are the equations of README.md in this directory.
+!> Grids may be spread over ranks: all ranks then solve the same loads, and have the same numbers. Numbers
+!> (C..) are the equations of README.md in this directory.
 module wavycon_grid_cascade
    use wavycon_compliance_operator, only: compliance_operator
    use wavycon_contact_measures, only: known_errors, unknown
    use wavycon_contact_tuning, only: iteration_limit
    use wavycon_counted_area, only: corrected_area_fraction, counted_area_fraction
-   use wavycon_grid_edge, only: grid_contact_area, grid_edge, pressure_per_gap, start_grid_edge
+   use wavycon_grid_edge, only: grid_contact_area, grid_edge, joined, make_grid_edge, pressure_per_gap, start_grid_edge
    use wavycon_grid_error, only: change_history, estimate_errors, unresolved_errors
    use wavycon_grid_peak, only: grid_peak_pressure
    use wavycon_grid_plan, only: finer_grid, fits_memory, grid_plan, plan_grids
@@ -17,7 +18,7 @@ module wavycon_grid_cascade
    use wavycon_grid_solver, only: grid_state, solve_on_grid
    use wavycon_kinds, only: dp
    use wavycon_local_stiffness, only: local_stiffness
-   use wavycon_pressure_load, only: set_load
+   use wavycon_pressure_load, only: set_load, sum_of_field
    use wavycon_solver_progress, only: solver_progress
    use wavycon_surface, only: surface_type
    use wavycon_undeformed_gap, only: sample_undeformed_gap
@@ -27,7 +28,8 @@ module wavycon_grid_cascade
    public :: cascade_answer, solve_by_cascade
 
    type :: cascade_answer
-      type(grid_state) :: state            !! on the finest grid; gap not allocated if the first did not fit into memory
+      type(grid_state) :: state            !! on the finest grid, without the gap
+      type(grid_edge), allocatable :: edge !! on the finest grid; not allocated if the first did not fit into memory
       real(dp) :: values(3) = 0.0_dp       !! mean gap [Delta], contact area fraction, peak pressure [p*]
       !> Their error estimates, in the same units, or `unknown`. That of the area holds for `area_at_hardness` too.
       real(dp) :: errors(3) = unknown
@@ -57,7 +59,9 @@ contains
 
       real(dp), allocatable :: finer(:, :)
       type(change_history) :: history, history_at_hardness
+      type(grid_edge), allocatable :: edge_at_hardness
       type(grid_plan) :: plan
+      type(grid_slab) :: coarser
       real(dp) :: last_residual
       logical :: last
       integer :: grid(2)
@@ -68,13 +72,20 @@ contains
       if (present(residual) .and. all(points > 0)) last_residual = residual
       answer%out_of_memory = .not. fits_memory(grid)
       if (answer%out_of_memory) return
-      allocate (answer%state%pressure(grid(1), grid(2)), source=mean_pressure)
+      call answer%state%slab%start(grid)
+      allocate (answer%state%pressure(grid(1), answer%state%slab%columns()), source=mean_pressure)
       answer%state%hardness = surface%hardness
       do
          last = all(grid == plan%last)
          call solve_level(surface, mean_pressure, merge(last_residual, 0.0_dp, last), answer)
-         call measure_level(surface, mean_pressure, history, answer)
-         if (surface%has_hardness()) call measure_at_hardness(surface, mean_pressure, history_at_hardness, answer)
+         if (surface%has_hardness()) then
+            call find_edge_at_hardness(surface, answer%state, edge_at_hardness)
+            call measure_level(surface, mean_pressure, history, answer)
+            call measure_at_hardness(surface, mean_pressure, edge_at_hardness, history_at_hardness, answer)
+            deallocate (edge_at_hardness)
+         else
+            call measure_level(surface, mean_pressure, history, answer)
+         end if
          answer%accurate = answer%state%converged .and. all(answer%errors <= accuracy) .and. &
             all(grid >= plan%trusted)
          if (present(progress)) &
@@ -88,9 +99,11 @@ contains
             answer%out_of_memory = .true.
             exit
          end if
-         call refine_pressure(answer%state%pressure, surface%shape%is_even(), finer)
+         deallocate (answer%edge)
+         coarser = answer%state%slab
+         call answer%state%slab%start(grid)
+         call refine_pressure(answer%state%pressure, coarser, surface%shape%is_even(), answer%state%slab, finer)
          call move_alloc(finer, answer%state%pressure)
-         deallocate (answer%state%gap)
       end do
       answer%errors = known_errors(answer%errors, surface%full_contact_peak)
       ! No pressure is negative: an estimate as large as the peak says nothing of it.
@@ -105,21 +118,22 @@ contains
 
       type(compliance_operator) :: half_space
       type(local_stiffness) :: stencil
-      type(grid_slab) :: slab
       real(dp), allocatable :: h(:, :)
-      integer :: points(2)
+      real(dp) :: highest(1), load
 
-      points = shape(answer%state%pressure)
-      allocate (h(points(1), points(2)))
-      call slab%start(points)
-      call sample_undeformed_gap(surface, slab, h)
-      call half_space%start(surface, points)
-      answer%state%pressure = answer%state%pressure*(mean_pressure*size(h)/sum(answer%state%pressure))
-      if (surface%has_hardness()) then
-         if (any(answer%state%pressure >= surface%hardness)) &
-            call set_load(answer%state%pressure, mean_pressure*size(h), surface%hardness)
-      end if
-      call stencil%start(surface, points)
+      associate (slab => answer%state%slab, pressure => answer%state%pressure)
+         allocate (h(slab%points(1), slab%columns()))
+         call sample_undeformed_gap(surface, slab, h)
+         call half_space%start(surface, slab%points)
+         load = mean_pressure*product(real(slab%points, dp))
+         pressure = pressure*(load/sum_of_field(slab, pressure))
+         if (surface%has_hardness()) then
+            highest = maxval(pressure)
+            call slab%largest(highest)
+            if (highest(1) >= surface%hardness) call set_load(slab, pressure, load, surface%hardness)
+         end if
+         call stencil%start(surface, slab%points)
+      end associate
       call solve_on_grid(half_space, stencil, h, residual, iteration_limit, answer%state)
       answer%grids = answer%grids + 1
       answer%iterations = answer%iterations + answer%state%iterations
@@ -129,45 +143,61 @@ contains
 
    !> Mean gap, contact area (C11), (C12) and peak pressure (C13) on the present grid, and their error estimates (C14)
    !> to (C17). The area is at least that which carries the load at the hardness. Its error is unknown where (C12) gives
-   !> no area although there is contact.
+   !> no area although there is contact. The edge takes the memory of the gap, which no longer exists afterwards.
    subroutine measure_level(surface, mean_pressure, history, answer)
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: mean_pressure
       type(change_history), intent(inout) :: history
       type(cascade_answer), intent(inout) :: answer
 
-      type(grid_edge) :: edge
       real(dp) :: area
+      integer :: j
       logical :: peak_resolved
 
-      call start_grid_edge(edge, answer%state%pressure, answer%state%gap, surface%shape%is_even(), &
-                           pressure_per_gap(surface, shape(answer%state%gap)))
-      area = grid_contact_area(edge)
-      answer%values(:2) = [answer%state%open_gap(), area]
-      answer%counted_area = counted_area_fraction(edge)
-      if (surface%dimension == 2) answer%corrected_area = corrected_area_fraction(edge)
-      call grid_peak_pressure(edge, answer%values(3), peak_resolved)
+      answer%values(1) = answer%state%open_gap()
+      if (.not. allocated(answer%edge)) allocate (answer%edge)
+      do j = 1, size(answer%state%gap, 2)
+         answer%state%gap(:, j) = joined(answer%state%pressure(:, j), answer%state%gap(:, j))
+      end do
+      call make_grid_edge(answer%edge, answer%state%gap, surface%shape%is_even(), &
+                          pressure_per_gap(surface, answer%state%slab%points), answer%state%slab)
+      call answer%edge%fetch_neighbours()
+      area = grid_contact_area(answer%edge)
+      answer%values(2) = area
+      answer%counted_area = counted_area_fraction(answer%edge)
+      if (surface%dimension == 2) answer%corrected_area = corrected_area_fraction(answer%edge)
+      call grid_peak_pressure(answer%edge, answer%values(3), peak_resolved)
       peak_resolved = peak_resolved .or. answer%values(3) >= surface%hardness
       answer%values(3) = min(answer%values(3), surface%hardness)
       if (surface%has_hardness()) answer%values(2) = max(answer%values(2), mean_pressure/surface%hardness)
       call history%push(answer%values)
-      answer%errors = estimate_errors(history, surface, edge, peak_resolved)
+      answer%errors = estimate_errors(history, surface, answer%edge, peak_resolved)
       if (.not. area > 0.0_dp) answer%errors(2) = unknown
    end subroutine measure_level
 
-   !> The area at which p = H, and its error estimate. H - p and minus the gap behave at its edge as gap and pressure
-   !> do at the edge of contact (C23). It is at most that which carries the load.
-   subroutine measure_at_hardness(surface, mean_pressure, history, answer)
+   !> The edge of the area at which p = H. H - p and minus the gap behave there as gap and pressure do at the edge of
+   !> contact (C23).
+   subroutine find_edge_at_hardness(surface, state, edge)
+      type(surface_type), intent(in) :: surface
+      type(grid_state), intent(in) :: state   !! solved, with the gap
+      type(grid_edge), allocatable, intent(out) :: edge
+
+      allocate (edge)
+      call start_grid_edge(edge, surface%hardness - state%pressure, -state%gap, surface%shape%is_even(), &
+                           pressure_per_gap(surface, state%slab%points), state%slab)
+      call edge%fetch_neighbours()
+   end subroutine find_edge_at_hardness
+
+   !> The area at which p = H, and its error estimate. It is at most that which carries the load.
+   subroutine measure_at_hardness(surface, mean_pressure, edge, history, answer)
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: mean_pressure
+      type(grid_edge), intent(in) :: edge             !! from find_edge_at_hardness
       type(change_history), intent(inout) :: history
       type(cascade_answer), intent(inout) :: answer
 
-      type(grid_edge) :: edge
       real(dp) :: errors(3), values(3)
 
-      call start_grid_edge(edge, surface%hardness - answer%state%pressure, -answer%state%gap, surface%shape%is_even(), &
-                           pressure_per_gap(surface, shape(answer%state%gap)))
       values = [0.0_dp, min(1.0_dp - grid_contact_area(edge), mean_pressure/surface%hardness), 0.0_dp]
       answer%area_at_hardness = values(2)
       call history%push(values)

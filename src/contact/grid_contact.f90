@@ -13,10 +13,10 @@ module wavycon_grid_contact
    use wavycon_contact_tuning, only: least_search_points, worst_search_accuracy
    use wavycon_edge_curves, only: edge_curve, shift_curve, strip_ends, trace_edges, turn_curves, whole_strips
    use wavycon_grid_cascade, only: cascade_answer, solve_by_cascade
-   use wavycon_grid_edge, only: grid_edge, grid_strip_edges, pressure_per_gap, &
-      start_grid_edge
+   use wavycon_grid_edge, only: grid_edge, grid_strip_edges, make_grid_edge
    use wavycon_grid_fields, only: grid_fields, start_grid_fields
    use wavycon_grid_plan, only: grid_plan, plan_grids
+   use wavycon_grid_slab, only: grid_slab
    use wavycon_fourier_series, only: fourier_series
    use wavycon_grid_transform, only: grid_transform
    use wavycon_group_values, only: group_values
@@ -25,6 +25,7 @@ module wavycon_grid_contact
    use wavycon_measure_tuning, only: edge_offset
    use wavycon_plain_text, only: integer_text, short_number
    use wavycon_problems, only: problem_list_type
+   use wavycon_ranks, only: gather_columns, is_first_rank
    use wavycon_qp_problem, only: qp_iteration_limit, qp_status_name
    use wavycon_region_numbers, only: region_numbers
    use wavycon_solver_keys, only: accuracy_key, check_grid_points, grid_points_key, points_of_grid, residual_key, &
@@ -63,6 +64,7 @@ module wavycon_grid_contact
       procedure :: use_level
       procedure :: new_kept_solution
       procedure :: finest_grid
+      procedure :: given_grid
    end type grid_contact
 
    type, extends(contact_solution) :: grid_solution
@@ -73,13 +75,15 @@ module wavycon_grid_contact
       procedure :: fields
       procedure :: edge_curves
       procedure :: stresses
+      procedure :: spread_points
+      procedure :: collect_fields
       procedure :: is_kept
       procedure :: pack_kept
       procedure :: unpack_kept
    end type grid_solution
 
    !> Numbers in the array of pack_kept between those of pack_common and the field.
-   integer, parameter :: own_values = 7
+   integer, parameter :: own_values = 9
 
 contains
 
@@ -182,7 +186,7 @@ contains
             call solve_by_cascade(self%solved, pbar_over_pstar, accuracy, points, answer, residual=self%residual)
          end if
       end associate
-      if (.not. allocated(answer%state%gap)) then
+      if (.not. allocated(answer%edge)) then
          call no_solution(pbar_over_pstar, solver_name, no_memory, solution)
          return
       end if
@@ -194,7 +198,7 @@ contains
                                       approach_over_amplitude=1.0_dp - answer%state%mean_gap, &
                                       contact_area_fraction=answer%values(2), &
                                       peak_pressure_over_pstar=answer%values(3), &
-                                      min_pressure_over_pstar=minval(answer%state%pressure), &
+                                      min_pressure_over_pstar=least_pressure(answer%edge), &
                                       mean_gap_error=answer%errors(1), contact_area_error=answer%errors(2), &
                                       peak_pressure_error=answer%errors(3), &
                                       area_at_hardness_fraction=answer%area_at_hardness, &
@@ -203,8 +207,7 @@ contains
       if (self%surface%has_hardness()) own%measures%load_at_hardness_fraction = &
          answer%area_at_hardness*self%surface%hardness/pbar_over_pstar
       own%imprint = answer%state%imprint
-      own%active_constraints = count(answer%state%pressure <= 0.0_dp) + &
-                               count(answer%state%pressure >= self%surface%hardness)
+      own%active_constraints = bound_points(answer%edge, self%surface%hardness)
       own%iterations = answer%iterations
       own%residual = answer%state%residual
       if (.not. answer%state%converged) then
@@ -220,13 +223,62 @@ contains
       else
          own%status = unresolved
       end if
-      if (self%keep_fields) then
-         allocate (own%edge)
-         call start_grid_edge(own%edge, answer%state%pressure, answer%state%gap, self%solved%shape%is_even(), &
-                              pressure_per_gap(self%solved, shape(answer%state%gap)))
-      end if
+      if (self%keep_fields) call move_alloc(answer%edge, own%edge)
       call move_alloc(own, solution)
    end subroutine solve_partial_contact
+
+   !> The least pressure at the points of the grid.
+   real(dp) function least_pressure(edge) result(least)
+      type(grid_edge), intent(in) :: edge
+
+      real(dp) :: opposite(1)
+
+      opposite = -minval(edge%pressure_or_gap)
+      call edge%slab%largest(opposite)
+      least = max(-opposite(1), 0.0_dp)
+   end function least_pressure
+
+   !> The number of points of the grid where the pressure is zero or the hardness.
+   integer(int64) function bound_points(edge, hardness) result(number)
+      type(grid_edge), intent(in) :: edge
+      real(dp), intent(in) :: hardness
+
+      integer(int64) :: total(1)
+
+      total = count(edge%pressure_or_gap <= 0.0_dp, kind=int64) + count(edge%pressure_or_gap >= hardness, kind=int64)
+      call edge%slab%add(total)
+      number = total(1)
+   end function bound_points
+
+   pure integer(int64) function spread_points(self)
+      class(grid_solution), intent(in) :: self
+
+      spread_points = 0
+      if (.not. allocated(self%edge)) return
+      if (self%edge%slab%is_spread) spread_points = product(int(self%edge%slab%points, int64))
+   end function spread_points
+
+   !> Gathers the fields of a solution whose grid is spread over the ranks on the first of them; the others have none
+   !> afterwards. All ranks must call it.
+   subroutine collect_fields(self)
+      class(grid_solution), intent(inout) :: self
+
+      type(grid_edge), allocatable :: whole
+      real(dp), allocatable :: values(:, :)
+
+      if (.not. allocated(self%edge)) return
+      associate (slab => self%edge%slab)
+         if (.not. slab%is_spread) return
+         allocate (values(slab%points(1), merge(slab%points(2), 0, is_first_rank())))
+         call gather_columns(slab%columns_of_ranks(), self%edge%pressure_or_gap, values, first_only=.true.)
+      end associate
+      if (is_first_rank()) then
+         allocate (whole)
+         call make_grid_edge(whole, values, self%edge%even, self%edge%stiffness)
+      end if
+      deallocate (self%edge)
+      if (allocated(whole)) call move_alloc(whole, self%edge)
+   end subroutine collect_fields
 
    subroutine fields(self, surface, answer)
       class(grid_solution), intent(in) :: self
@@ -331,56 +383,76 @@ contains
    end subroutine new_kept_solution
 
    !> After the numbers of pack_common: the imprint, the stiffness of `edge`, the points along x and y (zeros if the
-   !> fields were not kept), whether the cell is turned, whether the grid covers a quarter of it, and the pressures and
-   !> gaps.
+   !> fields were not kept), the width of the slabs and the first column of this rank's, whether the cell is turned,
+   !> whether the grid covers a quarter of it, and the pressures and gaps at the own columns.
    pure subroutine pack_kept(self, values)
       class(grid_solution), intent(in) :: self
       real(dp), allocatable, intent(out) :: values(:)
 
       real(dp), allocatable :: common(:)
       real(dp) :: stiffness(2)
-      integer :: first, j, points(2), status
+      integer :: first, j, layout(4), status
+      integer(int64) :: rows
 
       call pack_common(self, common)
-      points = 0
+      layout = 0
+      rows = 0
       stiffness = 1.0_dp
-      if (allocated(self%edge)) then
-         points = shape(self%edge%pressure_or_gap)
-         stiffness = self%edge%stiffness
-      end if
       first = packed_values + own_values
-      allocate (values(first + product(points)), stat=status)
+      if (allocated(self%edge)) then
+         associate (slab => self%edge%slab)
+            layout = [slab%points, slab%width, slab%first]
+         end associate
+         rows = size(self%edge%pressure_or_gap, 1)
+         stiffness = self%edge%stiffness
+         allocate (values(first + size(self%edge%pressure_or_gap, kind=int64)), stat=status)
+      else
+         allocate (values(first), stat=status)
+      end if
       if (status /= 0) return
-      values(:first) = [common, self%imprint, stiffness, real(points, dp), 0.0_dp, 0.0_dp]
+      values(:first) = [common, self%imprint, stiffness, real(layout, dp), 0.0_dp, 0.0_dp]
       if (self%turned) values(first - 1) = 1.0_dp
       if (.not. allocated(self%edge)) return
       if (self%edge%even) values(first) = 1.0_dp
-      do j = 1, points(2)
-         values(first + (j - 1)*points(1) + 1:first + j*points(1)) = self%edge%pressure_or_gap(:, j)
+      do j = 1, size(self%edge%pressure_or_gap, 2)
+         values(first + (j - 1)*rows + 1:first + j*rows) = self%edge%pressure_or_gap(:, j)
       end do
    end subroutine pack_kept
 
+   !> N.B. Without exchange: another rank may not understand its numbers.
    pure subroutine unpack_kept(self, values, understood)
       class(grid_solution), intent(inout) :: self
       real(dp), intent(in) :: values(:)
       logical, intent(out) :: understood
 
-      integer :: first, points(2)
+      integer :: columns, first, j, layout(4)
+      integer(int64) :: rows
       real(dp), allocatable :: field(:, :)
+      type(grid_slab) :: slab
 
       call unpack_common(self, values, understood)
       first = packed_values + own_values
       if (understood) understood = size(values) >= first
-      if (understood) understood = all(values(first - 3:first - 2) >= 0.0_dp) .and. &
-                                   nint(product(values(first - 3:first - 2)), int64) == size(values) - first
+      if (understood) understood = all(values(first - 5:first - 2) >= 0.0_dp .and. &
+                                       values(first - 5:first - 2) <= huge(layout))
       if (.not. understood) return
-      points = nint(values(first - 3:first - 2))
-      self%imprint = values(first - 6)
+      layout = nint(values(first - 5:first - 2))
+      slab = grid_slab(points=layout(:2), width=layout(3), first=layout(4), is_spread=layout(3) < layout(2))
+      slab%last = min(slab%first - 1 + slab%width, slab%points(2))
+      columns = slab%columns()
+      rows = slab%points(1)
+      if (all(layout == 0)) columns = 0
+      understood = columns >= 0 .and. rows*columns == size(values, kind=int64) - first
+      if (.not. understood) return
+      self%imprint = values(first - 8)
       self%turned = values(first - 1) > 0.0_dp
-      if (product(points) == 0) return
-      field = reshape(values(first + 1:), points)
+      if (rows == 0) return
+      allocate (field(rows, columns))
+      do j = 1, columns
+         field(:, j) = values(first + (j - 1)*rows + 1:first + j*rows)
+      end do
       allocate (self%edge)
-      call start_grid_edge(self%edge, field, -field, values(first) > 0.0_dp, values(first - 5:first - 4))
+      call make_grid_edge(self%edge, field, values(first) > 0.0_dp, values(first - 7:first - 6), slab)
    end subroutine unpack_kept
 
    function finest_grid(self) result(points)
@@ -392,6 +464,14 @@ contains
       plan = plan_grids(self%solved, self%points)
       points = plan%last
    end function finest_grid
+
+   function given_grid(self) result(points)
+      class(grid_contact), intent(in) :: self
+      integer :: points(2)
+
+      points = 0
+      if (all(self%points > 0)) points = self%finest_grid()
+   end function given_grid
 
    !> What each spot carries of the load: the pressures at its points.
    pure subroutine spot_loads(edge, numbers, loads)

@@ -5,6 +5,7 @@
 !> error of the area (C17). README.md in this directory has the equations and the share of estimates that hold. None
 !> is a bound.
 module wavycon_grid_error
+   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_constants, only: pi
    use wavycon_contact_measures, only: unknown
    use wavycon_contact_tuning, only: area_kept_change, area_safety, edge_bias, edge_scatter, gap_safety, &
@@ -32,7 +33,7 @@ module wavycon_grid_error
 contains
 
    !> Estimates the errors of mean gap [Delta], contact area fraction and peak pressure [p*] on the last grid.
-   pure function estimate_errors(history, surface, edge, peak_resolved) result(errors)
+   function estimate_errors(history, surface, edge, peak_resolved) result(errors)
       type(change_history), intent(in) :: history   !! of all grids up to the last
       type(surface_type), intent(in) :: surface
       type(grid_edge), intent(in) :: edge        !! of the last grid
@@ -68,47 +69,46 @@ contains
    !> Errors that changes do not show (C15), (C16): of the area, because the position of the edge between points is
    !> uncertain and all grids may err alike; of all values, if all points are in contact but a small gap may lie
    !> between them; of the peak pressure, if too few points are in contact for the polynomial (C13).
-   pure function unresolved_errors(surface, edge, peak_resolved) result(errors)
+   function unresolved_errors(surface, edge, peak_resolved) result(errors)
       type(surface_type), intent(in) :: surface
       type(grid_edge), intent(in) :: edge
       logical, intent(in) :: peak_resolved
       real(dp) :: errors(3)
 
+      integer(int64) :: crossings, points
       real(dp) :: open_part
-      integer :: crossings
 
-      associate (points => size(edge%pressure_or_gap))
-         if (all(edge%pressure_or_gap > 0.0_dp)) then
-            ! With the open part of the surface the mean gap falls as the power 5/2 or faster, and so does the change
-            ! of the peak.
-            open_part = max(1, possible_openings(edge))/real(points, dp)
-            errors = [open_part**2, open_part, open_part**2]
-         else
-            crossings = edge_crossings(edge)
-            errors = [0.0_dp, max(edge_scatter*sqrt(real(crossings, dp)), edge_bias*crossings)/points, 0.0_dp]
-            if (.not. peak_resolved) errors(3) = unresolved_peak(surface, edge)
-         end if
-      end associate
+      points = edge%number_of_points()
+      if (edge%points_in_contact() == points) then
+         ! With the open part of the surface the mean gap falls as the power 5/2 or faster, and so does the change of
+         ! the peak.
+         open_part = max(1_int64, possible_openings(edge))/real(points, dp)
+         errors = [open_part**2, open_part, open_part**2]
+      else
+         crossings = edge_crossings(edge)
+         errors = [0.0_dp, max(edge_scatter*sqrt(real(crossings, dp)), edge_bias*crossings)/points, 0.0_dp]
+         if (.not. peak_resolved) errors(3) = unresolved_peak(surface, edge)
+      end if
    end function unresolved_errors
 
    !> Number of points in contact whose pressure is so far below that of a neighbour that a gap may lie beside them, o
    !> of (C15).
-   pure integer function possible_openings(edge) result(openings)
+   integer(int64) function possible_openings(edge) result(openings)
       type(grid_edge), intent(in) :: edge
 
       real(dp) :: highest
+      integer(int64) :: total(1)
       integer :: i, j
 
-      openings = 0
-      associate (field => edge%pressure_or_gap)
-         do j = 1, size(field, 2)
-            do i = 1, size(field, 1)
-               highest = max(field(edge%place(i - 1, 1), j), field(edge%place(i + 1, 1), j), &
-                             field(i, edge%place(j - 1, 2)), field(i, edge%place(j + 1, 2)))
-               if (highest > opening_ratio*field(i, j)) openings = openings + 1
-            end do
+      total = 0
+      do j = edge%slab%first, edge%slab%last
+         do i = 1, edge%slab%points(1)
+            highest = max(edge%at(i - 1, j), edge%at(i + 1, j), edge%at(i, j - 1), edge%at(i, j + 1))
+            if (highest > opening_ratio*edge%at(i, j)) total = total + 1
          end do
-      end associate
+      end do
+      call edge%slab%add(total)
+      openings = total(1)
    end function possible_openings
 
    !> Hertz's peak pressure [p*] of a contact whose half width or radius is `unresolved_width` steps (C16). In 2-D it
@@ -122,7 +122,7 @@ contains
       real(dp), parameter :: hertz_peak(2) = [2*pi, 8.0_dp]
       real(dp) :: step(2)
 
-      step = surface%length/(merge(2, 1, edge%even)*shape(edge%pressure_or_gap))
+      step = surface%length/(merge(2, 1, edge%even)*edge%slab%points)
       if (surface%dimension == 1) step(2) = 0.0_dp
       peak = hertz_peak(surface%dimension)*unresolved_width*maxval(step)*surface%stiffness*surface%crest_curvature
    end function unresolved_peak

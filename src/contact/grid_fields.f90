@@ -8,6 +8,7 @@ module wavycon_grid_fields
    use wavycon_contact_fields, only: contact_fields
    use wavycon_fourier_series, only: fourier_series
    use wavycon_grid_edge, only: grid_edge
+   use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp
    use wavycon_series_samples, only: sample_series
    use wavycon_surface, only: surface_type
@@ -32,6 +33,8 @@ module wavycon_grid_fields
       procedure :: at
       procedure :: on_grid
       procedure :: own_points
+      procedure :: own_slab
+      procedure :: at_own_column
    end type grid_fields
 
    !> Points that are nearer than this to a point of the grid, in steps, are that point: positions are rounded.
@@ -63,13 +66,32 @@ contains
       points = 0
       offset = 0.0_dp
       if (self%turned) return
-      associate (numbers => shape(self%edge%pressure_or_gap))
+      associate (numbers => self%edge%slab%points)
          points = numbers
          if (.not. self%edge%even) return
          points = merge(2*numbers, 1, numbers > 1)/self%parts
          offset = merge(0.5_dp, 0.0_dp, numbers > 1)
       end associate
    end subroutine own_points
+
+   pure type(grid_slab) function own_slab(self)
+      class(grid_fields), intent(in) :: self
+
+      own_slab = self%edge%slab
+   end function own_slab
+
+   subroutine at_own_column(self, column, shape, pressure, displacement, gap)
+      class(grid_fields), intent(in) :: self
+      integer, intent(in) :: column
+      real(dp), intent(in) :: shape(:)
+      real(dp), intent(out) :: pressure(:), displacement(:), gap(:)
+
+      associate (values => self%edge%pressure_or_gap(:, column - self%edge%slab%first + 1))
+         pressure = max(values, 0.0_dp)
+         gap = max(-values, 0.0_dp)
+      end associate
+      displacement = gap - self%mean_gap + shape
+   end subroutine at_own_column
 
    subroutine at(self, x, y, pressure, displacement, gap)
       class(grid_fields), intent(inout) :: self

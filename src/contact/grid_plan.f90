@@ -6,7 +6,9 @@
 module wavycon_grid_plan
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_tuning, only: first_points, most_points_line, most_points_plane
+   use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp
+   use wavycon_ranks, only: any_rank, ranks_on_this_machine
    use wavycon_surface, only: surface_type
    use wavycon_system, only: has_memory_for
    implicit none (type, external)
@@ -95,7 +97,7 @@ contains
          if (.not. surface%shape%is_even()) most = 4*most
       end if
       finest = grid
-      do while (product(finest) <= most/product(twice))
+      do while (product(int(finest, int64)) <= most/product(twice))
          finest = twice*finest
       end do
    end function finest
@@ -121,11 +123,20 @@ contains
       if (power >= number) fast_size = power
    end function fast_size
 
-   !> Whether the memory that the system has available is enough to solve on a grid.
+   !> Whether the memory that the system has available is enough to solve on a grid: of each rank's machine for its slab
+   !> and those of the ranks on the same machine. The answer is the same on all ranks, which must all ask.
    logical function fits_memory(grid)
       integer, intent(in) :: grid(2)   !! points of the part of the cell that is solved
 
-      fits_memory = has_memory_for(numbers_of_point*product(int(grid, int64)))
+      type(grid_slab) :: slab
+      integer(int64) :: points
+
+      call slab%start(grid)
+      points = int(grid(1), int64)*slab%width
+      ! Arrays of a slab have default integers as indices.
+      fits_memory = points <= huge(grid)
+      if (fits_memory) fits_memory = has_memory_for(numbers_of_point*points*ranks_on_this_machine())
+      fits_memory = .not. any_rank(.not. fits_memory)
    end function fits_memory
 
    !> The memory that it takes to solve on a grid [byte].

@@ -5,12 +5,15 @@
 !> of contact there. It then selects the points in and near the contact, and corrects the pressure at these points in
 !> single precision (`pressure_correction`). A step reduces the residual by some four digits.
 !>
+!> The grid may be spread over the ranks: fields have this rank's columns, sums and neighbours come from the slab.
+!>
 !> Numbers (C..) are the equations of README.md in this directory.
 module wavycon_grid_solver
    use, intrinsic :: iso_c_binding, only: c_bool
    use wavycon_compliance_operator, only: compliance_operator
    use wavycon_contact_tuning, only: correction_limit, correction_margin, correction_part, edge_tolerance, halo
-   use wavycon_kinds, only: dp
+   use wavycon_grid_slab, only: grid_slab
+   use wavycon_kinds, only: dp, sp
    use wavycon_local_stiffness, only: local_stiffness
    use wavycon_pressure_correction, only: pressure_correction
    use wavycon_threads, only: threads_for
@@ -24,8 +27,9 @@ module wavycon_grid_solver
    real(dp), parameter :: rounding = 32*epsilon(1.0_dp), most_rounding = 1e-12_dp
 
    type :: grid_state
-      real(dp), allocatable :: pressure(:, :)   !! p/p*, 0 <= p <= H, shape (m, n)
-      !> gap/Delta, negative where the surfaces overlap: at free points its deviation from zero, shape (m, n)
+      type(grid_slab) :: slab                   !! of the grid
+      real(dp), allocatable :: pressure(:, :)   !! p/p*, 0 <= p <= H, shape (M, slab%columns())
+      !> gap/Delta, negative where the surfaces overlap: at free points its deviation from zero, likewise
       real(dp), allocatable :: gap(:, :)
       real(dp) :: hardness = huge(1.0_dp)       !! H/p*, huge if there is none
       real(dp) :: mean_gap = 1.0_dp             !! 1 - approach; without a hardness G
@@ -36,6 +40,7 @@ module wavycon_grid_solver
       integer :: local_iterations = 0           !! those of them preconditioned by the stencil
       integer :: plain_iterations = 0           !! those without extension of the gap
       logical :: converged = .false.
+      logical, private :: is_open = .true.      !! whether any point has no pressure; only with a hardness
    contains
       procedure :: open_gap
    end type grid_state
@@ -46,14 +51,12 @@ contains
    subroutine solve_on_grid(half_space, stencil, undeformed_gap, residual, most_iterations, state)
       type(compliance_operator), intent(inout) :: half_space   !! S, started on the grid
       type(local_stiffness), intent(in) :: stencil   !! likewise
-      real(dp), intent(in) :: undeformed_gap(:, :)   !! h/Delta, shape (m, n)
+      real(dp), intent(in) :: undeformed_gap(:, :)   !! h/Delta, shape (M, state%slab%columns())
       real(dp), intent(in) :: residual               !! the largest allowed (C9), > 0; 0: that of (C10)
       integer, intent(in) :: most_iterations
-      !> On entry `hardness` is set and `pressure` is the start, 0 <= p <= H; its mean P in (0, H) stays.
+      !> On entry `slab` and `hardness` are set and `pressure` is the start, 0 <= p <= H; its mean P in (0, H) stays.
       type(grid_state), intent(inout) :: state
 
-      type(pressure_correction) :: correction
-      logical(c_bool), allocatable :: inside(:, :)
       logical :: touched(size(undeformed_gap, 2))
       real(dp) :: allowed, last_residual
 
@@ -72,22 +75,35 @@ contains
                            (state%residual <= most_rounding .and. 2*state%residual > last_residual)
          last_residual = state%residual
          if (state%converged .or. state%iterations >= most_iterations) exit
-         call find_region(state, inside)
-         call correction%start(inside, stencil, state%pressure, state%gap, state%residual, state%hardness)
-         ! The correction needs its memory; the next step computes it anew.
-         deallocate (state%gap)
-         call correction%improve(half_space, max(correction_part, correction_margin*allowed/state%residual), &
-                                 min(correction_limit, most_iterations - state%iterations))
-         call correction%add_to(state%pressure)
-         state%corrections = state%corrections + 1
-         ! A correction without iterations corrects the approach alone. It counts, so that the number of steps is
-         ! limited.
-         state%iterations = state%iterations + max(1, correction%iterations)
-         state%local_iterations = state%local_iterations + correction%local_iterations
-         state%plain_iterations = state%plain_iterations + correction%plain_iterations
+         call correct_pressure(half_space, stencil, max(correction_part, correction_margin*allowed/state%residual), &
+                               min(correction_limit, most_iterations - state%iterations), state)
       end do
       state%residual = state%residual/max(size_of_gaps(state), rounding)
    end subroutine solve_on_grid
+
+   !> Corrects the pressure until the residual is a part of what it is.
+   subroutine correct_pressure(half_space, stencil, part, most_iterations, state)
+      type(compliance_operator), intent(inout) :: half_space
+      type(local_stiffness), intent(in) :: stencil
+      real(dp), intent(in) :: part
+      integer, intent(in) :: most_iterations
+      type(grid_state), intent(inout) :: state   !! `gap` is not allocated afterwards
+
+      type(pressure_correction) :: correction
+      logical(c_bool), allocatable :: inside(:, :)
+
+      call find_region(state, inside)
+      call correction%start(state%slab, inside, stencil, state%pressure, state%gap, state%residual, state%hardness)
+      ! The correction needs their memory; the next step computes the gap anew.
+      deallocate (inside, state%gap)
+      call correction%improve(half_space, part, most_iterations)
+      call correction%add_to(state%pressure)
+      state%corrections = state%corrections + 1
+      ! A correction without iterations corrects the approach alone. It counts, so that the number of steps is limited.
+      state%iterations = state%iterations + max(1, correction%iterations)
+      state%local_iterations = state%local_iterations + correction%local_iterations
+      state%plain_iterations = state%plain_iterations + correction%plain_iterations
+   end subroutine correct_pressure
 
    !> The mean gap of surfaces that touch where they overlap, G [Delta]: zero if no point is open.
    pure real(dp) function open_gap(self)
@@ -95,7 +111,7 @@ contains
 
       open_gap = self%mean_gap + self%imprint
       if (self%hardness >= huge(self%hardness)) return
-      if (.not. any(self%pressure <= 0.0_dp)) open_gap = 0.0_dp
+      if (.not. self%is_open) open_gap = 0.0_dp
    end function open_gap
 
    !> The mean of |gap| [Delta]: G without a hardness.
@@ -127,10 +143,13 @@ contains
       logical, intent(in) :: touched(:)   !! whether a column of the grid has points in contact, shape (n)
       type(grid_state), intent(inout) :: state
 
-      real(dp) :: approach, change, overlaps(size(touched)), sums(size(touched))
-      integer :: counts(size(touched)), j, threads
+      real(dp) :: approach, change, extremes(2), parts(2, size(touched)), points, sums(3), violations(3, size(touched))
+      integer :: j, threads
+      logical :: has_hardness
 
       threads = threads_for(size(undeformed_gap))
+      points = product(real(state%slab%points, dp))
+      has_hardness = state%hardness < huge(state%hardness)
       if (.not. allocated(state%gap)) allocate (state%gap, mold=undeformed_gap)
       approach = 1.0_dp - state%mean_gap
       associate (gap => state%gap, p => state%pressure, h => undeformed_gap, hardness => state%hardness)
@@ -141,58 +160,61 @@ contains
          !$omp parallel do num_threads(threads)
          do j = 1, size(gap, 2)
             gap(:, j) = gap(:, j) + (h(:, j) - approach)
-            sums(j) = 0.0_dp
-            counts(j) = 0
+            parts(:, j) = 0.0_dp
             if (.not. touched(j)) cycle
-            sums(j) = sum(gap(:, j), is_free(p(:, j), hardness))
-            counts(j) = count(is_free(p(:, j), hardness))
+            parts(:, j) = [sum(gap(:, j), is_free(p(:, j), hardness)), real(count(is_free(p(:, j), hardness)), dp)]
          end do
-         if (hardness >= huge(hardness) .or. any(counts > 0)) then
-            change = sum(sums)/sum(counts)
+         sums(:2) = state%slab%column_totals(parts)
+         if (.not. has_hardness .or. sums(2) > 0.0_dp) then
+            change = sums(1)/sums(2)
          else
-            change = middle_between(minval(gap, p <= 0.0_dp), maxval(gap, p >= hardness))
+            extremes = [-minval(gap, p <= 0.0_dp), maxval(gap, p >= hardness)]
+            call state%slab%largest(extremes)
+            change = middle_between(-extremes(1), extremes(2))
          end if
-         if (hardness < huge(hardness)) call reduce_violation(gap, p, hardness, change)
+         if (has_hardness) call reduce_violation(state%slab, gap, p, hardness, change)
          !$omp parallel do num_threads(threads)
          do j = 1, size(gap, 2)
             gap(:, j) = gap(:, j) - change
-            overlaps(j) = 0.0_dp
+            violations(2:, j) = 0.0_dp
             if (touched(j)) then
-               sums(j) = sum(violation(gap(:, j), p(:, j), hardness)**2)
-               if (hardness < huge(hardness)) overlaps(j) = sum(max(-gap(:, j), 0.0_dp), p(:, j) >= hardness)
+               violations(1, j) = sum(violation(gap(:, j), p(:, j), hardness)**2)
+               if (has_hardness) violations(2, j) = sum(max(-gap(:, j), 0.0_dp), p(:, j) >= hardness)
             else
-               sums(j) = sum(min(gap(:, j), 0.0_dp)**2)
+               violations(1, j) = sum(min(gap(:, j), 0.0_dp)**2)
             end if
+            if (has_hardness) violations(3, j) = count(p(:, j) <= 0.0_dp)
          end do
-         state%imprint = sum(overlaps)/size(gap)
-         state%mean_gap = 1.0_dp - (approach + change)
-         state%residual = sqrt(sum(sums)/size(gap))
+         sums = state%slab%column_totals(violations)
       end associate
+      state%residual = sqrt(sums(1)/points)
+      state%imprint = sums(2)/points
+      state%is_open = sums(3) > 0.0_dp
+      state%mean_gap = 1.0_dp - (approach + change)
    end subroutine compute_gap
 
    !> Changes the approach to that of the least residual: the mean over the free points and those that it violates. A
    !> few free points alone may have a gap that makes many others violate their conditions.
-   pure subroutine reduce_violation(gap, pressure, hardness, change)
+   subroutine reduce_violation(slab, gap, pressure, hardness, change)
+      type(grid_slab), intent(in) :: slab
       real(dp), intent(in) :: gap(:, :), pressure(:, :), hardness
       real(dp), intent(inout) :: change   !! of the approach [Delta]
 
       !> The residual is a piecewise quadratic function of the approach; Newton's method ends in a few steps.
       integer, parameter :: most_steps = 20
-      real(dp) :: next, total
-      integer :: j, points, step
+      real(dp) :: next, parts(2, size(gap, 2)), sums(2)
+      integer :: j, step
 
       do step = 1, most_steps
-         total = 0.0_dp
-         points = 0
          do j = 1, size(gap, 2)
             associate (counts => abs(violation(gap(:, j) - change, pressure(:, j), hardness)) > 0.0_dp &
                        .or. is_free(pressure(:, j), hardness))
-               total = total + sum(gap(:, j), counts)
-               points = points + count(counts)
+               parts(:, j) = [sum(gap(:, j), counts), real(count(counts), dp)]
             end associate
          end do
-         if (points == 0) exit
-         next = total/points
+         sums = slab%column_totals(parts)
+         if (sums(2) <= 0.0_dp) exit
+         next = sums(1)/sums(2)
          if (abs(next - change) <= epsilon(change)*abs(change)) exit
          change = next
       end do
@@ -210,71 +232,79 @@ contains
 
    !> Root mean square of the gap at the points next to the free ones, times the square root of the part of all points
    !> that are free [Delta], (C10); zero if all points are.
-   pure real(dp) function gap_at_edge(state, touched) result(gap)
+   real(dp) function gap_at_edge(state, touched) result(gap)
       type(grid_state), intent(in) :: state
       logical, intent(in) :: touched(:)
 
-      logical(c_bool), allocatable :: free(:, :)
-      logical(c_bool) :: beside(size(state%gap, 1))
-      real(dp) :: squares
-      integer :: contact_points, edge_points, j, m, n
+      real(dp) :: parts(3, size(touched)), sums(3)
+      real(sp), allocatable :: free(:, :), high(:, :), low(:, :)
+      logical :: beside(size(state%gap, 1))
+      integer :: j, m, n
 
       m = size(state%gap, 1)
       n = size(state%gap, 2)
-      squares = 0.0_dp
-      edge_points = 0
-      contact_points = 0
-      allocate (free(m, n))
+      allocate (free(m, n), low(m, 1), high(m, 1))
       do j = 1, n
-         free(:, j) = .false.
-         if (touched(j)) free(:, j) = is_free(state%pressure(:, j), state%hardness)
+         free(:, j) = 0.0_sp
+         if (touched(j)) free(:, j) = merge(1.0_sp, 0.0_sp, is_free(state%pressure(:, j), state%hardness))
       end do
+      ! The edge across the rim of a whole cell is left out: mirror images at the rim are no neighbours.
+      call state%slab%halo(free, .true., low, high)
       do j = 1, n
-         if (.not. any(touched(max(j - 1, 1):min(j + 1, n)))) cycle
-         beside = free(:, max(j - 1, 1)) .or. free(:, min(j + 1, n))
-         beside(2:) = beside(2:) .or. free(:m - 1, j)
-         beside(:m - 1) = beside(:m - 1) .or. free(2:, j)
-         beside = beside .and. .not. free(:, j)
-         squares = squares + sum(merge(state%gap(:, j)**2, 0.0_dp, beside))
-         edge_points = edge_points + count(beside)
-         contact_points = contact_points + count(free(:, j))
+         beside = .false.
+         if (j > 1) beside = free(:, j - 1) > 0.0_sp
+         if (j == 1) beside = low(:, 1) > 0.0_sp
+         if (j < n) beside = beside .or. free(:, j + 1) > 0.0_sp
+         if (j == n) beside = beside .or. high(:, 1) > 0.0_sp
+         beside(2:) = beside(2:) .or. free(:m - 1, j) > 0.0_sp
+         beside(:m - 1) = beside(:m - 1) .or. free(2:, j) > 0.0_sp
+         beside = beside .and. free(:, j) <= 0.0_sp
+         parts(:, j) = [sum(merge(state%gap(:, j)**2, 0.0_dp, beside)), real(count(beside), dp), &
+                        real(count(free(:, j) > 0.0_sp), dp)]
       end do
-      gap = sqrt(squares/max(edge_points, 1)*contact_points/(real(m, dp)*n))
+      sums = state%slab%column_totals(parts)
+      gap = sqrt(sums(1)/max(sums(2), 1.0_dp)*sums(3)/product(real(state%slab%points, dp)))
    end function gap_at_edge
 
    !> The points that may be free after the next correction: those that are free or whose gap has the wrong sign, and
    !> those within some steps of them.
-   pure subroutine find_region(state, inside)
+   subroutine find_region(state, inside)
       type(grid_state), intent(in) :: state
-      logical(c_bool), allocatable, intent(inout) :: inside(:, :)   !! shape (m, n)
+      logical(c_bool), allocatable, intent(out) :: inside(:, :)   !! shape (M, slab%columns())
 
-      logical(c_bool) :: near(size(state%gap, 1), size(state%gap, 2))
-      logical :: has_hardness, occupied(size(state%gap, 2))
-      integer :: j, k, m, n
+      real(sp), allocatable :: near(:, :)
+      logical, allocatable :: occupied(:)
+      logical(c_bool) :: column(size(state%gap, 1)), start(size(state%gap, 1))
+      logical :: has_hardness
+      integer :: j, k, m, n, reach
 
       m = size(state%gap, 1)
       n = size(state%gap, 2)
+      reach = min(halo, state%slab%points(2) - 1)
       has_hardness = state%hardness < huge(state%hardness)
-      if (.not. allocated(inside)) allocate (inside(m, n))
+      allocate (near(m, 1 - reach:n + reach), source=0.0_sp)
+      allocate (occupied(1 - reach:n + reach))
       do j = 1, n
-         near(:, j) = state%pressure(:, j) > 0.0_dp .or. state%gap(:, j) < 0.0_dp
+         start = state%pressure(:, j) > 0.0_dp .or. state%gap(:, j) < 0.0_dp
          if (has_hardness) then
-            where (state%pressure(:, j) >= state%hardness) near(:, j) = state%gap(:, j) > 0.0_dp
+            where (state%pressure(:, j) >= state%hardness) start = state%gap(:, j) > 0.0_dp
          end if
-         occupied(j) = any(near(:, j))
-         if (.not. occupied(j)) cycle
-         inside(:, j) = near(:, j)
+         if (.not. any(start)) cycle
+         column = start
          do k = 1, min(halo, m - 1)
-            near(:, j) = near(:, j) .or. cshift(inside(:, j), k) .or. cshift(inside(:, j), -k)
+            column = column .or. cshift(start, k) .or. cshift(start, -k)
          end do
+         near(:, j) = merge(1.0_sp, 0.0_sp, column)
       end do
-      inside = .false.
+      call state%slab%halo(near(:, 1:n), .false., near(:, 1 - reach:0), near(:, n + 1:n + reach))
+      do j = 1 - reach, n + reach
+         occupied(j) = any(near(:, j) > 0.0_sp)
+      end do
+      allocate (inside(m, n))
       do j = 1, n
-         if (.not. occupied(j)) cycle
-         do k = -min(halo, n - 1), min(halo, n - 1)
-            associate (other => modulo(j + k - 1, n) + 1)
-               inside(:, other) = inside(:, other) .or. near(:, j)
-            end associate
+         inside(:, j) = .false.
+         do k = j - reach, j + reach
+            if (occupied(k)) inside(:, j) = inside(:, j) .or. near(:, k) > 0.0_sp
          end do
       end do
    end subroutine find_region

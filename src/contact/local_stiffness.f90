@@ -5,6 +5,7 @@ module wavycon_local_stiffness
    use wavycon_constants, only: pi
    use wavycon_contact_region, only: contact_region
    use wavycon_contact_tuning, only: stencil_reach
+   use wavycon_grid_slab, only: grid_slab
    use wavycon_grid_transform, only: image_of_point
    use wavycon_kinds, only: dp, sp
    use wavycon_surface, only: surface_type
@@ -68,26 +69,24 @@ contains
    !> From displacements in a region, zero outside it, to their pressures there; in the units of the surface.
    subroutine apply(self, region, points, vector)
       class(local_stiffness), intent(inout) :: self   !! which exists
-      type(contact_region), intent(in) :: region
-      integer, intent(in) :: points(2)                !! M, N
+      type(contact_region), intent(in) :: region      !! of the own columns
+      integer, intent(in) :: points(2)                !! M, N of the whole grid, those of `start`
       real(sp), intent(inout) :: vector(:)            !! shape (region%points)
 
       integer, parameter :: r = stencil_reach
+      type(grid_slab) :: slab
       integer :: k
 
-      associate (m => points(1), n => points(2))
+      call slab%start(points)
+      associate (m => points(1), n => slab%columns())
          if (.not. allocated(self%field)) allocate (self%field(1 - r:m + r, 1 - r:n + r), source=0.0_sp)
          call region%scatter(vector, self%field(1:m, 1:n))
          do k = 1, r
             self%field(1 - k, 1:n) = self%field(image_of_point(1 - k, m, self%even), 1:n)
             self%field(m + k, 1:n) = self%field(image_of_point(m + k, m, self%even), 1:n)
          end do
-         if (n > 1) then
-            do k = 1, r
-               self%field(:, 1 - k) = self%field(:, image_of_point(1 - k, n, self%even))
-               self%field(:, n + k) = self%field(:, image_of_point(n + k, n, self%even))
-            end do
-         end if
+         if (points(2) > 1) &
+            call slab%halo(self%field(:, 1:n), self%even, self%field(:, 1 - r:0), self%field(:, n + 1:n + r))
          call region%convolve(self%weights, r, self%field, vector)
       end associate
    end subroutine apply

@@ -1,6 +1,7 @@
 !> The load of a pressure on a grid, and pressures of a given load between zero and the hardness: equation (C24) of
-!> README.md in this directory.
+!> README.md in this directory. Fields have the own columns of the grid, and sums go over all of it.
 module wavycon_pressure_load
+   use wavycon_grid_slab, only: grid_slab, strip_columns
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
@@ -12,67 +13,98 @@ contains
    !> Changes a pressure so that its sum is that of a load. Without points at H the pressure is multiplied by a factor.
    !> Otherwise all points between zero and H change by the same, within these bounds, and the others too where that is
    !> not enough.
-   pure subroutine set_load(pressure, load, hardness)
-      real(dp), intent(inout) :: pressure(:, :)   !! p, >= 0; more than H becomes H
+   subroutine set_load(slab, pressure, load, hardness)
+      type(grid_slab), intent(in) :: slab         !! of the grid
+      real(dp), intent(inout) :: pressure(:, :)   !! p, >= 0; more than H becomes H. Shape (M, slab%columns())
       real(dp), intent(in) :: load                !! sum of the pressures, > 0 and < H times their number
       real(dp), intent(in) :: hardness            !! H, huge if there is none
 
-      real(dp) :: lack, shift
+      real(dp) :: lack, room, shift
       logical, allocatable :: changes(:, :)
+      integer :: first(slab%strips() + 1), s
 
-      if (.not. has_points_at(hardness, pressure)) then
-         pressure = pressure*(load/sum_of_field(pressure))
-         if (.not. has_points_at(hardness, pressure)) return
+      if (.not. has_points_at(slab, hardness, pressure)) then
+         pressure = pressure*(load/sum_of_field(slab, pressure))
+         if (.not. has_points_at(slab, hardness, pressure)) return
       end if
       pressure = min(pressure, hardness)
-      lack = load - sum_of_field(pressure)
+      lack = load - sum_of_field(slab, pressure)
       allocate (changes, source=pressure > 0.0_dp .and. pressure < hardness)
-      if (abs(lack) >= sum(merge(hardness - pressure, pressure, lack > 0.0_dp), changes)) changes = .true.
-      shift = bounded_shift(pack(pressure, changes), pack(hardness - pressure, changes), lack)
+      room = sum_of_field(slab, merge(merge(hardness - pressure, pressure, lack > 0.0_dp), 0.0_dp, changes))
+      if (abs(lack) >= room) changes = .true.
+      first(1) = 1
+      do s = 1, slab%strips()
+         first(s + 1) = first(s) + count(changes(:, (s - 1)*strip_columns + 1:min(s*strip_columns, slab%columns())))
+      end do
+      shift = bounded_shift(slab, first, pack(pressure, changes), pack(hardness - pressure, changes), lack)
       where (changes) pressure = min(max(pressure + shift, 0.0_dp), hardness)
    end subroutine set_load
 
-   pure logical function has_points_at(hardness, pressure)
+   logical function has_points_at(slab, hardness, pressure)
+      type(grid_slab), intent(in) :: slab
       real(dp), intent(in) :: hardness, pressure(:, :)
 
+      real(dp) :: largest(1)
+
       has_points_at = hardness < huge(hardness)
-      if (has_points_at) has_points_at = any(pressure >= hardness)
+      if (.not. has_points_at) return
+      largest = maxval(pressure)
+      call slab%largest(largest)
+      has_points_at = largest(1) >= hardness
    end function has_points_at
 
    !> The shift s for which the sum of min(max(s, -above), below) is a given one: the sum grows with s, in straight
    !> pieces.
-   pure real(dp) function bounded_shift(above, below, total) result(shift)
-      real(dp), intent(in) :: above(:), below(:)   !! above + below > 0, of the same size
-      real(dp), intent(in) :: total                !! between the sums of -above and of below
+   real(dp) function bounded_shift(slab, first, above, below, total) result(shift)
+      type(grid_slab), intent(in) :: slab
+      integer, intent(in) :: first(:)              !! places at which the numbers of each own strip begin, and one more
+                                                   !! than the last of all, shape (slab%strips() + 1)
+      real(dp), intent(in) :: above(:), below(:)   !! of points of the own columns; above + below > 0, of the same size
+      real(dp), intent(in) :: total                !! between the sums of -above and of below over the grid
 
       !> Newton's method ends in a few steps. Those by bisection end at the last digit.
       integer, parameter :: most_steps = 100
-      real(dp) :: excess, high, low, next
-      integer :: free, step
+      real(dp) :: excess, extremes(2), free, high, low, next, parts(2, size(first) - 1), sums(2)
+      integer :: s, step
 
       shift = 0.0_dp
-      if (size(above) == 0) return
-      low = min(0.0_dp, -maxval(above))
-      high = max(0.0_dp, maxval(below))
+      extremes = [maxval(above), maxval(below)]
+      call slab%largest(extremes)
+      ! No rank has numbers.
+      if (all(extremes <= -huge(extremes))) return
+      low = min(0.0_dp, -extremes(1))
+      high = max(0.0_dp, extremes(2))
       do step = 1, most_steps
-         excess = sum(min(max(shift, -above), below)) - total
-         free = count(shift > -above .and. shift < below)
+         do s = 1, size(first) - 1
+            associate (over => above(first(s):first(s + 1) - 1), under => below(first(s):first(s + 1) - 1))
+               parts(:, s) = [sum(min(max(shift, -over), under)), real(count(shift > -over .and. shift < under), dp)]
+            end associate
+         end do
+         sums = slab%strip_totals(parts)
+         excess = sums(1) - total
+         free = sums(2)
          if (excess > 0.0_dp) high = shift
          if (excess < 0.0_dp) low = shift
-         next = shift - excess/max(free, 1)
-         if (free == 0 .or. next <= low .or. next >= high) next = 0.5_dp*(low + high)
+         next = shift - excess/max(free, 1.0_dp)
+         if (free <= 0.0_dp .or. next <= low .or. next >= high) next = 0.5_dp*(low + high)
          if (abs(excess) <= 0.0_dp .or. abs(next - shift) <= epsilon(shift)*abs(shift)) exit
          shift = next
       end do
    end function bounded_shift
 
-   !> Sum of a field, column by column.
-   pure real(dp) function sum_of_field(field) result(total)
-      real(dp), intent(in) :: field(:, :)
+   !> Sum of a field over the grid.
+   real(dp) function sum_of_field(slab, field) result(total)
+      type(grid_slab), intent(in) :: slab
+      real(dp), intent(in) :: field(:, :)     !! shape (M, slab%columns())
 
+      real(dp) :: parts(1, size(field, 2)), totals(1)
       integer :: j
 
-      total = sum([(sum(field(:, j)), j=1, size(field, 2))])
+      do j = 1, size(field, 2)
+         parts(1, j) = sum(field(:, j))
+      end do
+      totals = slab%column_totals(parts)
+      total = totals(1)
    end function sum_of_field
 
 end module wavycon_pressure_load

@@ -3,6 +3,7 @@
 module wavycon_deck_text
    use wavycon_error, only: error_type
    use wavycon_file_bytes, only: byte_order_mark, read_file
+   use wavycon_ranks, only: is_first_rank, share_error, share_text
    implicit none (type, external)
    private
 
@@ -139,8 +140,12 @@ contains
 
       character(:), allocatable :: content
 
-      call read_file(path, largest, content, error)
-      if (.not. allocated(error)) text = deck_text_type(path, content)
+      if (is_first_rank()) call read_file(path, largest, content, error)
+      call share_error(error)
+      if (allocated(error)) return
+      if (.not. allocated(content)) content = ''
+      call share_text(0, content)
+      text = deck_text_type(path, content)
    end subroutine read_deck_text
 
 end module wavycon_deck_text

@@ -62,9 +62,9 @@ contains
 
    subroutine displacement_dp(self, field, nonzero, wanted)
       class(compliance_operator), intent(inout) :: self
-      real(dp), intent(inout), contiguous :: field(:, :)   !! shape (M, N)
-      logical, intent(in), optional :: nonzero(:)   !! columns that may not be zero; default: all. Shape (N)
-      logical, intent(in), optional :: wanted(:)    !! columns of the result that are needed; the others are undefined
+      real(dp), intent(inout), contiguous :: field(:, :)   !! the own columns of the slab
+      logical, intent(in), optional :: nonzero(:)   !! own columns that may not be zero; default: all
+      logical, intent(in), optional :: wanted(:)    !! own columns of the result that are needed; the others are undefined
 
       call self%in_double%apply(field, -1, threads_for(size(field)), nonzero, wanted)
       self%transform_pairs = self%transform_pairs + 1

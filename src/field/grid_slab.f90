@@ -38,6 +38,8 @@ module wavycon_grid_slab
       procedure :: strips
       procedure :: owner
       procedure :: columns_of_ranks
+      procedure :: blocks
+      procedure :: coarser
       procedure :: column_totals
       procedure :: strip_totals
       !> Adds numbers over the ranks that have different columns, element by element: reals do not depend on the number
@@ -111,6 +113,32 @@ contains
       allocate (columns(0:ranks_at_work() - 1))
       columns = [(max(0, min(self%points(2) - rank*self%width, self%width)), rank=0, ranks_at_work() - 1)]
    end function columns_of_ranks
+
+   !> The first and last columns of all ranks, shape (2, ranks), of a grid that is spread; last = first - 1: none.
+   function blocks(self)
+      class(grid_slab), intent(in) :: self
+      integer, allocatable :: blocks(:, :)
+
+      integer :: rank
+
+      allocate (blocks(2, 0:ranks_at_work() - 1))
+      do rank = 0, ranks_at_work() - 1
+         blocks(:, rank) = [min(rank*self%width, self%points(2)) + 1, min((rank + 1)*self%width, self%points(2))]
+      end do
+   end function blocks
+
+   !> The grid of half the points each way, on the ranks as this one: each has the means of its own columns. A rank may
+   !> have as little as one column for its neighbours.
+   pure type(grid_slab) function coarser(self)
+      class(grid_slab), intent(in) :: self   !! of even numbers of points, but N may be 1, and of even width if spread
+
+      coarser = self
+      coarser%points = max(self%points/2, 1)
+      if (self%points(2) == 1) return
+      coarser%width = self%width/2
+      coarser%first = (self%first + 1)/2
+      coarser%last = self%last/2
+   end function coarser
 
    !> Sums over the grid from those of the own columns.
    function column_totals(self, parts) result(totals)

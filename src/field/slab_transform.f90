@@ -7,7 +7,6 @@
 !> coefficients and of the values do not depend on the number of ranks.
 module wavycon_slab_transform
    use, intrinsic :: iso_c_binding, only: c_double, c_double_complex, c_ptr
-   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_assertion, only: assert
    use wavycon_fftw, only: fftw_execute_dft, fftw_execute_dft_c2r, fftw_execute_dft_r2c, fftw_execute_r2r
    use wavycon_fourier_series, only: fourier_series
@@ -15,7 +14,8 @@ module wavycon_slab_transform
    use wavycon_kinds, only: dp
    use wavycon_line_plans, only: cosines_to_values, plan_of_line, real_to_waves, values_to_cosines, waves_backward, &
       waves_forward, waves_to_real
-   use wavycon_ranks, only: any_rank, gather_columns, new_transpose, rank_transpose, ranks_at_work, this_rank
+   use wavycon_ranks, only: any_rank, gather_columns, new_row_exchange, ranks_at_work, row_exchange, &
+      this_rank
    implicit none (type, external)
    private
 
@@ -60,14 +60,14 @@ contains
       class(slab_transform), intent(in) :: self
       integer, intent(out) :: first, last
 
-      class(rank_transpose), allocatable :: transpose
+      class(row_exchange), allocatable :: exchange
 
       first = 0
       last = self%waves_x() - 1
       if (.not. self%slab%is_spread) return
-      call new_transpose(self%points(2), self%waves_x(), self%slab%width, 1, dp, transpose)
-      first = transpose%first_row - 1
-      last = first + transpose%own_rows - 1
+      call new_row_exchange(self%points(2), self%waves_x(), self%slab%width, 1, dp, exchange)
+      first = exchange%first_row - 1
+      last = first + exchange%own_rows - 1
    end subroutine rows_of_waves
 
    !> Allocates a series of zeros with the coefficients of some wave numbers in X, and 0 .. last_y in Y.
@@ -88,35 +88,31 @@ contains
       real(dp), intent(in) :: field(:, :)            !! shape (M, slab%columns())
       type(fourier_series), intent(out) :: answer    !! spread if the grid is
 
-      real(c_double), allocatable :: block(:, :, :), lines(:, :, :), spectrum(:, :, :)
-      class(rank_transpose), allocatable :: transpose
+      real(c_double), allocatable :: block(:, :, :), own_rows(:, :, :), spectrum(:, :, :)
+      class(row_exchange), allocatable :: exchange
       integer :: first, j, k, last, number, rows
 
       rows = self%waves_x()
-      if (self%slab%is_spread) call new_transpose(self%points(2), rows, self%slab%width, numbers(self%even), dp, transpose)
-      call allocate_columns(self%even, rows, self%slab%columns(), transpose, spectrum)
+      allocate (spectrum(numbers(self%even), rows, self%slab%columns()))
       call columns_to_waves(self, field, spectrum)
       first = 0
       last = rows - 1
-      if (allocated(transpose)) then
-         call allocate_rows(self%even, transpose, lines)
-         call transpose%to_rows(spectrum, lines)
-         deallocate (spectrum)
-         first = transpose%first_row - 1
-         last = first + transpose%own_rows - 1
+      if (self%slab%is_spread) then
+         call new_row_exchange(self%points(2), rows, self%slab%width, numbers(self%even), dp, exchange)
+         allocate (own_rows(numbers(self%even), exchange%own_rows, self%points(2)))
+         call exchange%to_rows(spectrum, own_rows)
+         call move_alloc(own_rows, spectrum)
+         first = exchange%first_row - 1
+         last = first + exchange%own_rows - 1
          answer%spread_waves = rows
       end if
       call allocate_series(answer, first, last, merge(self%points(2) - 1, self%points(2)/2, self%even), self%even)
       allocate (block(numbers(self%even), self%points(2), block_rows))
       do k = first, last, block_rows
          number = min(block_rows, last - k + 1)
-         if (allocated(lines)) then
-            block(:, :, :number) = lines(:, :self%points(2), k - first + 1:k - first + number)
-         else
-            do j = 1, self%points(2)
-               block(:, j, :number) = spectrum(:, k + 1:k + number, j)
-            end do
-         end if
+         do j = 1, self%points(2)
+            block(:, j, :number) = spectrum(:, k - first + 1:k - first + number, j)
+         end do
          call transform_rows(self%even, block(:, :, :number), forwards=.true.)
          if (self%even) then
             call take_cosines(self, block(:, :, :number), k, answer)
@@ -138,8 +134,8 @@ contains
       integer, intent(in), optional :: power                  !! not 0
       real(dp), intent(in), optional :: per_wave(2)           !! with power
 
-      real(c_double), allocatable :: block(:, :, :), lines(:, :, :), spectrum(:, :, :)
-      class(rank_transpose), allocatable :: transpose
+      real(c_double), allocatable :: block(:, :, :), own_columns(:, :, :), spectrum(:, :, :)
+      class(row_exchange), allocatable :: exchange
       integer :: columns, first, first_column, j, k, last, number, rows, width
 
       first = lbound(from%c, 1)
@@ -151,13 +147,13 @@ contains
          ! A small grid that is whole on each rank: each computes some columns.
          width = merge(self%slab%width, (self%points(2) - 1)/ranks_at_work() + 1, self%slab%is_spread)
          rows = from%spread_waves
-         call new_transpose(self%points(2), rows, width, numbers(self%even), dp, transpose)
-         call assert(size(from%c, 1) == transpose%own_rows, 'the series is spread over the same ranks')
-         columns = transpose%own_columns
-         call allocate_rows(self%even, transpose, lines)
-         lines = 0.0_dp
+         call new_row_exchange(self%points(2), rows, width, numbers(self%even), dp, exchange)
+         call assert(size(from%c, 1) == exchange%own_rows, 'the series is spread over the same ranks')
+         first_column = 1
+         columns = self%points(2)
+         allocate (spectrum(numbers(self%even), exchange%own_rows, columns), source=0.0_dp)
       else
-         call allocate_columns(self%even, rows, columns, transpose, spectrum)
+         allocate (spectrum(numbers(self%even), rows, columns))
       end if
       allocate (block(numbers(self%even), self%points(2), block_rows))
       do k = first, last, block_rows
@@ -168,20 +164,17 @@ contains
             call give_waves(self, from, k, block(:, :, :number), power, per_wave)
          end if
          call transform_rows(self%even, block(:, :, :number), forwards=.false.)
-         if (allocated(lines)) then
-            lines(:, :self%points(2), k - first + 1:k - first + number) = block(:, :, :number)
-         else
-            do j = 1, columns
-               spectrum(:, k + 1:k + number, j) = block(:, first_column - 1 + j, :number)
-            end do
-         end if
+         do j = 1, columns
+            spectrum(:, k - first + 1:k - first + number, j) = block(:, first_column - 1 + j, :number)
+         end do
       end do
-      if (allocated(transpose)) then
-         call allocate_columns(self%even, rows, columns, transpose, spectrum)
-         call transpose%to_columns(lines, spectrum)
-         deallocate (lines)
+      if (allocated(exchange)) then
+         columns = exchange%own_columns
+         allocate (own_columns(numbers(self%even), rows, columns))
+         call exchange%to_columns(spectrum, own_columns)
+         call move_alloc(own_columns, spectrum)
       end if
-      if (allocated(transpose) .and. .not. self%slab%is_spread) then
+      if (allocated(exchange) .and. .not. self%slab%is_spread) then
          call gather_values(self, spectrum, min(rows - 1, highest_x(self)), width, columns, field)
       else
          call waves_to_columns(self, spectrum, min(rows - 1, highest_x(self)), field)
@@ -237,43 +230,6 @@ contains
 
       numbers = merge(1, 2, even)
    end function numbers
-
-   !> Allocates columns of a spectrum.
-   !>
-   !> N.B. FFTW may use both arrays of a transposition as work space: each gets the size of the larger one.
-   subroutine allocate_columns(even, rows, columns, transpose, spectrum)
-      logical, intent(in) :: even
-      integer, intent(in) :: rows, columns
-      class(rank_transpose), allocatable, intent(in) :: transpose   !! not allocated: there is none
-      real(c_double), allocatable, intent(out) :: spectrum(:, :, :)
-
-      integer :: room
-
-      room = columns
-      if (allocated(transpose)) &
-         room = max(room, enough(int(transpose%columns, int64)*transpose%own_rows, rows))
-      allocate (spectrum(numbers(even), rows, room))
-   end subroutine allocate_columns
-
-   !> Allocates rows of a spectrum likewise.
-   subroutine allocate_rows(even, transpose, lines)
-      logical, intent(in) :: even
-      class(rank_transpose), allocatable, intent(in) :: transpose
-      real(c_double), allocatable, intent(out) :: lines(:, :, :)
-
-      associate (columns => transpose%columns)
-         allocate (lines(numbers(even), columns, &
-                         max(transpose%own_rows, enough(int(transpose%rows, int64)*transpose%own_columns, columns))))
-      end associate
-   end subroutine allocate_rows
-
-   !> The least number of lines of a length that hold a number of elements.
-   pure integer function enough(elements, length)
-      integer(int64), intent(in) :: elements
-      integer, intent(in) :: length
-
-      enough = int((elements + length - 1)/length)
-   end function enough
 
    !> Transforms columns along x: sum_i f_i e^(-ikX_i), k = 0 .. M/2, or twice sum_i f_i cos kX_i, k = 0 .. M - 1.
    subroutine columns_to_waves(self, field, spectrum)

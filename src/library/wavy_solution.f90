@@ -124,7 +124,8 @@ contains
             surface%amplitude*measures%mean_gap_over_amplitude, &
             surface%amplitude*measures%approach_over_amplitude, &
             surface%nominal_area()*measures%contact_area_fraction, peak, from%residual, &
-            int(from%active_constraints, c_int), int(from%iterations, c_int), int(status_code(from%status), c_int), &
+            int(min(from%active_constraints, int(huge(1_c_int), int64)), c_int), int(from%iterations, c_int), &
+            int(status_code(from%status), c_int), &
             or_nan(measures%contact_area_counted_fraction), or_nan(measures%contact_area_corrected_fraction), &
             or_nan(linear_area_fraction(surface, surface%rms_slope(), from%pbar_over_pstar)))
       end associate

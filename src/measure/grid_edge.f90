@@ -2,11 +2,14 @@
 !> src/contact/README.md.
 !>
 !> The points are those of wavycon_grid_transform: M x N on a quarter of the cell, whose mirror images fill the
-!> plane, or on the whole cell. The pressure of the last point in contact and the gap of the first outside are both
+!> plane, or on the whole cell. Of a grid that is spread over ranks, each has the edge in its own columns; its area is
+!> that of the grid, and needs the columns of the neighbours that `fetch_neighbours` gets. The pressure of the last point in contact and the gap of the first outside are both
 !> linear in the place of the edge between them, so that their ratio gives the place.
 module wavycon_grid_edge
+   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_constants, only: pi
    use wavycon_contact_edge, only: contact_edge, corner_k, corner_l, edge_point
+   use wavycon_grid_slab, only: grid_slab
    use wavycon_grid_transform, only: image_of_point, point_angle
    use wavycon_kinds, only: dp
    use wavycon_line_zeros, only: length_inside
@@ -15,11 +18,15 @@ module wavycon_grid_edge
    implicit none (type, external)
    private
 
-   public :: grid_edge, grid_contact_area, grid_strip_edges, pressure_per_gap, start_grid_edge
+   public :: grid_edge, grid_contact_area, grid_strip_edges, joined, make_grid_edge, pressure_per_gap, start_grid_edge
 
    type, extends(contact_edge) :: grid_edge
-      !> The pressure, > 0, in contact, minus the gap, <= 0, elsewhere, in any unit, shape (M, N); N = 1 in 1-D.
+      !> The pressure, > 0, in contact, minus the gap, <= 0, elsewhere, in any unit, at the own columns of the grid, shape
+      !> (M, slab%columns()): all N of them unless it is spread; N = 1 in 1-D.
       real(dp), allocatable :: pressure_or_gap(:, :)
+      !> The same at the columns before and after the own ones, shape (M, reach); only of a grid that is spread.
+      real(dp), allocatable, private :: low(:, :), high(:, :)
+      type(grid_slab) :: slab
       real(dp) :: stiffness(2) = 1.0_dp   !! E*/(2 h), h the steps along phi and theta, in these units
       logical :: even = .true.   !! whether the points are those of a quarter
    contains
@@ -29,8 +36,15 @@ module wavycon_grid_edge
       procedure :: beside_chord
       procedure :: area_correction
       procedure :: place
-      procedure, private :: at
+      procedure :: at
+      procedure :: contact_of_column
+      procedure :: points_in_contact
+      procedure :: number_of_points
+      procedure :: fetch_neighbours
    end type grid_edge
+
+   !> Columns of the neighbours that area and peak pressure of a spread grid need.
+   integer, parameter :: reach = 3
 
    !> Of an edge that runs along a line of the grid (C11): the weight of the first gap, times E*/(2 h), against the last
    !> pressure; and how far inside the last point in contact the edge lies when that pressure vanishes, in steps.
@@ -38,21 +52,61 @@ module wavycon_grid_edge
 
 contains
 
-   pure subroutine start_grid_edge(edge, pressure, gap, even, stiffness)
+   pure subroutine start_grid_edge(edge, pressure, gap, even, stiffness, slab)
       type(grid_edge), intent(out) :: edge
-      real(dp), intent(in) :: pressure(:, :)   !! positive in contact, zero elsewhere, in any unit, shape (M, N)
-      real(dp), intent(in) :: gap(:, :)        !! in any unit, shape (M, N)
+      real(dp), intent(in) :: pressure(:, :)   !! positive in contact, zero elsewhere, in any unit, shape (M, columns)
+      real(dp), intent(in) :: gap(:, :)        !! in any unit, of the same shape
       logical, intent(in) :: even
       !> From `pressure_per_gap`, in the units of pressure and gap. Only the place of the edge depends on it; absent: 1.
       real(dp), intent(in), optional :: stiffness(2)
+      type(grid_slab), intent(in), optional :: slab   !! whose columns these are; absent: all columns of a grid
 
-      allocate (edge%pressure_or_gap(size(gap, 1), size(gap, 2)))
-      ! Overlaps by rounding are no pressures: the pressures of the lightest loads are as small.
-      edge%pressure_or_gap = merge(pressure, -max(gap, 0.0_dp), pressure > 0.0_dp)
-      edge%even = even
-      edge%period = merge(2, 1, even)*shape(gap)
-      if (present(stiffness)) edge%stiffness = stiffness
+      real(dp), allocatable :: field(:, :)
+      integer :: j
+
+      allocate (field, mold=gap)
+      do j = 1, size(gap, 2)
+         field(:, j) = joined(pressure(:, j), gap(:, j))
+      end do
+      call make_grid_edge(edge, field, even, stiffness, slab)
    end subroutine start_grid_edge
+
+   !> As start_grid_edge, from pressure and gap in one field, whose memory it takes.
+   pure subroutine make_grid_edge(edge, field, even, stiffness, slab)
+      type(grid_edge), intent(out) :: edge
+      real(dp), allocatable, intent(inout) :: field(:, :)   !! as edge%pressure_or_gap; not allocated afterwards
+      logical, intent(in) :: even
+      real(dp), intent(in), optional :: stiffness(2)
+      type(grid_slab), intent(in), optional :: slab
+
+      if (present(slab)) then
+         edge%slab = slab
+      else
+         edge%slab = grid_slab(points=shape(field), width=size(field, 2), last=size(field, 2))
+      end if
+      call move_alloc(field, edge%pressure_or_gap)
+      edge%even = even
+      edge%period = merge(2, 1, even)*edge%slab%points
+      if (present(stiffness)) edge%stiffness = stiffness
+   end subroutine make_grid_edge
+
+   !> Pressure and gap of a point in one number.
+   elemental real(dp) function joined(pressure, gap)
+      real(dp), intent(in) :: pressure, gap
+
+      ! Overlaps by rounding are no pressures: the pressures of the lightest loads are as small.
+      joined = merge(pressure, -max(gap, 0.0_dp), pressure > 0.0_dp)
+   end function joined
+
+   !> Gets the columns of the neighbours if the grid is spread; all ranks must call it.
+   subroutine fetch_neighbours(self)
+      class(grid_edge), intent(inout) :: self
+
+      if (.not. self%slab%is_spread) return
+      if (allocated(self%low)) deallocate (self%low, self%high)
+      allocate (self%low(self%slab%points(1), reach), self%high(self%slab%points(1), reach))
+      call self%slab%halo(self%pressure_or_gap, self%even, self%low, self%high)
+   end subroutine fetch_neighbours
 
    !> E*/(2 h) of the steps h along phi and theta [p*/Delta].
    pure function pressure_per_gap(surface, points) result(stiffness)
@@ -71,13 +125,65 @@ contains
       in_contact = self%at(k, l) > 0.0_dp
    end function in_contact
 
-   !> Pressure or minus the gap at any point of the plane.
+   !> Pressure or minus the gap at any point of the plane; of a grid that is spread, at the own columns and those of the
+   !> neighbours.
    pure real(dp) function at(self, k, l)
       class(grid_edge), intent(in) :: self
       integer, intent(in) :: k, l
 
-      at = self%pressure_or_gap(self%place(k, 1), self%place(l, 2))
+      integer :: row
+
+      row = self%place(k, 1)
+      if (.not. self%slab%is_spread) then
+         at = self%pressure_or_gap(row, self%place(l, 2))
+      else if (l < self%slab%first) then
+         at = self%low(row, reach + 1 - (self%slab%first - l))
+      else if (l > self%slab%last) then
+         at = self%high(row, l - self%slab%last)
+      else
+         at = self%pressure_or_gap(row, l - self%slab%first + 1)
+      end if
    end function at
+
+   !> Which points of a column are in contact, from the last point of the period before to the first one of the next.
+   pure function contact_of_column(self, l) result(inside)
+      class(grid_edge), intent(in) :: self
+      integer, intent(in) :: l   !! as of `at`
+      logical :: inside(0:self%slab%points(1) + 1)
+
+      integer :: m
+
+      m = self%slab%points(1)
+      if (.not. self%slab%is_spread) then
+         inside(1:m) = self%pressure_or_gap(:, self%place(l, 2)) > 0.0_dp
+      else if (l < self%slab%first) then
+         inside(1:m) = self%low(:, reach + 1 - (self%slab%first - l)) > 0.0_dp
+      else if (l > self%slab%last) then
+         inside(1:m) = self%high(:, l - self%slab%last) > 0.0_dp
+      else
+         inside(1:m) = self%pressure_or_gap(:, l - self%slab%first + 1) > 0.0_dp
+      end if
+      inside(0) = inside(self%place(0, 1))
+      inside(m + 1) = inside(self%place(m + 1, 1))
+   end function contact_of_column
+
+   !> The number of points of the grid in contact.
+   integer(int64) function points_in_contact(self) result(number)
+      class(grid_edge), intent(in) :: self
+
+      integer(int64) :: total(1)
+
+      total = count(self%pressure_or_gap > 0.0_dp, kind=int64)
+      call self%slab%add(total)
+      number = total(1)
+   end function points_in_contact
+
+   !> The number of points of the grid.
+   pure integer(int64) function number_of_points(self) result(number)
+      class(grid_edge), intent(in) :: self
+
+      number = product(int(self%slab%points, int64))
+   end function number_of_points
 
    pure subroutine angles(self, k, l, phi, theta)
       class(grid_edge), intent(in) :: self
@@ -92,7 +198,7 @@ contains
       class(grid_edge), intent(in) :: edge
       integer, intent(in) :: k, direction
 
-      angle = point_angle(k, size(edge%pressure_or_gap, direction), edge%even)
+      angle = point_angle(k, edge%slab%points(direction), edge%even)
    end function angle
 
    !> The step of the grid along phi and theta [rad].
@@ -109,7 +215,7 @@ contains
       integer, intent(in) :: k           !! any
       integer, intent(in) :: direction   !! 1 or 2
 
-      place = image_of_point(k, size(self%pressure_or_gap, direction), self%even)
+      place = image_of_point(k, self%slab%points(direction), self%even)
    end function place
 
    !> Where pressure and weighted gap balance between two points: the edge is `edge_offset` steps further inside.
@@ -197,18 +303,15 @@ contains
       area = product(angle_steps(self))*(turn_area*turns + aligned_part(self, k, l, low, high))
    end function area_correction
 
-   !> The fraction of the surface in contact: (C11) in 1-D, (C12) in 2-D.
-   pure real(dp) function grid_contact_area(edge) result(fraction)
+   !> The fraction of the surface in contact: (C11) in 1-D, (C12) in 2-D. Of a grid that is spread, after
+   !> `fetch_neighbours`; all ranks must call it.
+   real(dp) function grid_contact_area(edge) result(fraction)
       type(grid_edge), intent(in) :: edge
 
-      logical :: high(0:size(edge%pressure_or_gap, 1) + 1), low(0:size(edge%pressure_or_gap, 1) + 1)
-      real(dp), allocatable :: edges(:)
-      real(dp) :: area, share
-      integer :: first, i, j, m, n
+      real(dp), allocatable :: areas(:, :), edges(:)
+      integer :: j
 
-      m = size(edge%pressure_or_gap, 1)
-      n = size(edge%pressure_or_gap, 2)
-      if (n == 1) then
+      if (edge%slab%points(2) == 1) then
          call grid_strip_edges(edge, edges)
          if (edge%even) then
             fraction = length_inside(edges, edge%in_contact(1, 1), 0.0_dp, pi)/pi
@@ -218,29 +321,47 @@ contains
          return
       end if
 
-      first = merge(0, 1, edge%even)
-      area = 0.0_dp   ! in cells
-      low = [(edge%in_contact(i, first), i=0, m + 1)]
-      do j = first, n
-         high = [(edge%in_contact(i, j + 1), i=0, m + 1)]
-         do i = first, m
-            share = 1.0_dp
-            if (edge%even) then
-               ! The mirror lines divide the cells at the rim of the quarter: half of each counts.
-               share = merge(0.5_dp, 1.0_dp, i == 0 .or. i == m)*merge(0.5_dp, 1.0_dp, j == 0 .or. j == n)
-            end if
-            if (all([low(i:i + 1), high(i:i + 1)])) then
-               area = area + share
-            else if (any([low(i:i + 1), high(i:i + 1)])) then
-               area = area + share*(edge%cell_area(i, j)/product(angle_steps(edge)) &
-                                    + turn_area*turns(low(i:i + 1), high(i:i + 1)) &
-                                    + aligned_part(edge, i, j, low(i:i + 1), high(i:i + 1)))
-            end if
-         end do
-         low = high
+      allocate (areas(1, edge%slab%columns()))
+      do j = edge%slab%first, edge%slab%last
+         areas(1, j - edge%slab%first + 1) = area_of_cells(edge, j)
       end do
-      fraction = max(area, 0.0_dp)/size(edge%pressure_or_gap)
+      ! The mirror line divides the cells at the rim of the quarter.
+      if (edge%even .and. edge%slab%first == 1 .and. edge%slab%columns() > 0) &
+         areas(1, 1) = areas(1, 1) + area_of_cells(edge, 0)
+      fraction = max(sum(edge%slab%column_totals(areas)), 0.0_dp)/edge%number_of_points()
    end function grid_contact_area
+
+   !> The area in contact of a column of cells [cells], by (C12).
+   pure real(dp) function area_of_cells(edge, l) result(area)
+      type(grid_edge), intent(in) :: edge
+      integer, intent(in) :: l   !! the column of points before
+
+      logical :: high(0:edge%slab%points(1) + 1), low(0:edge%slab%points(1) + 1)
+      real(dp) :: share, steps(2)
+      integer :: i, m
+
+      m = edge%slab%points(1)
+      steps = angle_steps(edge)
+      low = edge%contact_of_column(l)
+      high = edge%contact_of_column(l + 1)
+      area = 0.0_dp
+      if (.not. any(low) .and. .not. any(high)) return
+      do i = merge(0, 1, edge%even), m
+         share = 1.0_dp
+         if (edge%even) then
+            ! The mirror lines divide the cells at the rim of the quarter: half of each counts.
+            share = merge(0.5_dp, 1.0_dp, i == 0 .or. i == m) &
+                    *merge(0.5_dp, 1.0_dp, l == 0 .or. l == edge%slab%points(2))
+         end if
+         if (all([low(i:i + 1), high(i:i + 1)])) then
+            area = area + share
+         else if (any([low(i:i + 1), high(i:i + 1)])) then
+            area = area + share*(edge%cell_area(i, l)/product(steps) &
+                                 + turn_area*turns(low(i:i + 1), high(i:i + 1)) &
+                                 + aligned_part(edge, i, l, low(i:i + 1), high(i:i + 1)))
+         end if
+      end do
+   end function area_of_cells
 
    !> Turns of the edge in one cell, positive where the contact is convex; their sum over a closed edge is 1 or -1.
    !> Parts in contact that meet at a corner are taken as connected, as in cell_area.
@@ -293,7 +414,7 @@ contains
       type(grid_edge), intent(in) :: edge
       real(dp), allocatable, intent(out) :: edges(:)
 
-      real(dp) :: found(size(edge%pressure_or_gap, 1)), step
+      real(dp) :: found(edge%slab%points(1)), step
       integer :: i, count
 
       count = 0

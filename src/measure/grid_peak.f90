@@ -23,30 +23,61 @@ module wavycon_grid_peak
 contains
 
    !> The maximum of the polynomial through the points about the largest pressure. At a crest on a mirror line, which
-   !> lies midway between points, the polynomial is even.
-   pure subroutine grid_peak_pressure(edge, peak, resolved)
+   !> lies midway between points, the polynomial is even. All ranks must call it, after `fetch_neighbours`.
+   subroutine grid_peak_pressure(edge, peak, resolved)
       type(grid_edge), intent(in) :: edge
       real(dp), intent(out) :: peak        !! in the unit of the edge's pressure
       logical, intent(out) :: resolved     !! whether all of these points are in contact
+
+      real(dp) :: answer(2), column(1), highest(1)
+      integer :: best(2)
+      logical :: has_highest
+
+      best = maxloc(edge%pressure_or_gap)
+      best(2) = best(2) + edge%slab%first - 1
+      highest = maxval(edge%pressure_or_gap)
+      call edge%slab%largest(highest)
+      ! The first in the order of the grid, of equal ones: the rank that has the least column computes the peak.
+      has_highest = all(best >= 1) .and. edge%slab%columns() > 0
+      if (has_highest) has_highest = .not. edge%pressure_or_gap(best(1), best(2) - edge%slab%first + 1) < highest(1)
+      column = -huge(column)
+      if (has_highest) column = -best(2)
+      call edge%slab%largest(column)
+      answer = 0.0_dp
+      if (has_highest .and. best(2) == nint(-column(1))) then
+         call find_peak(edge, best, peak, resolved)
+         answer = [peak, merge(1.0_dp, 0.0_dp, resolved)]
+      end if
+      call edge%slab%add(answer)
+      peak = answer(1)
+      resolved = answer(2) > 0.0_dp
+   end subroutine grid_peak_pressure
+
+   !> The same about a given point.
+   pure subroutine find_peak(edge, best, peak, resolved)
+      type(grid_edge), intent(in) :: edge
+      integer, intent(in) :: best(2)       !! that has the largest pressure
+      real(dp), intent(out) :: peak
+      logical, intent(out) :: resolved
 
       !> The search leaves the step of the peak by no more than half a step.
       real(dp), parameter :: margin = 0.5_dp
       type(peak_polynomial) :: field
       real(dp) :: place(2)
-      integer :: base(2), best(2), i, j, lines
+      integer :: base(2), i, j
+      logical :: in_plane
 
-      lines = size(edge%pressure_or_gap, 2)
-      best = maxloc(edge%pressure_or_gap)
+      in_plane = edge%slab%points(2) > 1
       ! From the lines through the largest pressure both ways: a mirror image has the same peak.
       base = best
-      if (at(best(1) - 1, best(2)) > at(best(1) + 1, best(2))) base(1) = best(1) - 1
-      if (lines > 1) then
-         if (at(best(1), best(2) - 1) > at(best(1), best(2) + 1)) base(2) = best(2) - 1
+      if (edge%at(best(1) - 1, best(2)) > edge%at(best(1) + 1, best(2))) base(1) = best(1) - 1
+      if (in_plane) then
+         if (edge%at(best(1), best(2) - 1) > edge%at(best(1), best(2) + 1)) base(2) = best(2) - 1
       end if
-      field = peak_polynomial(least=-margin, most=1.0_dp + margin, in_plane=lines > 1)
+      field = peak_polynomial(least=-margin, most=1.0_dp + margin, in_plane=in_plane)
       do j = first, last
          do i = first, last
-            field%values(i, j) = at(base(1) + i, merge(base(2) + j, 1, lines > 1))
+            field%values(i, j) = edge%at(base(1) + i, merge(base(2) + j, 1, in_plane))
          end do
       end do
       resolved = all(field%values > 0.0_dp)
@@ -55,16 +86,7 @@ contains
       place = best - base
       call field%climb(place)
       peak = max(peak, field%height(place))
-
-   contains
-
-      pure real(dp) function at(k, l)
-         integer, intent(in) :: k, l
-
-         at = edge%pressure_or_gap(edge%place(k, 1), edge%place(l, 2))
-      end function at
-
-   end subroutine grid_peak_pressure
+   end subroutine find_peak
 
    pure real(dp) function height(self, place)
       class(peak_polynomial), intent(in) :: self

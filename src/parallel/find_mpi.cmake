@@ -1,17 +1,25 @@
-# Sets WAVYCON_MPI to whether the parallel program is built, and finds what it needs: MPI and FFTW's MPI libraries.
-if(NOT WAVYCON_MPI STREQUAL "AUTO" AND NOT WAVYCON_MPI)
+# Sets wavycon_has_mpi to whether the parallel program is built, and finds MPI with its Fortran 2008 module.
+# WAVYCON_MPI is AUTO, ON or OFF.
+set(wavycon_has_mpi OFF)
+if(WAVYCON_MPI STREQUAL "AUTO")
+  find_package(MPI QUIET COMPONENTS Fortran)
+elseif(WAVYCON_MPI)
+  find_package(MPI COMPONENTS Fortran)
+else()
   return()
 endif()
-find_package(MPI COMPONENTS Fortran)
-find_library(wavycon-fftw-mpi_LIBRARY fftw3_mpi)
-find_library(wavycon-fftwf-mpi_LIBRARY fftw3f_mpi)
-if(MPI_Fortran_FOUND AND wavycon-fftw-mpi_LIBRARY AND wavycon-fftwf-mpi_LIBRARY)
-  set(WAVYCON_MPI ON)
-  add_library(wavycon::fftw-mpi INTERFACE IMPORTED)
-  set_target_properties(wavycon::fftw-mpi PROPERTIES
-    INTERFACE_LINK_LIBRARIES "${wavycon-fftw-mpi_LIBRARY};${wavycon-fftwf-mpi_LIBRARY};wavycon::fftw")
-elseif(WAVYCON_MPI STREQUAL "AUTO")
-  set(WAVYCON_MPI OFF)
+
+if(MPI_Fortran_FOUND AND MPI_Fortran_HAVE_F08_MODULE)
+  set(wavycon_has_mpi ON)
+  return()
+endif()
+set(missing "MPI for Fortran was not found")
+if(MPI_Fortran_FOUND)
+  set(missing "MPI has no module mpi_f08 for this Fortran compiler")
+endif()
+if(WAVYCON_MPI STREQUAL "AUTO")
+  message(STATUS "wavycon: ${missing}: the parallel program wavycon-mpi is not built")
 else()
-  message(FATAL_ERROR "wavycon: WAVYCON_MPI is ON, but MPI or FFTW's MPI libraries were not found")
+  message(FATAL_ERROR "wavycon: ${missing}, but WAVYCON_MPI is ${WAVYCON_MPI}. `scripts/dependencies --mpi` installs "
+    "it; MPI_HOME names another place; set WAVYCON_MPI to OFF to build the serial program alone.")
 endif()

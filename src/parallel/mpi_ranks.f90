@@ -1,21 +1,23 @@
 !> The ranks of the parallel program, by MPI.
 module wavycon_mpi_ranks
    use, intrinsic :: iso_fortran_env, only: error_unit, int64
-   use mpi_f08, only: mpi_abort, mpi_allgatherv, mpi_allreduce, mpi_bcast, mpi_byte, mpi_character, mpi_comm, &
-      mpi_comm_free, mpi_comm_rank, mpi_comm_size, mpi_comm_split_type, mpi_comm_type_shared, mpi_comm_world, &
-      mpi_datatype, mpi_double_precision, mpi_error_string, mpi_file, mpi_file_close, mpi_file_open, &
-      mpi_file_read_at_all, mpi_file_write_at_all, mpi_finalize, mpi_gatherv, mpi_get_count, mpi_in_place, &
-      mpi_info_null, mpi_init_thread, mpi_integer, mpi_integer8, mpi_irecv, mpi_isend, mpi_max, &
-      mpi_max_error_string, mpi_mode_rdonly, mpi_mode_wronly, mpi_offset_kind, mpi_request, mpi_status, &
-      mpi_statuses_ignore, mpi_success, mpi_sum, mpi_thread_funneled, mpi_type_commit, mpi_type_contiguous, &
-      mpi_type_free, mpi_waitall
+   use mpi_f08, only: mpi_abort, mpi_allgatherv, mpi_allreduce, mpi_alltoallv, mpi_bcast, mpi_byte, mpi_character, &
+      mpi_comm, mpi_comm_free, mpi_comm_rank, mpi_comm_size, mpi_comm_split_type, mpi_comm_type_shared, &
+      mpi_comm_world, mpi_datatype, mpi_double_precision, mpi_error_string, mpi_file, mpi_file_close, mpi_file_open, &
+      mpi_file_read_at_all, mpi_file_write_at_all, mpi_finalize, mpi_gatherv, mpi_get_count, mpi_get_library_version, &
+      mpi_in_place, mpi_info_null, mpi_init_thread, mpi_integer, mpi_integer8, mpi_irecv, mpi_isend, mpi_logical, &
+      mpi_lor, mpi_max, mpi_max_error_string, mpi_max_library_version_string, mpi_mode_rdonly, mpi_mode_wronly, &
+      mpi_offset_kind, mpi_request, mpi_status, mpi_statuses_ignore, mpi_success, mpi_sum, mpi_thread_funneled, &
+      mpi_type_commit, mpi_type_contiguous, mpi_type_free, mpi_waitall
    use wavycon_kinds, only: dp
-   use wavycon_mpi_transpose, only: start_mpi_transposes, start_mpi_transpose
-   use wavycon_ranks, only: rank_team, rank_transpose, use_team
+   use wavycon_mpi_rows, only: start_mpi_rows
+   use wavycon_ranks, only: rank_team, row_exchange, use_team
    implicit none (type, external)
    private
 
    public :: start_mpi
+
+   integer, parameter :: message_length = 512   !! of the compiler's messages
 
    type, extends(rank_team) :: mpi_team
       integer :: this = 0, number = 1, on_machine = 1
@@ -28,11 +30,13 @@ module wavycon_mpi_ranks
       procedure :: largest
       procedure :: exchange
       procedure :: gather
-      procedure :: new_transpose
+      procedure :: move
+      procedure :: new_row_exchange
       procedure :: share_text
       procedure :: read_columns
       procedure :: write_columns
       procedure :: finish
+      procedure :: library
    end type mpi_team
 
 contains
@@ -55,7 +59,6 @@ contains
       call mpi_comm_split_type(mpi_comm_world, mpi_comm_type_shared, 0, mpi_info_null, machine)
       call mpi_comm_size(machine, own%on_machine)
       call mpi_comm_free(machine)
-      call start_mpi_transposes()
       call move_alloc(own, team)
       call use_team(team)
    end subroutine start_mpi
@@ -151,13 +154,36 @@ contains
       call mpi_type_free(column)
    end subroutine gather
 
-   subroutine new_transpose(self, columns, rows, width, numbers, precision, transpose)
+   !> N.B. Counts are numbers of columns, as in `gather`.
+   subroutine move(self, column_bytes, have, own, want, wanted)
+      class(mpi_team), intent(in) :: self
+      integer(int64), intent(in) :: column_bytes
+      integer, intent(in) :: have(:, 0:), want(:, 0:)
+      type(*), intent(in), target :: own(*)
+      type(*), intent(inout), target :: wanted(*)
+
+      integer, dimension(0:self%number - 1) :: received, received_at, sent, sent_at
+      type(mpi_datatype) :: column
+
+      associate (mine => self%this)
+         sent_at = max(have(1, mine), want(1, :)) - have(1, mine)
+         sent = max(0, min(have(2, mine), want(2, :)) - have(1, mine) + 1 - sent_at)
+         received_at = max(have(1, :), want(1, mine)) - want(1, mine)
+         received = max(0, min(have(2, :), want(2, mine)) - want(1, mine) + 1 - received_at)
+      end associate
+      call mpi_type_contiguous(int(column_bytes), mpi_byte, column)
+      call mpi_type_commit(column)
+      call mpi_alltoallv(own, sent, sent_at, column, wanted, received, received_at, column, mpi_comm_world)
+      call mpi_type_free(column)
+   end subroutine move
+
+   subroutine new_row_exchange(self, columns, rows, width, numbers, precision, exchange)
       class(mpi_team), intent(in) :: self
       integer, intent(in) :: columns, rows, width, numbers, precision
-      class(rank_transpose), allocatable, intent(out) :: transpose
+      class(row_exchange), allocatable, intent(out) :: exchange
 
-      call start_mpi_transpose(self%this, self%number, columns, rows, width, numbers, precision, transpose)
-   end subroutine new_transpose
+      call start_mpi_rows(self%this, self%number, columns, rows, width, numbers, precision, exchange)
+   end subroutine new_row_exchange
 
    subroutine share_text(self, from, text)
       class(mpi_team), intent(in) :: self
@@ -213,10 +239,14 @@ contains
 
       integer :: code, transferred
       integer(mpi_offset_kind) :: place
+      logical :: is_missing
       type(mpi_datatype) :: column
       type(mpi_file) :: file
       type(mpi_status) :: status
 
+      call check_access(path, is_output, failure)
+      call mpi_allreduce(allocated(failure), is_missing, 1, mpi_logical, mpi_lor, mpi_comm_world)
+      if (is_missing) return
       call mpi_file_open(mpi_comm_world, path, merge(mpi_mode_wronly, mpi_mode_rdonly, is_output), mpi_info_null, &
                          file, code)
       if (code /= mpi_success) then
@@ -242,6 +272,25 @@ contains
       if (code /= mpi_success .and. .not. allocated(failure)) failure = words_of(code)
    end subroutine transfer_columns
 
+   !> Whether this rank can open a file that exists. If one rank cannot, as on a machine that does not share the disk,
+   !> Open MPI 4 opens the file on the others, and these would wait for it for ever.
+   subroutine check_access(path, is_output, failure)
+      character(*), intent(in) :: path
+      logical, intent(in) :: is_output
+      character(:), allocatable, intent(out) :: failure   !! the system's words; not allocated: it can
+
+      character(message_length) :: words
+      integer :: status, unit
+
+      open (newunit=unit, file=path, status='old', access='stream', action=merge('write', 'read ', is_output), &
+            iostat=status, iomsg=words)
+      if (status == 0) then
+         close (unit)
+      else
+         failure = trim(words)
+      end if
+   end subroutine check_access
+
    !> MPI's words for an error.
    function words_of(code) result(words)
       integer, intent(in) :: code
@@ -262,5 +311,18 @@ contains
       associate (unused => self, unused_too => status); end associate
       call mpi_finalize()
    end subroutine finish
+
+   !> The library of MPI, as it calls itself up to the first comma or line.
+   function library(self) result(text)
+      class(mpi_team), intent(in) :: self
+      character(:), allocatable :: text
+
+      character(mpi_max_library_version_string) :: buffer
+      integer :: length
+
+      associate (unused => self); end associate
+      call mpi_get_library_version(buffer, length)
+      text = trim(buffer(:scan(buffer(:length)//new_line('a'), ','//new_line('a')) - 1))
+   end function library
 
 end module wavycon_mpi_ranks

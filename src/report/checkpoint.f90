@@ -6,15 +6,19 @@
 !> is a solution. A last record that was cut short by an interruption is ignored.
 !>
 !> Two runs of the same case do not mix: each writes to a file of its own, which a later run replaces as a whole.
+!>
+!> Where ranks share the work each has a checkpoint <case>.checkpoint.<rank> with the loads that it solved, or with its
+!> columns of the grids. Such a run is resumed by as many ranks.
 module wavycon_checkpoint
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_solution, only: contact_solution
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: escaped, excerpt, integer_text, newline, system_words
+   use wavycon_ranks, only: is_first_rank, this_rank
    use wavycon_results, only: results_type
    use wavycon_surface, only: surface_type
-   use wavycon_system, only: file_size, path_absent, path_kind, process_id, remove_file, remove_when_interrupted, &
+   use wavycon_system, only: file_size, path_absent, path_file, path_kind, process_id, remove_file, remove_when_interrupted, &
       rename_file
    use wavycon_version, only: revision, version
    implicit none (type, external)
@@ -42,13 +46,51 @@ module wavycon_checkpoint
 
 contains
 
-   !> The path of the checkpoint, <directory>/<case>.checkpoint.
-   pure function checkpoint_name(results) result(name)
+   !> The path of the checkpoint, <directory>/<case>.checkpoint or <directory>/<case>.checkpoint.<rank>.
+   function checkpoint_name(results) result(name)
+      type(results_type), intent(in) :: results
+      character(:), allocatable :: name
+
+      name = results%scene%directory//'/'//file_name(results)
+   end function checkpoint_name
+
+   !> The name of the file in its directory.
+   function file_name(results) result(name)
+      type(results_type), intent(in) :: results
+      character(:), allocatable :: name
+
+      name = results%scene%case//'.checkpoint'
+      if (results%sharing%is_shared()) name = name//'.'//integer_text(this_rank())
+   end function file_name
+
+   !> The checkpoints of an interrupted run on another number of ranks begin with this one.
+   function name_of_others(results) result(name)
       type(results_type), intent(in) :: results
       character(:), allocatable :: name
 
       name = results%scene%directory//'/'//results%scene%case//'.checkpoint'
-   end function checkpoint_name
+      if (.not. results%sharing%is_shared()) name = name//'.0'
+   end function name_of_others
+
+   !> Removes the checkpoints of an earlier run that had another number of ranks.
+   subroutine remove_others(results)
+      type(results_type), intent(in) :: results
+
+      character(:), allocatable :: stem
+      integer :: rank
+
+      if (.not. is_first_rank()) return
+      stem = results%scene%directory//'/'//results%scene%case//'.checkpoint'
+      rank = 0
+      if (results%sharing%is_shared()) then
+         call remove_file(stem)
+         rank = results%sharing%ranks
+      end if
+      do while (path_kind(stem//'.'//integer_text(rank)) == path_file)
+         call remove_file(stem//'.'//integer_text(rank))
+         rank = rank + 1
+      end do
+   end subroutine remove_others
 
    !> Creates the checkpoint of a run with the solutions that are known already; it replaces that of an earlier run. A
    !> checkpoint that cannot be written does not stop the run: see is_complete.
@@ -60,8 +102,8 @@ contains
       integer :: clock(8), load, status
 
       self%name = checkpoint_name(results)
-      self%name_now = results%scene%directory//'/.'//results%scene%case//'.checkpoint.'// &
-                      integer_text(process_id())//'.part'
+      self%name_now = results%scene%directory//'/.'//file_name(results)//'.'//integer_text(process_id())//'.part'
+      call remove_others(results)
       call date_and_time(values=clock)
       call system_clock(self%run(3))
       self%run(:2) = [int(process_id(), int64), checksum(int(clock, int64))]
@@ -198,7 +240,11 @@ contains
 
       name = checkpoint_name(results)
       found = path_kind(name) /= path_absent
-      if (.not. found) return
+      if (.not. found) then
+         if (path_kind(name_of_others(results)) /= path_absent) call fatal_error(error, exit_bad_input, &
+            escaped(name_of_others(results))//': the checkpoint is of a run on another number of ranks'//way_out)
+         return
+      end if
       open (newunit=unit, file=name, access='stream', form='unformatted', status='old', action='read', &
             iostat=status, iomsg=message)
       if (status /= 0) then
@@ -261,8 +307,8 @@ contains
       if (understood) call move_alloc(solution, results%loads(load)%solution)
    end subroutine take_solution
 
-   !> A text that identifies what is solved: version, surface, and the resolved deck without the paths of deck and
-   !> results.
+   !> A text that identifies what is solved: version, surface, number of ranks that share the work, and the resolved
+   !> deck without the paths of deck and results.
    function description(results) result(text)
       type(results_type), intent(in) :: results
       character(:), allocatable :: text
@@ -270,7 +316,9 @@ contains
       character(20) :: number
 
       write (number, '(i0)') surface_checksum(results%scene%surface)
-      text = 'wavycon '//version//' ('//revision//')'//newline//'surface '//trim(number)//newline//results%scene%essence
+      text = 'wavycon '//version//' ('//revision//')'//newline//'surface '//trim(number)//newline// &
+             integer_text(merge(results%sharing%ranks, 1, results%sharing%is_shared()))//' ranks'//newline// &
+             results%scene%essence
    end function description
 
    !> Compares the descriptions of two runs. Errors: exit_bad_input if they differ.
@@ -297,6 +345,8 @@ contains
          words = 'is of '//line_before//', this is '//line_now
       case (2)
          words = 'is of another surface: the deck or its height map has changed'
+      case (3)
+         words = 'is of a run on '//line_before//', this one has '//line_now
       case default
          words = "is of another deck: '"//excerpt(line_now)//"' was '"//excerpt(line_before)//"'"
       end select

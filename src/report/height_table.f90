@@ -2,6 +2,7 @@
 module wavycon_height_table
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_error, only: error_type
+   use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp
    use wavycon_map_table, only: map_points
    use wavycon_npy_header, only: npy_header_of_numbers
@@ -9,8 +10,10 @@ module wavycon_height_table
    use wavycon_plain_text, only: integer_text
    use wavycon_results, only: results_type
    use wavycon_series_samples, only: sample_series
+   use wavycon_shared_file, only: shared_file
    use wavycon_system, only: has_memory_for
    use wavycon_table, only: table_type
+   use wavycon_undeformed_gap, only: sample_undeformed_gap
    implicit none (type, external)
    private
 
@@ -23,6 +26,7 @@ module wavycon_height_table
    contains
       procedure, nopass :: key
       procedure, nopass :: meaning
+      procedure :: is_written_by_all
       procedure, nopass :: write => write_height_table
    end type height_table
 
@@ -40,6 +44,15 @@ contains
       words = "The heights that are solved, as a file of numpy that kind = 'file' reads."
    end function meaning
 
+   !> All ranks write the heights of a map that is spread over them.
+   logical function is_written_by_all(self, results)
+      class(height_table), intent(in) :: self
+      type(results_type), intent(in) :: results
+
+      associate (unused => self); end associate
+      is_written_by_all = results%scene%surface%is_spread()
+   end function is_written_by_all
+
    !> Writes rows of heights along x, over their mean [length]: of a map at its own points, of waves at those of maps.
    !> Errors: exit_file_trouble.
    subroutine write_height_table(results, error)
@@ -50,6 +63,10 @@ contains
       real(dp), allocatable :: height(:, :)
       integer :: points(2)
 
+      if (results%scene%surface%is_spread()) then
+         call write_by_all(results, error)
+         return
+      end if
       associate (surface => results%scene%surface)
          points = surface%points/surface%parts()
          if (all(points == 0)) points = map_points(results)
@@ -66,5 +83,26 @@ contains
       end associate
       call file%finish(error)
    end subroutine write_height_table
+
+   !> Writes the heights at the points of a map that is spread over the ranks. Errors: exit_file_trouble.
+   subroutine write_by_all(results, error)
+      type(results_type), intent(in) :: results
+      type(error_type), allocatable, intent(out) :: error
+
+      type(shared_file) :: file
+      type(grid_slab) :: slab
+      real(dp), allocatable :: height(:, :)
+
+      associate (surface => results%scene%surface)
+         call slab%start(surface%points/surface%parts())
+         allocate (height(slab%points(1), slab%columns()))
+         call sample_undeformed_gap(surface, slab, height)
+         height = surface%amplitude*(1.0_dp - height)
+      end associate
+      call file%open(results%scene%directory, results%scene%case//'.height.npy', &
+                     npy_header_of_numbers([slab%points(2), slab%points(1)]))
+      call file%put_columns(0_int64, slab%points(1), slab%first, slab%columns(), height)
+      call file%finish(error)
+   end subroutine write_by_all
 
 end module wavycon_height_table

@@ -27,6 +27,7 @@ module wavycon_largest_stress_table
    contains
       procedure, nopass :: key
       procedure, nopass :: meaning
+      procedure :: needs_fields
       procedure, nopass :: write => write_largest_stress_table
    end type largest_stress_table
 
@@ -43,6 +44,14 @@ contains
 
       words = 'The largest von Mises stress and the largest shear stress of each load.'
    end function meaning
+
+   !> The largest stresses are found before the tables are written.
+   pure logical function needs_fields(self)
+      class(largest_stress_table), intent(in) :: self
+
+      associate (unused => self); end associate
+      needs_fields = .false.
+   end function needs_fields
 
    !> Errors: exit_file_trouble.
    subroutine write_largest_stress_table(results, error)

@@ -5,14 +5,18 @@ module wavycon_map_table
    use wavycon_column_text, only: column_name
    use wavycon_contact_fields, only: contact_fields
    use wavycon_error, only: error_type
+   use wavycon_grid_slab, only: grid_slab
+   use wavycon_grid_transform, only: image_of_point
    use wavycon_kinds, only: dp
    use wavycon_npy_header, only: npy_header
    use wavycon_output_file, only: output_file
    use wavycon_plain_text, only: integer_text
    use wavycon_results, only: results_type
    use wavycon_series_samples, only: sample_series
+   use wavycon_shared_file, only: shared_file
    use wavycon_system, only: has_memory_for
    use wavycon_table, only: table_type
+   use wavycon_undeformed_gap, only: sample_undeformed_gap
    implicit none (type, external)
    private
 
@@ -33,6 +37,7 @@ module wavycon_map_table
       procedure, nopass :: key
       procedure, nopass :: meaning
       procedure :: needs_fields
+      procedure :: is_written_by_all
       procedure, nopass :: write => write_map_table
    end type map_table
 
@@ -57,6 +62,34 @@ contains
       needs_fields = .true.
    end function needs_fields
 
+   !> All ranks write a map in numpy's format at the points of the grid that all loads are solved on.
+   logical function is_written_by_all(self, results)
+      class(map_table), intent(in) :: self
+      type(results_type), intent(in) :: results
+
+      class(contact_fields), allocatable :: fields
+      integer :: grid(2), load, points(2)
+      integer(int64) :: number
+      real(dp) :: offset(2)
+
+      associate (unused => self); end associate
+      points = map_points(results)
+      is_written_by_all = .not. is_text(results%scene%output%text('map_format'), points)
+      if (.not. is_written_by_all) return
+      if (.not. allocated(results%loads)) then
+         grid = results%solver%given_grid()
+         is_written_by_all = all(points == grid .or. points == 2*grid)
+         return
+      end if
+      number = results%loads(1)%solution%spread_points()
+      is_written_by_all = number > 0 .and. &
+         all([(results%loads(load)%solution%spread_points() == number, load=1, size(results%loads))])
+      if (.not. is_written_by_all) return
+      call results%loads(1)%solution%fields(results%scene%surface, fields)
+      call fields%own_points(grid, offset)
+      is_written_by_all = all(points == grid)
+   end function is_written_by_all
+
    !> Errors: exit_file_trouble.
    subroutine write_map_table(results, error)
       type(results_type), intent(in) :: results
@@ -68,6 +101,10 @@ contains
       real(dp) :: offset(2)
 
       points = map_points(results)
+      if (results%loads(1)%solution%spread_points() > 0) then
+         call write_by_all(results, points, error)
+         return
+      end if
       as_text = is_text(results%scene%output%text('map_format'), points)
       if (as_text) then
          call results%open_table('map', columns, file, in_blocks=.true.)
@@ -86,6 +123,84 @@ contains
       end do
       call file%finish(error)
    end subroutine write_map_table
+
+   !> Writes the file of numpy by all ranks, each from its columns of the grids. Errors: exit_file_trouble.
+   subroutine write_by_all(results, points, error)
+      type(results_type), intent(in) :: results
+      integer, intent(in) :: points(2)
+      type(error_type), allocatable, intent(out) :: error
+
+      class(contact_fields), allocatable :: fields
+      type(grid_slab) :: slab
+      type(shared_file) :: file
+      integer :: image, load, own(2)
+      real(dp) :: offset(2)
+      real(dp), allocatable :: h(:, :)
+
+      call results%loads(1)%solution%fields(results%scene%surface, fields)
+      slab = fields%own_slab()
+      call fields%own_points(own, offset)
+      allocate (h(slab%points(1), slab%columns()))
+      call sample_undeformed_gap(results%scene%surface, slab, h)
+      call file%open(results%scene%directory, results%scene%case//'.map.npy', &
+                     npy_header(column_name(columns(2:)), [size(results%loads), points(2), points(1)]))
+      do load = 1, size(results%loads)
+         if (load > 1) call results%loads(load)%solution%fields(results%scene%surface, fields)
+         ! The mirror images of the columns follow those of a quarter of the cell.
+         do image = 1, points(2)/slab%points(2)
+            call put_columns(results, load, points, offset, slab, fields, h, image == 2, file)
+         end do
+      end do
+      call file%finish(error)
+   end subroutine write_by_all
+
+   !> Writes the own columns of a load or their mirror images, some at a time.
+   subroutine put_columns(results, load, points, offset, slab, fields, h, is_image, file)
+      type(results_type), intent(in) :: results
+      integer, intent(in) :: load
+      integer, intent(in) :: points(2)
+      real(dp), intent(in) :: offset(2)       !! of the first point, in steps
+      type(grid_slab), intent(in) :: slab
+      class(contact_fields), intent(in) :: fields
+      real(dp), intent(in) :: h(:, :)         !! undeformed gap, shape (M, slab%columns())
+      logical, intent(in) :: is_image
+      type(shared_file), intent(inout) :: file
+
+      !> Numbers that are written at a time: 64 MB of them.
+      integer, parameter :: most_numbers = 2**23
+      integer :: block, c, first, k, l, last, numbers, place, step
+      real(dp) :: side(2)
+      real(dp), allocatable :: gap(:), p(:), rows(:, :, :), u(:)
+
+      numbers = size(columns) - 1
+      block = max(1, most_numbers/(numbers*points(1)))
+      allocate (rows(numbers, points(1), block))
+      allocate (gap(slab%points(1)), p(slab%points(1)), u(slab%points(1)))
+      associate (surface => results%scene%surface, p_star => results%scene%p_star)
+         side = surface%sides()
+         ! Ranks with fewer columns take part with none.
+         do step = 1, (slab%width - 1)/block + 1
+            first = slab%first + (step - 1)*block
+            last = min(first + block - 1, slab%last)
+            place = first
+            if (is_image) place = points(2) + 1 - last
+            do l = first, last
+               associate (own => h(:, l - slab%first + 1))
+                  call fields%at_own_column(l, 1.0_dp - own, p, u, gap)
+                  c = merge(last - l, l - first, is_image)
+                  do k = 1, points(1)
+                     associate (row => image_of_point(k, slab%points(1), points(1) > slab%points(1)))
+                        rows(:, k, c + 1) = [side*([k, place + c] - 1 + offset)/points, p_star*p(row), &
+                                             surface%amplitude*[gap(row), u(row), own(row)]]
+                     end associate
+                  end do
+               end associate
+            end do
+            call file%put_columns(int(load - 1, int64)*numbers*points(1)*points(2), numbers*points(1), place, &
+                                  max(last - first + 1, 0), rows)
+         end do
+      end associate
+   end subroutine put_columns
 
    !> The points of the map along x and y.
    function map_points(results) result(points)

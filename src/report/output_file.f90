@@ -48,6 +48,8 @@ module wavycon_output_file
       procedure :: end_row
       procedure :: put_rows
       procedure :: note_trouble
+      procedure :: path_now
+      procedure :: flush => flush_file
       procedure :: finish
    end type output_file
 
@@ -266,15 +268,39 @@ contains
       if (.not. allocated(self%trouble)) self%trouble = system_words(message)
    end subroutine note_trouble
 
+   !> The temporary name, for other processes that write to the file too.
+   pure function path_now(self) result(path)
+      class(output_file), intent(in) :: self
+      character(:), allocatable :: path
+
+      path = self%working_name
+   end function path_now
+
+   !> Brings to the file what was written so far.
+   subroutine flush_file(self)
+      class(output_file), intent(inout) :: self
+
+      character(200) :: message
+      integer :: status
+
+      if (allocated(self%trouble)) return
+      flush (self%unit, iostat=status, iomsg=message)
+      if (status /= 0) call self%note_trouble(message)
+   end subroutine flush_file
+
    !> Closes the file and renames it to its final name; after an error the file is removed instead. Errors:
    !> exit_file_trouble.
-   subroutine finish(self, error)
+   subroutine finish(self, error, bytes_of_others)
       class(output_file), intent(inout) :: self
       type(error_type), allocatable, intent(out) :: error
+      integer(int64), intent(in), optional :: bytes_of_others   !! that other processes wrote behind the own ones
 
       character(:), allocatable :: failure
+      integer(int64) :: further
 
-      if (self%opened) call close_file(self)
+      further = 0
+      if (present(bytes_of_others)) further = bytes_of_others
+      if (self%opened) call close_file(self, further)
       if (.not. allocated(self%trouble)) then
          call rename_file(self%working_name, self%name, failure)
          if (allocated(failure)) call self%note_trouble(failure)
@@ -288,8 +314,9 @@ contains
    !> Closes the file and compares its size with the number of bytes written.
    !>
    !> N.B. On a full disk neither write, flush nor close reports an error with gfortran 12: the file is only too short.
-   subroutine close_file(self)
+   subroutine close_file(self, further)
       type(output_file), intent(inout) :: self
+      integer(int64), intent(in) :: further   !! bytes of other processes
 
       character(200) :: message
       integer(int64) :: bytes_there, next_byte
@@ -301,7 +328,7 @@ contains
       close (self%unit, iostat=status, iomsg=message)
       if (status /= 0) call self%note_trouble(message)
       inquire (file=self%working_name, size=bytes_there)
-      if (bytes_there /= next_byte - 1) &
+      if (bytes_there /= next_byte - 1 + further) &
          call self%note_trouble('it is cut short: the disk is full, or over a quota or a limit on file sizes')
    end subroutine close_file
 

@@ -10,6 +10,7 @@ module wavycon_results
    use wavycon_plain_text, only: escaped, exact_number, integer_text
    use wavycon_scene, only: scene_type
    use wavycon_version, only: revision, version
+   use wavycon_work_sharing, only: work_sharing
    implicit none (type, external)
    private
 
@@ -24,6 +25,10 @@ module wavycon_results
       type(contact_solution_item), allocatable :: loads(:)   !! in the deck's order
       !> The largest von Mises and shear stresses, shape (bodies, loads); not allocated unless the deck asks for them.
       type(largest_stress), allocatable :: von_mises(:, :), shear(:, :)
+      type(work_sharing) :: sharing                          !! how the ranks share the work
+      !> The rank that solves each load; allocated where these are spread over the ranks. Solutions of other ranks have
+      !> measures alone.
+      integer, allocatable :: rank_of_load(:)
    contains
       procedure :: open_table
       procedure :: begin_block

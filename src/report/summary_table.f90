@@ -30,6 +30,7 @@ module wavycon_summary_table
    contains
       procedure, nopass :: key
       procedure, nopass :: meaning
+      procedure :: needs_surface
       procedure :: is_for_flat_surfaces
       procedure, nopass :: write => write_summary_table
    end type summary_table
@@ -47,6 +48,13 @@ contains
 
       words = 'A line for each load: mean gap, contact area, pressures.'
    end function meaning
+
+   pure logical function needs_surface(self)
+      class(summary_table), intent(in) :: self
+
+      associate (unused => self); end associate
+      needs_surface = .false.
+   end function needs_surface
 
    pure logical function is_for_flat_surfaces(self)
       class(summary_table), intent(in) :: self

@@ -19,6 +19,8 @@ module wavycon_table
       procedure :: is_requested
       procedure :: refusal
       procedure :: needs_fields
+      procedure :: needs_surface
+      procedure :: is_written_by_all
       procedure :: is_for_flat_surfaces
       procedure(write_table), deferred, nopass :: write
    end type table_type
@@ -81,6 +83,24 @@ contains
       associate (unused => self); end associate
       needs_fields = .false.
    end function needs_fields
+
+   !> Whether the table is made from the whole surface. Here it is.
+   pure logical function needs_surface(self)
+      class(table_type), intent(in) :: self
+
+      associate (unused => self); end associate
+      needs_surface = .true.
+   end function needs_surface
+
+   !> Whether all ranks write the table together, each from its columns of grids that are spread; called before the
+   !> loads are solved and after. Here the first rank writes it.
+   logical function is_written_by_all(self, results)
+      class(table_type), intent(in) :: self
+      type(results_type), intent(in) :: results   !! started, before the loads are solved without solutions
+
+      associate (unused => self, unused_too => results); end associate
+      is_written_by_all = .false.
+   end function is_written_by_all
 
    !> Whether the table is written for a flat surface, whose p* and Delta are zero. Here it is not.
    pure logical function is_for_flat_surfaces(self)

@@ -1,5 +1,6 @@
 !> Runs a scene from beginning to end: starts the solver, solves all loads, writes the tables.
 module wavycon_run_scene
+   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_checkpoint, only: checkpoint_file, checkpoint_name, read_checkpoint
    use wavycon_contact_measures, only: is_known
    use wavycon_contact_status, only: converged, not_found, unresolved
@@ -7,61 +8,154 @@ module wavycon_run_scene
    use wavycon_find_stresses, only: find_stresses
    use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
-   use wavycon_plain_text, only: escaped, integer_text
+   use wavycon_plain_text, only: escaped, integer_text, short_number
+   use wavycon_ranks, only: add_over_ranks, any_rank, is_first_rank, share_error, work_alone
    use wavycon_results, only: results_type
    use wavycon_run_log, only: run_log
    use wavycon_scene, only: by_yield, scene_type
    use wavycon_solve_loads, only: solve_loads
    use wavycon_solver_list, only: start_solver
-   use wavycon_system, only: make_directories
+   use wavycon_surface, only: whole_surface
+   use wavycon_system, only: has_memory_for, make_directories
    use wavycon_tables, only: all_tables, table_item
+   use wavycon_work_sharing, only: choose_sharing, spread_grids
    implicit none (type, external)
    private
 
-   public :: run_scene, start_results, need_fields
+   public :: run_scene, start_results, keep_fields
 
 contains
 
-   !> Runs a scene. Errors: exit_bad_input for a checkpoint that is damaged or of another deck; exit_file_trouble for
-   !> a file that cannot be read or written.
+   !> Runs a scene. All ranks call it; the first one writes the log and, with few exceptions, the tables. An error of one
+   !> rank is that of all. Errors: exit_bad_input for a checkpoint that is damaged or of another deck; exit_file_trouble
+   !> for a file that cannot be read or written.
    subroutine run_scene(scene, quiet, resume, results, status, error)
       type(scene_type), allocatable, intent(inout) :: scene   !! not allocated afterwards: the results own it
       logical, intent(in) :: quiet     !! whether to write no log
       logical, intent(in) :: resume    !! whether to continue from the checkpoint of an interrupted run
-      type(results_type), intent(out) :: results   !! complete if there is no error
+      type(results_type), intent(out) :: results   !! complete if there is no error, on the first rank
       integer, intent(out) :: status   !! exit_fine or exit_not_converged
       type(error_type), allocatable, intent(out) :: error
 
       type(run_log), target :: log
-      type(checkpoint_file) :: checkpoint
       type(table_item), allocatable :: tables(:)
+      logical :: is_first
 
       status = exit_fine
-      call log%start(quiet)
+      is_first = is_first_rank()
+      call log%start(quiet .or. .not. is_first)
       call start_results(scene, results, tables)
       call log%show_scene(results)
+      call check_sharing(results, tables, error)
+      if (allocated(error)) return
+      if (results%sharing%is_shared()) then
+         call solve_and_write(results, tables, resume, log, status, error)
+      else
+         call work_alone(.true.)
+         if (is_first) call solve_and_write(results, tables, resume, log, status, error)
+         call work_alone(.false.)
+         call share_error(error)
+         call share_status(status)
+      end if
+   end subroutine run_scene
+
+   !> Checks that the first rank has the memory for the fields of a given grid, before it is solved. Errors:
+   !> exit_file_trouble.
+   subroutine check_sharing(results, tables, error)
+      type(results_type), intent(in) :: results   !! started
+      type(table_item), intent(in) :: tables(:)
+      type(error_type), allocatable, intent(out) :: error
+
+      integer(int64) :: points
+      integer :: i
+      logical :: by_first(size(tables))
+
+      if (results%sharing%kind /= spread_grids) return
+      by_first = [(.not. tables(i)%table%is_written_by_all(results), i=1, size(tables))]
+      points = 0
+      if (need_fields(tables, by_first) .or. asks_for_largest(results%scene)) &
+         points = size(results%scene%target)*product(int(results%solver%given_grid(), int64))
+      call check_memory(results, points, need_surface(tables, by_first), error)
+      call share_error(error)
+   end subroutine check_sharing
+
+   !> Makes the exit status of the first rank that of all.
+   subroutine share_status(status)
+      integer, intent(inout) :: status   !! 0 on the other ranks
+
+      integer(int64) :: number(1)
+
+      number = status
+      call add_over_ranks(number)
+      status = int(number(1))
+   end subroutine share_status
+
+   !> Solves the loads of a scene and writes its tables. Errors: as of run_scene.
+   subroutine solve_and_write(results, tables, resume, log, status, error)
+      type(results_type), intent(inout) :: results        !! started
+      type(table_item), intent(in) :: tables(:)           !! that are to be written
+      logical, intent(in) :: resume
+      type(run_log), intent(inout), target :: log
+      integer, intent(out) :: status
+      type(error_type), allocatable, intent(out) :: error
+
+      type(checkpoint_file) :: checkpoint
+
+      status = exit_fine
       allocate (results%loads(size(results%scene%target)))
       if (resume) call take_checkpoint(results, log, error)
-      if (.not. allocated(error)) call prepare_directory(results%scene, error)
+      if (allocated(error)) return
+      if (is_first_rank()) call prepare_directory(results%scene, error)
+      call share_error(error)
       if (allocated(error)) return
 
       call checkpoint%create(results)
       call solve_loads(results, checkpoint, log)
-      if (.not. checkpoint%is_complete()) call log%say('note: not all loads could be written to '// &
-                                                       escaped(checkpoint_name(results))//', to resume from')
+      if (any_rank(.not. checkpoint%is_complete())) call log%say('note: not all loads could be written to '// &
+                                                                 escaped(checkpoint_name(results))//', to resume from')
       call log%say_timed('solved and measured')
       call log%show_loads(results)
-      if (asks_for_largest(results%scene)) then
-         call find_stresses(results, log)
-         call log%say_timed('largest stresses found')
-         call log%show_stresses(results)
-      end if
-      call write_tables(results, tables, error)
+      call write_results(results, tables, log, error)
       if (allocated(error)) return
       call checkpoint%remove()
       call log%say_timed('tables written')
       call sum_up(results, log, status)
-   end subroutine run_scene
+   end subroutine solve_and_write
+
+   !> Finds the largest stresses and writes the tables. Where grids are spread over the ranks some tables are written by
+   !> all ranks; for the others the first rank takes the fields of all and works alone. Errors: exit_file_trouble.
+   subroutine write_results(results, tables, log, error)
+      type(results_type), intent(inout) :: results   !! with a solution for each load
+      type(table_item), intent(in) :: tables(:)
+      type(run_log), intent(inout) :: log
+      type(error_type), allocatable, intent(out) :: error
+
+      logical :: by_all(size(tables)), by_first, is_first
+      integer :: i
+
+      is_first = is_first_rank()
+      by_first = results%sharing%kind == spread_grids
+      by_all = .false.
+      if (by_first) by_all = [(tables(i)%table%is_written_by_all(results), i=1, size(tables))]
+      call write_tables(results, tables, by_all, error)
+      if (allocated(error)) return
+      if (by_first) then
+         call collect(results, need_fields(tables, .not. by_all) .or. asks_for_largest(results%scene), &
+                      need_surface(tables, .not. by_all), error)
+         if (allocated(error)) return
+         call work_alone(.true.)
+      end if
+      if (is_first .or. .not. by_first) then
+         if (asks_for_largest(results%scene)) then
+            call find_stresses(results, log)
+            call log%say_timed('largest stresses found')
+            call log%show_stresses(results)
+         end if
+      end if
+      if (is_first) call write_tables(results, tables, .not. by_all, error)
+      if (by_first) call work_alone(.false.)
+      call share_error(error)
+   end subroutine write_results
 
    !> Whether the deck asks for the largest stresses.
    logical function asks_for_largest(scene)
@@ -71,7 +165,7 @@ contains
       if (asks_for_largest) asks_for_largest = scene%stress%logical('largest')
    end function asks_for_largest
 
-   !> Starts the solver of a scene and finds its tables.
+   !> Starts the solver of a scene, finds its tables and how the ranks share the work.
    subroutine start_results(scene, results, tables)
       type(scene_type), allocatable, intent(inout) :: scene       !! not allocated afterwards: the results own it
       type(results_type), intent(out) :: results                  !! without loads
@@ -80,8 +174,13 @@ contains
       call move_alloc(scene, results%scene)
       call requested_tables(results%scene, tables)
       associate (scene => results%scene)
-         call start_solver(scene%surface, scene%method, need_fields(tables) .or. scene%loads_by == by_yield, &
-                           results%solver)
+         call start_solver(scene%surface, scene%method, keep_fields(scene, tables), results%solver)
+         results%sharing = choose_sharing(results%solver, size(scene%target), need_fields(tables), &
+                                          scene%loads_by == by_yield)
+         if (scene%surface%is_spread() .and. results%sharing%kind /= spread_grids) then
+            call whole_surface(scene%surface, first_only=.not. results%sharing%is_shared())
+            call start_solver(scene%surface, scene%method, keep_fields(scene, tables), results%solver)
+         end if
       end associate
    end subroutine start_results
 
@@ -110,16 +209,38 @@ contains
    end subroutine requested_tables
 
    !> Whether any of the tables is made from fields, edges or details.
-   pure logical function need_fields(tables)
+   pure logical function need_fields(tables, selected)
       type(table_item), intent(in) :: tables(:)
+      logical, intent(in), optional :: selected(:)   !! the tables that count; absent: all
 
       integer :: i
 
       need_fields = .false.
       do i = 1, size(tables)
+         if (present(selected)) then
+            if (.not. selected(i)) cycle
+         end if
          need_fields = need_fields .or. tables(i)%table%needs_fields()
       end do
    end function need_fields
+
+   !> Whether any of the tables is made from the whole surface.
+   pure logical function need_surface(tables, selected)
+      type(table_item), intent(in) :: tables(:)
+      logical, intent(in) :: selected(:)   !! the tables that count
+
+      integer :: i
+
+      need_surface = any([(selected(i) .and. tables(i)%table%needs_surface(), i=1, size(tables))])
+   end function need_surface
+
+   !> Whether the solutions keep their fields.
+   logical function keep_fields(scene, tables)
+      type(scene_type), intent(in) :: scene
+      type(table_item), intent(in) :: tables(:)
+
+      keep_fields = need_fields(tables) .or. asks_for_largest(scene) .or. scene%loads_by == by_yield
+   end function keep_fields
 
    !> Reads the solutions in the checkpoint, if there is one. Errors: exit_bad_input, exit_file_trouble.
    subroutine take_checkpoint(results, log, error)
@@ -127,14 +248,27 @@ contains
       type(run_log), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
 
-      logical :: found
-      integer :: i, known
+      integer :: load
+      integer(int64) :: ranks_that_know(size(results%loads))
+      logical :: found, known(size(results%loads))
 
       call read_checkpoint(results, found, error)
+      call share_error(error)
       if (allocated(error)) return
-      if (found) then
-         known = count([(allocated(results%loads(i)%solution), i=1, size(results%loads))])
-         call log%say('resumed   '//integer_text(known)//' of '//integer_text(size(results%loads))// &
+      ranks_that_know = [(merge(1, 0, allocated(results%loads(load)%solution)), load=1, size(results%loads))]
+      call add_over_ranks(ranks_that_know)
+      if (results%sharing%kind == spread_grids) then
+         ! Of a load that was interrupted some ranks may have their columns, others not.
+         known = ranks_that_know == results%sharing%ranks
+         do load = 1, size(results%loads)
+            if (.not. known(load) .and. allocated(results%loads(load)%solution)) &
+               deallocate (results%loads(load)%solution)
+         end do
+      else
+         known = ranks_that_know > 0
+      end if
+      if (any_rank(found)) then
+         call log%say('resumed   '//integer_text(count(known))//' of '//integer_text(size(results%loads))// &
                       ' loads are in '//escaped(checkpoint_name(results)))
       else
          call log%say('note: there is no '//escaped(checkpoint_name(results))// &
@@ -162,19 +296,67 @@ contains
       call file%finish(error)
    end subroutine prepare_directory
 
-   !> Writes the tables. Errors: exit_file_trouble.
-   subroutine write_tables(results, tables, error)
+   !> Writes tables. Errors: exit_file_trouble.
+   subroutine write_tables(results, tables, selected, error)
       type(results_type), intent(in) :: results
       type(table_item), intent(in) :: tables(:)
+      logical, intent(in) :: selected(:)   !! of each table
       type(error_type), allocatable, intent(out) :: error
 
       integer :: i
 
       do i = 1, size(tables)
+         if (.not. selected(i)) cycle
          call tables(i)%table%write(results, error)
          if (allocated(error)) return
       end do
    end subroutine write_tables
+
+   !> Brings what is spread over the ranks to the first one: the fields load by load, the surface. Errors:
+   !> exit_file_trouble if it has not the memory.
+   subroutine collect(results, fields, surface, error)
+      type(results_type), intent(inout) :: results
+      logical, intent(in) :: fields, surface   !! what is needed
+      type(error_type), allocatable, intent(out) :: error
+
+      integer(int64) :: points
+      integer :: load
+
+      points = 0
+      if (fields) points = sum([(results%loads(load)%solution%spread_points(), load=1, size(results%loads))])
+      call check_memory(results, points, surface, error)
+      call share_error(error)
+      if (allocated(error)) return
+      if (fields) then
+         do load = 1, size(results%loads)
+            call results%loads(load)%solution%collect_fields()
+         end do
+      end if
+      if (surface) call whole_surface(results%scene%surface, first_only=.true.)
+   end subroutine collect
+
+   !> Whether the first rank has the memory for what is spread over the ranks. Errors: exit_file_trouble.
+   subroutine check_memory(results, points, surface, error)
+      type(results_type), intent(in) :: results
+      integer(int64), intent(in) :: points   !! of the grids of all loads whose fields are needed
+      logical, intent(in) :: surface         !! whether the surface is needed
+      type(error_type), allocatable, intent(out) :: error
+
+      integer, parameter :: bytes_of_number = storage_size(1.0_dp)/8
+      integer(int64) :: numbers
+
+      if (.not. is_first_rank()) return
+      numbers = points
+      ! The series, and twice as much while it is gathered.
+      if (surface .and. results%scene%surface%is_spread()) &
+         numbers = numbers + 3*product(int(results%scene%surface%points, int64)/results%scene%surface%parts())
+      if (has_memory_for(numbers)) return
+      call fatal_error(error, exit_file_trouble, 'the first rank has too little memory for the tables: the whole '// &
+                       'fields of all loads, and the surface, take '// &
+                       short_number(real(bytes_of_number*numbers, dp)/1e9_dp)//' GB. Leave out tables but the '// &
+                       "summary, a map with map_format = 'npy' and the points of the grid, and the heights, "// &
+                       'or solve fewer loads')
+   end subroutine check_memory
 
    !> Writes the last lines of the log and finds the exit status.
    subroutine sum_up(results, log, status)

@@ -1,0 +1,30 @@
+#!/usr/bin/env bash
+# Runs a large rough surface on several machines under Slurm: `sbatch scripts/slurm_example.sh`, after
+# `scripts/build --mpi` there. Take it as the start of your own.
+#
+# Deck: inputs/challenge.nml, the kind of surface of the contact-mechanics challenge, on 32768 x 32768 points.
+#
+# Memory: points times bytes a point, over the ranks. tests/README.md, "Past one machine", has what was measured.
+# Here 60 bytes for each of 1.07e9 points are 64 GB, 4 GB for each of 16 ranks; 4800M leaves room for MPI.
+# Ranks: whole strips of 32 columns, so at most points/32, here 1024. Some ranks with some threads each send
+# fewer and larger messages than as many ranks as processors.
+# Time: the same page has a model of the time of an iteration; a load takes 30 to 50, a fourth to a tenth of them on the
+# last grid.
+#SBATCH --job-name=wavycon
+#SBATCH --nodes=4
+#SBATCH --ntasks-per-node=4
+#SBATCH --cpus-per-task=8
+#SBATCH --mem-per-cpu=600M
+#SBATCH --time=04:00:00
+set -euo pipefail
+
+# Slurm runs a copy of this file: the tree is where sbatch was called.
+cd "${SLURM_SUBMIT_DIR:-.}"
+threads=${SLURM_CPUS_PER_TASK:-1}
+export OPENBLAS_NUM_THREADS=1
+
+# If Slurm does not know the MPI library: mpirun --map-by "slot:PE=$threads" in place of srun.
+# --resume continues a job that was ended by its time limit, on the same number of ranks; the first time it does
+# nothing.
+srun --cpus-per-task="$threads" --cpu-bind=cores build/wavycon-mpi inputs/challenge.nml --threads "$threads" --resume \
+   --set surface.points=32768 --output outputs/challenge_32768

@@ -1,0 +1,80 @@
+!> How the ranks share the work of a scene.
+module wavycon_work_sharing
+   use, intrinsic :: iso_fortran_env, only: int64
+   use wavycon_contact_solver, only: contact_solver
+   use wavycon_grid_slab, only: grid_slab
+   use wavycon_plain_text, only: integer_text
+   use wavycon_ranks, only: rank_count
+   implicit none (type, external)
+   private
+
+   public :: work_sharing, choose_sharing
+
+   !> All ranks work on each load: those of grids that are spread have their columns, all else is computed by each.
+   integer, parameter, public :: spread_grids = 1
+   !> Each rank solves loads of its own.
+   integer, parameter, public :: spread_loads = 2
+   !> The first rank works, the others wait.
+   integer, parameter, public :: first_rank_only = 3
+
+   !> Given grids of so many points are spread even where loads could be: a grid on each rank takes too much memory.
+   integer(int64), parameter :: large_grid = 2_int64**22
+
+   type :: work_sharing
+      integer :: kind = first_rank_only   !! one of the names above
+      integer :: ranks = 1
+   contains
+      procedure :: is_shared
+      procedure :: words
+   end type work_sharing
+
+contains
+
+   !> Decides how the ranks share the work. The decision depends on the deck and the number of ranks alone.
+   type(work_sharing) function choose_sharing(solver, loads, need_fields, need_stresses) result(sharing)
+      class(contact_solver), intent(in) :: solver   !! started
+      integer, intent(in) :: loads                  !! their number
+      logical, intent(in) :: need_fields            !! whether tables need fields, edges or details of all loads
+      logical, intent(in) :: need_stresses          !! whether a load is found by its stresses
+
+      logical :: can_spread_loads, is_large
+      type(grid_slab) :: slab
+
+      sharing%ranks = rank_count()
+      if (sharing%ranks == 1) return
+      call slab%start(max(solver%finest_grid(), 1))
+      can_spread_loads = loads >= sharing%ranks .and. .not. need_fields
+      is_large = product(int(solver%given_grid(), int64)) >= large_grid
+      if (slab%is_spread .and. .not. need_stresses .and. (is_large .or. .not. can_spread_loads)) then
+         sharing%kind = spread_grids
+      else if (can_spread_loads) then
+         sharing%kind = spread_loads
+      end if
+   end function choose_sharing
+
+   !> Whether more than one rank works.
+   pure logical function is_shared(self)
+      class(work_sharing), intent(in) :: self
+
+      is_shared = self%kind /= first_rank_only
+   end function is_shared
+
+   !> The decision for the log; empty for one rank.
+   function words(self)
+      class(work_sharing), intent(in) :: self
+      character(:), allocatable :: words
+
+      words = ''
+      if (self%ranks == 1) return
+      select case (self%kind)
+      case (spread_grids)
+         words = ', the columns of large grids are spread over them'
+      case (spread_loads)
+         words = ', the loads are spread over them'
+      case default
+         words = ', the first one works alone: there is nothing to share'
+      end select
+      words = integer_text(self%ranks)//words
+   end function words
+
+end module wavycon_work_sharing

@@ -1,0 +1,90 @@
+#!/usr/bin/env python3
+"""Runs programs of MPI.
+
+usage: ranks.py --mpiexec MPIEXEC PROGRAM [ARGUMENT ...]
+
+Runs a program on 1 to 5 ranks. Exit status: 0 if that of every run is 0, else 1.
+"""
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+
+RANKS = (1, 2, 3, 4, 5)
+PATIENCE = 120.0  # a run that takes longer is ended and counts as hanging [s]
+
+# More ranks than processors, as root too, which containers need; of Open MPI 4, and of 5, whose launcher is PRRTE. Other
+# libraries permit both. Waiting ranks leave the processor to others.
+ENVIRONMENT = {
+    "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+    "PRTE_ALLOW_RUN_AS_ROOT": "1", "PRTE_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+    "OMPI_MCA_rmaps_base_oversubscribe": "1", "PRTE_MCA_rmaps_default_mapping_policy": ":oversubscribe",
+    "OMPI_MCA_hwloc_base_binding_policy": "none", "PRTE_MCA_hwloc_default_binding_policy": "none",
+    "OMPI_MCA_mpi_yield_when_idle": "1",
+    # Containers may forbid one process to read the memory of another one, of which Open MPI 4 would warn.
+    "OMPI_MCA_btl_vader_single_copy_mechanism": "none",
+    "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
+
+
+# What the launcher says of ranks that ended with a status or by a signal: blocks between lines of '-' or '='.
+LAUNCHER_WORDS = re.compile(r"^(-{40,}|={40,})\n.*?^\1\n", re.MULTILINE | re.DOTALL)
+
+
+class Outcome:
+    """How a run ended: status, None if it had to be ended; the program's words, without the launcher's."""
+
+    def __init__(self, status, stdout, stderr, seconds):
+        self.status, self.seconds = status, seconds
+        # Open MPI gives the program a terminal, where it writes lines of progress over each other.
+        lines = stdout.decode(errors="replace").replace("\r\n", "\n").split("\n")
+        self.stdout = "\n".join(line.split("\r")[-1] for line in lines)
+        self.stderr = LAUNCHER_WORDS.sub("", stderr.decode(errors="replace"))
+
+
+def start(mpiexec, ranks, arguments, folder=None):
+    """Starts a program on so many ranks."""
+    return subprocess.Popen([mpiexec, "-n", str(ranks), *map(str, arguments)], cwd=folder,
+                            env=dict(os.environ, **ENVIRONMENT), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                            stderr=subprocess.PIPE, start_new_session=True)
+
+
+def finish(process, patience=PATIENCE):
+    """Waits for the end of a run, which it may have to end."""
+    begun = time.monotonic()
+    status = None
+    try:
+        stdout, stderr = process.communicate(timeout=patience)
+        status = process.returncode
+    except subprocess.TimeoutExpired:
+        # MPI's launcher ends the ranks.
+        process.terminate()
+        try:
+            stdout, stderr = process.communicate(timeout=10)
+        except subprocess.TimeoutExpired:
+            os.killpg(process.pid, signal.SIGKILL)
+            stdout, stderr = process.communicate()
+    return Outcome(status, stdout, stderr, time.monotonic() - begun)
+
+
+def run(mpiexec, ranks, arguments, folder=None, patience=PATIENCE):
+    return finish(start(mpiexec, ranks, arguments, folder), patience)
+
+
+def main(words):
+    if len(words) < 3 or words[0] != "--mpiexec":
+        print(__doc__, file=sys.stderr)
+        return 1
+    failed = 0
+    for ranks in RANKS:
+        outcome = run(words[1], ranks, words[2:])
+        print(f"{ranks} ranks:", "hangs" if outcome.status is None else f"exit status {outcome.status}")
+        print(outcome.stdout, end="", flush=True)
+        print(outcome.stderr, end="", file=sys.stderr, flush=True)
+        failed += outcome.status != 0
+    return int(failed > 0)
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,325 @@
+!> Edges, measures and solutions of grids that are spread over the ranks beside those of the same grids whole on each
+!> rank: equal to the last bit.
+!>
+!> `mpirun -n N test_spread_solutions` prints a line for each subject, and ends with status 1 if one of them fails.
+program test_spread_solutions
+   use, intrinsic :: iso_fortran_env, only: int64, output_unit
+   use wavycon_constants, only: pi
+   use wavycon_contact_solution, only: contact_solution
+   use wavycon_counted_area, only: corrected_area_fraction, counted_area_fraction, edge_crossings
+   use wavycon_find_load, only: solve_for_contact_area, solve_for_mean_gap
+   use wavycon_grid_contact, only: grid_contact, grid_solution
+   use wavycon_grid_edge, only: grid_contact_area, grid_edge, start_grid_edge
+   use wavycon_grid_error, only: unresolved_errors
+   use wavycon_grid_peak, only: grid_peak_pressure
+   use wavycon_grid_plan, only: fits_memory
+   use wavycon_grid_slab, only: grid_slab, least_spread_points
+   use wavycon_kinds, only: dp
+   use wavycon_mpi_ranks, only: start_mpi
+   use wavycon_ranks, only: any_rank, end_ranks, is_first_rank, rank_count, work_alone
+   use wavycon_surface, only: surface_of_points, surface_type
+   use wavycon_wave_2d, only: wave_2d
+   use wavycon_wave_sum, only: wave_sum
+   implicit none (type, external)
+
+   !> Grids that are spread over two ranks or more.
+   integer, parameter :: grids(2, 4) = reshape([256, 256, 509, 257, 2048, 40, 1024, 160], [2, 4])
+
+   logical :: failed = .false.   !! whether a check of any subject does not hold
+   logical :: good = .true.      !! whether all checks of the present one hold on this rank
+
+   call start_mpi()
+   call test_edges()
+   call test_peaks()
+   call test_memory()
+   call test_given_grids()
+   call test_sequences()
+   call test_loads_of_area_and_gap()
+   call test_hardness()
+   call test_maps()
+   call end_ranks(0)
+   if (failed) error stop 1, quiet=.true.
+
+contains
+
+   subroutine test_edges()
+      ! Fields with an edge everywhere, also between slabs and across the rims, and fields without a gap.
+      real(dp), parameter :: levels(3) = [0.0_dp, 0.9_dp, -2.0_dp], stiffness(2) = [1.0_dp, 3.0_dp]
+      type(grid_edge) :: spread_edge, whole_edge
+      type(grid_slab) :: slab
+      type(surface_type) :: surface
+      real(dp), allocatable :: field(:, :)
+      integer :: even, i, k
+
+      surface = wave_2d(1.0_dp, 1.0_dp, 1.0_dp)
+      do k = 1, size(grids, 2)
+         call slab%start(grids(:, k))
+         call check(slab%is_spread .eqv. rank_count() > 1)
+         do i = 1, size(levels)
+            do even = 0, 1
+               field = rough_field(grids(:, k)) - levels(i)
+               call start_grid_edge(whole_edge, max(field, 0.0_dp), max(-field, 0.0_dp), even == 1, stiffness)
+               associate (own => field(:, slab%first:slab%last))
+                  call start_grid_edge(spread_edge, max(own, 0.0_dp), max(-own, 0.0_dp), even == 1, stiffness, slab)
+               end associate
+               call spread_edge%fetch_neighbours()
+               call check(spread_edge%points_in_contact() == count(field > 0.0_dp, kind=int64))
+               call check(same([grid_contact_area(spread_edge)], [grid_contact_area(whole_edge)]))
+               call check(edge_crossings(spread_edge) == edge_crossings(whole_edge))
+               call check(same([counted_area_fraction(spread_edge), corrected_area_fraction(spread_edge)], &
+                               [counted_area_fraction(whole_edge), corrected_area_fraction(whole_edge)]))
+               call check(same(unresolved_errors(surface, spread_edge, .false.), &
+                               unresolved_errors(surface, whole_edge, .false.)))
+            end do
+         end do
+      end do
+      call report('edges')
+   end subroutine test_edges
+
+   !> Waves of a few points and longer ones, none of them periodic on the grid, between -1.7 and 1.7.
+   function rough_field(points) result(field)
+      integer, intent(in) :: points(2)
+      real(dp), allocatable :: field(:, :)
+
+      integer :: i, j
+
+      allocate (field(points(1), points(2)))
+      do j = 1, points(2)
+         field(:, j) = [(sin(0.37_dp*i + 0.21_dp*j) + 0.5_dp*cos(0.93_dp*j - 0.11_dp*i) + 0.2_dp*sin(1.0_dp*i*j), &
+                         i=1, points(1))]
+      end do
+   end function rough_field
+
+   subroutine test_peaks()
+      ! A crest about every few columns, so that it and its 6 x 6 points lie on each side of each rim of a slab; equal
+      ! crests on all ranks; and a spot of one point.
+      type(grid_slab) :: slab
+      real(dp), allocatable :: field(:, :)
+      integer :: even, j, k
+
+      do k = 1, size(grids, 2)
+         call slab%start(grids(:, k))
+         do even = 0, 1
+            do j = 1, grids(2, k), 3
+               field = crest(grids(:, k), [30.3_dp, j + 0.4_dp])
+               call compare_peaks(field, even == 1, slab)
+            end do
+            field = max(crest(grids(:, k), [30.3_dp, 7.4_dp]), crest(grids(:, k), [60.3_dp, grids(2, k) - 8.6_dp]))
+            call compare_peaks(field, even == 1, slab)
+            field = -1.0_dp
+            field(5, grids(2, k)/2) = 1.0_dp
+            call compare_peaks(field, even == 1, slab)
+         end do
+      end do
+      call report('peaks')
+   end subroutine test_peaks
+
+   !> A hill of ten points' radius.
+   pure function crest(points, place) result(field)
+      integer, intent(in) :: points(2)
+      real(dp), intent(in) :: place(2)
+      real(dp), allocatable :: field(:, :)
+
+      integer :: i, j
+
+      allocate (field(points(1), points(2)))
+      do j = 1, points(2)
+         field(:, j) = [(100.0_dp - (i - place(1))**2 - 0.7_dp*(j - place(2))**2, i=1, points(1))]
+      end do
+   end function crest
+
+   subroutine compare_peaks(field, even, slab)
+      real(dp), intent(in) :: field(:, :)
+      logical, intent(in) :: even
+      type(grid_slab), intent(in) :: slab
+
+      type(grid_edge) :: spread_edge, whole_edge
+      real(dp) :: peaks(2)
+      logical :: resolved(2)
+
+      call start_grid_edge(whole_edge, max(field, 0.0_dp), max(-field, 0.0_dp), even)
+      call grid_peak_pressure(whole_edge, peaks(1), resolved(1))
+      associate (own => field(:, slab%first:slab%last))
+         call start_grid_edge(spread_edge, max(own, 0.0_dp), max(-own, 0.0_dp), even, slab=slab)
+      end associate
+      call spread_edge%fetch_neighbours()
+      call grid_peak_pressure(spread_edge, peaks(2), resolved(2))
+      call check(same(peaks(:1), peaks(2:)))
+      call check(resolved(1) .eqv. resolved(2))
+   end subroutine compare_peaks
+
+   subroutine test_memory()
+      call check(fits_memory([512, 512]))
+      call check(.not. fits_memory([1000000, 1000000]))
+      call report('memory')
+   end subroutine test_memory
+
+   subroutine test_given_grids()
+      ! Even and not, with sides of different lengths, with ranks that have no columns.
+      real(dp), parameter :: loads(3) = [0.003_dp, 0.4_dp, 0.97_dp]
+      integer :: i
+
+      do i = 1, size(loads)
+         call compare(wave_2d(1.0_dp, 1.0_dp, 1.7_dp), loads(i), [512, 1024], 0.0_dp)
+         call compare(tilted_waves(), loads(i), [270, 386], 0.0_dp)
+         call compare(tilted_waves(), loads(i), [2048, 40], 0.0_dp)
+      end do
+      call report('given grids')
+   end subroutine test_given_grids
+
+   subroutine test_sequences()
+      ! To an accuracy: the last grids are spread, the first are not. The wave is solved on its smaller cell.
+      call compare(wave_2d(1.0_dp, 1.0_dp, 1.0_dp), 0.3_dp, [0, 0], 1e-5_dp)
+      call compare(tilted_waves(), 0.6_dp, [0, 0], 3e-5_dp)
+      call report('sequences of grids')
+   end subroutine test_sequences
+
+   subroutine test_loads_of_area_and_gap()
+      type(grid_contact) :: solver
+      class(contact_solution), allocatable :: spread_solution, whole_solution
+
+      call solver%start(tilted_waves(), 0.0_dp, keep_fields=.false., points=[256, 320])
+      call work_alone(.true.)
+      call solve_for_contact_area(solver, 0.3_dp, whole_solution)
+      call work_alone(.false.)
+      call solve_for_contact_area(solver, 0.3_dp, spread_solution)
+      call check(same(numbers(whole_solution), numbers(spread_solution)))
+      call work_alone(.true.)
+      call solve_for_mean_gap(solver, 0.1_dp, whole_solution)
+      call work_alone(.false.)
+      call solve_for_mean_gap(solver, 0.1_dp, spread_solution)
+      call check(same(numbers(whole_solution), numbers(spread_solution)))
+      call report('loads of area and gap')
+   end subroutine test_loads_of_area_and_gap
+
+   subroutine test_hardness()
+      type(surface_type) :: surface
+
+      surface = tilted_waves()
+      surface%hardness = 2.2_dp
+      call compare(surface, 0.3_dp, [320, 256], 0.0_dp)
+      call compare(surface, 1.5_dp, [320, 256], 0.0_dp)
+      call report('hardness')
+   end subroutine test_hardness
+
+   subroutine test_maps()
+      ! A rough map on its own points: the gap and the region of contact have no order.
+      integer, parameter :: points(2) = [288, 256]
+      real(dp), allocatable :: height(:, :)
+      type(grid_slab) :: slab
+      type(surface_type) :: spread_surface, whole_surface
+
+      height = rough_field(points)
+      call slab%start(points)
+      spread_surface = surface_of_points([1.0_dp, 0.8_dp], height(:, slab%first:slab%last), points=points)
+      call work_alone(.true.)
+      whole_surface = surface_of_points([1.0_dp, 0.8_dp], height)
+      call work_alone(.false.)
+      call compare(whole_surface, 0.05_dp, points, 0.0_dp, spread_surface)
+      call compare(whole_surface, 0.6_dp, points/2, 0.0_dp, spread_surface)
+      call compare(whole_surface, 0.6_dp, 2*points, 0.0_dp, spread_surface)
+      call report('maps')
+   end subroutine test_maps
+
+   !> A sum of waves without mirror symmetry.
+   type(surface_type) function tilted_waves()
+      tilted_waves = wave_sum([1.0_dp, 1.3_dp], [1.0_dp, 0.5_dp, 0.2_dp], [1, 2, 3], [1, -2, 0], &
+                              pi/180*[10.0_dp, 50.0_dp, 30.0_dp])
+   end function tilted_waves
+
+   !> Solves a load on grids that are whole and on grids that are spread, compares numbers and fields, and sends the
+   !> fields through a checkpoint.
+   subroutine compare(surface, load, points, accuracy, spread_surface)
+      type(surface_type), intent(in) :: surface
+      real(dp), intent(in) :: load, accuracy
+      integer, intent(in) :: points(2)
+      type(surface_type), intent(in), optional :: spread_surface   !! the same surface, if it is spread too
+
+      type(grid_contact) :: solver
+      type(grid_solution) :: again
+      class(contact_solution), allocatable :: spread_solution, whole_solution
+      real(dp), allocatable :: packed(:)
+      logical :: understood
+
+      call solver%start(surface, accuracy, keep_fields=.true., points=points)
+      call work_alone(.true.)
+      call solver%solve(load, whole_solution)
+      call work_alone(.false.)
+      if (present(spread_surface)) call solver%start(spread_surface, accuracy, keep_fields=.true., points=points)
+      call solver%solve(load, spread_solution)
+      call check(whole_solution%is_good() .or. accuracy > 0.0_dp)
+      call check(whole_solution%status == spread_solution%status)
+      call check(same(numbers(whole_solution), numbers(spread_solution)))
+      select type (whole_solution)
+      type is (grid_solution)
+         select type (spread_solution)
+         type is (grid_solution)
+            associate (slab => spread_solution%edge%slab)
+               call check(slab%is_spread .eqv. (rank_count() > 1 .and. product(slab%points) >= least_spread_points))
+               call check(same_fields(spread_solution%edge%pressure_or_gap, &
+                                      whole_solution%edge%pressure_or_gap(:, slab%first:slab%last)))
+            end associate
+            call spread_solution%pack_kept(packed)
+            call again%unpack_kept(packed, understood)
+            call check(understood)
+            call check(same_fields(again%edge%pressure_or_gap, spread_solution%edge%pressure_or_gap))
+            call again%collect_fields()
+            if (is_first_rank() .or. .not. spread_solution%edge%slab%is_spread) then
+               call check(same_fields(again%edge%pressure_or_gap, whole_solution%edge%pressure_or_gap))
+               call check(.not. again%edge%slab%is_spread)
+            else
+               call check(.not. allocated(again%edge))
+            end if
+         end select
+      end select
+   end subroutine compare
+
+   !> The numbers of a solution that tables show.
+   function numbers(solution) result(values)
+      class(contact_solution), intent(in) :: solution
+      real(dp), allocatable :: values(:)
+
+      associate (m => solution%measures)
+         values = [solution%pbar_over_pstar, m%mean_gap_over_amplitude, m%approach_over_amplitude, &
+                   m%contact_area_fraction, m%peak_pressure_over_pstar, m%min_pressure_over_pstar, m%errors(), &
+                   m%area_at_hardness_fraction, m%contact_area_counted_fraction, m%contact_area_corrected_fraction, &
+                   real(solution%active_constraints, dp), real(solution%iterations, dp), solution%residual]
+      end associate
+   end function numbers
+
+   pure logical function same(a, b)
+      real(dp), intent(in) :: a(:), b(:)
+
+      same = size(a) == size(b)
+      if (same) same = all(transfer(a, 0_int64, size(a)) == transfer(b, 0_int64, size(b)))
+   end function same
+
+   pure logical function same_fields(a, b)
+      real(dp), intent(in) :: a(:, :), b(:, :)
+
+      integer :: j
+
+      same_fields = all(shape(a) == shape(b))
+      if (.not. same_fields) return
+      do j = 1, size(a, 2)
+         same_fields = same_fields .and. same(a(:, j), b(:, j))
+      end do
+   end function same_fields
+
+   subroutine check(holds)
+      logical, intent(in) :: holds
+
+      good = good .and. holds
+   end subroutine check
+
+   !> Prints whether all checks of a subject hold, on all ranks.
+   subroutine report(subject)
+      character(*), intent(in) :: subject
+
+      good = .not. any_rank(.not. good)
+      if (is_first_rank()) write (output_unit, '(a, 1x, a)') merge('passed', 'FAILED', good), subject
+      failed = failed .or. .not. good
+      good = .true.
+   end subroutine report
+
+end program test_spread_solutions
