@@ -9,7 +9,7 @@ module wavycon_binary_file
    use wavycon_map_size, only: check_map_size, check_room, check_slab_room
    use wavycon_measured_map, only: measured_map
    use wavycon_plain_text, only: escaped, integer_text, system_words
-   use wavycon_ranks, only: new_transpose, rank_transpose, read_shared_columns, share_error
+   use wavycon_ranks, only: new_row_exchange, read_shared_columns, row_exchange, share_error
    implicit none (type, external)
    private
 
@@ -237,7 +237,7 @@ contains
       type(measured_map), intent(inout) :: map
       type(error_type), allocatable, intent(out) :: error
 
-      class(rank_transpose), allocatable :: transpose
+      class(row_exchange), allocatable :: exchange
       real(dp), allocatable :: lines(:, :)
       integer :: first, length, number   ! of the lines of the file that this rank reads
 
@@ -247,24 +247,22 @@ contains
       first = slab%first
       number = slab%columns()
       if (by_columns) then
-         call new_transpose(slab%points(2), slab%points(1), slab%width, 1, dp, transpose)
+         call new_row_exchange(slab%points(2), slab%points(1), slab%width, 1, dp, exchange)
          length = slab%points(2)
-         first = transpose%first_row
-         number = transpose%own_rows
+         first = exchange%first_row
+         number = exchange%own_rows
       end if
-      ! FFTW may use both arrays of a transposition as work space.
-      allocate (lines(length, max(number, (slab%points(1) - 1)/slab%points(2)*slab%columns() + slab%columns() + 1)))
+      allocate (lines(length, number))
       call read_lines(self, start, first, number, by_columns, lines, error)
       call share_error(error)
       if (allocated(error)) return
       call map%spread_over(slab)
       if (by_columns) then
-         allocate (map%height(slab%points(1), max(slab%columns(), &
-                                                  (slab%points(2) - 1)/slab%points(1)*number + number + 1)))
-         call transpose%to_columns(lines, map%height)
-         map%height = map%height(:, :slab%columns())
+         lines = transpose(lines)
+         allocate (map%height(slab%points(1), slab%columns()))
+         call exchange%to_columns(lines, map%height)
       else
-         allocate (map%height, source=lines(:, :number))
+         call move_alloc(lines, map%height)
       end if
    end subroutine read_slab
 
