@@ -4,10 +4,12 @@ module wavycon_binary_file
    use, intrinsic :: iso_fortran_env, only: int32, int64, int8
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_file_bytes, only: open_file
+   use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp, sp
-   use wavycon_map_size, only: check_map_size, check_room
+   use wavycon_map_size, only: check_map_size, check_room, check_slab_room
    use wavycon_measured_map, only: measured_map
    use wavycon_plain_text, only: escaped, integer_text, system_words
+   use wavycon_ranks, only: new_row_exchange, read_shared_columns, row_exchange, share_error
    implicit none (type, external)
    private
 
@@ -22,6 +24,7 @@ module wavycon_binary_file
       integer(int64) :: bytes = 0          !! size of the file
       integer :: number_bytes = 4          !! of a number: 4 or 8
       logical :: big_end_first = .false.   !! the byte order of the numbers
+      logical :: in_slabs = .false.        !! whether heights may be spread over the ranks, which then read together
       integer, private :: unit = -1
       logical, private :: is_open = .false.
    contains
@@ -87,52 +90,82 @@ contains
       integer, intent(out) :: infinite     !! index of the first infinite number, here 0; 0 if there is none
       type(error_type), allocatable, intent(out) :: error
 
-      !> Bits of the exponent: all are 1 in a NaN and in an infinity, whose fraction is 0.
-      integer(int32), parameter :: exponent_sp = int(z'7F800000', int32), fraction_sp = int(z'007FFFFF', int32)
-      integer(int64), parameter :: exponent_dp = int(z'7FF0000000000000', int64), &
-                                   fraction_dp = int(z'000FFFFFFFFFFFFF', int64)
-      integer(int32) :: words_sp(merge(size(numbers), 0, self%number_bytes == 4))
-      integer(int64) :: words_dp(merge(size(numbers), 0, self%number_bytes == 8))
+      integer(int32), allocatable :: words_sp(:)
+      integer(int64), allocatable :: words_dp(:)
       character(200) :: message
-      integer :: i, status
-      logical :: is_swapped
-      real(dp) :: nan
+      integer :: status
 
-      nan = ieee_value(nan, ieee_quiet_nan)
       infinite = 0
-      is_swapped = self%big_end_first .eqv. transfer(1_int32, 1_int8) == 1_int8
       if (self%number_bytes == 4) then
+         allocate (words_sp(size(numbers)))
          read (self%unit, iostat=status, iomsg=message) words_sp
-         if (status == 0 .and. is_swapped) words_sp = swapped(words_sp)
+         if (status == 0) call take_singles(self, words_sp, numbers, infinite)
       else
+         allocate (words_dp(size(numbers)))
          read (self%unit, iostat=status, iomsg=message) words_dp
-         if (status == 0 .and. is_swapped) words_dp = swapped_long(words_dp)
+         if (status == 0) call take_doubles(self, words_dp, numbers, infinite)
       end if
-      if (status /= 0) then
-         numbers = 0.0_dp
-         call fatal_error(error, exit_file_trouble, escaped(self%path)//': cannot be read: '//system_words(message))
-         return
-      end if
-      do i = 1, size(words_sp)
-         if (iand(words_sp(i), exponent_sp) /= exponent_sp) then
-            numbers(i) = real(transfer(words_sp(i), 0.0_sp), dp)
-         else
-            numbers(i) = nan
-            if (infinite == 0 .and. iand(words_sp(i), fraction_sp) == 0) infinite = i
-         end if
-      end do
-      do i = 1, size(words_dp)
-         if (iand(words_dp(i), exponent_dp) /= exponent_dp) then
-            numbers(i) = transfer(words_dp(i), 0.0_dp)
-         else
-            numbers(i) = nan
-            if (infinite == 0 .and. iand(words_dp(i), fraction_dp) == 0) infinite = i
-         end if
-      end do
+      if (status == 0) return
+      numbers = 0.0_dp
+      call fatal_error(error, exit_file_trouble, escaped(self%path)//': cannot be read: '//system_words(message))
    end subroutine read_numbers
 
+   !> The numbers that words of the file are, with the errors of read_numbers.
+   pure subroutine take_singles(self, words, numbers, infinite)
+      class(binary_file), intent(in) :: self
+      integer(int32), intent(in) :: words(:)
+      real(dp), intent(out) :: numbers(:)
+      integer, intent(out) :: infinite
+
+      !> Bits of the exponent: all are 1 in a NaN and in an infinity, whose fraction is 0.
+      integer(int32), parameter :: exponent = int(z'7F800000', int32), fraction = int(z'007FFFFF', int32)
+      integer(int32) :: word
+      integer :: i
+      logical :: is_swapped
+
+      infinite = 0
+      is_swapped = self%big_end_first .eqv. transfer(1_int32, 1_int8) == 1_int8
+      do i = 1, size(words)
+         word = words(i)
+         if (is_swapped) word = swapped(word)
+         if (iand(word, exponent) /= exponent) then
+            numbers(i) = real(transfer(word, 0.0_sp), dp)
+         else
+            numbers(i) = ieee_value(numbers(i), ieee_quiet_nan)
+            if (infinite == 0 .and. iand(word, fraction) == 0) infinite = i
+         end if
+      end do
+   end subroutine take_singles
+
+   !> As take_singles.
+   pure subroutine take_doubles(self, words, numbers, infinite)
+      class(binary_file), intent(in) :: self
+      integer(int64), intent(in) :: words(:)
+      real(dp), intent(out) :: numbers(:)
+      integer, intent(out) :: infinite
+
+      integer(int64), parameter :: exponent = int(z'7FF0000000000000', int64), &
+                                   fraction = int(z'000FFFFFFFFFFFFF', int64)
+      integer(int64) :: word
+      integer :: i
+      logical :: is_swapped
+
+      infinite = 0
+      is_swapped = self%big_end_first .eqv. transfer(1_int32, 1_int8) == 1_int8
+      do i = 1, size(words)
+         word = words(i)
+         if (is_swapped) word = swapped_long(word)
+         if (iand(word, exponent) /= exponent) then
+            numbers(i) = transfer(word, 0.0_dp)
+         else
+            numbers(i) = ieee_value(numbers(i), ieee_quiet_nan)
+            if (infinite == 0 .and. iand(word, fraction) == 0) infinite = i
+         end if
+      end do
+   end subroutine take_doubles
+
    !> Reads the heights of a map: from `start` to the end of the file there must be nothing else. Missing heights are
-   !> NaN. Errors: exit_bad_input for a map that is too small or too large, a file of another length, and infinite
+   !> NaN. With in_slabs large maps are spread over the ranks. Errors: exit_bad_input for a map that is too small or too large, a file of another length, and infinite
    !> heights; exit_file_trouble.
    subroutine read_heights(self, start, points, by_columns, map, error)
       class(binary_file), intent(in) :: self
@@ -146,6 +179,7 @@ contains
       !> take 0.09 s with 16, 0.12 s with 4, 0.28 s with 1 and 0.11 s with 64.
       integer, parameter :: block_columns = 16
       real(dp), allocatable :: column(:, :)
+      type(grid_slab) :: slab
       integer(int64) :: expected
       integer :: columns, i, infinite, j, k
 
@@ -156,6 +190,11 @@ contains
          call self%refuse('its head announces '//integer_text(points(1))//' x '//integer_text(points(2))// &
                           ' heights, which make a file of '//long_text(expected)//' bytes, but it has '// &
                           long_text(self%bytes)//': was it copied in full, as binary data?', error)
+         return
+      end if
+      if (self%in_slabs) call slab%start(points)
+      if (slab%is_spread) then
+         call read_slab(self, start, slab, by_columns, map, error)
          return
       end if
       call check_room(self%path, points, error)
@@ -170,7 +209,7 @@ contains
             do k = 1, columns
                call self%read_numbers(column(:, k), infinite, error)
                if (allocated(error)) return
-               if (infinite > 0) call refuse_infinite(i + k - 1, infinite)
+               if (infinite > 0) call refuse_infinite(self, i + k - 1, infinite, error)
                if (infinite > 0) return
             end do
             do j = 1, points(2)
@@ -181,21 +220,101 @@ contains
          do j = 1, points(2)
             call self%read_numbers(map%height(:, j), infinite, error)
             if (allocated(error)) return
-            if (infinite > 0) call refuse_infinite(infinite, j)
+            if (infinite > 0) call refuse_infinite(self, infinite, j, error)
             if (infinite > 0) return
          end do
       end if
 
-   contains
-
-      subroutine refuse_infinite(i, j)
-         integer, intent(in) :: i, j
-
-         call self%refuse('the height in row '//integer_text(j)//', column '//integer_text(i)// &
-                          ' is infinite: make it nan if it is missing', error)
-      end subroutine refuse_infinite
-
    end subroutine read_heights
+
+   !> Reads the own columns of a map that is spread over the ranks, which call this together. Errors: as of read_heights,
+   !> the same on all ranks.
+   subroutine read_slab(self, start, slab, by_columns, map, error)
+      class(binary_file), intent(in) :: self
+      integer(int64), intent(in) :: start   !! bytes before the first height
+      type(grid_slab), intent(in) :: slab
+      logical, intent(in) :: by_columns     !! whether heights of one x and all y follow each other
+      type(measured_map), intent(inout) :: map
+      type(error_type), allocatable, intent(out) :: error
+
+      class(row_exchange), allocatable :: exchange
+      real(dp), allocatable :: lines(:, :)
+      integer :: first, length, number   ! of the lines of the file that this rank reads
+
+      call check_slab_room(self%path, slab%points, error)
+      if (allocated(error)) return
+      length = slab%points(1)
+      first = slab%first
+      number = slab%columns()
+      if (by_columns) then
+         call new_row_exchange(slab%points(2), slab%points(1), slab%width, 1, dp, exchange)
+         length = slab%points(2)
+         first = exchange%first_row
+         number = exchange%own_rows
+      end if
+      allocate (lines(length, number))
+      call read_lines(self, start, first, number, by_columns, lines, error)
+      call share_error(error)
+      if (allocated(error)) return
+      call map%spread_over(slab)
+      if (by_columns) then
+         lines = transpose(lines)
+         allocate (map%height(slab%points(1), slab%columns()))
+         call exchange%to_columns(lines, map%height)
+      else
+         call move_alloc(lines, map%height)
+      end if
+   end subroutine read_slab
+
+   !> Reads lines of heights: rows of the map, or columns. All ranks call this. Errors: of this rank.
+   subroutine read_lines(self, start, first, number, by_columns, lines, error)
+      class(binary_file), intent(in) :: self
+      integer(int64), intent(in) :: start
+      integer, intent(in) :: first, number         !! of the own lines
+      logical, intent(in) :: by_columns            !! whether the lines are columns
+      real(dp), intent(inout) :: lines(:, :)
+      type(error_type), allocatable, intent(out) :: error
+
+      character(:), allocatable :: failure
+      integer(int32), allocatable :: words_sp(:, :)
+      integer(int64), allocatable :: words_dp(:, :)
+      integer :: infinite, j
+
+      allocate (words_sp(size(lines, 1), merge(number, 0, self%number_bytes == 4)))
+      allocate (words_dp(size(lines, 1), merge(number, 0, self%number_bytes == 8)))
+      if (self%number_bytes == 4) then
+         call read_shared_columns(self%path, start, 4, size(lines, 1), first, number, words_sp, failure)
+      else
+         call read_shared_columns(self%path, start, 8, size(lines, 1), first, number, words_dp, failure)
+      end if
+      if (allocated(failure)) then
+         call fatal_error(error, exit_file_trouble, escaped(self%path)//': cannot be read: '//failure)
+         return
+      end if
+      do j = 1, number
+         if (self%number_bytes == 4) then
+            call take_singles(self, words_sp(:, j), lines(:, j), infinite)
+         else
+            call take_doubles(self, words_dp(:, j), lines(:, j), infinite)
+         end if
+         if (infinite == 0) cycle
+         if (by_columns) then
+            call refuse_infinite(self, first + j - 1, infinite, error)
+         else
+            call refuse_infinite(self, infinite, first + j - 1, error)
+         end if
+         return
+      end do
+   end subroutine read_lines
+
+   subroutine refuse_infinite(self, i, j, error)
+      class(binary_file), intent(in) :: self
+      integer, intent(in) :: i, j                              !! of the height along x and y
+      type(error_type), allocatable, intent(inout) :: error
+
+      call self%refuse('the height in row '//integer_text(j)//', column '//integer_text(i)// &
+                       ' is infinite: make it nan if it is missing', error)
+   end subroutine refuse_infinite
 
    !> Makes an error with the name of the file. Status: exit_bad_input.
    pure subroutine refuse(self, words, error)

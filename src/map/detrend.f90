@@ -1,5 +1,6 @@
 !> Removes the mean, plane or paraboloid of least squares from a height map: (M1), (M2) of README.md in this directory.
 module wavycon_detrend
+   use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dpotrf, dtrsv
    use wavycon_measured_map, only: measured_map
@@ -21,7 +22,8 @@ module wavycon_detrend
 
 contains
 
-   !> Subtracts the polynomial of least squares over the points that are there. Missing points keep their zeros.
+   !> Subtracts the polynomial of least squares over the points that are there. Missing points keep their zeros. All ranks
+   !> call this if the map is spread.
    subroutine detrend_map(map, degree, rise, is_determined)
       type(measured_map), intent(inout) :: map
       integer, intent(in) :: degree             !! 0: the mean, 1: a plane, 2: a polynomial of the second degree
@@ -33,7 +35,7 @@ contains
       type(polynomial) :: trend
       integer :: pass
 
-      call start(trend, shape(map%height), degree)
+      call start(trend, map%points(), degree)
       rise = 0.0_dp
       ! The second pass removes what rounding left of a large mean or tilt in the first.
       do pass = 1, 2
@@ -84,13 +86,16 @@ contains
       type(measured_map), intent(in) :: map
       logical, intent(out) :: is_determined
 
+      type(grid_slab) :: slab
       real(dp) :: gram(size(trend%a), size(trend%a)), moments(0:ubound(trend%x, 2))
       real(dp) :: products(0:ubound(trend%x, 2), 0:ubound(trend%x, 2)), x_there(size(trend%x, 1), 0:ubound(trend%x, 2))
+      real(dp), allocatable :: parts(:, :)   ! of each column: of the coefficients, then of the matrix
+      real(dp) :: totals(size(trend%a)*(size(trend%a) + 1))
       integer :: info, j, k, l, terms
 
       terms = size(trend%a)
-      gram = 0.0_dp
-      trend%coefficient = 0.0_dp
+      slab = map%columns()
+      allocate (parts(size(totals), size(map%height, 2)), source=0.0_dp)
       do j = 1, size(map%height, 2)
          x_there = trend%x
          if (allocated(map%missing)) &
@@ -98,16 +103,17 @@ contains
          moments = matmul(map%height(:, j), x_there)
          products = matmul(transpose(x_there), trend%x)
          do k = 1, terms
-            associate (a => trend%a(k), y => trend%y(j, trend%b(k)))
-               trend%coefficient(k) = trend%coefficient(k) + y*moments(a)
+            associate (a => trend%a(k), of_column => trend%y(slab%first - 1 + j, :))
+               parts(k, j) = of_column(trend%b(k) + 1)*moments(a)
                do l = 1, k
-                  gram(k, l) = gram(k, l) + y*trend%y(j, trend%b(l))*products(a, trend%a(l))
+                  parts(l*terms + k, j) = of_column(trend%b(k) + 1)*of_column(trend%b(l) + 1)*products(a, trend%a(l))
                end do
             end associate
          end do
       end do
-      gram = gram/size(map%height)
-      trend%coefficient = trend%coefficient/size(map%height)
+      totals = slab%column_totals(parts)/product(real(slab%points, dp))
+      trend%coefficient = totals(:terms)
+      gram = reshape(totals(terms + 1:), [terms, terms])
       call dpotrf('L', terms, gram, terms, info)
       is_determined = info == 0
       if (is_determined) is_determined = all([(gram(k, k)**2 > least_part, k=1, terms)])
@@ -121,13 +127,15 @@ contains
       type(polynomial), intent(in) :: trend
       type(measured_map), intent(inout) :: map
 
+      type(grid_slab) :: slab
       real(dp) :: of_row(0:ubound(trend%x, 2))
       integer :: j, k
 
+      slab = map%columns()
       do j = 1, size(map%height, 2)
          of_row = 0.0_dp
          do k = 1, size(trend%a)
-            of_row(trend%a(k)) = of_row(trend%a(k)) + trend%coefficient(k)*trend%y(j, trend%b(k))
+            of_row(trend%a(k)) = of_row(trend%a(k)) + trend%coefficient(k)*trend%y(slab%first - 1 + j, trend%b(k))
          end do
          map%height(:, j) = map%height(:, j) - matmul(trend%x, of_row)
          if (allocated(map%missing)) map%height(:, j) = merge(0.0_dp, map%height(:, j), map%missing(:, j))

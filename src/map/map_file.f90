@@ -1,10 +1,12 @@
 !> Reads height maps from files, in any of the formats of the key file_format.
 module wavycon_map_file
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_binary_file, only: binary_file
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_foreign_format, only: remedy_of_content, remedy_of_name
    use wavycon_gnuplot_map, only: is_gnuplot, read_gnuplot_map
+   use wavycon_grid_slab, only: grid_slab
    use wavycon_gsf_map, only: is_gsf, read_gsf_map
    use wavycon_kinds, only: dp, sp
    use wavycon_map_size, only: check_room
@@ -14,6 +16,7 @@ module wavycon_map_file
    use wavycon_number_table, only: number_table, read_number_table
    use wavycon_plain_text, only: escaped, lower_case
    use wavycon_point_map, only: are_points, take_points
+   use wavycon_ranks, only: share_error
    use wavycon_system, only: path_device, path_kind
    implicit none (type, external)
    private
@@ -26,21 +29,29 @@ module wavycon_map_file
 contains
 
    !> Reads a map. Errors: exit_file_trouble if the file cannot be read, exit_bad_input if it is not a map.
-   subroutine read_height_map(path, format, map, error, missing_value)
+   subroutine read_height_map(path, format, map, error, missing_value, in_slabs)
       character(*), intent(in) :: path
       character(*), intent(in) :: format   !! a value of the key file_format
       type(measured_map), intent(out) :: map
       type(error_type), allocatable, intent(out) :: error
       real(dp), intent(in), optional :: missing_value   !! a number of the file that stands for a missing height
 
+      !> Whether a large map may be spread over the ranks, if its format allows it: all of them call this, and all get the
+      !> error. .false. if absent.
+      logical, intent(in), optional :: in_slabs
+
       type(binary_file) :: file
+      type(grid_slab) :: slab
+      integer(int64) :: missing(2)
 
       ! A pipe may block, a device may never end, and a run of the resolved deck could not read either again.
       if (path_kind(path) == path_device) then
          call fatal_error(error, exit_file_trouble, escaped(path)//': this is a pipe or a device, not a file')
          return
       end if
+      if (present(in_slabs)) file%in_slabs = in_slabs
       call file%open(path, error)
+      if (file%in_slabs) call share_error(error)
       if (.not. allocated(error)) then
          map%format = format
          if (format == 'auto') map%format = format_of(file)
@@ -56,10 +67,15 @@ contains
          end select
       end if
       call file%close()
+      if (file%in_slabs) call share_error(error)
       if (allocated(error)) return
       call mark_missing(map, missing_value)
-      if (.not. allocated(map%missing)) return
-      if (.not. all(map%missing)) return
+      slab = map%columns()
+      missing = [merge(1, 0, map%has_missing_value), 0]
+      if (allocated(map%missing)) missing(2) = count(map%missing, kind=int64)
+      call slab%add(missing)
+      map%has_missing_value = missing(1) > 0
+      if (missing(2) < product(int(slab%points, int64))) return
       call fatal_error(error, exit_bad_input, escaped(path)//': all heights are missing: some must be numbers')
       if (present(missing_value)) error%message = error%message//' other than missing_value'
    end subroutine read_height_map

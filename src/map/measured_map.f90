@@ -1,5 +1,6 @@
 !> A height map as a file or an array gives it: perhaps with holes, tilted, and not periodic.
 module wavycon_measured_map
+   use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
@@ -7,7 +8,8 @@ module wavycon_measured_map
    public :: measured_map
 
    type :: measured_map
-      !> As in the file, 0 where it is missing, shape (M, N): along x, along y; N = 1 for a profile.
+      !> As in the file, 0 where it is missing, shape (M, N): along x, along y; N = 1 for a profile. Of a map that is
+      !> spread over the ranks the own columns.
       real(dp), allocatable :: height(:, :)
       logical, allocatable :: missing(:, :)        !! shape of `height`; not allocated if no height is missing
       logical :: has_missing_value = .false.       !! whether a height has the value of the key missing_value
@@ -15,6 +17,56 @@ module wavycon_measured_map
       character(7) :: format = ''                  !! a value of the key file_format but 'auto'
       character(:), allocatable :: length_unit     !! of the steps; not allocated if the file does not name units
       character(:), allocatable :: height_unit     !! of the heights; allocated if length_unit is
+      type(grid_slab), private :: slab             !! of the points of a map that is spread
+   contains
+      procedure :: spread_over
+      procedure :: columns
+      procedure :: points
+      procedure :: keep_own_columns
    end type measured_map
+
+contains
+
+   !> Says that `height` has, or will have, the own columns of a map.
+   pure subroutine spread_over(self, slab)
+      class(measured_map), intent(inout) :: self
+      type(grid_slab), intent(in) :: slab
+
+      self%slab = slab
+   end subroutine spread_over
+
+   !> The columns that `height` has: the whole grid, unless the map is spread.
+   pure type(grid_slab) function columns(self)
+      class(measured_map), intent(in) :: self
+
+      columns = self%slab
+      if (columns%is_spread) return
+      associate (n => size(self%height, 2))
+         columns = grid_slab(points=shape(self%height), is_spread=.false., width=n, first=1, last=n)
+      end associate
+   end function columns
+
+   !> M, N of the map.
+   pure function points(self)
+      class(measured_map), intent(in) :: self
+      integer :: points(2)
+
+      points = shape(self%height)
+      if (self%slab%is_spread) points = self%slab%points
+   end function points
+
+   !> Spreads a map that is whole on each rank, if it is large.
+   subroutine keep_own_columns(self)
+      class(measured_map), intent(inout) :: self
+
+      real(dp), allocatable :: own(:, :)
+
+      if (self%slab%is_spread) return
+      call self%slab%start(shape(self%height))
+      if (.not. self%slab%is_spread) return
+      allocate (own, source=self%height(:, self%slab%first:self%slab%last))
+      call move_alloc(own, self%height)
+      if (allocated(self%missing)) self%missing = self%missing(:, self%slab%first:self%slab%last)
+   end subroutine keep_own_columns
 
 end module wavycon_measured_map

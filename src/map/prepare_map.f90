@@ -1,13 +1,15 @@
 !> Makes a measured map a surface that a contact can be solved for: trend, holes, borders, in this order.
 module wavycon_prepare_map
+   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_detrend, only: detrend_map
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
+   use wavycon_grid_slab, only: grid_slab
    use wavycon_fill_missing, only: fill_holes
    use wavycon_kinds, only: dp
    use wavycon_map_changes, only: map_changes, percent
    use wavycon_map_tuning, only: usual_window_width
    use wavycon_measured_map, only: measured_map
-   use wavycon_plain_text, only: escaped, integer_text
+   use wavycon_plain_text, only: escaped, integer_text, short_number
    use wavycon_window, only: taper_borders
    implicit none (type, external)
    private
@@ -29,7 +31,8 @@ contains
 
    !> Prepares a map. 'mirror' leaves the heights as they are: the surface adds the mirror images. Errors:
    !> exit_bad_input for holes that are not to be filled, and for heights that do not determine the trend;
-   !> exit_file_trouble without memory.
+   !> exit_file_trouble without memory. If the map is spread over the ranks all of them call this, and all get the error;
+   !> its holes cannot be filled.
    subroutine prepare_map(source, preparation, length, map, changes, error)
       character(*), intent(in) :: source                !! of the map, for messages
       type(map_preparation), intent(in) :: preparation
@@ -41,10 +44,13 @@ contains
       character(*), parameter :: trends(*) = [character(9) :: 'mean', 'plane', 'quadratic']
       logical :: is_determined
       integer :: degree
-      real(dp) :: largest
+      type(grid_slab) :: slab
+      real(dp) :: extremes(2), largest(1)
 
+      slab = map%columns()
       largest = maxval(abs(map%height))
-      changes%points = shape(map%height)
+      call slab%largest(largest)
+      changes%points = slab%points
       if (allocated(map%missing)) changes%filled = count(map%missing)
       call check_holes(source, preparation, map, error)
       if (allocated(error)) return
@@ -53,21 +59,23 @@ contains
          call detrend_map(map, degree, changes%rise, is_determined)
          if (.not. is_determined) then
             call fatal_error(error, exit_bad_input, escaped(source)//': the '// &
-                             integer_text(size(map%height) - changes%filled)//' heights that are there do not '// &
+                             integer_text(product(slab%points) - changes%filled)//' heights that are there do not '// &
                              "determine detrend = '"//trim(preparation%detrend)//"': give detrend = 'mean'")
             return
          end if
          changes%detrend = preparation%detrend
-         where (abs(changes%rise) <= rounding*largest) changes%rise = 0.0_dp
+         where (abs(changes%rise) <= rounding*largest(1)) changes%rise = 0.0_dp
       end if
       if (changes%filled > 0) then
          call fill_holes(source, length/shape(map%height), preparation%edges == 'periodic', map, error)
          if (allocated(error)) return
       end if
       changes%edges = preparation%edges
-      if (preparation%edges == 'window') call taper_borders(preparation%window_width, map%height, changes%tapered)
+      if (preparation%edges == 'window') call taper_borders(preparation%window_width, slab, map%height, changes%tapered)
       if (degree < 0 .and. changes%filled == 0 .and. preparation%edges /= 'window') return
-      if (maxval(map%height) - minval(map%height) <= rounding*largest) map%height = 0.0_dp
+      extremes = [maxval(map%height), -minval(map%height)]
+      call slab%largest(extremes)
+      if (sum(extremes) <= rounding*largest(1)) map%height = 0.0_dp
    end subroutine prepare_map
 
    !> Errors: exit_bad_input for missing heights that are not to be filled, or cannot be.
@@ -77,17 +85,34 @@ contains
       type(measured_map), intent(in) :: map
       type(error_type), allocatable, intent(out) :: error
 
+      type(grid_slab) :: slab
+      integer(int64) :: holes(1)
+      real(dp) :: place(1), points
       integer :: first(2), number
 
-      if (.not. allocated(map%missing)) return
-      number = count(map%missing)
-      if (number == size(map%missing)) then
+      slab = map%columns()
+      points = product(real(slab%points, dp))
+      holes = 0
+      place = -huge(place)
+      if (allocated(map%missing)) then
+         holes = count(map%missing, kind=int64)
+         first = findloc(map%missing, .true.)
+         ! Whole in a real number up to 2^53.
+         if (holes(1) > 0) place = -(real(slab%points(1), dp)*(slab%first + first(2) - 2) + first(1) - 1)
+      end if
+      call slab%add(holes)
+      call slab%largest(place)
+      if (holes(1) == 0) return
+      number = int(min(holes(1), int(huge(number), int64)))
+      first(2) = int(-place(1)/slab%points(1))
+      first(1) = nint(-place(1) - real(slab%points(1), dp)*first(2))
+      first = first + 1
+      if (holes(1) == product(int(slab%points, int64))) then
          call fatal_error(error, exit_bad_input, escaped(source)//': all heights are missing: some must be numbers')
       else if (number > 0 .and. preparation%fill_missing == 'none') then
-         first = findloc(map%missing, .true.)
          call fatal_error(error, exit_bad_input, escaped(source)//': '//integer_text(number)//' of '// &
-                          integer_text(size(map%missing))//' heights are missing ('// &
-                          percent(real(number, dp)/size(map%missing))//'), the first is number '// &
+                          short_number(points)//' heights are missing ('// &
+                          percent(real(number, dp)/points)//'), the first is number '// &
                           integer_text(first(1))//' along x and '//integer_text(first(2))//" along y: "// &
                           "fill_missing = 'harmonic' fills them")
       end if

@@ -2,6 +2,7 @@
 module wavycon_height_map
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
+   use wavycon_grid_slab, only: grid_slab
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: choice_key, key_type, largest_number, real_key, smallest_number, text_key
    use wavycon_kinds, only: dp
@@ -13,6 +14,7 @@ module wavycon_height_map
    use wavycon_measured_map, only: measured_map
    use wavycon_plain_text, only: escaped, short_number
    use wavycon_prepare_map, only: map_preparation, prepare_map
+   use wavycon_ranks, only: share_error
    use wavycon_problems, only: problem_list_type
    use wavycon_surface, only: surface_of_points, surface_type
    use wavycon_surface_keys, only: length_x_key, length_y_key
@@ -113,6 +115,7 @@ contains
       else
          call read_map(values, path, heights, error)
       end if
+      call share_error(error)
       if (.not. allocated(error)) call take_sides(values, path, heights, length, is_equal_spacing, error)
       if (.not. allocated(error)) call surface_of_map(path, values, length, heights, surface, map, error)
       if (allocated(error)) then
@@ -132,10 +135,15 @@ contains
       type(measured_map), intent(out) :: heights
       type(error_type), allocatable, intent(out) :: error
 
+      logical :: in_slabs
+
+      ! The equations of holes need the whole map.
+      in_slabs = values%text('fill_missing') == 'none'
       if (values%has('missing_value')) then
-         call read_height_map(path, values%text('file_format'), heights, error, values%real('missing_value'))
+         call read_height_map(path, values%text('file_format'), heights, error, values%real('missing_value'), &
+                              in_slabs=in_slabs)
       else
-         call read_height_map(path, values%text('file_format'), heights, error)
+         call read_height_map(path, values%text('file_format'), heights, error, in_slabs=in_slabs)
       end if
       if (allocated(error)) return
       if (allocated(values%length_unit)) then
@@ -155,9 +163,11 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       character(:), allocatable :: sides
+      integer :: points(2)
 
       is_equal_spacing = .false.
-      associate (m => size(heights%height, 1), n => size(heights%height, 2), step => heights%step)
+      points = heights%points()
+      associate (m => points(1), n => points(2), step => heights%step)
          if (step(1) > 0.0_dp) then
             length = step*[m, n]
             if (n == 1) length(2) = length(1)
@@ -192,51 +202,65 @@ contains
       type(map_statistics), allocatable, intent(out) :: statistics   !! without the path
       type(error_type), allocatable, intent(out) :: error
 
+      type(grid_slab) :: slab
       type(map_changes) :: changes
+      real(dp) :: largest(1)
 
-      if (.not. all(ieee_is_finite(map%height))) then
+      if (.not. all(ieee_is_finite(map%height))) &
          call fatal_error(error, exit_bad_input, escaped(source)//': not all heights are finite numbers')
-         return
-      end if
+      call share_error(error)
+      if (allocated(error)) return
       associate (scale => values%real('height_scale'))
          ! Larger heights, which scale_heights refuses, would overflow here.
-         if (maxval(abs(map%height)) <= largest_number) then
+         slab = map%columns()
+         largest = maxval(abs(map%height))
+         call slab%largest(largest)
+         if (largest(1) <= largest_number) then
             call prepare_map(source, map_preparation(values%text('detrend'), values%text('fill_missing'), &
                                                      values%text('edges'), values%real('window_width')), &
                              sides, map, changes, error)
+            call share_error(error)
             if (allocated(error)) return
          end if
          if (changes%edges /= 'window') call values%leave_out('window_width')
-         call scale_heights(source, scale, map%height, error)
+         call map%keep_own_columns()
+         slab = map%columns()
+         call scale_heights(source, scale, slab, map%height, error)
          if (allocated(error)) return
          changes%rise = scale*changes%rise
       end associate
-      surface = surface_of_points(sides, map%height, mirrored=changes%edges == 'mirror')
-      statistics = statistics_of(map%height, map%format, '')
+      statistics = statistics_of(map%height, map%format, '', map%points())
+      surface = surface_of_points(sides, map%height, changes%edges == 'mirror', map%points())
       statistics%changes = changes
    end subroutine surface_of_map
 
    !> Subtracts the mean of the heights and converts them to lengths. Errors: exit_bad_input if they are out of range.
-   subroutine scale_heights(source, scale, height, error)
+   subroutine scale_heights(source, scale, slab, height, error)
       character(*), intent(in) :: source           !! of the heights, for messages
       real(dp), intent(in) :: scale                !! length of one unit of the heights, > 0
+      type(grid_slab), intent(in) :: slab          !! their columns
       real(dp), intent(inout) :: height(:, :)      !! then over their mean [length]
       type(error_type), allocatable, intent(out) :: error
 
-      if (maxval(abs(height)) <= largest_number) then
-         if (maxval(height) <= minval(height)) then
+      real(dp) :: extremes(2), largest(1), mean(1)
+
+      extremes = [maxval(height), -minval(height)]
+      call slab%largest(extremes)
+      if (maxval(abs(extremes)) <= largest_number) then
+         if (sum(extremes) <= 0.0_dp) then
             ! Equal heights less their rounded mean would not be zero.
             height = 0.0_dp
          else
-            height = scale*(height - sum(height)/size(height))
+            mean = slab%column_totals(reshape(sum(height, dim=1), [1, size(height, 2)]))/product(real(slab%points, dp))
+            height = scale*(height - mean(1))
          end if
       end if
-      associate (largest => maxval(abs(height)))
-         if (largest > largest_number .or. (largest < smallest_number .and. largest > 0.0_dp)) &
-            call fatal_error(error, exit_bad_input, escaped(source)//': the heights over their mean, times '// &
-                             'height_scale, are up to '//short_number(largest)//' [length]: lengths may be '// &
-                             'from '//short_number(smallest_number)//' to '//short_number(largest_number))
-      end associate
+      largest = maxval(abs(height))
+      call slab%largest(largest)
+      if (largest(1) > largest_number .or. (largest(1) < smallest_number .and. largest(1) > 0.0_dp)) &
+         call fatal_error(error, exit_bad_input, escaped(source)//': the heights over their mean, times '// &
+                          'height_scale, are up to '//short_number(largest(1))//' [length]: lengths may be '// &
+                          'from '//short_number(smallest_number)//' to '//short_number(largest_number))
    end subroutine scale_heights
 
    !> The path of the map: in the directory of the deck or, if it is not there, in the one the program was started in.
