@@ -173,18 +173,18 @@ class Faults(unittest.TestCase):
         self.assert_failed(outcome, EXIT_FILE_TROUBLE, "results")
 
     def test_full_disk(self):
-        """A small file system in memory: without room for the resolved deck, for the map, for the contours."""
+        """A small file system in memory: without room for the resolved deck, for the map of 3.9 MB, for the contours."""
         disk = self.folder/"disk"
         disk.mkdir()
-        if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=1m", "tmpfs", disk], capture_output=True,
+        if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=8m", "tmpfs", disk], capture_output=True,
                           check=False).returncode != 0:
             print("SKIPPED: a small file system cannot be mounted")
             self.skipTest("mounting is not permitted")
         self.addCleanup(subprocess.run, ["umount", disk], check=False)
         self.write(DECK)
-        for room in 0, 20000, 300000:
+        for room in 0, 20000, 3000000, 3980000:
             with self.subTest(room=room):
-                (disk/"filler").write_bytes(b"x"*(1024*1024 - room))
+                (disk/"filler").write_bytes(b"x"*(8*1024*1024 - room))
                 outcome = run(self.mpiexec, RANKS, [self.parallel, "deck.nml", "--output", disk/"results"], self.folder,
                               SOON)
                 self.assertIsNotNone(outcome.status, "hangs")
