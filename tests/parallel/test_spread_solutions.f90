@@ -104,7 +104,7 @@ contains
                field = crest(grids(:, k), [30.3_dp, j + 0.4_dp])
                call compare_peaks(field, even == 1, slab)
             end do
-            ! Two points of the same pressure, of which only the first has a higher one beside it.
+            ! Two points of the same pressure, whose neighbours differ.
             field = max(crest(grids(:, k), [30.3_dp, 7.4_dp]), crest(grids(:, k), [60.0_dp, grids(2, k) - 8.0_dp]))
             field(60, grids(2, k) - 8) = field(30, 7)
             call compare_peaks(field, even == 1, slab)
