@@ -152,7 +152,8 @@ class Faults(unittest.TestCase):
                 other = self.folder/"other"
                 other.mkdir(exist_ok=True)
                 shutil.copy(self.folder/"deck.nml", other)
-                outcome = run(self.mpiexec, RANKS, self.in_shell(f'[ "$rank" != {number} ] || cd other'), self.folder, SOON)
+                outcome = run(self.mpiexec, RANKS, self.in_shell(f'[ "$rank" != {number} ] || cd other'), self.folder,
+                              SOON)
                 self.assertIsNotNone(outcome.status, "hangs")
                 self.assertEqual(1, outcome.stderr.count("map.dat"), outcome.stderr)
                 self.assertIn(outcome.status, (EXIT_BAD_INPUT, EXIT_FILE_TROUBLE))
@@ -175,7 +176,7 @@ class Faults(unittest.TestCase):
         self.assert_failed(outcome, EXIT_FILE_TROUBLE, "results")
 
     def test_full_disk(self):
-        """A small file system in memory: without room for the resolved deck, for the map of 3.9 MB, for the contours."""
+        """A small file system: without room for the resolved deck, for the map of 3.9 MB, for the contours."""
         disk = self.folder/"disk"
         disk.mkdir()
         if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=8m", "tmpfs", disk], capture_output=True,
