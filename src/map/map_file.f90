@@ -47,10 +47,10 @@ contains
       ! A pipe may block, a device may never end, and a run of the resolved deck could not read either again.
       if (path_kind(path) == path_device) then
          call fatal_error(error, exit_file_trouble, escaped(path)//': this is a pipe or a device, not a file')
-         return
+      else
+         call file%open(path, error)
       end if
       if (present(in_slabs)) file%in_slabs = in_slabs
-      call file%open(path, error)
       if (file%in_slabs) call share_error(error)
       if (.not. allocated(error)) then
          map%format = format

@@ -112,9 +112,9 @@ contains
       if (path_kind(path) == path_absent .and. file(1:1) /= '/') then
          call fatal_error(error, exit_file_trouble, escaped(file)// &
                           ': there is no such file beside the deck, nor where the program was started')
-      else
-         call read_map(values, path, heights, error)
       end if
+      call share_error(error)
+      if (.not. allocated(error)) call read_map(values, path, heights, error)
       call share_error(error)
       if (.not. allocated(error)) call take_sides(values, path, heights, length, is_equal_spacing, error)
       if (.not. allocated(error)) call surface_of_map(path, values, length, heights, surface, map, error)

@@ -104,6 +104,7 @@ class Faults(unittest.TestCase):
     def kill(self, number, sent):
         """Kills a rank of a run that has solved a load, and returns how the run ended."""
         self.write(LONG_DECK)
+        shutil.rmtree(self.folder/"results", ignore_errors=True)
         process = start(self.mpiexec, RANKS, self.command(), self.folder)
         try:
             begun = time.monotonic()
@@ -119,6 +120,9 @@ class Faults(unittest.TestCase):
             outcome = finish(process, SOON)
         self.assertIsNotNone(outcome.status, "hangs")
         self.assertNotEqual(0, outcome.status)
+        deadline = time.monotonic() + SOON
+        while any(map(is_running, ranks)) and time.monotonic() < deadline:
+            time.sleep(0.02)
         self.assertEqual([], [rank for rank in ranks if is_running(rank)])
         self.assertEqual([], [name for name in self.results() if name.endswith((".dat", ".npy"))])
         return outcome
@@ -127,7 +131,6 @@ class Faults(unittest.TestCase):
         for number in range(RANKS):
             with self.subTest(rank=number):
                 self.kill(number, signal.SIGKILL)
-                shutil.rmtree(self.folder/"results")
         self.kill(1, signal.SIGKILL)
         outcome = run(self.mpiexec, RANKS, self.command("--resume"), self.folder)
         self.assertEqual((0, ""), (outcome.status, outcome.stderr))
@@ -201,8 +204,8 @@ class Faults(unittest.TestCase):
 
     def test_a_rank_without_memory(self):
         """The limit is above what MPI and the libraries take and below what the grid needs."""
-        self.write(SURFACE + "&load pbar_over_pstar = 0.2 /\n&method solver = 'grid', grid_points = 4096 /\n")
-        outcome = run(self.mpiexec, RANKS, self.in_shell('[ "$rank" != 1 ] || ulimit -v 600000'), self.folder, SOON)
+        self.write(SURFACE + "&load pbar_over_pstar = 0.2 /\n&method solver = 'grid', grid_points = 8192 /\n")
+        outcome = run(self.mpiexec, RANKS, self.in_shell('[ "$rank" != 1 ] || ulimit -v 1100000'), self.folder, SOON)
         self.assertIsNotNone(outcome.status, "hangs")
         self.assertEqual(EXIT_NOT_CONVERGED, outcome.status, outcome.stderr)
         self.assertIn(" no_memory\n", outcome.stdout)
