@@ -137,7 +137,7 @@ def run_bench(given, ranks, grid):
 
 
 def measure(given, cases):
-    """All measured numbers by case: lists over the repetitions."""
+    """After each repetition what was measured by then: runs, loads on the last grid and parts, lists by case."""
     runs, loads, parts = (collections.defaultdict(list) for _ in range(3))
     for repeat in range(given.repeats):
         for ranks, grid in cases:
@@ -149,9 +149,8 @@ def measure(given, cases):
                     loads[ranks, grid, pressure].append(load)
                 for name, seconds in times.items():
                     parts[ranks, grid, name].append(seconds)
-            print(f'scaling: {repeat + 1} of {given.repeats}, {grid.x} x {grid.y} points, {ranks} ranks',
-                  file=sys.stderr)
-    return runs, loads, parts
+        print(f'scaling: {repeat + 1} of {given.repeats} repetitions', file=sys.stderr)
+        yield repeat + 1, runs, loads, parts
 
 
 def processor_name():
@@ -221,18 +220,18 @@ def main():
     cases += [(ranks, Grid(points, points*ranks)) for points in given.weak for ranks in given.ranks
               if ranks > 1 or points not in given.strong]
     before = os.getloadavg()[0]
-    runs, loads, parts = measure(given, cases)
-    rows = [run_row(*item) for item in runs.items()]
-    lines = [f'# wavycon-mpi on rough surfaces, to a residual of 1e-8: {os.path.basename(__file__)}',
-             f'# machine: {processor_name()}, {os.cpu_count()} of them; load average before: {before:.2f}',
-             f'# launched by: {given.launch}; {os.environ.get("OMP_NUM_THREADS", "1")} threads a rank; medians of '
-             f'{given.repeats}',
-             *speed_up_lines(rows), *block('runs', RUN_COLUMNS, rows),
-             *block('iterations', ITERATION_COLUMNS, [iteration_row(*item) for item in loads.items()]),
-             *block('parts', PART_COLUMNS, [part_row(*item) for item in parts.items()])]
-    with open(given.table + '.new', 'w', encoding='utf-8') as out:
-        out.write('\n'.join(lines) + '\n')
-    os.replace(given.table + '.new', given.table)
+    for repeats, runs, loads, parts in measure(given, cases):
+        rows = [run_row(*item) for item in runs.items()]
+        lines = [f'# wavycon-mpi on rough surfaces, to a residual of 1e-8: {os.path.basename(__file__)}',
+                 f'# machine: {processor_name()}, {os.cpu_count()} of them; load average before: {before:.2f}',
+                 f'# launched by: {given.launch}; {os.environ.get("OMP_NUM_THREADS", "1")} threads a rank; medians of '
+                 f'{repeats}',
+                 *speed_up_lines(rows), *block('runs', RUN_COLUMNS, rows),
+                 *block('iterations', ITERATION_COLUMNS, [iteration_row(*item) for item in loads.items()]),
+                 *block('parts', PART_COLUMNS, [part_row(*item) for item in parts.items()])]
+        with open(given.table + '.new', 'w', encoding='utf-8') as out:
+            out.write('\n'.join(lines) + '\n')
+        os.replace(given.table + '.new', given.table)
     print('\n'.join(lines))
 
 
