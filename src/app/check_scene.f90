@@ -33,7 +33,8 @@ contains
       call start_results(scene, results, tables)
       call log%show_scene(results)
       if (reason(results) /= '') call log%say('because   '//reason(results))
-      if (all(results%solver%finest_grid() > 0)) call log%say('memory    '//memory(results, keep_fields(results%scene, tables)))
+      if (all(results%solver%finest_grid() > 0)) &
+         call log%say('memory    '//memory(results, keep_fields(results%scene, tables)))
       call log%say('tables    '//names_of(tables)//' in '//escaped(results%scene%directory))
       call log%say(escaped(results%scene%deck_path)//': the deck is fine')
    end subroutine check_scene

@@ -11,9 +11,9 @@ module wavycon_height_table
    use wavycon_results, only: results_type
    use wavycon_series_samples, only: sample_series
    use wavycon_shared_file, only: shared_file
+   use wavycon_slab_transform, only: slab_transform
    use wavycon_system, only: has_memory_for
    use wavycon_table, only: table_type
-   use wavycon_undeformed_gap, only: sample_undeformed_gap
    implicit none (type, external)
    private
 
@@ -91,13 +91,15 @@ contains
 
       type(shared_file) :: file
       type(grid_slab) :: slab
+      type(slab_transform) :: transform
       real(dp), allocatable :: height(:, :)
 
       associate (surface => results%scene%surface)
          call slab%start(surface%points/surface%parts())
          allocate (height(slab%points(1), slab%columns()))
-         call sample_undeformed_gap(surface, slab, height)
-         height = surface%amplitude*(1.0_dp - height)
+         call transform%start(slab%points, surface%shape%is_even())
+         call transform%sample(surface%shape, height)
+         height = surface%amplitude*height
       end associate
       call file%open(results%scene%directory, results%scene%case//'.height.npy', &
                      npy_header_of_numbers([slab%points(2), slab%points(1)]))

@@ -14,9 +14,9 @@ module wavycon_map_table
    use wavycon_results, only: results_type
    use wavycon_series_samples, only: sample_series
    use wavycon_shared_file, only: shared_file
+   use wavycon_slab_transform, only: slab_transform
    use wavycon_system, only: has_memory_for
    use wavycon_table, only: table_type
-   use wavycon_undeformed_gap, only: sample_undeformed_gap
    implicit none (type, external)
    private
 
@@ -135,34 +135,38 @@ contains
       type(shared_file) :: file
       integer :: image, load, own(2)
       real(dp) :: offset(2)
-      real(dp), allocatable :: h(:, :)
+      real(dp), allocatable :: shape(:, :)
+      type(slab_transform) :: transform
 
       call results%loads(1)%solution%fields(results%scene%surface, fields)
       slab = fields%own_slab()
       call fields%own_points(own, offset)
-      allocate (h(slab%points(1), slab%columns()))
-      call sample_undeformed_gap(results%scene%surface, slab, h)
+      allocate (shape(slab%points(1), slab%columns()))
+      associate (series => results%scene%surface%shape)
+         call transform%start(slab%points, series%is_even())
+         call transform%sample(series, shape)
+      end associate
       call file%open(results%scene%directory, results%scene%case//'.map.npy', &
                      npy_header(column_name(columns(2:)), [size(results%loads), points(2), points(1)]))
       do load = 1, size(results%loads)
          if (load > 1) call results%loads(load)%solution%fields(results%scene%surface, fields)
          ! The mirror images of the columns follow those of a quarter of the cell.
          do image = 1, points(2)/slab%points(2)
-            call put_columns(results, load, points, offset, slab, fields, h, image == 2, file)
+            call put_columns(results, load, points, offset, slab, fields, shape, image == 2, file)
          end do
       end do
       call file%finish(error)
    end subroutine write_by_all
 
    !> Writes the own columns of a load or their mirror images, some at a time.
-   subroutine put_columns(results, load, points, offset, slab, fields, h, is_image, file)
+   subroutine put_columns(results, load, points, offset, slab, fields, shape, is_image, file)
       type(results_type), intent(in) :: results
       integer, intent(in) :: load
       integer, intent(in) :: points(2)
       real(dp), intent(in) :: offset(2)       !! of the first point, in steps
       type(grid_slab), intent(in) :: slab
       class(contact_fields), intent(in) :: fields
-      real(dp), intent(in) :: h(:, :)         !! undeformed gap, shape (M, slab%columns())
+      real(dp), intent(in) :: shape(:, :)     !! 1 - h/Delta, shape (M, slab%columns())
       logical, intent(in) :: is_image
       type(shared_file), intent(inout) :: file
 
@@ -185,13 +189,13 @@ contains
             place = first
             if (is_image) place = points(2) + 1 - last
             do l = first, last
-               associate (own => h(:, l - slab%first + 1))
-                  call fields%at_own_column(l, 1.0_dp - own, p, u, gap)
+               associate (own => shape(:, l - slab%first + 1))
+                  call fields%at_own_column(l, own, p, u, gap)
                   c = merge(last - l, l - first, is_image)
                   do k = 1, points(1)
                      associate (row => image_of_point(k, slab%points(1), points(1) > slab%points(1)))
                         rows(:, k, c + 1) = [side*([k, place + c] - 1 + offset)/points, p_star*p(row), &
-                                             surface%amplitude*[gap(row), u(row), own(row)]]
+                                             surface%amplitude*[gap(row), u(row), 1.0_dp - own(row)]]
                      end associate
                   end do
                end associate

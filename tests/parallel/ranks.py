@@ -15,8 +15,8 @@ import time
 RANKS = (1, 2, 3, 4, 5)
 PATIENCE = 120.0  # a run that takes longer is ended and counts as hanging [s]
 
-# More ranks than processors, as root too, which containers need; of Open MPI 4, and of 5, whose launcher is PRRTE. Other
-# libraries permit both. Waiting ranks leave the processor to others.
+# More ranks than processors, as root too, which containers need, by the variables of Open MPI 4 and of 5, whose launcher
+# is PRRTE. Other libraries permit both. Waiting ranks leave the processor to others.
 ENVIRONMENT = {
     "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
     "PRTE_ALLOW_RUN_AS_ROOT": "1", "PRTE_ALLOW_RUN_AS_ROOT_CONFIRM": "1",

@@ -91,8 +91,8 @@ contains
    end function rough_field
 
    subroutine test_peaks()
-      ! A crest about every few columns, so that it and its 6 x 6 points lie on each side of each rim of a slab; equal
-      ! crests on all ranks; and a spot of one point.
+      ! A crest about every few columns, so that it and its 6 x 6 points lie on each side of each rim of a slab; two
+      ! points of the largest pressure; and a spot of one point.
       type(grid_slab) :: slab
       real(dp), allocatable :: field(:, :)
       integer :: even, j, k
@@ -104,7 +104,9 @@ contains
                field = crest(grids(:, k), [30.3_dp, j + 0.4_dp])
                call compare_peaks(field, even == 1, slab)
             end do
-            field = max(crest(grids(:, k), [30.3_dp, 7.4_dp]), crest(grids(:, k), [60.3_dp, grids(2, k) - 8.6_dp]))
+            ! Two points of the same pressure, of which only the first has a higher one beside it.
+            field = max(crest(grids(:, k), [30.3_dp, 7.4_dp]), crest(grids(:, k), [60.0_dp, grids(2, k) - 8.0_dp]))
+            field(60, grids(2, k) - 8) = field(30, 7)
             call compare_peaks(field, even == 1, slab)
             field = -1.0_dp
             field(5, grids(2, k)/2) = 1.0_dp

@@ -1,0 +1,105 @@
+#!/usr/bin/env python3
+"""How ranks share the loads of a deck and what they write together.
+
+usage: test_shared_work.py --mpiexec MPIEXEC --program WAVYCON --parallel WAVYCON_MPI
+"""
+import argparse
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.dont_write_bytecode = True
+from ranks import run  # noqa: E402
+
+WAVE = "&surface kind = 'wave_2d' /\n"
+SWEEP = "&load sweep_from = 0.02, sweep_to = 0.95, sweep_steps = 60 /\n"
+EXIT_BAD_INPUT = 1
+
+
+def table(path):
+    """The columns of a table by name."""
+    lines = [line.split() for line in path.read_text().splitlines() if line and not line.startswith("#")]
+    return dict(zip(lines[0], zip(*lines[1:])))
+
+
+class SharedWork(unittest.TestCase):
+    mpiexec = program = parallel = ""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def solve(self, text, ranks, output, *options):
+        """Runs a deck on so many ranks; 0: by the serial program."""
+        (self.folder/"deck.nml").write_text(text)
+        words = ["deck.nml", "--output", output, *options]
+        if ranks > 0:
+            return run(self.mpiexec, ranks, [self.parallel, *words], self.folder)
+        return subprocess.run([self.program, *words], cwd=self.folder, capture_output=True, text=True, check=False)
+
+    def test_spread_loads_do_not_depend_on_the_number_of_ranks(self):
+        """They start elsewhere than in the serial program: the solutions differ by less than the error told."""
+        for solver in "'fitted', accuracy = 1e-6", "'beale'":
+            deck = WAVE + SWEEP + f"&method solver = {solver} /\n"
+            self.solve(deck, 0, "serial")
+            serial = table(self.folder/"serial"/"deck.summary.dat")
+            first = None
+            for ranks in (2, 3, 5):
+                with self.subTest(solver=solver, ranks=ranks):
+                    outcome = self.solve(deck, ranks, f"ranks-{ranks}")
+                    self.assertEqual((0, ""), (outcome.status, outcome.stderr))
+                    self.assertIn("the loads are spread over them", outcome.stdout)
+                    text = (self.folder/f"ranks-{ranks}"/"deck.summary.dat").read_text()
+                    first = first or text
+                    self.assertEqual(first, text)
+                    shared = table(self.folder/f"ranks-{ranks}"/"deck.summary.dat")
+                    for name in "mean_gap_over_amplitude", "contact_area_fraction":
+                        for one, other in zip(serial[name], shared[name]):
+                            self.assertAlmostEqual(float(one), float(other), delta=1e-6)
+                    self.assertEqual(serial["status"], shared["status"])
+
+    def test_loads_on_small_grids_and_their_stresses(self):
+        """Each load is solved by itself: the digits are those of the serial program."""
+        deck = (WAVE + "&load pbar_over_pstar = 0.3, 0.1, 0.2, 1.2, 0 /\n&stress nu = 0.3, yield_stress = 1 /\n"
+                "&method solver = 'grid', grid_points = 64 /\n")
+        self.solve(deck, 0, "serial")
+        for ranks in (2, 3):
+            outcome = self.solve(deck, ranks, f"ranks-{ranks}")
+            self.assertEqual((0, ""), (outcome.status, outcome.stderr))
+            self.assertIn("the loads are spread over them", outcome.stdout)
+            for name in "deck.summary.dat", "deck.stress_largest.dat":
+                self.assertEqual((self.folder/"serial"/name).read_bytes(),
+                                 (self.folder/f"ranks-{ranks}"/name).read_bytes())
+
+    def test_the_first_rank_alone(self):
+        deck = WAVE + "&load pbar_over_pstar = 0.3, 0.1, 0.2 /\n&method solver = 'fitted' /\n&output contours = t /\n"
+        self.solve(deck, 0, "serial")
+        outcome = self.solve(deck, 3, "ranks")
+        self.assertEqual((0, ""), (outcome.status, outcome.stderr))
+        self.assertIn("the first one works alone", outcome.stdout)
+        for name in "deck.summary.dat", "deck.contour.dat":
+            self.assertEqual((self.folder/"serial"/name).read_bytes(), (self.folder/"ranks"/name).read_bytes())
+
+    def test_a_checkpoint_of_another_number_of_ranks_is_refused(self):
+        deck = WAVE + "&load pbar_over_pstar = 0.3, 0.1 /\n&method solver = 'grid', grid_points = 1024 /\n"
+        (self.folder/"results").mkdir()
+        for name, ranks in ("deck.checkpoint", 2), ("deck.checkpoint.0", 1):
+            (self.folder/"results"/name).write_text("anything")
+            outcome = self.solve(deck, ranks, "results", "--resume")
+            self.assertEqual(EXIT_BAD_INPUT, outcome.status)
+            self.assertIn("of a run on another number of ranks", outcome.stderr)
+            outcome = self.solve(deck, ranks, "results")
+            self.assertEqual((0, ""), (outcome.status, outcome.stderr))
+            self.assertEqual([], [path.name for path in (self.folder/"results").glob("*checkpoint*")])
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser()
+    for name in "mpiexec", "program", "parallel":
+        parser.add_argument(f"--{name}", required=True)
+    given, rest = parser.parse_known_args()
+    SharedWork.mpiexec, SharedWork.program, SharedWork.parallel = given.mpiexec, given.program, given.parallel
+    unittest.main(argv=[sys.argv[0], *rest])
