@@ -4,12 +4,11 @@
 #
 # Deck: inputs/challenge.nml, the kind of surface of the contact-mechanics challenge, on 32768 x 32768 points.
 #
-# Memory: points times bytes a point, over the ranks. tests/README.md, "Past one machine", has what was measured.
-# Here 60 bytes for each of 1.07e9 points are 64 GB, 4 GB for each of 16 ranks; 4800M leaves room for MPI.
-# Ranks: whole strips of 32 columns, so at most points/32, here 1024. Some ranks with some threads each send
-# fewer and larger messages than as many ranks as processors.
-# Time: the same page has a model of the time of an iteration; a load takes 30 to 50, a fourth to a tenth of them on the
-# last grid.
+# Memory: 66 bytes a point were measured on two ranks (tests/README.md, "Past one machine"). For 1.07e9 points these are
+# 71 GB, 4.4 GB for each of 16 ranks of 8 processors, and 0.4 GB are left for MPI.
+# Ranks: they have whole strips of 32 columns, so at most points/32 of them have any, here 1024. Few ranks with some
+# threads each send fewer and larger messages than a rank for each processor.
+# Time: the same page has a model of the time of an iteration. Loads took 9 to 35 iterations on the last grid there.
 #SBATCH --job-name=wavycon
 #SBATCH --nodes=4
 #SBATCH --ntasks-per-node=4

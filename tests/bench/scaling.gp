@@ -22,6 +22,9 @@ set xrange [0.9:1.1*most]
 of_grid(x, y, value) = $1 >= 1 && $2 == x && $3 == y && strcol(4) eq pressure ? value : NaN
 chosen = "awk '$1 == 1 && $2 == %d && $3 == %d && $4 == \"%s\" && NF > 10 {print $9; exit}' %s"
 alone(points) = real(system(sprintf(chosen, points, points, pressure, runs)))
+# Likewise of an iteration on the last grid: those rows have 10 words.
+chosen_iteration = "awk '$1 == 1 && $2 == %d && $3 == %d && $4 == \"%s\" && NF == 10 {print $7; exit}' %s"
+iteration_alone(points) = real(system(sprintf(chosen_iteration, points, points, pressure, runs)))
 
 set multiplot layout 2, 2 margins 0.09, 0.98, 0.1, 0.96 spacing 0.12, 0.14
 set key top left Left reverse samplen 2 font small
@@ -41,8 +44,8 @@ plot 1 with lines ls 5, \
    runs index 'runs' using (of_grid(points, points, $1)):(alone(points)/$9/$1) with linespoints ls 30 + i \
    title sprintf('%d^2 points', points), \
    for [i = 1:words(weak)] points = int(word(weak, i)) \
-   runs index 'runs' using (of_grid(points, points*$1, $1)):(alone(points)/$9) with linespoints ls 36 \
-   title sprintf('%d^2 points a rank', points)
+   runs index 'iterations' using (of_grid(points, points*$1, $1)):(iteration_alone(points)/$7) with linespoints ls 36 \
+   title sprintf('%d^2 points a rank, an iteration', points)
 set xlabel 'ranks' offset 0, 0.3
 set ylabel 'iteration of the last grid / s' offset 1, 0
 set logscale y 10

@@ -6,7 +6,7 @@ Loads: mean pressures over E* rms slope. Residual: 1e-8. Series:
 
     strong   grids of given points a side on all numbers of ranks
     weak     N x N points a rank: cells of N x (ranks N) points with the same spectrum. A load has about the same
-             contact area and number of iterations on all of them
+             contact area on all of them, but not the same number of iterations
 
 All runs are repeated in turn, so that other work on the machine meets all of them alike; times are medians. `total` is
 the time from start to end, `solve` what the log gives as solved and measured. A rank's memory is the most that its
@@ -137,7 +137,7 @@ def run_bench(given, ranks, grid):
 
 
 def measure(given, cases):
-    """All measured numbers by case: lists over the repetitions."""
+    """After each repetition what was measured by then: runs, loads on the last grid and parts, lists by case."""
     runs, loads, parts = (collections.defaultdict(list) for _ in range(3))
     for repeat in range(given.repeats):
         for ranks, grid in cases:
@@ -149,9 +149,8 @@ def measure(given, cases):
                     loads[ranks, grid, pressure].append(load)
                 for name, seconds in times.items():
                     parts[ranks, grid, name].append(seconds)
-            print(f'scaling: {repeat + 1} of {given.repeats}, {grid.x} x {grid.y} points, {ranks} ranks',
-                  file=sys.stderr)
-    return runs, loads, parts
+        print(f'scaling: {repeat + 1} of {given.repeats} repetitions', file=sys.stderr)
+        yield repeat + 1, runs, loads, parts
 
 
 def processor_name():
@@ -195,9 +194,10 @@ def block(name, columns, rows):
     return ['', '', f'# {name}', '#' + lines[0][1:], *lines[1:]]
 
 
-def speed_up_lines(rows):
-    """Lines of the head: how much faster the most ranks are than one, and one rank against the serial program."""
+def speed_up_lines(rows, iterations):
+    """Lines of the head: ranks against one, one against the serial program; weak scaling is that of an iteration."""
     solve = {(row[0], row[1], row[2], row[3]): float(row[8]) for row in rows}
+    iteration = {(row[0], row[1], row[2], row[3]): float(row[6]) for row in iterations}
     lines = []
     for (ranks, x, y, pressure), seconds in solve.items():
         if ranks > 1 and (1, x, y, pressure) in solve:
@@ -206,9 +206,10 @@ def speed_up_lines(rows):
         if ranks == 1 and (0, x, y, pressure) in solve:
             lines.append(f'# {x} x {y} points, pressure {pressure}: one rank takes '
                          f'{seconds/solve[0, x, y, pressure]:.3f} times the time of the serial program')
-        if ranks > 1 and x != y and (1, x, x, pressure) in solve:
-            lines.append(f'# {x} x {x} points a rank, pressure {pressure}: efficiency on {ranks} ranks '
-                         f'{solve[1, x, x, pressure]/seconds:.2f}')
+    for (ranks, x, y, pressure), time_of_one in iteration.items():
+        if y == ranks*x and ranks > 1 and (1, x, x, pressure) in iteration:
+            lines.append(f'# {x} x {x} points a rank, pressure {pressure}: efficiency of an iteration on {ranks} ranks '
+                         f'{iteration[1, x, x, pressure]/time_of_one:.2f}')
     return lines
 
 
@@ -221,18 +222,19 @@ def main():
     cases += [(ranks, Grid(points, points*ranks)) for points in given.weak for ranks in given.ranks
               if ranks > 1 or points not in given.strong]
     before = os.getloadavg()[0]
-    runs, loads, parts = measure(given, cases)
-    rows = [run_row(*item) for item in runs.items()]
-    lines = [f'# wavycon-mpi on rough surfaces, to a residual of 1e-8: {os.path.basename(__file__)}',
-             f'# machine: {processor_name()}, {os.cpu_count()} of them; load average before: {before:.2f}',
-             f'# launched by: {given.launch}; {os.environ.get("OMP_NUM_THREADS", "1")} threads a rank; medians of '
-             f'{given.repeats}',
-             *speed_up_lines(rows), *block('runs', RUN_COLUMNS, rows),
-             *block('iterations', ITERATION_COLUMNS, [iteration_row(*item) for item in loads.items()]),
-             *block('parts', PART_COLUMNS, [part_row(*item) for item in parts.items()])]
-    with open(given.table + '.new', 'w', encoding='utf-8') as out:
-        out.write('\n'.join(lines) + '\n')
-    os.replace(given.table + '.new', given.table)
+    for repeats, runs, loads, parts in measure(given, cases):
+        rows = [run_row(*item) for item in runs.items()]
+        iterations = [iteration_row(*item) for item in loads.items()]
+        lines = [f'# wavycon-mpi on rough surfaces, to a residual of 1e-8: {os.path.basename(__file__)}',
+                 f'# machine: {processor_name()}, {os.cpu_count()} of them; load average before: {before:.2f}',
+                 f'# launched by: {given.launch}; {os.environ.get("OMP_NUM_THREADS", "1")} threads a rank; medians of '
+                 f'{repeats}',
+                 *speed_up_lines(rows, iterations), *block('runs', RUN_COLUMNS, rows),
+                 *block('iterations', ITERATION_COLUMNS, iterations),
+                 *block('parts', PART_COLUMNS, [part_row(*item) for item in parts.items()])]
+        with open(given.table + '.new', 'w', encoding='utf-8') as out:
+            out.write('\n'.join(lines) + '\n')
+        os.replace(given.table + '.new', given.table)
     print('\n'.join(lines))
 
 

@@ -22,8 +22,8 @@ On a cluster, ranks_per_node ranks share the network of their node, of a given b
     neighbours      one message; one on each spread grid of the continuation, two of its adjoint
     whole grids     gathered on all ranks, at the node's bandwidth
 
-usage: scaling_model.py TABLE [options]; the result goes to standard output, for gnuplot. Its head says what is measured
-and what is modelled.
+usage: scaling_model.py TABLE... [options]; the result goes to standard output, for gnuplot. Its head says what is
+measured and what is modelled.
 """
 import argparse
 import collections
@@ -52,7 +52,7 @@ def network(words):
 
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument('table', help='of scaling.py, with --bench')
+    parser.add_argument('tables', nargs='+', help='of scaling.py, with --bench')
     parser.add_argument('--pressure', help='the load; default: the last of the table')
     parser.add_argument('--leave-out', default='', help='points a side of grids to which nothing is fitted')
     parser.add_argument('--processors', type=int, default=os.cpu_count(), help='of the machine measured [%(default)s]')
@@ -64,20 +64,21 @@ def arguments():
     return parser.parse_args()
 
 
-def blocks(path):
-    """Rows of words of the table's blocks, by name."""
-    found, name = {}, None
-    with open(path, encoding='utf-8') as lines:
-        text = lines.read()
-    for block in text.split('\n\n\n')[1:]:
-        name, _, *rows = block.strip().splitlines()
-        found[name[2:]] = [row.split() for row in rows]
+def blocks(paths):
+    """Rows of words of the tables' blocks, by name."""
+    found = collections.defaultdict(list)
+    for path in paths:
+        with open(path, encoding='utf-8') as lines:
+            text = lines.read()
+        for block in text.split('\n\n\n')[1:]:
+            name, _, *rows = block.strip().splitlines()
+            found[name[2:]] += [row.split() for row in rows]
     return found
 
 
 def read(given):
     """Iterations at the load, parts, and the runs' bytes a point by ranks and points."""
-    table = blocks(given.table)
+    table = blocks(given.tables)
     pressure = given.pressure or table['iterations'][-1][3]
     iterations = [Iteration(int(row[0]), (int(row[1]), int(row[2])), float(row[6])/1e3, float(row[8]), float(row[9]),
                             float(row[4]), int(row[5])) for row in table['iterations'] if row[3] == pressure]
@@ -233,8 +234,8 @@ def main():
     nano = 1e9
     print('\n'.join([
         f'# Time of an iteration of wavycon-mpi: {os.path.basename(__file__)} says how it is modelled.',
-        f'# MEASURED are the times and bytes of {os.path.basename(given.table)} and the errors of the block check; all '
-        'other numbers are MODELLED.',
+        f'# MEASURED are the times and bytes of {", ".join(os.path.basename(path) for path in given.tables)}',
+        '# and the errors of the block check; all other numbers are MODELLED.',
         f'# Mean pressure {pressure} E* rms slope, {100*largest.contact:.0f} % of the points in contact.',
         f'# An iteration has {largest.pairs:.2f} pairs of transforms, {largest.double_pairs:.2f} of them in double '
         'precision.',
