@@ -51,6 +51,7 @@ contains
       call use_one_thread_for_matrices()
       call outlive_file_size_limit()
       call read_command_line(command_line, error)
+      call share_error(error)
       call stop_on(error)
       if (command_line%help) then
          call say(help_text())

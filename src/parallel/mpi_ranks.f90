@@ -5,10 +5,11 @@ module wavycon_mpi_ranks
       mpi_comm, mpi_comm_free, mpi_comm_rank, mpi_comm_size, mpi_comm_split_type, mpi_comm_type_shared, &
       mpi_comm_world, mpi_datatype, mpi_double_precision, mpi_error_string, mpi_file, mpi_file_close, mpi_file_open, &
       mpi_file_read_at_all, mpi_file_write_at_all, mpi_finalize, mpi_gatherv, mpi_get_count, mpi_get_library_version, &
-      mpi_in_place, mpi_info_null, mpi_init_thread, mpi_integer, mpi_integer8, mpi_irecv, mpi_isend, mpi_logical, &
-      mpi_lor, mpi_max, mpi_max_error_string, mpi_max_library_version_string, mpi_mode_rdonly, mpi_mode_wronly, &
-      mpi_offset_kind, mpi_request, mpi_status, mpi_statuses_ignore, mpi_success, mpi_sum, mpi_thread_funneled, &
-      mpi_type_commit, mpi_type_contiguous, mpi_type_free, mpi_waitall
+      mpi_ibarrier, mpi_in_place, mpi_info_null, mpi_init_thread, mpi_integer, mpi_integer8, mpi_irecv, mpi_isend, &
+      mpi_logical, mpi_lor, mpi_max, mpi_max_error_string, mpi_max_library_version_string, mpi_mode_rdonly, &
+      mpi_mode_wronly, mpi_offset_kind, mpi_request, mpi_status, mpi_status_ignore, mpi_statuses_ignore, mpi_success, &
+      mpi_sum, mpi_test, mpi_thread_funneled, mpi_type_commit, mpi_type_contiguous, mpi_type_free, mpi_waitall
+   use wavycon_error, only: exit_bad_input, exit_file_trouble
    use wavycon_kinds, only: dp
    use wavycon_mpi_rows, only: start_mpi_rows
    use wavycon_ranks, only: rank_team, row_exchange, use_team
@@ -303,12 +304,29 @@ contains
       words = buffer(:length)
    end function words_of
 
-   !> N.B. A rank that ends by an error of its own, which the others do not know of, ends them too.
+   !> Ends MPI on all ranks. A rank that ends by an error which the others do not know of would wait for them, as they do
+   !> for it: after a while it ends them too.
    subroutine finish(self, status)
       class(mpi_team), intent(in) :: self
       integer, intent(in) :: status
 
-      associate (unused => self, unused_too => status); end associate
+      integer(int64), parameter :: patience = 10   !! ranks that know of an error end at the same time [s]
+      integer(int64) :: begun, now, rate
+      logical :: all_are_here
+      type(mpi_request) :: request
+
+      if (status == exit_bad_input .or. status == exit_file_trouble) then
+         call mpi_ibarrier(mpi_comm_world, request)
+         call system_clock(begun, rate)
+         do
+            call mpi_test(request, all_are_here, mpi_status_ignore)
+            if (all_are_here) exit
+            call system_clock(now)
+            if (now - begun <= patience*rate) cycle
+            write (error_unit, '(a, i0, a)') 'wavycon: process ', self%this, ' ends by an error of its own'
+            call mpi_abort(mpi_comm_world, status)
+         end do
+      end if
       call mpi_finalize()
    end subroutine finish
 

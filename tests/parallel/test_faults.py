@@ -172,6 +172,12 @@ class Faults(unittest.TestCase):
         self.assertEqual(1, outcome.stderr.count("wavycon: "), outcome.stderr)
         self.assertEqual([], [name for name in self.results() if name.endswith((".part", ".npy"))])
 
+    def test_options_of_one_rank(self):
+        self.write(DECK)
+        outcome = run(self.mpiexec, RANKS, self.in_shell('[ "$rank" != 1 ] || set -- "$@" --bad'), self.folder, SOON)
+        self.assertEqual(EXIT_BAD_INPUT, outcome.status, outcome.stderr)
+        self.assertEqual(1, outcome.stderr.count("wavycon: unknown option '--bad'"), outcome.stderr)
+
     def test_a_directory_that_cannot_be_made(self):
         self.write(DECK)
         (self.folder/"results").write_text("a file")
