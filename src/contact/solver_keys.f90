@@ -24,7 +24,7 @@ contains
       key = integer_key('grid_points', '', &
          'in place of accuracy: points of the cell along x and y of the one grid to solve; one number for both. '// &
          'Even numbers. For height maps, read or made, the default is their own grid. Errors are estimated for '// &
-         'multiples of 4 from 64 points a side; those of others are unknown.', 8, 8192, most_values=2)
+         'multiples of 4 from 64 points a side; those of others are unknown.', 8, 1048576, most_values=2)
    end function grid_points_key
 
    pure type(key_type) function residual_key() result(key)
