@@ -6,6 +6,7 @@ module wavycon_run_scene
    use wavycon_contact_status, only: converged, not_found, unresolved
    use wavycon_error, only: error_type, exit_file_trouble, exit_fine, exit_not_converged, fatal_error
    use wavycon_find_stresses, only: find_stresses
+   use wavycon_fourier_series, only: fourier_series
    use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
    use wavycon_plain_text, only: escaped, integer_text, short_number
@@ -100,6 +101,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(checkpoint_file) :: checkpoint
+      type(fourier_series) :: nothing
 
       status = exit_fine
       allocate (results%loads(size(results%scene%target)))
@@ -110,7 +112,10 @@ contains
       if (allocated(error)) return
 
       call checkpoint%create(results)
+      ! The solver has a copy of the surface: while it needs the memory the series of a large map is there once less.
+      results%scene%surface%shape = nothing
       call solve_loads(results, checkpoint, log)
+      results%scene%surface%shape = results%solver%surface%shape
       if (any_rank(.not. checkpoint%is_complete())) call log%say('note: not all loads could be written to '// &
                                                                  escaped(checkpoint_name(results))//', to resume from')
       call log%say_timed('solved and measured')
