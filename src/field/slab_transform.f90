@@ -201,15 +201,16 @@ contains
       subroutine gather_array(values)
          real(dp), allocatable, intent(inout) :: values(:, :)
 
-         real(dp), allocatable :: whole(:, :)
+         real(dp), allocatable :: own(:, :), whole(:, :)
          integer :: rank, width
          logical :: is_wanted
 
          is_wanted = this_rank() == 0 .or. .not. first_only
          width = (series%spread_waves - 1)/ranks_at_work() + 1
+         allocate (own, source=transpose(values))
          allocate (whole(size(values, 2), merge(series%spread_waves, 0, is_wanted)))
          call gather_columns([(max(0, min(series%spread_waves - rank*width, width)), rank=0, ranks_at_work() - 1)], &
-                             transpose(values), whole, first_only)
+                             own, whole, first_only)
          if (.not. is_wanted) return
          deallocate (values)
          allocate (values(0:size(whole, 2) - 1, 0:size(whole, 1) - 1), source=transpose(whole))

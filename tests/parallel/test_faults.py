@@ -108,8 +108,8 @@ class Faults(unittest.TestCase):
         process = start(self.mpiexec, RANKS, self.command(), self.folder)
         try:
             begun = time.monotonic()
-            # All ranks have written a load, of which each has more than this.
-            while sum(path.stat().st_size > 300000 for path in (self.folder/"results").glob("*.checkpoint.*")) < RANKS:
+            # All ranks have written a load, of which each has 0.5 to 0.8 MB, and not only a part of one.
+            while sum(path.stat().st_size > 1000000 for path in (self.folder/"results").glob("*.checkpoint.*")) < RANKS:
                 self.assertIsNone(process.poll(), "ends too early")
                 self.assertLess(time.monotonic() - begun, SOON)
                 time.sleep(0.02)
