@@ -8,7 +8,7 @@
 # 71 GB, 4.4 GB for each of 16 ranks of 8 processors, and 0.4 GB are left for MPI.
 # Ranks: they have whole strips of 32 columns, so at most points/32 of them have any, here 1024. Few ranks with some
 # threads each send fewer and larger messages than a rank for each processor.
-# Time: the same page has a model of the time of an iteration. Loads took 9 to 35 iterations on the last grid there.
+# Time: the same page has a model of the time of an iteration. Loads took 9 to 68 iterations on the last grid there.
 #SBATCH --job-name=wavycon
 #SBATCH --nodes=4
 #SBATCH --ntasks-per-node=4
