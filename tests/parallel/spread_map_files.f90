@@ -4,7 +4,7 @@
 !> Run by mpirun; the exit status is 1 if a number differs on any rank.
 program spread_map_files
    use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_quiet_nan, ieee_value
-   use, intrinsic :: iso_fortran_env, only: error_unit
+   use rank_checks, only: check, end_checks, same
    use wavycon_error, only: error_type
    use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp, sp
@@ -14,13 +14,12 @@ program spread_map_files
    use wavycon_measured_map, only: measured_map
    use wavycon_mpi_ranks, only: start_mpi
    use wavycon_prepare_map, only: map_preparation, prepare_map
-   use wavycon_ranks, only: any_rank, end_ranks, is_first_rank, rank_count, this_rank, work_alone
+   use wavycon_ranks, only: any_rank, is_first_rank, rank_count, work_alone
    use wavycon_self_affine_heights, only: make_heights, self_affine_spectrum
    implicit none (type, external)
 
    character(*), parameter :: path = 'spread_map_files.tmp.npy'
    integer, parameter :: points(2) = [311, 260]
-   logical :: differs = .false.
    integer :: kind
 
    call start_mpi()
@@ -37,12 +36,8 @@ program spread_map_files
    call expect_trouble('the height in row 200, column 300 is infinite')
    call compare_self_affine([256, 300], 1.0_dp)
    call compare_self_affine([301, 256], 0.7_dp)
-   if (any_rank(differs)) then
-      call end_ranks(1)
-      error stop 1
-   end if
    if (is_first_rank()) call remove(path)
-   call end_ranks(0)
+   call end_checks()
 
 contains
 
@@ -173,22 +168,5 @@ contains
       numbers = [statistics%lowest, statistics%highest, statistics%rms, statistics%skewness, statistics%kurtosis, &
                  statistics%largest_step(2), statistics%border_step]
    end function numbers_of
-
-   !> Whether numbers are equal to the last bit.
-   pure logical function same(a, b)
-      real(dp), intent(in) :: a(:), b(:)
-
-      same = size(a) == size(b)
-      if (same) same = .not. any(abs(a - b) > 0.0_dp)
-   end function same
-
-   subroutine check(condition, words)
-      logical, intent(in) :: condition
-      character(*), intent(in) :: words
-
-      if (condition) return
-      differs = .true.
-      write (error_unit, '(a, i0, 2a)') 'rank ', this_rank(), ': ', words
-   end subroutine check
 
 end program spread_map_files

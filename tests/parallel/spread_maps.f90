@@ -3,18 +3,16 @@
 !>
 !> Run by mpirun; the exit status is 1 if a number differs on any rank.
 program spread_maps
-   use, intrinsic :: iso_fortran_env, only: error_unit
+   use rank_checks, only: check, end_checks, same
    use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp
    use wavycon_mpi_ranks, only: start_mpi
-   use wavycon_ranks, only: any_rank, end_ranks, rank_count, this_rank, work_alone
+   use wavycon_ranks, only: rank_count, this_rank, work_alone
    use wavycon_roughness, only: roughness_type
    use wavycon_surface, only: surface_of_points, surface_type, whole_surface
    use wavycon_undeformed_gap, only: sample_undeformed_gap
    use wavycon_wave_2d, only: wave_2d
    implicit none (type, external)
-
-   logical :: differs = .false.
 
    call start_mpi()
    call compare_maps([512, 256], mirrored=.false.)
@@ -22,11 +20,7 @@ program spread_maps
    call compare_maps([300, 263], mirrored=.true.)
    call compare_maps([1100, 75], mirrored=.false.)
    call compare_waves()
-   if (any_rank(differs)) then
-      call end_ranks(1)
-      error stop 1
-   end if
-   call end_ranks(0)
+   call end_checks()
 
 contains
 
@@ -130,22 +124,5 @@ contains
       same_shapes = same([a%shape%cs], [b%shape%cs]) .and. same([a%shape%sc], [b%shape%sc]) .and. &
                     same([a%shape%ss], [b%shape%ss])
    end function same_shapes
-
-   !> Whether numbers are equal to the last bit.
-   pure logical function same(a, b)
-      real(dp), intent(in) :: a(:), b(:)
-
-      same = size(a) == size(b)
-      if (same) same = .not. any(abs(a - b) > 0.0_dp)
-   end function same
-
-   subroutine check(condition, words)
-      logical, intent(in) :: condition
-      character(*), intent(in) :: words
-
-      if (condition) return
-      differs = .true.
-      write (error_unit, '(a, i0, 2a)') 'rank ', this_rank(), ': ', words
-   end subroutine check
 
 end program spread_maps

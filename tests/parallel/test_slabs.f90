@@ -4,7 +4,8 @@
 !> are chosen for 1 to 5 ranks: all the same size, odd, ranks without columns, of the least width.
 program test_slabs
    use, intrinsic :: iso_c_binding, only: c_bool
-   use, intrinsic :: iso_fortran_env, only: int64, output_unit
+   use, intrinsic :: iso_fortran_env, only: int64
+   use rank_checks, only: check, end_checks, report
    use wavycon_contact_extension, only: contact_extension
    use wavycon_contact_region, only: contact_region
    use wavycon_grid_refinement, only: refine_pressure
@@ -13,7 +14,7 @@ program test_slabs
    use wavycon_kinds, only: dp, sp
    use wavycon_local_stiffness, only: local_stiffness
    use wavycon_mpi_ranks, only: start_mpi
-   use wavycon_ranks, only: add_over_ranks, any_rank, end_ranks, is_first_rank, move_columns, new_row_exchange, &
+   use wavycon_ranks, only: add_over_ranks, move_columns, new_row_exchange, &
       rank_count, row_exchange, this_rank, work_alone
    use wavycon_surface, only: surface_of_points, surface_type
    use wavycon_wave_2d, only: wave_2d
@@ -28,9 +29,6 @@ program test_slabs
       procedure :: same_line, same_grid, same_single
    end interface same
 
-   logical :: failed = .false.   !! whether a check of any subject does not hold
-   logical :: good = .true.      !! whether all checks of the present one hold on this rank
-
    call start_mpi()
    call test_layouts()
    call test_sums()
@@ -41,8 +39,7 @@ program test_slabs
    call test_extension()
    call test_stencil()
    call test_refinement()
-   call end_ranks(0)
-   if (failed) error stop 1, quiet=.true.
+   call end_checks()
 
 contains
 
@@ -410,21 +407,5 @@ contains
 
       same_single = same_grid(real(a, dp), real(b, dp))
    end function same_single
-
-   subroutine check(holds)
-      logical, intent(in) :: holds
-
-      good = good .and. holds
-   end subroutine check
-
-   !> Prints whether all checks of a subject hold, on all ranks.
-   subroutine report(subject)
-      character(*), intent(in) :: subject
-
-      good = .not. any_rank(.not. good)
-      if (is_first_rank()) write (output_unit, '(a, 1x, a)') merge('passed', 'FAILED', good), subject
-      failed = failed .or. .not. good
-      good = .true.
-   end subroutine report
 
 end program test_slabs

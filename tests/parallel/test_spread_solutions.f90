@@ -3,7 +3,8 @@
 !>
 !> `mpirun -n N test_spread_solutions` prints a line for each subject, and ends with status 1 if one of them fails.
 program test_spread_solutions
-   use, intrinsic :: iso_fortran_env, only: int64, output_unit
+   use, intrinsic :: iso_fortran_env, only: int64
+   use rank_checks, only: check, end_checks, report
    use wavycon_constants, only: pi
    use wavycon_contact_solution, only: contact_solution
    use wavycon_counted_area, only: corrected_area_fraction, counted_area_fraction, edge_crossings
@@ -16,7 +17,7 @@ program test_spread_solutions
    use wavycon_grid_slab, only: grid_slab, least_spread_points
    use wavycon_kinds, only: dp
    use wavycon_mpi_ranks, only: start_mpi
-   use wavycon_ranks, only: any_rank, end_ranks, is_first_rank, rank_count, work_alone
+   use wavycon_ranks, only: is_first_rank, rank_count, work_alone
    use wavycon_surface, only: surface_of_points, surface_type
    use wavycon_wave_2d, only: wave_2d
    use wavycon_wave_sum, only: wave_sum
@@ -24,9 +25,6 @@ program test_spread_solutions
 
    !> Grids that are spread over two ranks or more.
    integer, parameter :: grids(2, 4) = reshape([256, 256, 509, 257, 2048, 40, 1024, 160], [2, 4])
-
-   logical :: failed = .false.   !! whether a check of any subject does not hold
-   logical :: good = .true.      !! whether all checks of the present one hold on this rank
 
    call start_mpi()
    call test_edges()
@@ -37,8 +35,7 @@ program test_spread_solutions
    call test_loads_of_area_and_gap()
    call test_hardness()
    call test_maps()
-   call end_ranks(0)
-   if (failed) error stop 1, quiet=.true.
+   call end_checks()
 
 contains
 
@@ -307,21 +304,5 @@ contains
          same_fields = same_fields .and. same(a(:, j), b(:, j))
       end do
    end function same_fields
-
-   subroutine check(holds)
-      logical, intent(in) :: holds
-
-      good = good .and. holds
-   end subroutine check
-
-   !> Prints whether all checks of a subject hold, on all ranks.
-   subroutine report(subject)
-      character(*), intent(in) :: subject
-
-      good = .not. any_rank(.not. good)
-      if (is_first_rank()) write (output_unit, '(a, 1x, a)') merge('passed', 'FAILED', good), subject
-      failed = failed .or. .not. good
-      good = .true.
-   end subroutine report
 
 end program test_spread_solutions

@@ -1,0 +1,49 @@
+!> The checks of a program that several ranks run: a check counts as passed if it holds on all of them.
+module rank_checks
+   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
+   use wavycon_kinds, only: dp
+   use wavycon_ranks, only: any_rank, end_ranks, is_first_rank, this_rank
+   implicit none (type, external)
+   private
+
+   public :: check, end_checks, report, same
+
+   logical :: failed = .false.   !! whether a check of a reported subject does not hold
+   logical :: good = .true.      !! whether all checks of the present one hold on this rank
+
+contains
+
+   subroutine check(holds, words)
+      logical, intent(in) :: holds
+      character(*), intent(in), optional :: words   !! shown if it does not hold
+
+      good = good .and. holds
+      if (present(words) .and. .not. holds) write (error_unit, '(a, i0, 2a)') 'rank ', this_rank(), ': ', words
+   end subroutine check
+
+   !> Prints whether all checks of a subject hold, on all ranks.
+   subroutine report(subject)
+      character(*), intent(in) :: subject
+
+      good = .not. any_rank(.not. good)
+      if (is_first_rank()) write (output_unit, '(a, 1x, a)') merge('passed', 'FAILED', good), subject
+      failed = failed .or. .not. good
+      good = .true.
+   end subroutine report
+
+   !> Whether numbers are equal to the last bit.
+   pure logical function same(a, b)
+      real(dp), intent(in) :: a(:), b(:)
+
+      same = size(a) == size(b)
+      if (same) same = all(abs(a - b) <= 0.0_dp)
+   end function same
+
+   !> Ends the program on all ranks, with status 1 if a check does not hold.
+   subroutine end_checks()
+      failed = any_rank(.not. good) .or. failed
+      call end_ranks(merge(1, 0, failed))
+      if (failed) error stop 1, quiet=.true.
+   end subroutine end_checks
+
+end module rank_checks
