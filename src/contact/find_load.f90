@@ -5,7 +5,7 @@
 module wavycon_find_load
    use wavycon_contact_measures, only: is_known
    use wavycon_contact_solution, only: contact_solution
-   use wavycon_contact_solver, only: contact_solver
+   use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_contact_status, only: not_accurate
    use wavycon_contact_tuning, only: flattest, fraction_of_error, largest_fraction, least_fraction, longest_step, &
       most_solves, steepest
@@ -53,6 +53,7 @@ contains
       class(contact_solution), allocatable, intent(out) :: solution
 
       type(root_search) :: search
+      type(solver_traits) :: traits
       integer :: level
 
       search = search_for
@@ -62,7 +63,8 @@ contains
          return
       end if
       search%logit_p = logit(search%target)
-      do level = solver%coarser_levels(), 0, -1
+      traits = solver%traits()
+      do level = traits%coarser_levels, 0, -1
          call solver%use_level(level)
          call find_root(solver, search, solution)
       end do

@@ -118,7 +118,7 @@ contains
          call self%say('material  '//material_words(scene))
          call self%say('loads     '//integer_text(size(scene%target))//', '//target_words(scene%loads_by)// &
                        ' from '//short_number(minval(scene%target))//' to '//short_number(maxval(scene%target)))
-         call self%say('method    '//results%solver%name()//', '//results%solver%describe())
+         call self%say('method    '//results%method)
          if (results%sharing%words() /= '') call self%say('ranks     '//results%sharing%words())
       end associate
    end subroutine show_scene

@@ -95,11 +95,11 @@ contains
       associate (scene => results%scene, solution => results%loads(load)%solution, &
                  measures => results%loads(load)%solution%measures)
          errors = not_a_number()
-         if (results%solver%has_error_estimates()) errors = or_nan(measures%errors())
+         if (results%traits%has_errors) errors = or_nan(measures%errors())
          at_hardness = not_a_number()
          if (scene%surface%has_hardness()) then
             at_hardness(:2) = [measures%area_at_hardness_fraction, measures%load_at_hardness_fraction]
-            if (results%solver%has_error_estimates()) &
+            if (results%traits%has_errors) &
                at_hardness(3:) = or_nan([measures%area_at_hardness_error, measures%load_at_hardness_error])
          end if
          words = [character(narrowest) :: &

@@ -8,14 +8,15 @@ module wavycon_run_scene
    use wavycon_find_stresses, only: find_stresses
    use wavycon_fourier_series, only: fourier_series
    use wavycon_kinds, only: dp
+   use wavycon_method_list, only: get_method, start_solver
    use wavycon_output_file, only: output_file
    use wavycon_plain_text, only: escaped, integer_text, short_number
    use wavycon_ranks, only: add_over_ranks, any_rank, is_first_rank, share_error, work_alone
    use wavycon_results, only: results_type
    use wavycon_run_log, only: run_log
    use wavycon_scene, only: by_yield, scene_type
+   use wavycon_solver_method, only: solver_method
    use wavycon_solve_loads, only: solve_loads
-   use wavycon_solver_list, only: start_solver
    use wavycon_surface, only: whole_surface
    use wavycon_system, only: has_memory_for, make_directories
    use wavycon_tables, only: all_tables, table_item
@@ -75,7 +76,7 @@ contains
       by_first = [(.not. tables(i)%table%is_written_by_all(results), i=1, size(tables))]
       points = 0
       if (need_fields(tables, by_first) .or. asks_for_largest(results%scene)) &
-         points = size(results%scene%target)*product(int(results%solver%given_grid(), int64))
+         points = size(results%scene%target)*product(int(results%traits%given_grid, int64))
       call check_memory(results, points, need_surface(tables, by_first), error)
       call share_error(error)
    end subroutine check_sharing
@@ -176,11 +177,15 @@ contains
       type(results_type), intent(out) :: results                  !! without loads
       type(table_item), allocatable, intent(out) :: tables(:)     !! that are to be written
 
+      character(:), allocatable :: description
+
       call move_alloc(scene, results%scene)
       call requested_tables(results%scene, tables)
       associate (scene => results%scene)
-         call start_solver(scene%surface, scene%method, keep_fields(scene, tables), results%solver)
-         results%sharing = choose_sharing(results%solver, size(scene%target), need_fields(tables), &
+         call start_solver(scene%surface, scene%method, keep_fields(scene, tables), results%solver, description)
+         results%method = scene%method%text('solver')//', '//description
+         results%traits = results%solver%traits()
+         results%sharing = choose_sharing(results%traits, size(scene%target), need_fields(tables), &
                                           scene%loads_by == by_yield)
          if (scene%surface%is_spread() .and. results%sharing%kind /= spread_grids) then
             call whole_surface(scene%surface, first_only=.not. results%sharing%is_shared())
@@ -370,6 +375,7 @@ contains
       integer, intent(out) :: status
 
       character(:), allocatable :: loads
+      class(solver_method), allocatable :: method
       integer :: bad, i, unreached, without_area
 
       bad = 0
@@ -385,10 +391,13 @@ contains
       loads = integer_text(size(results%loads))
       associate (scene => results%scene)
          call note_unresolved(results, log)
-         if (without_area > 0) call log%say('note: at '//integer_text(without_area)//' loads '// &
-                                            results%solver%why_no_area()//', so that their contact area shows as 0')
-         if (scene%loads_by == by_yield .and. .not. results%solver%has_error_estimates()) call log%say( &
-            "note: solver = '"//results%solver%name()//"' estimates no errors; a light load of first yield may be "// &
+         if (without_area > 0) then
+            call get_method(scene%method, method)
+            call log%say('note: at '//integer_text(without_area)//' loads '//method%why_no_area(scene%method)// &
+                         ', so that their contact area shows as 0')
+         end if
+         if (scene%loads_by == by_yield .and. .not. results%traits%has_errors) call log%say( &
+            "note: solver = '"//scene%method%text('solver')//"' estimates no errors; a light load of first yield may be "// &
             "wrong by a factor of 2. solver = 'auto' estimates them")
          if (scene%loads_by == by_yield .and. unreached > 0) call log%say('note: for '//integer_text(unreached)// &
             ' loads no mean pressure was found that brings the stresses to the given part of the yield stress')
