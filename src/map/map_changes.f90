@@ -5,7 +5,7 @@ module wavycon_map_changes
    implicit none (type, external)
    private
 
-   public :: map_changes, percent
+   public :: clauses, map_changes, percent
 
    type :: map_changes
       character(9) :: detrend = 'none'      !! value of the key
@@ -37,23 +37,23 @@ contains
             words = words//' ['//length_unit//']'
          end if
       end if
-      if (self%filled > 0) words = joined(words, integer_text(self%filled)//' missing height'// &
+      if (self%filled > 0) words = clauses(words, integer_text(self%filled)//' missing height'// &
                                           trim(merge(' ', 's', self%filled == 1))//' filled ('// &
                                           percent(real(self%filled, dp)/product(self%points))//')')
-      if (self%edges == 'mirror') words = joined(words, 'continued by its mirror images')
-      if (self%edges == 'window') words = joined(words, 'tapered at its borders, which changes '// &
+      if (self%edges == 'mirror') words = clauses(words, 'continued by its mirror images')
+      if (self%edges == 'window') words = clauses(words, 'tapered at its borders, which changes '// &
                                                  percent(self%tapered)//' of its points')
    end function words
 
    !> Two clauses.
-   pure function joined(first, second) result(words)
+   pure function clauses(first, second) result(words)
       character(*), intent(in) :: first    !! may be empty
       character(*), intent(in) :: second
       character(:), allocatable :: words
 
       words = second
       if (first /= '') words = first//'; '//second
-   end function joined
+   end function clauses
 
    !> A part in per cent, such as '2.5 %'.
    pure function percent(part) result(share)
