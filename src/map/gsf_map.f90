@@ -57,6 +57,10 @@ contains
          if (allocated(error)) return
          call map%set_units(entry_of(words, 'XYUnits', '='), entry_of(words, 'ZUnits', '='))
       end associate
+      if (nint(points(1)) == 1) then
+         points = points(2:1:-1)
+         sides = sides(2:1:-1)
+      end if
       ! The format's default of a side is 1.
       map%is_usual_side = sides <= 0.0_dp
       map%step = merge(1.0_dp, sides, map%is_usual_side)/points

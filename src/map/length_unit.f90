@@ -65,6 +65,7 @@ contains
             return
          end if
          map%step = factor*map%step
+         map%uneven_steps = factor*map%uneven_steps
          map%length_unit = unit
       end if
       call find_factor(map%height_unit, map%length_unit, factor, is_known)

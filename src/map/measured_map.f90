@@ -14,6 +14,8 @@ module wavycon_measured_map
       logical, allocatable :: missing(:, :)        !! shape of `height`; not allocated if no height is missing
       logical :: has_missing_value = .false.       !! whether a height has the value of the key missing_value
       real(dp) :: step(2) = 0.0_dp                 !! between points along x and y; 0 where the file does not give it
+      real(dp), allocatable :: x(:)                !! of a profile until it is resampled, if its steps are not equal
+      real(dp) :: uneven_steps(2) = 0.0_dp         !! least and largest of a profile that was resampled, otherwise 0
       logical :: is_usual_side(2) = .false.        !! whether a step is that of the format's default of the side
       character(7) :: format = ''                  !! a value of the key file_format but 'auto'
       character(:), allocatable :: length_unit     !! of the steps; not allocated if the file does not name units

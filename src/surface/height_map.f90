@@ -61,11 +61,11 @@ contains
             "program is started. The last row and column are the cell's last, not copies of the first.", &
             longest_path, required=.true.), &
          choice_key('file_format', "'auto'", &
-            "'matrix', a row of heights for each y; 'xyz', lines of x, y, z on a regular grid; 'npy' of numpy; "// &
-            "'gsf' of Gwyddion; 'gnuplot', its binary matrix; 'auto', what the file looks like, xyz if "// &
-            'all lines have three numbers. xyz and gnuplot give the sides of the cell, gsf also units: leave out '// &
-            'length_x and length_y.', &
-            [character(7) :: 'auto', 'matrix', 'xyz', 'npy', 'gsf', 'gnuplot']), &
+            "'matrix', a row of heights for each y; 'xyz', lines of x, y, z on a regular grid; 'xz', lines of x and z "// &
+            "of a profile; 'npy' of numpy; 'gsf' of Gwyddion; 'gnuplot', its binary matrix; 'auto', what the file "// &
+            'looks like, xyz if all lines have three numbers, xz if all have two. xyz, xz and gnuplot give the '// &
+            'sides of the cell, gsf and heads of texts also units: leave out length_x and length_y.', &
+            [character(7) :: 'auto', 'matrix', 'xyz', 'xz', 'npy', 'gsf', 'gnuplot']), &
          real_key('missing_value', '', '-', 'heights of the file that have this value are missing, as are nan and '// &
             'empty fields between commas, semicolons or tabs.'), &
          real_key('height_scale', '1.0', 'length', "length of one unit of the file's heights; beside a file with "// &
@@ -162,7 +162,7 @@ contains
       character(:), allocatable, intent(out) :: assumed   !! the sides that neither gives, in words; empty if none
       type(error_type), allocatable, intent(out) :: error
 
-      character(*), parameter :: keys(2) = ['length_x', 'length_y'], gsf_keys(2) = ['XReal', 'YReal']
+      character(*), parameter :: keys(2) = ['length_x', 'length_y']
       character(:), allocatable :: sides, unit
       integer :: d, points(2)
       logical :: is_given(2)   ! by the deck
@@ -187,7 +187,7 @@ contains
                if (is_given(d)) cycle
                call values%leave_out(keys(d))
                if (heights%is_usual_side(d)) assumed = clauses(assumed, keys(d)//' = '//short_number(length(d))// &
-                  unit//' is assumed: the file has no '//gsf_keys(d)//', whose default is 1')
+                  unit//' is assumed: the file does not give it, and 1 is the default of .gsf files')
             end do
             if (n == 1) call values%leave_out('length_y')
             return
