@@ -40,16 +40,16 @@ contains
       if (.not. allocated(error)) call check_room(table%path, [n, 1], error)
       if (allocated(error)) return
       x = table%values(table%first(:n))
-      do k = 1, n
-         if (ieee_is_nan(x(k))) then
-            call bad_line('x must be a number; a missing height is nan, or its line is left out')
-            return
-         else if (k > 1) then
-            if ((x(k) - x(k - 1))*(x(n) - x(1)) > 0.0_dp) cycle
-            call bad_line('x = '//short_number(x(k))//' after '//short_number(x(k - 1))// &
-                          ': from line to line x must rise, or fall')
-            return
-         end if
+      k = findloc(ieee_is_nan(x), .true., dim=1)
+      if (k > 0) then
+         call bad_line('x must be a number; a missing height is nan, or its line is left out')
+         return
+      end if
+      do k = 2, n
+         if ((x(k) - x(k - 1))*(x(n) - x(1)) > 0.0_dp) cycle
+         call bad_line('x = '//short_number(x(k))//' after '//short_number(x(k - 1))// &
+                       ': from line to line x must rise, or fall')
+         return
       end do
       allocate (map%height(n, 1), source=ieee_value(0.0_dp, ieee_quiet_nan))
       do k = 1, n
