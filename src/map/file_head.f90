@@ -90,8 +90,8 @@ contains
       if (is_number) is_number = number >= smallest_number .and. number <= largest_number
    end subroutine read_positive
 
-   !> The entry of a key in the lines behind the first one, without the blanks around it; empty if it is not there. Lines
-   !> may begin with the mark of a comment.
+   !> The entry of a key in the lines behind the first one, without the blanks around it; empty if it is not there.
+   !> Lines may begin with the mark of a comment.
    pure function entry_of(words, key, separator) result(entry)
       character(*), intent(in) :: words, key
       character(1), intent(in) :: separator   !! between key and entry

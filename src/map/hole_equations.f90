@@ -196,7 +196,7 @@ contains
    end function neighbour_of
 
    !> Fills the holes of a map: conjugate gradients, preconditioned by `cycle`, until the residual of (M3) is rounding.
-   !> Heights count from one of those around the holes: rounding is that of their differences, and none if all are equal.
+   !> Heights count from one of those around the holes: rounding is that of their differences, none if they are equal.
    subroutine solve(self, height)
       class(hole_equations), intent(inout) :: self
       real(dp), intent(inout) :: height(:, :)   !! shape (M, N); only the missing heights change

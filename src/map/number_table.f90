@@ -20,7 +20,7 @@ module wavycon_number_table
       integer, allocatable :: first(:)          !! index of the first value of each row; one more: size(values) + 1
       integer, allocatable :: line(:)           !! line of the file of each row
       logical, allocatable :: ends_open(:)      !! whether the row ends in a separator: a last number may be missing
-      integer :: next_head = 0                  !! line behind the first row that begins the head of another map; 0: none
+      integer :: next_head = 0                  !! line behind the first row with the head of another map; 0: none
    contains
       procedure :: rows
       procedure :: length

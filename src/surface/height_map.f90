@@ -61,8 +61,8 @@ contains
             "program is started. The last row and column are the cell's last, not copies of the first.", &
             longest_path, required=.true.), &
          choice_key('file_format', "'auto'", &
-            "'matrix', a row of heights for each y; 'xyz', lines of x, y, z on a regular grid; 'xz', lines of x and z "// &
-            "of a profile; 'npy' of numpy; 'gsf' of Gwyddion; 'gnuplot', its binary matrix; 'auto', what the file "// &
+            "'matrix', a row of heights for each y; 'xyz', lines of x, y, z on a regular grid; 'xz', lines of x "// &
+            "and z of a profile; 'npy' of numpy; 'gsf' of Gwyddion; 'gnuplot', its binary matrix; 'auto', what the file "// &
             'looks like, xyz if all lines have three numbers, xz if all have two. xyz, xz and gnuplot give the '// &
             'sides of the cell, gsf and heads of texts also units: leave out length_x and length_y.', &
             [character(7) :: 'auto', 'matrix', 'xyz', 'xz', 'npy', 'gsf', 'gnuplot']), &
