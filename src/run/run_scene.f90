@@ -13,7 +13,7 @@ module wavycon_run_scene
    use wavycon_ranks, only: add_over_ranks, any_rank, is_first_rank, share_error, work_alone
    use wavycon_results, only: results_type
    use wavycon_run_log, only: run_log
-   use wavycon_scene, only: by_yield, scene_type
+   use wavycon_scene, only: by_contact_area, by_yield, scene_type
    use wavycon_solve_loads, only: solve_loads
    use wavycon_solver_list, only: start_solver
    use wavycon_surface, only: whole_surface
@@ -385,6 +385,7 @@ contains
       loads = integer_text(size(results%loads))
       associate (scene => results%scene)
          call note_unresolved(results, log)
+         if (scene%loads_by /= by_yield) call note_unreached(results, log)
          if (without_area > 0) call log%say('note: at '//integer_text(without_area)//' loads '// &
                                             results%solver%why_no_area()//', so that their contact area shows as 0')
          if (scene%loads_by == by_yield .and. .not. results%solver%has_error_estimates()) call log%say( &
@@ -403,6 +404,30 @@ contains
       end associate
       status = merge(exit_fine, exit_not_converged, bad == 0)
    end subroutine sum_up
+
+   !> Says how many contact areas or mean gaps no load has on the grid, and what helps.
+   subroutine note_unreached(results, log)
+      type(results_type), intent(in) :: results
+      type(run_log), intent(inout) :: log
+
+      character(:), allocatable :: limit
+      integer :: i, unreached
+
+      unreached = 0
+      do i = 1, size(results%loads)
+         associate (solution => results%loads(i)%solution, measures => results%loads(i)%solution%measures)
+            if (solution%status /= not_found .or. solution%pbar_over_pstar > 0.0_dp) cycle
+            unreached = unreached + 1
+            limit = ' mean gaps are above the largest that the grid shows, '// &
+                    short_number(measures%mean_gap_over_amplitude)
+            if (results%scene%loads_by == by_contact_area) limit = &
+               ' contact areas are below the least that the grid shows, '//short_number(measures%contact_area_fraction)
+         end associate
+      end do
+      if (unreached > 0) call log%say('note: '//integer_text(unreached)//' of '//integer_text(size(results%loads))// &
+         limit//' where its highest points just touch: no load has them. Give more grid_points or a smaller '// &
+         "accuracy; expansions, solver = 'fitted', have no such limit")
+   end subroutine note_unreached
 
    !> Says which values have no error estimate and which are no larger than theirs, and what helps.
    subroutine note_unresolved(results, log)
