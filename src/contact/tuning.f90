@@ -21,8 +21,11 @@ module wavycon_contact_tuning
    !> A grid is solved until the gap in contact deviates from zero by this part of the gap at the points next to the
    !> contact, so that the iteration adds little to the error of the edge.
    real(dp), parameter, public :: edge_tolerance = 5e-4_dp
-   !> Iterations on one grid, after which the status is iteration_limit.
+   !> Iterations on one grid, after which the status is iteration_limit; so many, or
    integer, parameter, public :: iteration_limit = 500
+   !> so many times the square root of the cell's longer side over the shortest step of the grid, if that is more: on
+   !> cells of up to 1:1000 random maps took up to 4.6 times.
+   real(dp), parameter, public :: iterations_of_root = 10.0_dp
    !> A point enters the contact when its overlap exceeds this part of the allowed residual. Smaller overlaps may be
    !> rounding: such points would enter and leave without end.
    real(dp), parameter, public :: overlap_part = 0.1_dp
