@@ -10,7 +10,7 @@ module wavycon_grid_contact
    use wavycon_contact_solution, only: contact_solution, no_solution, pack_common, packed_values, unpack_common
    use wavycon_contact_solver, only: contact_solver
    use wavycon_contact_status, only: converged, no_memory, not_accurate, unresolved
-   use wavycon_contact_tuning, only: least_search_points, worst_search_accuracy
+   use wavycon_contact_tuning, only: largest_spot, least_search_points, worst_search_accuracy
    use wavycon_edge_curves, only: edge_curve, shift_curve, strip_ends, trace_edges, turn_curves, whole_strips
    use wavycon_grid_cascade, only: cascade_answer, solve_by_cascade
    use wavycon_grid_edge, only: grid_edge, grid_strip_edges, make_grid_edge
@@ -22,6 +22,7 @@ module wavycon_grid_contact
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: key_type
    use wavycon_kinds, only: dp
+   use wavycon_load_concentration, only: load_concentration
    use wavycon_measure_tuning, only: edge_offset
    use wavycon_plain_text, only: integer_text, short_number
    use wavycon_problems, only: problem_list_type
@@ -204,6 +205,8 @@ contains
                                       contact_area_corrected_fraction=answer%corrected_area)
       if (self%surface%has_hardness()) own%measures%load_at_hardness_fraction = &
          answer%area_at_hardness*self%surface%hardness/pbar_over_pstar
+      if (all(self%surface%points > 0) .and. answer%values(2) <= largest_spot) &
+         own%measures%load_concentration = load_concentration(answer%edge)
       own%imprint = answer%state%imprint
       own%active_constraints = bound_points(answer%edge, self%surface%hardness)
       own%iterations = answer%iterations

@@ -127,6 +127,12 @@ module wavycon_contact_tuning
    !> side, for the same reason.
    integer, parameter, public :: least_search_points = 64
 
+   ! One spot in a periodic cell, (C27).
+
+   !> Largest contact area fraction and least load concentration of what counts as one spot. At 2 % of a square cell
+   !> Hertz' contact has the concentration 0.97; the next term of (C27) is some (radius/side)^3 of the approach, 5e-4.
+   real(dp), parameter, public :: largest_spot = 0.02_dp, least_concentration = 0.95_dp
+
    ! The paper's series.
 
    !> The dual method starts at this load or a higher one and passes on to lighter ones. It begins with the pressure

@@ -2,12 +2,15 @@
 module wavycon_run_scene
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_checkpoint, only: checkpoint_file, checkpoint_name, read_checkpoint
+   use wavycon_constants, only: pi
    use wavycon_contact_measures, only: is_known
    use wavycon_contact_status, only: converged, not_found, unresolved
+   use wavycon_contact_tuning, only: least_concentration
    use wavycon_error, only: error_type, exit_file_trouble, exit_fine, exit_not_converged, fatal_error
    use wavycon_find_stresses, only: find_stresses
    use wavycon_fourier_series, only: fourier_series
    use wavycon_kinds, only: dp
+   use wavycon_lattice_sums, only: rectangular_distance_sum
    use wavycon_output_file, only: output_file
    use wavycon_plain_text, only: escaped, integer_text, short_number
    use wavycon_ranks, only: add_over_ranks, any_rank, is_first_rank, share_error, work_alone
@@ -386,6 +389,7 @@ contains
       associate (scene => results%scene)
          call note_unresolved(results, log)
          if (scene%loads_by /= by_yield) call note_unreached(results, log)
+         call note_images(results, log)
          if (without_area > 0) call log%say('note: at '//integer_text(without_area)//' loads '// &
                                             results%solver%why_no_area()//', so that their contact area shows as 0')
          if (scene%loads_by == by_yield .and. .not. results%solver%has_error_estimates()) call log%say( &
@@ -404,6 +408,37 @@ contains
       end associate
       status = merge(exit_fine, exit_not_converged, bad == 0)
    end subroutine sum_up
+
+   !> Says what the periodic images of a single spot on a measured map add to its approach (C27).
+   subroutine note_images(results, log)
+      type(results_type), intent(in) :: results
+      type(run_log), intent(inout) :: log
+
+      real(dp) :: factor, largest, pressure, side(2)
+      integer :: i, spots
+
+      associate (scene => results%scene, surface => results%scene%surface)
+         if (.not. allocated(scene%map) .or. surface%dimension == 1 .or. surface%mirrored) return
+         if (scene%map%path == '') return
+         side = surface%sides()
+         factor = rectangular_distance_sum(side(1)/side(2))/pi
+         spots = 0
+         largest = 0.0_dp
+         do i = 1, size(results%loads)
+            associate (measures => results%loads(i)%solution%measures)
+               if (measures%load_concentration < least_concentration) cycle
+               spots = spots + 1
+               pressure = scene%p_star*results%loads(i)%solution%pbar_over_pstar
+               largest = max(largest, abs(factor*pressure*sqrt(product(side))/scene%e_star)/ &
+                                      (surface%amplitude*measures%approach_over_amplitude))
+            end associate
+         end do
+         if (spots > 0) call log%say('note: at '//integer_text(spots)//' of '//integer_text(size(results%loads))// &
+            ' loads the contact is one spot. Its periodic images change the approach, by up to '// &
+            integer_text(nint(100*largest))//' %: that of the spot alone is approach '//merge('+ ', '- ', factor < 0.0_dp)// &
+            short_number(abs(factor))//'*mean_pressure*sqrt(cell_x*cell_y)/e_star')
+      end associate
+   end subroutine note_images
 
    !> Says how many contact areas or mean gaps no load has on the grid, and what helps.
    subroutine note_unreached(results, log)
