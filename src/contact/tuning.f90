@@ -102,8 +102,8 @@ module wavycon_contact_tuning
    !> And at least so many spacings of the numbers at the target: the value itself is rounded, which near 1 is more than
    !> the fractions of 1 - t above.
    real(dp), parameter, public :: value_roundings = 4.0_dp
-   !> P at which a search ends whose area or gap no longer follows the load: lighter than the lightest that adds a second
-   !> point to the contact, about 1e-14 on 1e9 points, and far above the least number in single precision.
+   !> P at which a search ends whose area or gap no longer follows the load: lighter than the lightest that adds a
+   !> second point to the contact, about 1e-14 on 1e9 points, and far above the least number in single precision.
    real(dp), parameter, public :: lightest_load = 1e-20_dp
    !> Solutions of a search at one accuracy, after which the status is not_accurate. To halve a step of `longest_step`
    !> down to rounding takes 45.

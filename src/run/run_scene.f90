@@ -435,8 +435,8 @@ contains
          end do
          if (spots > 0) call log%say('note: at '//integer_text(spots)//' of '//integer_text(size(results%loads))// &
             ' loads the contact is one spot. Its periodic images change the approach, by up to '// &
-            integer_text(nint(100*largest))//' %: that of the spot alone is approach '//merge('+ ', '- ', factor < 0.0_dp)// &
-            short_number(abs(factor))//'*mean_pressure*sqrt(cell_x*cell_y)/e_star')
+            integer_text(nint(100*largest))//' %: that of the spot alone is approach '// &
+            merge('+ ', '- ', factor < 0.0_dp)//short_number(abs(factor))//'*mean_pressure*sqrt(cell_x*cell_y)/e_star')
       end associate
    end subroutine note_images
 
