@@ -6,7 +6,7 @@
 module wavycon_grid_contact
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_fields, only: contact_fields
-   use wavycon_contact_measures, only: contact_measures, or_nan
+   use wavycon_contact_measures, only: contact_measures, or_nan, unknown
    use wavycon_contact_solution, only: contact_solution, no_solution, pack_common, packed_values, unpack_common
    use wavycon_contact_solver, only: contact_solver
    use wavycon_contact_status, only: converged, no_memory, not_accurate, unresolved
@@ -201,10 +201,16 @@ contains
                                       mean_gap_error=answer%errors(1), contact_area_error=answer%errors(2), &
                                       peak_pressure_error=answer%errors(3), &
                                       area_at_hardness_fraction=answer%area_at_hardness, &
+                                      area_at_hardness_error=answer%area_at_hardness_error, &
                                       contact_area_counted_fraction=answer%counted_area, &
                                       contact_area_corrected_fraction=answer%corrected_area)
-      if (self%surface%has_hardness()) own%measures%load_at_hardness_fraction = &
-         answer%area_at_hardness*self%surface%hardness/pbar_over_pstar
+      if (self%surface%has_hardness()) then
+         associate (load_of_area => self%surface%hardness/pbar_over_pstar)
+            own%measures%load_at_hardness_fraction = answer%area_at_hardness*load_of_area
+            own%measures%load_at_hardness_error = answer%area_at_hardness_error*load_of_area
+         end associate
+         if (.not. own%measures%load_at_hardness_error < 1.0_dp) own%measures%load_at_hardness_error = unknown
+      end if
       if (all(self%surface%points > 0) .and. answer%values(2) <= largest_spot) &
          own%measures%load_concentration = load_concentration(answer%edge)
       own%imprint = answer%state%imprint

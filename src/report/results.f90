@@ -95,6 +95,8 @@ contains
                        ', points_y[-] = '//integer_text(map%points(2))// &
                        number_of('lowest', unit, map%lowest)//number_of('highest', unit, map%highest)// &
                        number_of('rms_height', unit, map%rms))
+         if (map%assumed_sides /= '') call file%put('# sides: '//map%assumed_sides)
+         if (map%changes%words(unit) /= '') call file%put('# prepared: '//map%changes%words(unit))
          if (.not. map%rms > 0.0_dp) return
          call file%put('# roughness: skewness[-] = '//exact_number(map%skewness)// &
                        number_of('kurtosis', '-', map%kurtosis)//number_of('rms_slope', '-', roughness%slope)// &

@@ -47,6 +47,8 @@ TOLERANCES = {
         "peak_pressure_over_pstar_error": SOLVED,
         "area_at_hardness_fraction": EDGE,
         "load_at_hardness_fraction": EDGE,
+        "area_at_hardness_fraction_error": SOLVED,
+        "load_at_hardness_fraction_error": SOLVED,
         "contact_area_counted_fraction": ARITHMETIC,  # numbers of points, as active_constraints
         "contact_area_corrected_fraction": ARITHMETIC,
         "linear_area_fraction": ARITHMETIC,
