@@ -3,7 +3,7 @@
 
 usage: test_plot.py --program WAVYCON [unittest's options]
 
-The long test, Plot.every_table_in_every_format, runs only if it is named.
+The long tests, Plot.every_table_in_every_format and Plot.strips_have_clean_ends, run only if they are named.
 """
 import html
 import os
@@ -208,7 +208,7 @@ class Plot(unittest.TestCase):
         for expected, area in zip(Table(self.folder/"line.summary.dat").column("contact_area_fraction"), areas):
             self.assertAlmostEqual(expected, area, delta=2e-3)
 
-    def test_strips_have_clean_ends(self):
+    def strips_have_clean_ends(self):
         """The strips of a wave are symmetric, row by row of the picture. gnuplot reads the picture."""
         self.plot("line.contour.dat")
         subprocess.run(["gnuplot", "-d"], cwd=self.folder, check=True, text=True, input="set table 'pixels'\n"
