@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Faults of one rank or of the machine: all ranks end soon, with one message and no incomplete file.
 
-usage: test_faults.py --mpiexec MPIEXEC --program WAVYCON --parallel WAVYCON_MPI
+usage: test_faults.py --mpiexec MPIEXEC --ranks 3 --program WAVYCON --parallel WAVYCON_MPI
 """
 import argparse
 import os
@@ -223,7 +223,7 @@ class Faults(unittest.TestCase):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    for name in "mpiexec", "program", "parallel":
+    for name in "mpiexec", "ranks", "program", "parallel":
         parser.add_argument(f"--{name}", required=True)
     options, rest = parser.parse_known_args()
     for name, value in vars(options).items():
