@@ -26,28 +26,13 @@ contains
    subroutine get_solvers(solvers)
       type(solver_item), allocatable, intent(out) :: solvers(:)
 
-      allocate (solvers(0))
-      call add(solvers, beale_contact())
-      call add(solvers, grid_contact())
-      call add(solvers, fitted_contact())
-      call add(solvers, closed_form_contact())
-      call add(solvers, auto_contact())
+      allocate (solvers(5))
+      allocate (beale_contact :: solvers(1)%solver)
+      allocate (grid_contact :: solvers(2)%solver)
+      allocate (fitted_contact :: solvers(3)%solver)
+      allocate (closed_form_contact :: solvers(4)%solver)
+      allocate (auto_contact :: solvers(5)%solver)
    end subroutine get_solvers
-
-   subroutine add(solvers, solver)
-      type(solver_item), allocatable, intent(inout) :: solvers(:)
-      class(contact_solver), intent(in) :: solver
-
-      type(solver_item), allocatable :: longer(:)
-      integer :: i
-
-      allocate (longer(size(solvers) + 1))
-      do i = 1, size(solvers)
-         call move_alloc(solvers(i)%solver, longer(i)%solver)
-      end do
-      allocate (longer(size(longer))%solver, source=solver)
-      call move_alloc(longer, solvers)
-   end subroutine add
 
    !> The name and the keys of each solver.
    subroutine keys_of_solvers(solvers, alternatives)
