@@ -7,7 +7,7 @@ module wavycon_grid_contact
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_measures, only: contact_measures, or_nan, unknown
-   use wavycon_contact_solution, only: contact_solution, no_solution, pack_common, packed_values, unpack_common
+   use wavycon_contact_solution, only: contact_solution, no_solution
    use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_contact_status, only: converged, no_memory, not_accurate, unresolved
    use wavycon_contact_tuning, only: largest_spot, least_search_points, worst_search_accuracy
@@ -68,7 +68,7 @@ module wavycon_grid_contact
       procedure :: unpack_kept
    end type grid_solution
 
-   !> Numbers in the array of pack_kept between those of pack_common and the field.
+   !> Numbers in the array of pack_kept before the field.
    integer, parameter :: own_values = 9
 
 contains
@@ -371,23 +371,21 @@ contains
       allocate (grid_solution :: solution)
    end subroutine new_kept_solution
 
-   !> After the numbers of pack_common: the imprint, the stiffness of `edge`, the points along x and y (zeros if the
+   !> The imprint, the stiffness of `edge`, the points along x and y (zeros if the
    !> fields were not kept), the width of the slabs and the first column of this rank's, whether the cell is turned,
    !> whether the grid covers a quarter of it, and the pressures and gaps at the own columns.
    pure subroutine pack_kept(self, values)
       class(grid_solution), intent(in) :: self
       real(dp), allocatable, intent(out) :: values(:)
 
-      real(dp), allocatable :: common(:)
       real(dp) :: stiffness(2)
       integer :: first, j, layout(4), status
       integer(int64) :: rows
 
-      call pack_common(self, common)
       layout = 0
       rows = 0
       stiffness = 1.0_dp
-      first = packed_values + own_values
+      first = own_values
       if (allocated(self%edge)) then
          associate (slab => self%edge%slab)
             layout = [slab%points, slab%width, slab%first]
@@ -399,7 +397,7 @@ contains
          allocate (values(first), stat=status)
       end if
       if (status /= 0) return
-      values(:first) = [common, self%imprint, stiffness, real(layout, dp), 0.0_dp, 0.0_dp]
+      values(:first) = [self%imprint, stiffness, real(layout, dp), 0.0_dp, 0.0_dp]
       if (self%turned) values(first - 1) = 1.0_dp
       if (.not. allocated(self%edge)) return
       if (self%edge%even) values(first) = 1.0_dp
@@ -419,9 +417,8 @@ contains
       real(dp), allocatable :: field(:, :)
       type(grid_slab) :: slab
 
-      call unpack_common(self, values, understood)
-      first = packed_values + own_values
-      if (understood) understood = size(values) >= first
+      first = own_values
+      understood = size(values) >= first
       if (understood) understood = all(values(first - 5:first - 2) >= 0.0_dp .and. &
                                        values(first - 5:first - 2) <= huge(layout))
       if (.not. understood) return
