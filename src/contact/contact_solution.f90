@@ -190,8 +190,8 @@ contains
    !> Makes the solution that stands for a failure: fields of NaN, no edge, and unknown errors.
    subroutine no_solution(pbar_over_pstar, solver, status, solution)
       real(dp), intent(in) :: pbar_over_pstar        !! P
-      character(*), intent(in) :: solver             !! name of the solver that failed
-      character(*), intent(in) :: status             !! why: a name of wavycon_contact_status
+      integer, intent(in) :: solver                  !! that failed, a name of wavycon_solution_record
+      integer, intent(in) :: status                  !! why: a name of wavycon_contact_status
       class(contact_solution), allocatable, intent(out) :: solution
 
       allocate (solution_without_contact_edge :: solution)

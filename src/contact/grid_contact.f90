@@ -9,7 +9,7 @@ module wavycon_grid_contact
    use wavycon_contact_measures, only: contact_measures, or_nan, unknown
    use wavycon_contact_solution, only: contact_solution, no_solution
    use wavycon_contact_solver, only: contact_solver, solver_traits
-   use wavycon_contact_status, only: converged, no_memory, not_accurate, unresolved
+   use wavycon_contact_status, only: converged, iteration_limit, no_memory, not_accurate, unresolved
    use wavycon_contact_tuning, only: largest_spot, least_search_points, worst_search_accuracy
    use wavycon_edge_curves, only: edge_curve, shift_curve, strip_ends, trace_edges, turn_curves, whole_strips
    use wavycon_grid_cascade, only: cascade_answer, solve_by_cascade
@@ -23,8 +23,8 @@ module wavycon_grid_contact
    use wavycon_load_concentration, only: load_concentration
    use wavycon_measure_tuning, only: edge_offset
    use wavycon_ranks, only: gather_columns, is_first_rank
-   use wavycon_qp_problem, only: qp_iteration_limit, qp_status_name
    use wavycon_region_numbers, only: region_numbers
+   use wavycon_solution_record, only: by_grids
    use wavycon_series_stress, only: series_stress, start_series_stress
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type
@@ -34,8 +34,6 @@ module wavycon_grid_contact
    private
 
    public :: grid_contact, grid_solution
-
-   character(*), parameter :: solver_name = 'grid'
 
    type, extends(contact_solver) :: grid_contact
       real(dp), private :: accuracy = 0.0_dp                 !! requested
@@ -119,7 +117,7 @@ contains
 
       type(grid_plan) :: plan
 
-      traits = solver_traits(name=solver_name, coarser_levels=coarser_levels(self))
+      traits = solver_traits(solver=by_grids, coarser_levels=coarser_levels(self))
       if (.not. self%is_started) return
       if (allocated(self%smaller)) then
          plan = plan_grids(self%smaller, self%points)
@@ -152,12 +150,12 @@ contains
          call solve_cell(self, self%surface, pbar_over_pstar, answer)
       end if
       if (.not. allocated(answer%edge)) then
-         call no_solution(pbar_over_pstar, solver_name, no_memory, solution)
+         call no_solution(pbar_over_pstar, by_grids, no_memory, solution)
          return
       end if
       allocate (own)
       own%pbar_over_pstar = pbar_over_pstar
-      own%solver = solver_name
+      own%solver = by_grids
       own%turned = allocated(self%smaller)
       own%measures = contact_measures(mean_gap_over_amplitude=answer%values(1), &
                                       approach_over_amplitude=1.0_dp - answer%state%mean_gap, &
@@ -184,7 +182,7 @@ contains
       own%iterations = answer%iterations
       own%residual = answer%state%residual
       if (.not. answer%state%converged) then
-         own%status = qp_status_name(qp_iteration_limit)
+         own%status = iteration_limit
       else if (answer%accurate) then
          own%status = converged
       else if (answer%out_of_memory) then

@@ -4,6 +4,7 @@ module wavycon_results
    use wavycon_column_text, only: column_name, column_unit
    use wavycon_contact_solution, only: contact_solution_item
    use wavycon_contact_solver, only: contact_solver, solver_traits
+   use wavycon_contact_status, only: status_name
    use wavycon_kinds, only: dp
    use wavycon_largest_stress, only: largest_stress
    use wavycon_output_file, only: output_file
@@ -149,7 +150,7 @@ contains
 
       associate (solution => self%loads(load)%solution)
          call file%begin_block('load '//integer_text(load)//': pbar/p* = '//exact_number(solution%pbar_over_pstar)// &
-                               ', '//trim(solution%status))
+                               ', '//trim(status_name(solution%status)))
       end associate
    end subroutine begin_block
 
