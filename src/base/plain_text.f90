@@ -1,4 +1,4 @@
-!> Text for messages and decks: lower case, numbers, quotes, and escapes for bytes that do not print.
+!> Text for messages and decks: lower case, numbers, lists, quotes, and escapes for bytes that do not print.
 module wavycon_plain_text
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_kinds, only: dp
@@ -6,6 +6,7 @@ module wavycon_plain_text
    private
 
    public :: lower_case, integer_text, short_number, exact_number, quoted, unquoted, system_words
+   public :: in_quotes, listed
    public :: is_printable, escaped, excerpt, character_count, is_continuation
 
    !> An integer in decimal, without blanks.
@@ -106,6 +107,32 @@ contains
       text = fraction(:verify(fraction, '0', back=.true.))
       if (text(len(text):) == '.') text = text(:len(text) - 1)
    end function without_final_zeros
+
+   !> "'name'"
+   elemental function in_quotes(name) result(words)
+      character(*), intent(in) :: name
+      character(len(name) + 2) :: words
+
+      words = "'"//trim(name)//"'"
+   end function in_quotes
+
+   !> "a, b, c" or, with a last separator such as ' and ', "a, b and c".
+   pure function listed(names, last) result(words)
+      character(*), intent(in) :: names(:)              !! at least one; blanks at their ends are left out
+      character(*), intent(in), optional :: last
+      character(:), allocatable :: words
+
+      integer :: i
+
+      words = trim(names(1))
+      do i = 2, size(names)
+         if (present(last) .and. i == size(names)) then
+            words = words//last//trim(names(i))
+         else
+            words = words//', '//trim(names(i))
+         end if
+      end do
+   end function listed
 
    !> The text as a Fortran character constant.
    pure function quoted(text) result(constant)

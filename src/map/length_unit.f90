@@ -1,10 +1,9 @@
 !> Units of length of map files: the metre and its decimal multiples.
 module wavycon_length_unit
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
-   use wavycon_key_table, only: listed
    use wavycon_kinds, only: dp
    use wavycon_measured_map, only: measured_map
-   use wavycon_plain_text, only: escaped, excerpt
+   use wavycon_plain_text, only: escaped, excerpt, listed
    implicit none (type, external)
    private
 
