@@ -273,3 +273,37 @@ void wavycon_use_one_thread_for_matrices(void)
         end_threads();
     dlclose(program);
 }
+
+/* Lets OpenMP's threads sleep while they wait, unless the environment says how they wait. On Linux they spin by default,
+   for milliseconds before each loop and after it, and take the processor from threads that work, also of other programs.
+   OpenMP reads this when the program starts, so a program with the option --threads starts itself again. */
+void wavycon_let_waiting_threads_sleep(void)
+{
+    char **words = NULL, *program;
+    int has_option = 0;
+    FILE *file;
+    if (getenv("OMP_WAIT_POLICY") != NULL || getenv("GOMP_SPINCOUNT") != NULL)
+        return;
+    file = fopen("/proc/self/cmdline", "r");
+    if (file == NULL)
+        return;
+    for (size_t i = 0;; i++) {
+        size_t room = 0;
+        words = realloc(words, (i + 1)*sizeof *words);
+        if (words == NULL)
+            break;
+        words[i] = NULL;
+        if (getdelim(&words[i], &room, '\0', file) <= 0) {
+            words[i] = NULL;
+            break;
+        }
+        has_option |= strncmp(words[i], "--threads", strlen("--threads")) == 0;
+    }
+    fclose(file);
+    if (words == NULL || !has_option)
+        return;
+    /* Without success the program goes on as it is. */
+    program = realpath("/proc/self/exe", NULL);
+    if (program != NULL && setenv("OMP_WAIT_POLICY", "passive", 0) == 0)
+        execv(program, words);
+}

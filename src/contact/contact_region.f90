@@ -24,7 +24,7 @@ module wavycon_contact_region
    type :: contact_region
       integer :: points = 0                    !! of the region
       logical, allocatable :: columns(:)       !! whether a column of the grid has points of the region, shape (N)
-      integer :: threads = 1                   !! for loops over columns or chunks
+      integer :: threads = 1                   !! for loops over its points
       integer :: chunks = 0
       integer, allocatable :: chunk(:)         !! place in vectors where each chunk begins, and one more, (chunks+1)
       integer, allocatable :: strip(:)         !! likewise of each strip of columns, shape (strips+1)
@@ -61,8 +61,7 @@ contains
       m = size(inside, 1)
       n = size(inside, 2)
       strips = (n + strip_columns - 1)/strip_columns
-      self%threads = threads_for(size(inside))
-      !$omp parallel do num_threads(self%threads)
+      !$omp parallel do num_threads(threads_for(size(inside)))
       do j = 1, n
          points(j) = count(inside(:, j))
          counts(j) = count(inside(2:, j) .and. .not. inside(:m - 1, j))
@@ -76,6 +75,7 @@ contains
       allocate (self%chunk(most_chunks + 1), self%chunk_run(most_chunks + 1), self%chunk_column(most_chunks))
       allocate (self%strip(strips + 1), self%strip_chunk(strips + 1))
       self%columns = points > 0
+      self%threads = threads_for(sum(points))
       r = 0
       do j = 1, n
          if (modulo(j - 1, strip_columns) == 0) then
@@ -262,7 +262,7 @@ contains
 
       integer :: j, last, r
 
-      !$omp parallel do num_threads(self%threads) private(last, r)
+      !$omp parallel do num_threads(threads_for(size(field))) private(last, r)
       do j = 1, size(field, 2)
          if (.not. self%columns(j)) cycle
          last = 0

@@ -7,7 +7,7 @@
 module wavycon_grid_cascade
    use wavycon_compliance_operator, only: compliance_operator
    use wavycon_contact_measures, only: known_errors, unknown
-   use wavycon_contact_tuning, only: iteration_limit
+   use wavycon_contact_tuning, only: iteration_limit, iterations_of_root
    use wavycon_counted_area, only: corrected_area_fraction, counted_area_fraction
    use wavycon_grid_edge, only: grid_contact_area, grid_edge, joined, make_grid_edge, pressure_per_gap, start_grid_edge
    use wavycon_grid_error, only: change_history, estimate_errors, unresolved_errors
@@ -134,12 +134,27 @@ contains
          end if
          call stencil%start(surface, slab%points)
       end associate
-      call solve_on_grid(half_space, stencil, h, residual, iteration_limit, answer%state)
+      call solve_on_grid(half_space, stencil, h, residual, most_iterations(surface, answer%state%slab%points), &
+                         answer%state)
       answer%grids = answer%grids + 1
       answer%iterations = answer%iterations + answer%state%iterations
       answer%transform_pairs = answer%transform_pairs/2**surface%dimension &
                                + half_space%transform_pairs + half_space%single_pairs
    end subroutine solve_level
+
+   !> The iterations that a grid may take.
+   pure integer function most_iterations(surface, points)
+      type(surface_type), intent(in) :: surface
+      integer, intent(in) :: points(2)   !! of the grid
+
+      real(dp) :: step(2)
+
+      step = surface%length/(merge(2, 1, surface%shape%is_even())*points)
+      associate (n => surface%dimension)
+         most_iterations = nint(iterations_of_root*sqrt(maxval(surface%length(:n))/minval(step(:n))))
+      end associate
+      most_iterations = max(most_iterations, iteration_limit)
+   end function most_iterations
 
    !> Mean gap, contact area (C11), (C12) and peak pressure (C13) on the present grid, and their error estimates (C14)
    !> to (C17). The area is at least that which carries the load at the hardness; its estimate is that of the area

@@ -10,7 +10,7 @@ module wavycon_grid_contact
    use wavycon_contact_solution, only: contact_solution, no_solution, pack_common, packed_values, unpack_common
    use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_contact_status, only: converged, no_memory, not_accurate, unresolved
-   use wavycon_contact_tuning, only: least_search_points, worst_search_accuracy
+   use wavycon_contact_tuning, only: largest_spot, least_search_points, worst_search_accuracy
    use wavycon_edge_curves, only: edge_curve, shift_curve, strip_ends, trace_edges, turn_curves, whole_strips
    use wavycon_grid_cascade, only: cascade_answer, solve_by_cascade
    use wavycon_grid_edge, only: grid_edge, grid_strip_edges, make_grid_edge
@@ -20,6 +20,7 @@ module wavycon_grid_contact
    use wavycon_fourier_series, only: fourier_series
    use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
+   use wavycon_load_concentration, only: load_concentration
    use wavycon_measure_tuning, only: edge_offset
    use wavycon_ranks, only: gather_columns, is_first_rank
    use wavycon_qp_problem, only: qp_iteration_limit, qp_status_name
@@ -176,6 +177,8 @@ contains
          end associate
          if (.not. own%measures%load_at_hardness_error < 1.0_dp) own%measures%load_at_hardness_error = unknown
       end if
+      if (all(self%surface%points > 0) .and. answer%values(2) <= largest_spot) &
+         own%measures%load_concentration = load_concentration(answer%edge)
       own%imprint = answer%state%imprint
       own%active_constraints = bound_points(answer%edge, self%surface%hardness)
       own%iterations = answer%iterations

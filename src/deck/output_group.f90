@@ -130,25 +130,26 @@ contains
       character(:), allocatable :: plain
 
       plain = trim(name)//'/'
-      call drop('//', 1)
-      call drop('/./', 2)
+      call drop('//', 1, plain)
+      call drop('/./', 2, plain)
       if (index(plain, './') == 1) plain = plain(3:)
       if (plain == '') plain = './'
       if (len(plain) > 1) plain = plain(:len(plain) - 1)
 
    contains
 
-      !> Removes the first `bytes` bytes of each occurrence of a text.
-      pure subroutine drop(text, bytes)
+      !> Removes the first `bytes` bytes of each occurrence of a text in a path.
+      pure subroutine drop(text, bytes, path)
          character(*), intent(in) :: text
          integer, intent(in) :: bytes
+         character(:), allocatable, intent(inout) :: path
 
          integer :: i
 
-         i = index(plain, text)
+         i = index(path, text)
          do while (i > 0)
-            plain = plain(:i - 1)//plain(i + bytes:)
-            i = index(plain, text)
+            path = path(:i - 1)//path(i + bytes:)
+            i = index(path, text)
          end do
       end subroutine drop
 

@@ -125,7 +125,8 @@ void wavycon_delete(void *address_of_object);
 /* Copies the version, such as "0.1.0". */
 int wavycon_get_version(char *buffer, size_t bytes);
 
-/* Sets the number of threads for large grids, from 1, the default, to 1024. */
+/* Sets the number of threads for large grids, from 1, the default, to 1024. With OMP_WAIT_POLICY=passive in the
+   environment when the program starts, those that wait sleep; by default they spin. */
 int wavycon_set_threads(wavycon_error error, int number);
 
 /* Surfaces -------------------------------------------------------------------------------------------------------- */

@@ -37,6 +37,8 @@ module wavycon_contact_measures
       !> which is for surfaces alone. Otherwise `unknown`.
       real(dp) :: contact_area_counted_fraction = unknown
       real(dp) :: contact_area_corrected_fraction = unknown
+      !> That of wavycon_load_concentration, of a light contact on a height map; otherwise 0.
+      real(dp) :: load_concentration = 0.0_dp
    contains
       procedure :: errors => errors_of_measures
       procedure :: are_resolved

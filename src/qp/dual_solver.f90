@@ -123,7 +123,7 @@ contains
    end subroutine finish
 
    !> Brings the largest component of each normal to between 1/2 and 1, unless those of all normals are of similar size.
-   pure subroutine scale_constraints(problem, powers)
+   subroutine scale_constraints(problem, powers)
       type(qp_problem), intent(inout) :: problem
       integer, allocatable, intent(out) :: powers(:)  !! of two by which the constraints are multiplied, shape (m)
 

@@ -113,9 +113,9 @@ def alone_and_again(program, seed, kinds, scenes, work, failures):
     for number in range(scenes):
         name = f"threads-{number}"
         stream = random.Random(f"{seed} {name}")
-        # Several threads are used from 256 x 256 points on, here without symmetry.
+        # Several threads are used from 2**19 points on, here without symmetry.
         scene, loads = random_scene(stream, "sum"), random_loads(stream, 2)
-        files = scene.files(loads, "solver = 'grid', grid_points = 256, 320")
+        files = scene.files(loads, "solver = 'grid', grid_points = 720, 736")
         rows, complaints = solve(program, files, work/name)
         others, more = solve(program, files, work/name, "--threads", "2")
         off = difference(rows, others, ROUNDING)
