@@ -6,7 +6,7 @@ module wavycon_plain_text
    private
 
    public :: lower_case, integer_text, short_number, exact_number, quoted, unquoted, system_words
-   public :: in_quotes, listed
+   public :: clauses, in_quotes, listed, percent
    public :: is_printable, escaped, excerpt, character_count, is_continuation
 
    !> An integer in decimal, without blanks.
@@ -133,6 +133,25 @@ contains
          end if
       end do
    end function listed
+
+   !> Two clauses.
+   pure function clauses(first, second) result(words)
+      character(*), intent(in) :: first    !! may be empty
+      character(*), intent(in) :: second
+      character(:), allocatable :: words
+
+      words = second
+      if (first /= '') words = first//'; '//second
+   end function clauses
+
+   !> A part in per cent, such as '2.5 %'.
+   pure function percent(part) result(share)
+      real(dp), intent(in) :: part   !! 0 .. 1
+      character(:), allocatable :: share
+
+      share = short_number(0.1_dp*nint(1000*part))//' %'
+      if (part > 0.0_dp .and. nint(1000*part) == 0) share = 'below 0.1 %'
+   end function percent
 
    !> The text as a Fortran character constant.
    pure function quoted(text) result(constant)

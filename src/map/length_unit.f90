@@ -39,7 +39,7 @@ contains
    !> it is. Errors: exit_bad_input for a unit that is not one of the metre.
    subroutine convert_lengths(path, unit, map, error)
       character(*), intent(in) :: path   !! of the map, for the message
-      character(*), intent(in) :: unit   !! the deck's length_unit; empty if it gives none
+      character(*), intent(in) :: unit   !! to convert to; empty: that of the steps
       type(measured_map), intent(inout) :: map   !! with the unit converted to
       type(error_type), allocatable, intent(out) :: error
 

@@ -5,11 +5,10 @@ module wavycon_height_map
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp
-   use wavycon_map_changes, only: map_changes
    use wavycon_map_statistics, only: map_statistics, statistics_of
    use wavycon_measured_map, only: measured_map
    use wavycon_plain_text, only: escaped, short_number
-   use wavycon_prepare_map, only: map_preparation, prepare_map
+   use wavycon_prepare_map, only: map_changes, map_preparation, prepare_map
    use wavycon_ranks, only: share_error
    use wavycon_surface, only: surface_of_points, surface_type
    implicit none (type, external)

@@ -6,12 +6,11 @@ module wavycon_height_map_kind
    use wavycon_key_table, only: choice_key, real_key, text_key
    use wavycon_kinds, only: dp
    use wavycon_length_unit, only: convert_lengths
-   use wavycon_map_changes, only: clauses
    use wavycon_map_file, only: read_height_map
    use wavycon_map_statistics, only: map_statistics
    use wavycon_map_tuning, only: usual_window_width
    use wavycon_measured_map, only: measured_map
-   use wavycon_plain_text, only: escaped, integer_text, short_number
+   use wavycon_plain_text, only: clauses, escaped, integer_text, short_number
    use wavycon_prepare_map, only: map_preparation
    use wavycon_problems, only: problem_list_type
    use wavycon_ranks, only: share_error
