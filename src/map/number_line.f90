@@ -1,7 +1,7 @@
 !> Reads the numbers of a line.
 !>
-!> Numbers are separated by blanks, tabs, commas or semicolons, and written as `read_decimal` takes them. `nan` and `--` are
-!> missing numbers, and so is nothing between two commas, semicolons or tabs.
+!> Numbers are separated by blanks, tabs, commas or semicolons, and written as `read_decimal` takes them. `nan` and
+!> `--` are missing numbers, and so is nothing between two commas, semicolons or tabs.
 module wavycon_number_line
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use wavycon_constants, only: largest_number

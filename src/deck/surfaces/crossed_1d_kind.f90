@@ -18,13 +18,13 @@ contains
    type(surface_kind) function crossed_1d_kind() result(kind)
       kind%name = 'crossed_1d'
       kind%meaning = 'a wave on each of two blocks'
-      kind%keys = [ &
+      allocate (kind%keys, source=[ &
          real_key('amplitude1', '', 'length', 'amplitude of the wave along x, on the first block.', least=0.0_dp, &
                   required=.true.), &
          real_key('wavelength1', '', 'length', 'wavelength along x.', above=0.0_dp, required=.true.), &
          real_key('amplitude2', '', 'length', 'amplitude of the wave along y, on the second block.', least=0.0_dp, &
                   required=.true.), &
-         real_key('wavelength2', '', 'length', 'wavelength along y.', above=0.0_dp, required=.true.)]
+         real_key('wavelength2', '', 'length', 'wavelength along y.', above=0.0_dp, required=.true.)])
       kind%paper_wave_if = 'crossed_1d with equal waves'
       kind%make => make
    end function crossed_1d_kind

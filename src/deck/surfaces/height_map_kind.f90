@@ -30,7 +30,7 @@ contains
    type(surface_kind) function height_map_kind() result(kind)
       kind%name = 'file'
       kind%meaning = 'a height map'
-      kind%keys = [ &
+      allocate (kind%keys, source=[ &
          length_x_key(), &
          length_y_key('side of the periodic cell along y; without it points are equally far apart along x and y.'), &
          text_key('file', '', &
@@ -39,8 +39,8 @@ contains
             longest_path, required=.true.), &
          choice_key('file_format', "'auto'", &
             "'matrix', a row of heights for each y; 'xyz', lines of x, y, z on a regular grid; 'xz', lines of x "// &
-            "and z of a profile; 'npy' of numpy; 'gsf' of Gwyddion; 'gnuplot', its binary matrix; 'auto', what the file "// &
-            'looks like, xyz if all lines have three numbers, xz if all have two. xyz, xz and gnuplot give the '// &
+            "and z of a profile; 'npy' of numpy; 'gsf' of Gwyddion; 'gnuplot', its binary matrix; 'auto', what the "// &
+            'file looks like, xyz if all lines have three numbers, xz if all have two. xyz, xz and gnuplot give the '// &
             'sides of the cell, gsf and heads of texts also units: leave out length_x and length_y.', &
             [character(7) :: 'auto', 'matrix', 'xyz', 'xz', 'npy', 'gsf', 'gnuplot']), &
          real_key('missing_value', '', '-', 'heights of the file that have this value are missing, as are nan and '// &
@@ -59,7 +59,7 @@ contains
             "'mirror', by its mirror images; 'window', periodic after a taper to the mean at the borders.", &
             [character(8) :: 'periodic', 'mirror', 'window']), &
          real_key('window_width', short_number(usual_window_width), '-', &
-            "with edges = 'window': width of the taper at each border, over the side.", above=0.0_dp, most=0.5_dp)]
+            "with edges = 'window': width of the taper at each border, over the side.", above=0.0_dp, most=0.5_dp)])
       kind%make => make
       kind%check => check
    end function height_map_kind
@@ -96,8 +96,8 @@ contains
       if (.not. allocated(error)) call read_map(values, path, heights, error)
       call share_error(error)
       if (.not. allocated(error)) call take_sides(values, path, heights, length, assumed_sides, error)
-      if (.not. allocated(error)) call surface_of_map(path, preparation_of(values), &
-         values%real('height_scale'), length, heights, surface, map, error)
+      if (.not. allocated(error)) call surface_of_map(path, preparation_of(values), values%real('height_scale'), &
+                                                      length, heights, surface, map, error)
       if (allocated(error)) then
          error%message = error%message//' (the height map of '//escaped(values%deck_path)//')'
          return

@@ -17,9 +17,9 @@ contains
    type(surface_kind) function hexagonal_kind() result(kind)
       kind%name = 'hexagonal'
       kind%meaning = 'three equal waves at 60 degrees to each other'
-      kind%keys = [ &
+      allocate (kind%keys, source=[ &
          amplitude_key('mean gap before load; 0 is a flat surface.'), &
-         wavelength_key('wavelength of each of the three waves.')]
+         wavelength_key('wavelength of each of the three waves.')])
       kind%make => make
    end function hexagonal_kind
 

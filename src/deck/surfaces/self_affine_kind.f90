@@ -26,7 +26,7 @@ contains
    type(surface_kind) function self_affine_kind() result(kind)
       kind%name = 'self_affine'
       kind%meaning = 'a random rough surface, made from its spectrum'
-      kind%keys = [ &
+      allocate (kind%keys, source=[ &
          length_x_key(), length_y_key(), &
          real_key('hurst', '0.8', '-', 'Hurst exponent of the roughness.', least=0.0_dp, most=1.0_dp), &
          real_key('rms_height', '', 'length', 'root mean square of the height; or give rms_slope.', above=0.0_dp), &
@@ -48,7 +48,7 @@ contains
                      'points of the cell along x and y on which the surface is made, and solved unless &method '// &
                      'says otherwise; one number for both, and 1 along y for a profile. The default is the least '// &
                      'power of two with at least four points to short_wavelength, if that is not more than 8192.', &
-                     1, most_points, most_values=2)]
+                     1, most_points, most_values=2)])
       kind%make => make
       kind%set_defaults => set_defaults
       kind%check => check

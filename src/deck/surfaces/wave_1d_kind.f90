@@ -17,9 +17,9 @@ contains
    type(surface_kind) function wave_1d_kind() result(kind)
       kind%name = 'wave_1d'
       kind%meaning = 'gap amplitude (1 - cos phi), phi = 2 pi x/wavelength'
-      kind%keys = [ &
+      allocate (kind%keys, source=[ &
          amplitude_key('mean gap before load, half the height from trough to crest; 0 is a flat surface.'), &
-         wavelength_key('wavelength along x.')]
+         wavelength_key('wavelength along x.')])
       kind%paper_wave_if = 'wave_1d'
       kind%make => make
    end function wave_1d_kind

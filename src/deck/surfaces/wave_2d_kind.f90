@@ -19,10 +19,10 @@ contains
    type(surface_kind) function wave_2d_kind() result(kind)
       kind%name = 'wave_2d'
       kind%meaning = 'amplitude (1 - cos phi cos theta), theta = 2 pi y/wavelength_y'
-      kind%keys = [ &
+      allocate (kind%keys, source=[ &
          amplitude_key('mean gap before load, half the height from trough to crest; 0 is a flat surface.'), &
          wavelength_key('wavelength along x.'), &
-         real_key('wavelength_y', 'wavelength', 'length', 'wavelength along y.', above=0.0_dp)]
+         real_key('wavelength_y', 'wavelength', 'length', 'wavelength along y.', above=0.0_dp)])
       kind%paper_wave_if = 'wave_2d with one wavelength'
       kind%make => make
       kind%set_defaults => set_defaults

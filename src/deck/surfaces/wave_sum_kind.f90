@@ -24,7 +24,7 @@ contains
    type(surface_kind) function wave_sum_kind() result(kind)
       kind%name = 'sum'
       kind%meaning = 'any waves'
-      kind%keys = [ &
+      allocate (kind%keys, source=[ &
          length_x_key(), length_y_key(), &
          real_key('amplitudes', '', 'length', &
             'the height is the sum of amplitudes cos(2 pi (waves_x x/length_x + waves_y y/length_y) - phases).', &
@@ -35,7 +35,7 @@ contains
             'number of periods of each wave in the cell along y. If all are 0 the surface is a profile.', &
             -highest_wave, highest_wave, most_values=most_waves), &
          real_key('phases', '0', 'degree', 'phase of each wave.', least=-360.0_dp, most=360.0_dp, &
-            most_values=most_waves)]
+            most_values=most_waves)])
       kind%make => make
       kind%set_defaults => set_defaults
       kind%check => check
