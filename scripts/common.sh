@@ -33,3 +33,16 @@ bad_usage() {
 cached() {
    sed -n "s/^$1:[A-Z]*=//p" "$build/CMakeCache.txt"
 }
+
+# build_all: builds the programs and all tests; without what needs MPI where that cannot be installed.
+build_all() {
+   # If MPI cannot be installed, do not try again on every run, but only after `scripts/build --mpi` has succeeded.
+   local no_mpi=$build/no-mpi
+   if [ ! -e "$no_mpi" ] && "$root/scripts/dependencies" --mpi; then
+      "$root/scripts/build" --mpi all
+   else
+      say 'the tests of the parallel program are SKIPPED: MPI cannot be installed'
+      "$root/scripts/build"
+      : >"$no_mpi"
+   fi
+}

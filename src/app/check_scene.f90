@@ -1,6 +1,7 @@
 !> What --check says of a deck without running it.
 module wavycon_check_scene
    use, intrinsic :: iso_fortran_env, only: int64
+   use wavycon_auto_method, only: why_chosen
    use wavycon_grid_plan, only: bytes_of_grid
    use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp
@@ -33,7 +34,7 @@ contains
       call start_results(scene, results, tables)
       call log%show_scene(results)
       if (reason(results) /= '') call log%say('because   '//reason(results))
-      if (all(results%solver%finest_grid() > 0)) &
+      if (all(results%traits%finest_grid > 0)) &
          call log%say('memory    '//memory(results, keep_fields(results%scene, tables)))
       call log%say('tables    '//names_of(tables)//' in '//escaped(results%scene%directory))
       call log%say(escaped(results%scene%deck_path)//': the deck is fine')
@@ -44,10 +45,10 @@ contains
       type(results_type), intent(in) :: results
       character(:), allocatable :: words
 
-      words = results%solver%why_chosen()
+      words = why_chosen(results%traits)
       if (results%scene%method%has('solver')) return
       if (words /= '') words = '; '//words
-      words = "'"//results%solver%name()//"' is the default for this surface"//words
+      words = "'"//results%scene%method%text('solver')//"' is the default for this surface"//words
    end function reason
 
    !> The memory that the finest grid takes, and what is available.
@@ -61,7 +62,7 @@ contains
       integer :: loads, own(2), points(2)
       type(grid_slab) :: slab
 
-      points = results%solver%finest_grid()
+      points = results%traits%finest_grid
       own = points
       loads = size(results%scene%target)
       associate (sharing => results%sharing)

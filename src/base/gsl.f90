@@ -15,6 +15,7 @@ module wavycon_gsl
    public :: gsl_integration_fixed_jacobi, gsl_integration_fixed_alloc, gsl_integration_fixed_free
    public :: gsl_integration_fixed_nodes, gsl_integration_fixed_weights
    public :: gsl_rng_mt19937, gsl_rng_alloc, gsl_rng_set, gsl_rng_uniform, gsl_rng_free
+   public :: gsl_interp_steffen, gsl_interp_alloc, gsl_interp_init, gsl_interp_eval, gsl_interp_free
    public :: return_gsl_errors
 
    !> A real function of one real variable, with its parameters.
@@ -28,6 +29,9 @@ module wavycon_gsl
 
    !> The generator MT19937 of random numbers (Matsumoto & Nishimura 1998), seeded as its authors did in 2002.
    type(c_ptr), protected, bind(c, name='gsl_rng_mt19937') :: gsl_rng_mt19937
+
+   !> Piecewise cubic polynomials without hills and valleys between the points (Steffen 1990).
+   type(c_ptr), protected, bind(c, name='gsl_interp_steffen') :: gsl_interp_steffen
 
    interface
       !> Legendre polynomials P_0(x) .. P_lmax(x), -1 <= x <= 1; returns 0 on success.
@@ -113,6 +117,34 @@ module wavycon_gsl
          import :: c_ptr
          type(c_ptr), value :: w
       end function gsl_integration_fixed_weights
+
+      !> An interpolation between `size` points; a null pointer if there is not enough memory.
+      type(c_ptr) function gsl_interp_alloc(t, size) bind(c, name='gsl_interp_alloc')
+         import :: c_ptr, c_size_t
+         type(c_ptr), value :: t
+         integer(c_size_t), value :: size
+      end function gsl_interp_alloc
+
+      !> Makes it that of the points xa, ya; xa must rise. Returns 0 on success.
+      integer(c_int) function gsl_interp_init(interp, xa, ya, size) bind(c, name='gsl_interp_init')
+         import :: c_double, c_int, c_ptr, c_size_t
+         type(c_ptr), value :: interp
+         real(c_double), intent(in) :: xa(*), ya(*)
+         integer(c_size_t), value :: size
+      end function gsl_interp_init
+
+      !> Its value at x, xa(1) <= x <= xa(size); acc may be a null pointer.
+      real(c_double) function gsl_interp_eval(interp, xa, ya, x, acc) bind(c, name='gsl_interp_eval')
+         import :: c_double, c_ptr
+         type(c_ptr), value :: interp, acc
+         real(c_double), intent(in) :: xa(*), ya(*)
+         real(c_double), value :: x
+      end function gsl_interp_eval
+
+      subroutine gsl_interp_free(interp) bind(c, name='gsl_interp_free')
+         import :: c_ptr
+         type(c_ptr), value :: interp
+      end subroutine gsl_interp_free
 
       !> A generator of random numbers; a null pointer if there is not enough memory.
       type(c_ptr) function gsl_rng_alloc(t) bind(c, name='gsl_rng_alloc')

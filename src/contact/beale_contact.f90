@@ -1,33 +1,27 @@
-!> solver = 'beale': the method of Johnson, Greenwood & Higginson (1985). The pressure is a truncated Fourier series
+!> The method of Johnson, Greenwood & Higginson (1985). The pressure is a truncated Fourier series
 !> whose coefficients minimise the complementary energy, a quadratic programme. Its minimum is found by Goldfarb &
 !> Idnani's dual method or, as in the paper, by Beale's.
 module wavycon_beale_contact
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use wavycon_beale, only: beale_solver
    use wavycon_complementary_energy, only: bounds_at, energy_problem
-   use wavycon_constraint_points, only: choose_points
    use wavycon_contact_measures, only: measure_series, measuring_intervals
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_solution, only: contact_solution
-   use wavycon_contact_solver, only: contact_solver
+   use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_contact_tuning, only: lightest_start
    use wavycon_dual_solver, only: dual_solver
    use wavycon_edge_curves, only: edge_curve, strip_ends, trace_edges, turn_curves
    use wavycon_fourier_series, only: fourier_series
-   use wavycon_fourier_terms, only: choose_terms, fourier_terms, symmetry_diagonal, symmetry_full, symmetry_none
-   use wavycon_group_values, only: group_values
+   use wavycon_fourier_terms, only: choose_terms, fourier_terms
    use wavycon_isobar_grid, only: isobar_grid, start_isobar_grid
-   use wavycon_key_table, only: choice_key, integer_key, key_type, real_key
    use wavycon_kinds, only: dp
    use wavycon_line_zeros, only: line_zeros
-   use wavycon_plain_text, only: integer_text, short_number
-   use wavycon_problems, only: problem_list_type
    use wavycon_qp_problem, only: qp_problem, qp_solution, qp_status_name
    use wavycon_series_fields, only: series_fields
    use wavycon_series_stress, only: series_stress, start_series_stress
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type, turned_paper_wave
-   use wavycon_surface_kinds, only: is_paper_kind, paper_waves
    use wavycon_turned_series, only: to_sum_angles
    implicit none (type, external)
    private
@@ -43,36 +37,16 @@ module wavycon_beale_contact
       real(dp) :: edge_level = 0.1_dp                  !! isobar taken as the edge of contact [p*]
    end type series_setup
 
-   !> The paper's numbers, for 1-D and 2-D waves.
-   integer, parameter :: default_harmonics(2) = [10, 9]
-   !> Largest values accepted from a deck, for 1-D and 2-D waves, so that a mistyped number does not run for hours.
-   integer, parameter :: most_harmonics = 60, most_constraint_points(2) = [6001, 601]
-   !> Most elements of the constraints' matrix. A few copies of it exist at a time, each of 160 MB.
-   real(dp), parameter :: most_elements = 2.0e7_dp
-
    type, extends(contact_solver) :: beale_contact
       type(series_setup) :: setup
       type(qp_problem) :: problem                      !! at zero load
       logical :: by_beale = .false.                    !! whether Beale's method solves each load
       class(dual_solver), allocatable, private :: solver   !! after the first load
    contains
-      procedure, nopass :: name
-      procedure, nopass :: meaning
-      procedure, nopass :: keys
-      procedure, nopass :: refusal
-      procedure, nopass :: is_default_for
-      procedure, nopass :: set_defaults
-      procedure, nopass :: check
-      procedure, nopass :: advice
-      procedure :: start_from_keys
-      procedure :: describe
       procedure :: start
       procedure :: solve_partial_contact
       procedure :: solve_series
-      procedure :: has_error_estimates
-      procedure :: why_no_area
-      procedure :: has_coefficients
-      procedure :: starts_from_last_load
+      procedure :: traits
       procedure :: forget_last_load
    end type beale_contact
 
@@ -90,146 +64,6 @@ module wavycon_beale_contact
 
 contains
 
-   pure function name() result(words)
-      character(:), allocatable :: words
-
-      words = solver_name
-   end function name
-
-   pure function meaning() result(words)
-      character(:), allocatable :: words
-
-      words = "the paper's truncated series by Beale's method, for its waves; their default"
-   end function meaning
-
-   function keys() result(rows)
-      type(key_type), allocatable :: rows(:)
-
-      rows = [ &
-         integer_key('harmonics', '9 (2-D), 10 (1-D)', 'highest harmonic of the pressure, in each direction.', &
-            1, most_harmonics), &
-         integer_key('constraint_points', 'in proportion to harmonics', &
-            'equally spaced points on half a wavelength, ends included, in each direction, at which the pressure '// &
-            'is constrained. More than harmonics; at most 601 in 2-D. The default is 3 harmonics in 2-D '// &
-            "and 2.5 harmonics + 1 in 1-D: the paper's 27 for 9 and 26 for 10.", 2, &
-            maxval(most_constraint_points)), &
-         choice_key('symmetry', "'full'", &
-            "in 2-D, symmetry of the pressure. 'full': alike in x and y and at both crests (29 unknowns, 196 "// &
-            "points by default); 'diagonal': at both crests (49, 378); 'none' (99, 729).", &
-            ['full    ', 'diagonal', 'none    ']), &
-         choice_key('minimiser', "'dual'", &
-            "how the minimum of the energy is found, which is one and the same. 'dual': Goldfarb and Idnani's "// &
-               "method, "// &
-            "from the load before; 'beale': Beale's method as in the paper, each load from an even pressure.", &
-            ['dual ', 'beale']), &
-         real_key('edge_level', '0.1', 'p*', 'the isobar that is taken as the edge of contact.', &
-            above=0.0_dp, below=1.0_dp)]
-   end function keys
-
-   function refusal(surface) result(words)
-      type(surface_type), intent(in) :: surface
-      character(:), allocatable :: words
-
-      words = ''
-      if (.not. surface%is_paper_wave()) words = 'is for the waves of the paper: '//paper_waves()
-   end function refusal
-
-   !> Kinds that are waves of the paper by definition. A sum of waves that equals one is solved to an accuracy by
-   !> default, as all other sums are.
-   logical function is_default_for(surface, kind)
-      type(surface_type), intent(in) :: surface
-      character(*), intent(in) :: kind
-
-      is_default_for = is_paper_kind(kind)
-      if (is_default_for) is_default_for = surface%is_paper_wave()
-   end function is_default_for
-
-   subroutine set_defaults(values, surface)
-      type(group_values), intent(inout) :: values
-      type(surface_type), intent(in) :: surface
-
-      call values%set_default('harmonics', default_harmonics(surface%dimension))
-      call values%set_default('constraint_points', default_constraint_points(surface%dimension, &
-                                                                             values%integer('harmonics')))
-      if (surface%dimension == 1) call values%leave_out('symmetry')
-   end subroutine set_defaults
-
-   !> As many points to a harmonic as the paper has: 27 for 9 harmonics of the 2-D wave, 26 (25 intervals) for 10 of the
-   !> 1-D wave. Always more than harmonics.
-   pure integer function default_constraint_points(dimension, harmonics) result(points)
-      integer, intent(in) :: dimension   !! 1 or 2
-      integer, intent(in) :: harmonics   !! >= 1
-
-      points = 3*harmonics
-      if (dimension == 1) points = (5*harmonics + 1)/2 + 1
-   end function default_constraint_points
-
-   subroutine check(values, surface, problems)
-      type(group_values), intent(in) :: values
-      type(surface_type), intent(in) :: surface
-      type(problem_list_type), intent(inout) :: problems
-
-      type(fourier_terms) :: terms
-      integer, allocatable :: k(:), l(:)
-      integer :: harmonics, points
-
-      if (surface%dimension == 1 .and. values%has('symmetry')) call values%complain(problems, 'symmetry', &
-         'symmetry means nothing in 1-D: leave it out')
-      if (values%is_bad('harmonics') .or. values%is_bad('constraint_points')) return
-      harmonics = values%integer('harmonics')
-      points = values%integer('constraint_points')
-      if (points > most_constraint_points(surface%dimension)) then
-         call values%complain(problems, 'constraint_points', 'constraint_points must be at most '// &
-            integer_text(most_constraint_points(surface%dimension))//' in '//integer_text(surface%dimension)// &
-            '-D, got '//integer_text(points))
-      else if (points <= harmonics) then
-         call problems%add(max(values%place_of('harmonics'), values%place_of('constraint_points')), &
-            'constraint_points must be more than harmonics, got '//integer_text(points)//' and '// &
-            integer_text(harmonics)//trim(merge('              ', ' (the default)', values%has('harmonics'))))
-      else if (.not. values%is_bad('symmetry')) then
-         terms = choose_terms(surface%dimension, harmonics, symmetry_of(values))
-         call choose_points(surface%dimension, points, symmetry_of(values), k, l)
-         if (real(terms%count(), dp)*size(k)*merge(2, 1, surface%has_hardness()) > most_elements) &
-            call values%complain(problems, 'constraint_points', 'harmonics = '//integer_text(harmonics)// &
-               ' and constraint_points = '//integer_text(points)//' make '//integer_text(terms%count())// &
-               ' unknowns and '//integer_text(size(k))//' constraints: too many for the memory. Give fewer '// &
-               'constraint_points (harmonics + 1 serve well), or a symmetry')
-      end if
-   end subroutine check
-
-   function advice(key) result(words)
-      character(*), intent(in) :: key
-      character(:), allocatable :: words
-
-      words = ''
-      if (key == 'accuracy') words = ': its series has no error estimate'
-      if (key == 'grid_points') words = ': it has harmonics and constraint_points'
-   end function advice
-
-   pure integer function symmetry_of(values) result(symmetry)
-      type(group_values), intent(in) :: values
-
-      select case (values%text('symmetry'))
-      case ('none')
-         symmetry = symmetry_none
-      case ('diagonal')
-         symmetry = symmetry_diagonal
-      case default
-         symmetry = symmetry_full
-      end select
-   end function symmetry_of
-
-   subroutine start_from_keys(self, surface, values, keep_fields)
-      class(beale_contact), intent(inout) :: self
-      type(surface_type), intent(in) :: surface
-      type(group_values), intent(in) :: values
-      logical, intent(in) :: keep_fields
-
-      associate (fields_are_always_kept => keep_fields); end associate
-      call self%start(surface, values%integer('harmonics'), values%integer('constraint_points'), symmetry_of(values), &
-                      values%real('edge_level'), values%text('minimiser') == 'beale')
-   end subroutine start_from_keys
-
    !> Chooses the terms of the series and the points of the constraints.
    subroutine start(self, surface, harmonics, constraint_points, symmetry, edge_level, by_beale)
       class(beale_contact), intent(out) :: self
@@ -243,6 +77,7 @@ contains
       if (present(edge_level)) self%setup%edge_level = edge_level
       if (present(by_beale)) self%by_beale = by_beale
       self%surface = surface
+      self%is_started = surface%is_paper_wave()
       self%setup%turned = surface%paper_wave() == turned_paper_wave
       self%setup%terms = choose_terms(surface%dimension, harmonics, symmetry)
       self%problem = energy_problem(self%setup%terms, constraint_points, symmetry, surface%has_hardness())
@@ -320,33 +155,12 @@ contains
       end associate
    end subroutine solve_series
 
-   !> The error of a truncated series is not estimated.
-   pure logical function has_error_estimates(self)
+   type(solver_traits) function traits(self)
       class(beale_contact), intent(in) :: self
 
-      associate (unused => self); end associate
-      has_error_estimates = .false.
-   end function has_error_estimates
-
-   function why_no_area(self) result(words)
-      class(beale_contact), intent(in) :: self
-      character(:), allocatable :: words
-
-      words = 'no pressure reaches edge_level = '//short_number(self%setup%edge_level)//' p*'
-   end function why_no_area
-
-   pure logical function has_coefficients(self)
-      class(beale_contact), intent(in) :: self
-
-      associate (unused => self); end associate
-      has_coefficients = .true.
-   end function has_coefficients
-
-   pure logical function starts_from_last_load(self)
-      class(beale_contact), intent(in) :: self
-
-      starts_from_last_load = .not. self%by_beale
-   end function starts_from_last_load
+      traits = solver_traits(name=solver_name, has_errors=.false., has_coefficients=.true., &
+                             continues_last_load=.not. self%by_beale)
+   end function traits
 
    subroutine forget_last_load(self)
       class(beale_contact), intent(inout) :: self
@@ -445,16 +259,5 @@ contains
          if (present(loads)) allocate (loads(0))
       end associate
    end subroutine edge_curves
-
-   pure function describe(self) result(words)
-      class(beale_contact), intent(in) :: self
-      character(:), allocatable :: words
-
-      character(120) :: line
-
-      write (line, '(3(i0, a))') self%setup%terms%harmonics, ' harmonics (', self%setup%terms%count(), &
-         ' unknowns), ', size(self%problem%bounds), ' constraint points'
-      words = trim(line)//', edge_level[p*] = '//short_number(self%setup%edge_level)
-   end function describe
 
 end module wavycon_beale_contact

@@ -1,15 +1,13 @@
-!> solver = 'closed_form': Westergaard's solution of the 1-D wave.
+!> Westergaard's solution of the 1-D wave.
 module wavycon_closed_form_contact
    use wavycon_constants, only: pi
    use wavycon_closed_form_stress, only: closed_form_stress
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_measures, only: contact_measures
    use wavycon_contact_solution, only: contact_solution
-   use wavycon_contact_solver, only: contact_solver
+   use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_contact_status, only: closed_form
    use wavycon_edge_curves, only: edge_curve, strip_ends
-   use wavycon_group_values, only: group_values
-   use wavycon_key_table, only: key_type
    use wavycon_kinds, only: dp
    use wavycon_kuznetsov, only: kuznetsov_mean_gap_over_amplitude
    use wavycon_stress_fields, only: stress_fields
@@ -26,14 +24,9 @@ module wavycon_closed_form_contact
 
    type, extends(contact_solver) :: closed_form_contact
    contains
-      procedure, nopass :: name
-      procedure, nopass :: meaning
-      procedure, nopass :: keys
-      procedure, nopass :: refusal
-      procedure :: start_from_keys
-      procedure :: describe
       procedure :: start
       procedure :: solve_partial_contact
+      procedure :: traits
    end type closed_form_contact
 
    type, extends(contact_solution) :: closed_form_solution
@@ -52,33 +45,6 @@ module wavycon_closed_form_contact
 
 contains
 
-   pure function name() result(words)
-      character(:), allocatable :: words
-
-      words = solver_name
-   end function name
-
-   pure function meaning() result(words)
-      character(:), allocatable :: words
-
-      words = "Westergaard's solution of the 1-D wave"
-   end function meaning
-
-   function keys() result(rows)
-      type(key_type), allocatable :: rows(:)
-
-      allocate (rows(0))
-   end function keys
-
-   function refusal(surface) result(words)
-      type(surface_type), intent(in) :: surface
-      character(:), allocatable :: words
-
-      words = ''
-      if (surface%has_hardness()) words = 'has no solution with a hardness'
-      if (.not. closed_form_exists(surface)) words = 'is for the 1-D wave'
-   end function refusal
-
    !> Whether a surface is the 1-D wave of the paper.
    pure logical function closed_form_exists(surface)
       type(surface_type), intent(in) :: surface
@@ -86,23 +52,21 @@ contains
       closed_form_exists = surface%dimension == 1 .and. surface%is_paper_wave()
    end function closed_form_exists
 
-   subroutine start_from_keys(self, surface, values, keep_fields)
-      class(closed_form_contact), intent(inout) :: self
-      type(surface_type), intent(in) :: surface
-      type(group_values), intent(in) :: values
-      logical, intent(in) :: keep_fields
-
-      associate (there_are_none => values, fields_need_no_memory => keep_fields); end associate
-      call self%start(surface)
-   end subroutine start_from_keys
-
    !> Starts the solver.
    subroutine start(self, surface)
       class(closed_form_contact), intent(out) :: self
-      type(surface_type), intent(in) :: surface   !! the 1-D wave of the paper
+      type(surface_type), intent(in) :: surface   !! the 1-D wave of the paper, without a hardness
 
       self%surface = surface
+      self%is_started = closed_form_exists(surface) .and. .not. surface%has_hardness()
    end subroutine start
+
+   type(solver_traits) function traits(self)
+      class(closed_form_contact), intent(in) :: self
+
+      associate (unused => self); end associate
+      traits = solver_traits(name=solver_name)
+   end function traits
 
    !> Westergaard's solution: eqs. (4), (7), and (20) of the paper.
    subroutine solve_partial_contact(self, pbar_over_pstar, solution)
@@ -183,13 +147,5 @@ contains
       answer%pbar_over_pstar = self%pbar_over_pstar
       answer%dimension = 1
    end subroutine stresses
-
-   pure function describe(self) result(words)
-      class(closed_form_contact), intent(in) :: self
-      character(:), allocatable :: words
-
-      associate (unused => self); end associate
-      words = "closed form (Westergaard's solution)"
-   end function describe
 
 end module wavycon_closed_form_contact

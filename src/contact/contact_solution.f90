@@ -23,7 +23,7 @@ module wavycon_contact_solution
    public :: pack_common, unpack_common
 
    !> Size of the array that pack_common makes.
-   integer, parameter, public :: packed_values = 16
+   integer, parameter, public :: packed_values = 19
 
    !> Error of the stresses under a series that is known exactly, over the peak pressure.
    real(dp), parameter :: rounding = 1e-14_dp
@@ -189,8 +189,9 @@ contains
                    measures%contact_area_fraction, measures%peak_pressure_over_pstar, &
                    measures%min_pressure_over_pstar, measures%mean_gap_error, measures%contact_area_error, &
                    measures%peak_pressure_error, measures%area_at_hardness_fraction, &
-                   measures%load_at_hardness_fraction, measures%contact_area_counted_fraction, &
-                   measures%contact_area_corrected_fraction, &
+                   measures%load_at_hardness_fraction, measures%area_at_hardness_error, &
+                   measures%load_at_hardness_error, measures%contact_area_counted_fraction, &
+                   measures%contact_area_corrected_fraction, measures%load_concentration, &
                    real(self%active_constraints, dp), real(self%iterations, dp), self%residual]
       end associate
    end subroutine pack_common
@@ -205,10 +206,11 @@ contains
       if (.not. understood) return
       self%pbar_over_pstar = values(1)
       self%measures = contact_measures(values(2), values(3), values(4), values(5), values(6), values(7), values(8), &
-                                       values(9), values(10), values(11), values(12), values(13))
-      self%active_constraints = nint(values(14), int64)
-      self%iterations = nint(values(15))
-      self%residual = values(16)
+                                       values(9), values(10), values(11), values(12), values(13), values(14), values(15), &
+                                       values(16))
+      self%active_constraints = nint(values(17), int64)
+      self%iterations = nint(values(18))
+      self%residual = values(19)
    end subroutine unpack_common
 
    !> Makes the solution that stands for a failure: fields of NaN, no edge, and unknown errors.

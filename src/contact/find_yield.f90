@@ -7,7 +7,7 @@ module wavycon_find_yield
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use wavycon_contact_measures, only: unknown
    use wavycon_contact_solution, only: contact_solution, no_solution
-   use wavycon_contact_solver, only: contact_solver
+   use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_contact_status, only: not_accurate, not_found
    use wavycon_contact_tuning, only: fraction_of_error, largest_fraction, largest_stress_error, least_fraction, &
       longest_rise, most_solves
@@ -36,10 +36,12 @@ contains
       class(contact_solution), allocatable, intent(out) :: solution   !! of the load found
 
       real(dp) :: log_p
+      type(solver_traits) :: traits
       integer :: level
 
       log_p = first_log_p()
-      do level = solver%coarser_levels(), 0, -1
+      traits = solver%traits()
+      do level = traits%coarser_levels, 0, -1
          call solver%use_level(level)
          call find_root(solver, setting, log(target), log_p, solution)
          if (solution%status == not_found) log_p = first_log_p()
@@ -62,6 +64,7 @@ contains
       real(dp), intent(inout) :: log_p               !! ln P of the first load; on return of the last one
       class(contact_solution), allocatable, intent(out) :: solution
 
+      type(solver_traits) :: traits
       real(dp) :: at_hardness, at_largest, error, high, largest, last_log_p, last_miss, light_slope, low, &
                   miss, next, slope
       integer :: i
@@ -110,7 +113,8 @@ contains
          end if
          log_p = next
       end do
-      call no_solution(exp(at_largest), solver%name(), not_found, solution)
+      traits = solver%traits()
+      call no_solution(exp(at_largest), traits%name, not_found, solution)
    end subroutine find_root
 
    !> ln of the largest stress over the target, and its error estimate. NaN if the load has no solution.
@@ -122,6 +126,7 @@ contains
       real(dp), intent(out) :: miss, error
 
       class(stress_fields), allocatable :: fields
+      type(solver_traits) :: traits
       real(dp) :: ratio
 
       call solution%stresses(solver%surface, fields)
@@ -131,7 +136,8 @@ contains
       miss = log(ratio) - log_target
       error = error/ratio
       ! Without estimates there is nothing to compare with; an estimate that is unknown meets no accuracy.
-      if (.not. ieee_is_finite(error)) error = merge(unknown, 0.0_dp, solver%has_error_estimates())
+      traits = solver%traits()
+      if (.not. ieee_is_finite(error)) error = merge(unknown, 0.0_dp, traits%has_errors)
    end subroutine find_miss
 
 end module wavycon_find_yield

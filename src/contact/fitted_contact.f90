@@ -1,18 +1,14 @@
-!> solver = 'fitted': contact by expansions fitted to the edge of contact. Their accuracy is limited by rounding, not
+!> Contact by expansions fitted to the edge of contact. Their accuracy is limited by rounding, not
 !> by a grid.
 module wavycon_fitted_contact
    use wavycon_contact_measures, only: contact_measures, known_errors
    use wavycon_contact_solution, only: contact_solution, no_solution
-   use wavycon_contact_solver, only: contact_solver
+   use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_contact_status, only: converged, not_accurate, not_found
-   use wavycon_fitted_frame, only: find_frame, fitted_frame, make_lattice, surfaces_with_frames
+   use wavycon_fitted_frame, only: find_frame, fitted_frame, make_lattice
    use wavycon_fitted_solution, only: fitted_solution
    use wavycon_fitted_solver, only: fitted_answer, fitted_less_exact, fitted_solved, solve_fitted
-   use wavycon_group_values, only: group_values
-   use wavycon_key_table, only: key_type
    use wavycon_kinds, only: dp
-   use wavycon_plain_text, only: short_number
-   use wavycon_solver_keys, only: accuracy_key
    use wavycon_surface, only: surface_type
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
@@ -29,69 +25,13 @@ module wavycon_fitted_contact
       logical, private :: keep_fields = .true.
       type(fitted_answer), private :: last         !! of the last load solved, from which the next one starts
    contains
-      procedure, nopass :: name
-      procedure, nopass :: meaning
-      procedure, nopass :: keys
-      procedure, nopass :: refusal
-      procedure, nopass :: advice
-      procedure :: start_from_keys
-      procedure :: describe
       procedure :: start
       procedure :: solve_partial_contact
-      procedure :: has_details
-      procedure :: starts_from_last_load
+      procedure :: traits
       procedure :: forget_last_load
    end type fitted_contact
 
 contains
-
-   pure function name() result(words)
-      character(:), allocatable :: words
-
-      words = solver_name
-   end function name
-
-   pure function meaning() result(words)
-      character(:), allocatable :: words
-
-      words = 'expansions fitted to the edge of contact, of spots or of open islands'
-   end function meaning
-
-   function keys() result(rows)
-      type(key_type), allocatable :: rows(:)
-
-      rows = [accuracy_key()]
-   end function keys
-
-   function refusal(surface) result(words)
-      type(surface_type), intent(in) :: surface
-      character(:), allocatable :: words
-
-      type(fitted_frame) :: frame
-
-      call find_frame(surface, frame)
-      words = ''
-      if (surface%has_hardness()) words = 'has no solution with a hardness'
-      ! A flat surface is in full contact at every load: no expansion is needed.
-      if (.not. frame%is_found() .and. surface%amplitude > 0.0_dp) words = 'has expansions for '//surfaces_with_frames()
-   end function refusal
-
-   function advice(key) result(words)
-      character(*), intent(in) :: key
-      character(:), allocatable :: words
-
-      words = ''
-      if (key == 'grid_points') words = ': it has no grid'
-   end function advice
-
-   subroutine start_from_keys(self, surface, values, keep_fields)
-      class(fitted_contact), intent(inout) :: self
-      type(surface_type), intent(in) :: surface
-      type(group_values), intent(in) :: values
-      logical, intent(in) :: keep_fields
-
-      call self%start(surface, values%real('accuracy'), keep_fields)
-   end subroutine start_from_keys
 
    !> Starts the solver.
    subroutine start(self, surface, accuracy, keep_fields)
@@ -104,6 +44,8 @@ contains
       self%accuracy = accuracy
       self%keep_fields = keep_fields
       call find_frame(surface, self%frame)
+      ! A flat surface is in full contact at every load: no expansion is needed.
+      self%is_started = (self%frame%is_found() .or. .not. surface%amplitude > 0.0_dp) .and. .not. surface%has_hardness()
       if (.not. self%frame%is_found()) return
       allocate (self%lattice)
       call make_lattice(self%frame, self%lattice)
@@ -155,19 +97,12 @@ contains
       call move_alloc(own, solution)
    end subroutine solve_partial_contact
 
-   pure logical function has_details(self)
+   type(solver_traits) function traits(self)
       class(fitted_contact), intent(in) :: self
 
       associate (unused => self); end associate
-      has_details = .true.
-   end function has_details
-
-   pure logical function starts_from_last_load(self)
-      class(fitted_contact), intent(in) :: self
-
-      associate (unused => self); end associate
-      starts_from_last_load = .true.
-   end function starts_from_last_load
+      traits = solver_traits(name=solver_name, has_details=.true., continues_last_load=.true.)
+   end function traits
 
    subroutine forget_last_load(self)
       class(fitted_contact), intent(inout) :: self
@@ -176,12 +111,5 @@ contains
 
       self%last = none
    end subroutine forget_last_load
-
-   pure function describe(self) result(words)
-      class(fitted_contact), intent(in) :: self
-      character(:), allocatable :: words
-
-      words = 'boundary-fitted expansions to within '//short_number(self%accuracy)
-   end function describe
 
 end module wavycon_fitted_contact

@@ -10,7 +10,7 @@ module wavycon_fitted_frame
    implicit none (type, external)
    private
 
-   public :: fitted_frame, find_frame, make_lattice, surfaces_with_frames
+   public :: fitted_frame, find_frame, make_lattice
 
    !> Lattices that expansions exist for.
    integer, parameter :: no_lattice = 0, square = 1, rectangular = 2, rhombic = 3, hexagonal = 4
@@ -108,15 +108,6 @@ contains
       end function has_only
 
    end subroutine find_frame
-
-   !> The surfaces that have a frame, for messages and the key reference.
-   pure function surfaces_with_frames() result(words)
-      character(:), allocatable :: words
-
-      words = "the paper's wave, also with two wavelengths up to "//short_number(largest_aspect_ratio)// &
-              ':1, for crossed waves with crest curvatures up to '//short_number(largest_curvature_ratio)// &
-              ':1 and for three equal waves at 60 degrees'
-   end function surfaces_with_frames
 
    !> Whether expansions exist for the surface.
    pure logical function is_found(self)

@@ -7,7 +7,7 @@
 module wavycon_grid_cascade
    use wavycon_compliance_operator, only: compliance_operator
    use wavycon_contact_measures, only: known_errors, unknown
-   use wavycon_contact_tuning, only: iteration_limit
+   use wavycon_contact_tuning, only: iteration_limit, iterations_of_root
    use wavycon_counted_area, only: corrected_area_fraction, counted_area_fraction
    use wavycon_grid_edge, only: grid_contact_area, grid_edge, joined, make_grid_edge, pressure_per_gap, start_grid_edge
    use wavycon_grid_error, only: change_history, estimate_errors, unresolved_errors
@@ -31,11 +31,11 @@ module wavycon_grid_cascade
       type(grid_state) :: state            !! on the finest grid, without the gap
       type(grid_edge), allocatable :: edge !! on the finest grid; not allocated if the first did not fit into memory
       real(dp) :: values(3) = 0.0_dp       !! mean gap [Delta], contact area fraction, peak pressure [p*]
-      !> Their error estimates, in the same units, or `unknown`. That of the area holds for `area_at_hardness` too.
-      real(dp) :: errors(3) = unknown
+      real(dp) :: errors(3) = unknown      !! their error estimates, in the same units, or `unknown`
       !> The area by the number of points in contact, and in 2-D corrected by (C26), otherwise `unknown`.
       real(dp) :: counted_area = unknown, corrected_area = unknown
-      real(dp) :: area_at_hardness = 0.0_dp  !! fraction of the area at which p = H
+      real(dp) :: area_at_hardness = 0.0_dp         !! fraction of the area at which p = H
+      real(dp) :: area_at_hardness_error = 0.0_dp   !! its error estimate, or `unknown`
       logical :: accurate = .false.        !! whether all error estimates are within the accuracy
       logical :: out_of_memory = .false.   !! whether a grid was needed that does not fit into memory
       integer :: grids = 0
@@ -86,8 +86,8 @@ contains
          else
             call measure_level(surface, mean_pressure, history, answer)
          end if
-         answer%accurate = answer%state%converged .and. all(answer%errors <= accuracy) .and. &
-            all(grid >= plan%trusted)
+         answer%accurate = answer%state%converged .and. all(grid >= plan%trusted) .and. &
+            max(maxval(answer%errors), answer%area_at_hardness_error) <= accuracy
          if (present(progress)) &
             call progress%grid_solved(grid*merge(2, 1, surface%shape%is_even() .and. grid > 1)/surface%parts(), &
                                       answer%state%iterations, answer%state%local_iterations, &
@@ -134,16 +134,32 @@ contains
          end if
          call stencil%start(surface, slab%points)
       end associate
-      call solve_on_grid(half_space, stencil, h, residual, iteration_limit, answer%state)
+      call solve_on_grid(half_space, stencil, h, residual, most_iterations(surface, answer%state%slab%points), &
+                         answer%state)
       answer%grids = answer%grids + 1
       answer%iterations = answer%iterations + answer%state%iterations
       answer%transform_pairs = answer%transform_pairs/2**surface%dimension &
                                + half_space%transform_pairs + half_space%single_pairs
    end subroutine solve_level
 
+   !> The iterations that a grid may take.
+   pure integer function most_iterations(surface, points)
+      type(surface_type), intent(in) :: surface
+      integer, intent(in) :: points(2)   !! of the grid
+
+      real(dp) :: step(2)
+
+      step = surface%length/(merge(2, 1, surface%shape%is_even())*points)
+      associate (n => surface%dimension)
+         most_iterations = nint(iterations_of_root*sqrt(maxval(surface%length(:n))/minval(step(:n))))
+      end associate
+      most_iterations = max(most_iterations, iteration_limit)
+   end function most_iterations
+
    !> Mean gap, contact area (C11), (C12) and peak pressure (C13) on the present grid, and their error estimates (C14)
-   !> to (C17). The area is at least that which carries the load at the hardness. Its error is unknown where (C12) gives
-   !> no area although there is contact. The edge takes the memory of the gap, which no longer exists afterwards.
+   !> to (C17). The area is at least that which carries the load at the hardness; its estimate is that of the area
+   !> without this bound, which would hide its changes. The error is unknown where (C12) gives no area although there is
+   !> contact. The edge takes the memory of the gap, which no longer exists afterwards.
    subroutine measure_level(surface, mean_pressure, history, answer)
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: mean_pressure
@@ -169,10 +185,10 @@ contains
       call grid_peak_pressure(answer%edge, answer%values(3), peak_resolved)
       peak_resolved = peak_resolved .or. answer%values(3) >= surface%hardness
       answer%values(3) = min(answer%values(3), surface%hardness)
-      if (surface%has_hardness()) answer%values(2) = max(answer%values(2), mean_pressure/surface%hardness)
       call history%push(answer%values)
       answer%errors = estimate_errors(history, surface, answer%edge, peak_resolved)
       if (.not. area > 0.0_dp) answer%errors(2) = unknown
+      if (surface%has_hardness()) answer%values(2) = max(area, mean_pressure/surface%hardness)
    end subroutine measure_level
 
    !> The edge of the area at which p = H. H - p and minus the gap behave there as gap and pressure do at the edge of
@@ -188,7 +204,8 @@ contains
       call edge%fetch_neighbours()
    end subroutine find_edge_at_hardness
 
-   !> The area at which p = H, and its error estimate. It is at most that which carries the load.
+   !> The area at which p = H, and its error estimate. It is at most that which carries the load; its estimate is that of
+   !> the area without this bound.
    subroutine measure_at_hardness(surface, mean_pressure, edge, history, answer)
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: mean_pressure
@@ -196,15 +213,15 @@ contains
       type(change_history), intent(inout) :: history
       type(cascade_answer), intent(inout) :: answer
 
-      real(dp) :: errors(3), values(3)
+      real(dp) :: area, errors(3)
 
-      values = [0.0_dp, min(1.0_dp - grid_contact_area(edge), mean_pressure/surface%hardness), 0.0_dp]
-      answer%area_at_hardness = values(2)
-      call history%push(values)
+      area = 1.0_dp - grid_contact_area(edge)
+      answer%area_at_hardness = min(area, mean_pressure/surface%hardness)
+      call history%push([0.0_dp, area, 0.0_dp])
       errors = history%errors()
       ! Between the points the pressure may reach H although it does so at none of them.
       if (answer%values(3) >= surface%hardness) errors = max(errors, unresolved_errors(surface, edge, .true.))
-      answer%errors(2) = max(answer%errors(2), errors(2))
+      answer%area_at_hardness_error = errors(2)
    end subroutine measure_at_hardness
 
 end module wavycon_grid_cascade

@@ -1,4 +1,4 @@
-!> solver = 'grid': contact on grids, refined to an accuracy or with a given number of points.
+!> Contact on grids, refined to an accuracy or with a given number of points.
 !>
 !> An even surface is solved on a quarter of its cell. The wave (21), and any surface with the same symmetry, is also
 !> periodic on a square of half the area turned by 45 degrees; a quarter of that square is then enough, unless
@@ -6,11 +6,11 @@
 module wavycon_grid_contact
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_fields, only: contact_fields
-   use wavycon_contact_measures, only: contact_measures, or_nan
+   use wavycon_contact_measures, only: contact_measures, or_nan, unknown
    use wavycon_contact_solution, only: contact_solution, no_solution, pack_common, packed_values, unpack_common
-   use wavycon_contact_solver, only: contact_solver
+   use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_contact_status, only: converged, no_memory, not_accurate, unresolved
-   use wavycon_contact_tuning, only: least_search_points, worst_search_accuracy
+   use wavycon_contact_tuning, only: largest_spot, least_search_points, worst_search_accuracy
    use wavycon_edge_curves, only: edge_curve, shift_curve, strip_ends, trace_edges, turn_curves, whole_strips
    use wavycon_grid_cascade, only: cascade_answer, solve_by_cascade
    use wavycon_grid_edge, only: grid_edge, grid_strip_edges, make_grid_edge
@@ -19,17 +19,12 @@ module wavycon_grid_contact
    use wavycon_grid_slab, only: grid_slab
    use wavycon_fourier_series, only: fourier_series
    use wavycon_grid_transform, only: grid_transform
-   use wavycon_group_values, only: group_values
-   use wavycon_key_table, only: key_type
    use wavycon_kinds, only: dp
+   use wavycon_load_concentration, only: load_concentration
    use wavycon_measure_tuning, only: edge_offset
-   use wavycon_plain_text, only: integer_text, short_number
-   use wavycon_problems, only: problem_list_type
    use wavycon_ranks, only: gather_columns, is_first_rank
    use wavycon_qp_problem, only: qp_iteration_limit, qp_status_name
    use wavycon_region_numbers, only: region_numbers
-   use wavycon_solver_keys, only: accuracy_key, check_grid_points, grid_points_key, points_of_grid, residual_key, &
-                                  set_grid_defaults
    use wavycon_series_stress, only: series_stress, start_series_stress
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type
@@ -51,20 +46,11 @@ module wavycon_grid_contact
       !> The surface on its smaller cell, if that is solved: turned by 45 degrees.
       type(surface_type), allocatable, private :: smaller
    contains
-      procedure, nopass :: name
-      procedure, nopass :: meaning
-      procedure, nopass :: keys
-      procedure, nopass :: set_defaults => set_grid_defaults
-      procedure, nopass :: check
-      procedure :: start_from_keys
-      procedure :: describe
       procedure :: start
       procedure :: solve_partial_contact
-      procedure :: coarser_levels
+      procedure :: traits
       procedure :: use_level
       procedure :: new_kept_solution
-      procedure :: finest_grid
-      procedure :: given_grid
    end type grid_contact
 
    type, extends(contact_solution) :: grid_solution
@@ -87,42 +73,6 @@ module wavycon_grid_contact
 
 contains
 
-   pure function name() result(words)
-      character(:), allocatable :: words
-
-      words = solver_name
-   end function name
-
-   pure function meaning() result(words)
-      character(:), allocatable :: words
-
-      words = 'ever finer grids until mean gap, area and peak pressure are accurate'
-   end function meaning
-
-   function keys() result(rows)
-      type(key_type), allocatable :: rows(:)
-
-      rows = [accuracy_key(), grid_points_key(), residual_key()]
-   end function keys
-
-   subroutine check(values, surface, problems)
-      type(group_values), intent(in) :: values
-      type(surface_type), intent(in) :: surface
-      type(problem_list_type), intent(inout) :: problems
-
-      call check_grid_points(values, surface, problems)
-   end subroutine check
-
-   subroutine start_from_keys(self, surface, values, keep_fields)
-      class(grid_contact), intent(inout) :: self
-      type(surface_type), intent(in) :: surface
-      type(group_values), intent(in) :: values
-      logical, intent(in) :: keep_fields
-
-      call self%start(surface, values%real('accuracy'), keep_fields, points_of_grid(values, surface), &
-                      values%real('residual'))
-   end subroutine start_from_keys
-
    !> Starts the solver.
    subroutine start(self, surface, accuracy, keep_fields, points, residual)
       class(grid_contact), intent(out) :: self
@@ -136,6 +86,7 @@ contains
       real(dp), intent(in), optional :: residual
 
       self%surface = surface
+      self%is_started = allocated(surface%shape%c)
       if (present(residual)) self%residual = residual
       self%accuracy = accuracy
       self%keep_fields = keep_fields
@@ -147,7 +98,7 @@ contains
    end subroutine start
 
    !> Each level has ten times the error of the one before it or, if the points are given, half the points each way.
-   integer function coarser_levels(self) result(levels)
+   pure integer function coarser_levels(self) result(levels)
       class(grid_contact), intent(in) :: self
 
       levels = 0
@@ -162,6 +113,22 @@ contains
          end do
       end if
    end function coarser_levels
+
+   type(solver_traits) function traits(self)
+      class(grid_contact), intent(in) :: self
+
+      type(grid_plan) :: plan
+
+      traits = solver_traits(name=solver_name, coarser_levels=coarser_levels(self))
+      if (.not. self%is_started) return
+      if (allocated(self%smaller)) then
+         plan = plan_grids(self%smaller, self%points)
+      else
+         plan = plan_grids(self%surface, self%points)
+      end if
+      traits%finest_grid = plan%last
+      if (all(self%points > 0)) traits%given_grid = plan%last
+   end function traits
 
    subroutine use_level(self, level)
       class(grid_contact), intent(inout) :: self
@@ -200,10 +167,18 @@ contains
                                       mean_gap_error=answer%errors(1), contact_area_error=answer%errors(2), &
                                       peak_pressure_error=answer%errors(3), &
                                       area_at_hardness_fraction=answer%area_at_hardness, &
+                                      area_at_hardness_error=answer%area_at_hardness_error, &
                                       contact_area_counted_fraction=answer%counted_area, &
                                       contact_area_corrected_fraction=answer%corrected_area)
-      if (self%surface%has_hardness()) own%measures%load_at_hardness_fraction = &
-         answer%area_at_hardness*self%surface%hardness/pbar_over_pstar
+      if (self%surface%has_hardness()) then
+         associate (load_of_area => self%surface%hardness/pbar_over_pstar)
+            own%measures%load_at_hardness_fraction = answer%area_at_hardness*load_of_area
+            own%measures%load_at_hardness_error = answer%area_at_hardness_error*load_of_area
+         end associate
+         if (.not. own%measures%load_at_hardness_error < 1.0_dp) own%measures%load_at_hardness_error = unknown
+      end if
+      if (all(self%surface%points > 0) .and. answer%values(2) <= largest_spot) &
+         own%measures%load_concentration = load_concentration(answer%edge)
       own%imprint = answer%state%imprint
       own%active_constraints = bound_points(answer%edge, self%surface%hardness)
       own%iterations = answer%iterations
@@ -469,28 +444,6 @@ contains
       call make_grid_edge(self%edge, field, values(first) > 0.0_dp, values(first - 7:first - 6), slab)
    end subroutine unpack_kept
 
-   function finest_grid(self) result(points)
-      class(grid_contact), intent(in) :: self
-      integer :: points(2)
-
-      type(grid_plan) :: plan
-
-      if (allocated(self%smaller)) then
-         plan = plan_grids(self%smaller, self%points)
-      else
-         plan = plan_grids(self%surface, self%points)
-      end if
-      points = plan%last
-   end function finest_grid
-
-   function given_grid(self) result(points)
-      class(grid_contact), intent(in) :: self
-      integer :: points(2)
-
-      points = 0
-      if (all(self%points > 0)) points = self%finest_grid()
-   end function given_grid
-
    !> What each spot carries of the load: the pressures at its points.
    pure subroutine spot_loads(edge, numbers, loads)
       type(grid_edge), intent(in) :: edge
@@ -528,28 +481,5 @@ contains
       end do
       loads = loads/sum(loads)
    end subroutine strip_loads
-
-   pure function describe(self) result(words)
-      class(grid_contact), intent(in) :: self
-      character(:), allocatable :: words
-
-      integer :: points(2)
-
-      if (all(self%points > 0)) then
-         points = self%points/self%surface%parts()
-         words = 'a grid of '//integer_text(points(1))
-         if (self%surface%dimension == 2) words = words//' x '//integer_text(points(2))
-         words = words//' points'
-         if (self%residual > 0.0_dp) words = words//' to a residual of '//short_number(self%residual)
-      else
-         words = 'grids refined until mean gap, area and peak pressure are within '//short_number(self%accuracy)
-      end if
-      if (self%surface%mirrored) then
-         words = words//', on the map without its mirror images'
-      else if (self%surface%shape%is_even()) then
-         words = words//', on a quarter of the cell'
-      end if
-      if (allocated(self%smaller)) words = words//' turned by 45 degrees'
-   end function describe
 
 end module wavycon_grid_contact

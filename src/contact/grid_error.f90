@@ -79,33 +79,39 @@ contains
       real(dp) :: open_part
 
       points = edge%number_of_points()
-      if (edge%points_in_contact() == points) then
-         ! With the open part of the surface the mean gap falls as the power 5/2 or faster, and so does the change of
-         ! the peak.
-         open_part = max(1_int64, possible_openings(edge))/real(points, dp)
-         errors = [open_part**2, open_part, open_part**2]
-      else
-         crossings = edge_crossings(edge)
-         errors = [0.0_dp, max(edge_scatter*sqrt(real(crossings, dp)), edge_bias*crossings)/points, 0.0_dp]
-         if (.not. peak_resolved) errors(3) = unresolved_peak(surface, edge)
-      end if
+      open_part = possible_openings(edge)/real(points, dp)
+      crossings = edge_crossings(edge)
+      if (crossings == 0) open_part = max(open_part, 1.0_dp/points)
+      ! With the open part of the surface the mean gap falls as the power 5/2 or faster, and so does the change of the
+      ! peak.
+      errors = [open_part**2, open_part, open_part**2]
+      errors(2) = max(errors(2), edge_scatter*sqrt(real(crossings, dp))/points, edge_bias*crossings/points)
+      if (.not. peak_resolved) errors(3) = max(errors(3), unresolved_peak(surface, edge))
    end function unresolved_errors
 
-   !> Number of points in contact whose pressure is so far below that of a neighbour that a gap may lie beside them, o
-   !> of (C15).
+   !> Number of points in contact, with no open point beside them, whose pressure is so far below that of a neighbour
+   !> that a gap may lie between them, o of (C15).
    integer(int64) function possible_openings(edge) result(openings)
-      type(grid_edge), intent(in) :: edge
+      type(grid_edge), intent(in) :: edge   !! with the columns of the neighbours, if the grid is spread
 
-      real(dp) :: highest
+      real(dp), dimension(0:edge%slab%points(1) + 1) :: before, here, next
       integer(int64) :: total(1)
-      integer :: i, j
+      integer :: j, m
 
+      m = edge%slab%points(1)
       total = 0
+      if (edge%slab%columns() > 0) then
+         here = edge%column(edge%slab%first - 1)
+         next = edge%column(edge%slab%first)
+      end if
       do j = edge%slab%first, edge%slab%last
-         do i = 1, edge%slab%points(1)
-            highest = max(edge%at(i - 1, j), edge%at(i + 1, j), edge%at(i, j - 1), edge%at(i, j + 1))
-            if (highest > opening_ratio*edge%at(i, j)) total = total + 1
-         end do
+         before = here
+         here = next
+         next = edge%column(j + 1)
+         associate (points => here(1:m), back => here(:m - 1), ahead => here(2:))
+            total = total + count(points > 0.0_dp .and. min(back, ahead, before(1:m), next(1:m)) >= points .and. &
+                                  max(back, ahead, before(1:m), next(1:m)) > opening_ratio*points)
+         end associate
       end do
       call edge%slab%add(total)
       openings = total(1)
@@ -143,11 +149,11 @@ contains
       errors = 0.0_dp
       open_part = 1.0_dp - values(2)
       associate (gap => values(1), area => values(2), peak => values(3))
-         if (.not. min(gap, area, open_part) > 0.0_dp) return
+         if (.not. min(area, open_part) > 0.0_dp) return
          errors = least_of_area*area_error*[min(gap, 1.0_dp - gap)/min(area, open_part), 0.0_dp, peak/area]
-         ! A gap of only a few points may be much larger than the grid shows.
-         if (area_error >= open_part) errors(1) = max(errors(1), min(area_error**2, &
-            gap*((1.0_dp + area_error/open_part)**closing_power(dimension) - 1.0_dp)))
+         ! A gap of only a few points may be much larger than the grid shows, which may show none.
+         if (area_error >= open_part) errors(1) = max(errors(1), area_error**2, &
+            gap*((1.0_dp + area_error/open_part)**closing_power(dimension) - 1.0_dp))
       end associate
    end function implied_errors
 

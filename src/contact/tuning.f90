@@ -21,8 +21,11 @@ module wavycon_contact_tuning
    !> A grid is solved until the gap in contact deviates from zero by this part of the gap at the points next to the
    !> contact, so that the iteration adds little to the error of the edge.
    real(dp), parameter, public :: edge_tolerance = 5e-4_dp
-   !> Iterations on one grid, after which the status is iteration_limit.
+   !> Iterations on one grid, after which the status is iteration_limit; so many, or
    integer, parameter, public :: iteration_limit = 500
+   !> so many times the square root of the cell's longer side over the shortest step of the grid, if that is more: on
+   !> cells of up to 1:1000 random maps took up to 4.6 times.
+   real(dp), parameter, public :: iterations_of_root = 10.0_dp
    !> A point enters the contact when its overlap exceeds this part of the allowed residual. Smaller overlaps may be
    !> rounding: such points would enter and leave without end.
    real(dp), parameter, public :: overlap_part = 0.1_dp
@@ -96,6 +99,12 @@ module wavycon_contact_tuning
    !> The tolerance is at most this fraction of min(t, 1 - t): where the error estimate is as large as t the value must
    !> still come close to t.
    real(dp), parameter, public :: largest_fraction = 1e-4_dp
+   !> And at least so many spacings of the numbers at the target: the value itself is rounded, which near 1 is more than
+   !> the fractions of 1 - t above.
+   real(dp), parameter, public :: value_roundings = 4.0_dp
+   !> P at which a search ends whose area or gap no longer follows the load: lighter than the lightest that adds a
+   !> second point to the contact, about 1e-14 on 1e9 points, and far above the least number in single precision.
+   real(dp), parameter, public :: lightest_load = 1e-20_dp
    !> Solutions of a search at one accuracy, after which the status is not_accurate. To halve a step of `longest_step`
    !> down to rounding takes 45.
    integer, parameter, public :: most_solves = 60
@@ -117,6 +126,12 @@ module wavycon_contact_tuning
    !> Grids of given points search first on grids with half the points each way, down to this number along the longer
    !> side, for the same reason.
    integer, parameter, public :: least_search_points = 64
+
+   ! One spot in a periodic cell, (C27).
+
+   !> Largest contact area fraction and least load concentration of what counts as one spot. At 2 % of a square cell
+   !> Hertz' contact has the concentration 0.97; the next term of (C27) is some (radius/side)^3 of the approach, 5e-4.
+   real(dp), parameter, public :: largest_spot = 0.02_dp, least_concentration = 0.95_dp
 
    ! The paper's series.
 

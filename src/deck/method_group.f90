@@ -5,7 +5,7 @@ module wavycon_method_group
       names_reading, selector_key
    use wavycon_key_table, only: key_group, key_group_type
    use wavycon_problems, only: problem_list_type
-   use wavycon_solver_list, only: default_solver, get_solvers, keys_of_solvers, solver_item, solvers_for
+   use wavycon_method_list, only: default_solver, get_methods, keys_of_methods, method_item, solvers_for
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
@@ -18,11 +18,11 @@ contains
    function method_table() result(table)
       type(key_group_type) :: table
 
-      type(solver_item), allocatable :: solvers(:)
+      type(method_item), allocatable :: methods(:)
       type(alternative_type), allocatable :: alternatives(:)
 
-      call get_solvers(solvers)
-      call keys_of_solvers(solvers, alternatives)
+      call get_methods(methods)
+      call keys_of_methods(methods, alternatives)
       table = key_group('method', 'how the contact is computed', &
                         [selector_key('solver', 'by the surface', alternatives), merged_keys(alternatives)])
    end function method_table
@@ -34,13 +34,13 @@ contains
       type(surface_type), allocatable, intent(in) :: surface     !! not allocated if it has problems
       type(problem_list_type), intent(inout) :: problems
 
-      type(solver_item), allocatable :: solvers(:)
+      type(method_item), allocatable :: methods(:)
       type(alternative_type), allocatable :: alternatives(:)
       character(:), allocatable :: key, refusal
       integer :: chosen, k
 
-      call get_solvers(solvers)
-      call keys_of_solvers(solvers, alternatives)
+      call get_methods(methods)
+      call keys_of_methods(methods, alternatives)
       if (allocated(surface)) call values%set_default('solver', default_solver(surface, kind))
       if (values%is_bad('solver')) return
       chosen = findloc(alternatives%name == values%text('solver'), .true., dim=1)
@@ -49,19 +49,19 @@ contains
          key = trim(values%table%keys(k)%name)
          if (is_misplaced(alternatives, chosen, key, values)) call values%complain(problems, key, &
             key//' is a key of solver = '//names_reading(alternatives, key)//", not of '"// &
-            values%text('solver')//"'"//solvers(chosen)%solver%advice(key))
+            values%text('solver')//"'"//methods(chosen)%method%advice(key))
       end do
       call leave_out_other_keys(alternatives, chosen, values)
       ! Without a surface the remaining checks would report problems that are not there.
       if (.not. allocated(surface)) return
-      refusal = solvers(chosen)%solver%refusal(surface)
+      refusal = methods(chosen)%method%refusal(surface)
       if (refusal /= '') then
          call values%complain(problems, 'solver', "solver = '"//values%text('solver')//"' "//refusal//'. Give '// &
                               solvers_for(surface))
          return
       end if
-      call solvers(chosen)%solver%set_defaults(values, surface)
-      call solvers(chosen)%solver%check(values, surface, problems)
+      call methods(chosen)%method%set_defaults(values, surface)
+      call methods(chosen)%method%check(values, surface, problems)
    end subroutine check_method_group
 
 end module wavycon_method_group

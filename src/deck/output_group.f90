@@ -1,12 +1,13 @@
 !> The &output group: which files are written, and where.
 module wavycon_output_group
+   use wavycon_grid_keys, only: points_of_grid
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: choice_key, integer_key, key_group, key_group_type, key_type, logical_key, text_key
    use wavycon_map_table, only: text_side
+   use wavycon_method_list, only: get_method
    use wavycon_plain_text, only: integer_text
    use wavycon_problems, only: problem_list_type
-   use wavycon_solver_keys, only: points_of_grid
-   use wavycon_solver_list, only: get_solvers, solver_item
+   use wavycon_solver_method, only: solver_method
    use wavycon_surface, only: surface_type
    use wavycon_tables, only: all_tables, table_item
    implicit none (type, external)
@@ -70,26 +71,24 @@ contains
       type(surface_type), allocatable, intent(in) :: surface   !! not allocated if it has problems
       type(problem_list_type), intent(inout) :: problems
 
-      type(solver_item), allocatable :: solvers(:)
+      class(solver_method), allocatable :: chosen
       type(table_item), allocatable :: tables(:)
       character(:), allocatable :: key, refusal
-      integer :: i, k
+      integer :: i
 
       call values%set_default('directory', 'outputs/'//case)
       call values%set('directory', plain_directory(values%text('directory')))
       if (.not. allocated(surface)) return
       if (.not. method%is_bad('grid_points')) call set_points(values, given_points(method, surface), surface%dimension)
-      call get_solvers(solvers)
+      call get_method(method, chosen)
+      if (.not. allocated(chosen)) return
       call all_tables(tables)
-      do k = 1, size(solvers)
-         if (solvers(k)%solver%name() /= method%text('solver')) cycle
-         do i = 1, size(tables)
-            key = tables(i)%table%key()
-            if (key == '' .or. tables(i)%table%group() /= 'output') cycle
-            if (.not. values%logical(key)) cycle
-            refusal = tables(i)%table%refusal(solvers(k)%solver, surface)
-            if (refusal /= '') call values%complain(problems, key, key//' cannot be written: '//refusal)
-         end do
+      do i = 1, size(tables)
+         key = tables(i)%table%key()
+         if (key == '' .or. tables(i)%table%group() /= 'output') cycle
+         if (.not. values%logical(key)) cycle
+         refusal = tables(i)%table%refusal(chosen%traits(), surface)
+         if (refusal /= '') call values%complain(problems, key, key//' cannot be written: '//refusal)
       end do
    end subroutine check_output_group
 

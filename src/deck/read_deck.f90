@@ -23,7 +23,7 @@ module wavycon_read_deck
    use wavycon_scene_group, only: check_scene_group
    use wavycon_settings, only: add_settings, name_case, setting_type
    use wavycon_stress_group, only: check_stress_group
-   use wavycon_surface_group, only: check_surface_group, make_surface
+   use wavycon_surface_group, only: check_sides, check_surface_group, make_surface
    implicit none (type, external)
    private
 
@@ -107,7 +107,9 @@ contains
       if (deck%scene%has('length_unit')) deck%surface_values%length_unit = deck%scene%text('length_unit')
       call make_surface(deck%surface_values, deck%surface, deck%map, error)
       call share_error(error)
-      if (allocated(error) .or. .not. allocated(deck%map)) return
+      if (allocated(error)) return
+      if (allocated(deck%surface)) call check_sides(deck%surface_values, deck%surface, problems)
+      if (.not. allocated(deck%map)) return
       if (allocated(deck%map%length_unit)) call deck%scene%set('length_unit', deck%map%length_unit)
    end subroutine read_surface
 

@@ -13,8 +13,8 @@ module wavycon_settings
    use wavycon_problems, only: problem_list_type
    use wavycon_scene_group, only: longest_name, name_letters
    use wavycon_self_affine, only: is_another_roughness => is_another_way
-   use wavycon_solver_keys, only: is_another_grid => is_another_way
-   use wavycon_solver_list, only: get_solvers, keys_of_solvers, solver_item
+   use wavycon_grid_keys, only: is_another_grid => is_another_way
+   use wavycon_method_list, only: get_methods, keys_of_methods, method_item
    use wavycon_stress_group, only: is_another_depth => is_another_way
    use wavycon_surface_kinds, only: get_surface_kinds, keys_of_kinds, surface_kind_item
    implicit none (type, external)
@@ -146,7 +146,7 @@ contains
       character(*), intent(in) :: key
 
       type(alternative_type), allocatable :: alternatives(:)
-      type(solver_item), allocatable :: solvers(:)
+      type(method_item), allocatable :: methods(:)
       type(surface_kind_item), allocatable :: kinds(:)
 
       replaces = key == setting%key
@@ -157,8 +157,8 @@ contains
          call keys_of_kinds(kinds, alternatives)
          replaces = is_key_of_others(alternatives)
       case ('method.solver')
-         call get_solvers(solvers)
-         call keys_of_solvers(solvers, alternatives)
+         call get_methods(methods)
+         call keys_of_methods(methods, alternatives)
          replaces = is_key_of_others(alternatives)
       case default
          select case (setting%group)

@@ -43,6 +43,8 @@ module wavycon_wavy_solution
       real(c_double) :: peak_pressure_over_pstar_error = 0.0_dp
       real(c_double) :: area_at_hardness_fraction = 0.0_dp   !! NaN without a hardness
       real(c_double) :: load_at_hardness_fraction = 0.0_dp   !! likewise
+      real(c_double) :: area_at_hardness_fraction_error = 0.0_dp
+      real(c_double) :: load_at_hardness_fraction_error = 0.0_dp
       real(c_double) :: mean_pressure = 0.0_dp      !! [pressure]
       real(c_double) :: mean_gap = 0.0_dp           !! [length]
       real(c_double) :: approach = 0.0_dp           !! [length]
@@ -106,13 +108,15 @@ contains
       type(wavy_solution), intent(out) :: solution
       type(error_type), allocatable, intent(out) :: error
 
-      real(dp) :: at_hardness(2), errors(3), peak
+      real(dp) :: at_hardness(4), errors(3), peak
 
       errors = ieee_value(1.0_dp, ieee_quiet_nan)
-      at_hardness = errors(:2)
+      at_hardness = errors(1)
       associate (measures => from%measures)
          if (surface%has_hardness()) &
-            at_hardness = [measures%area_at_hardness_fraction, measures%load_at_hardness_fraction]
+            at_hardness(:2) = [measures%area_at_hardness_fraction, measures%load_at_hardness_fraction]
+         if (surface%has_hardness() .and. has_errors) &
+            at_hardness(3:) = or_nan([measures%area_at_hardness_error, measures%load_at_hardness_error])
          if (has_errors) errors = or_nan(measures%errors())
          ! On a flat surface, whose p* is 0, the pressure is uniform.
          peak = mean_pressure
@@ -120,7 +124,8 @@ contains
          solution%numbers = wavy_measures( &
             from%pbar_over_pstar, measures%mean_gap_over_amplitude, measures%approach_over_amplitude, &
             measures%contact_area_fraction, measures%peak_pressure_over_pstar, measures%min_pressure_over_pstar, &
-            errors(1), errors(2), errors(3), at_hardness(1), at_hardness(2), mean_pressure, &
+            errors(1), errors(2), errors(3), at_hardness(1), at_hardness(2), at_hardness(3), &
+            at_hardness(4), mean_pressure, &
             surface%amplitude*measures%mean_gap_over_amplitude, &
             surface%amplitude*measures%approach_over_amplitude, &
             surface%nominal_area()*measures%contact_area_fraction, peak, from%residual, &

@@ -2,13 +2,15 @@
 module wavycon_wavy_solver
    use, intrinsic :: iso_c_binding, only: c_double, c_int
    use wavycon_contact_solution, only: contact_solution
-   use wavycon_contact_solver, only: contact_solver
+   use wavycon_auto_method, only: reason_of_choice => why_chosen
+   use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_deck, only: deck_type
    use wavycon_deck_text, only: deck_text_type
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_group_text, only: read_group_text
    use wavycon_group_values, only: group_values
    use wavycon_kinds, only: dp
+   use wavycon_method_list, only: start_solver
    use wavycon_load_group, only: check_load_group, check_loads_of_surface, load_table
    use wavycon_make_scene, only: make_scene, take_loads
    use wavycon_material_group, only: check_hardness, check_material_group, hardness_over_pstar, material_table, &
@@ -21,7 +23,6 @@ module wavycon_wavy_solver
    use wavycon_scene, only: by_pressure, by_yield, scene_type
    use wavycon_solution_stress, only: stress_setting_of_keys
    use wavycon_solve_target, only: solve_target
-   use wavycon_solver_list, only: start_solver
    use wavycon_stress_setting, only: stress_setting
    use wavycon_surface, only: surface_type
    use wavycon_wavy_solution, only: start_solution, wavy_solution
@@ -45,6 +46,8 @@ module wavycon_wavy_solver
    type :: wavy_solver
       private
       class(contact_solver), allocatable :: solver
+      type(solver_traits) :: traits                   !! of the solver
+      character(:), allocatable :: solver_name, description
       real(dp) :: e_star = 1.0_dp                     !! [pressure]
       real(dp) :: p_star = 0.0_dp                     !! [pressure]
       logical :: keep_fields = .true.                 !! in the solutions that the caller gets
@@ -120,7 +123,7 @@ contains
       end if
       solver%keep_fields = keep_fields
       solver%has_fields = keep_fields
-      call start_solver(inner, values, keep_fields, solver%solver)
+      call start(solver, inner, values)
    end subroutine make_solver_of_material
 
    !> Makes the solver that a deck describes, with its loads, see number_of_loads and solve_load; &output has no effect.
@@ -148,8 +151,18 @@ contains
       call move_alloc(scene%target, solver%target)
       if (allocated(scene%mean_pressure)) call move_alloc(scene%mean_pressure, solver%mean_pressure)
       if (allocated(scene%stress_setting)) call move_alloc(scene%stress_setting, solver%stress)
-      call start_solver(scene%surface, scene%method, solver%has_fields, solver%solver)
+      call start(solver, scene%surface, scene%method)
    end subroutine make_solver_of_deck
+
+   subroutine start(solver, surface, method)
+      type(wavy_solver), intent(inout) :: solver
+      type(surface_type), intent(in) :: surface
+      type(group_values), intent(in) :: method
+
+      call start_solver(surface, method, solver%has_fields, solver%solver, solver%description)
+      solver%solver_name = method%text('solver')
+      solver%traits = solver%solver%traits()
+   end subroutine start
 
    !> Whether the solver has been made.
    pure logical function is_made(self)
@@ -164,7 +177,7 @@ contains
       character(:), allocatable :: name
 
       name = ''
-      if (self%is_made()) name = self%solver%name()
+      if (self%is_made()) name = self%solver_name
    end function get_name
 
    !> The discretisation in words.
@@ -173,7 +186,7 @@ contains
       character(:), allocatable :: words
 
       words = ''
-      if (self%is_made()) words = self%solver%describe()
+      if (self%is_made()) words = self%description
    end function describe
 
    !> Why 'auto' solves this surface as it does; empty for the other solvers.
@@ -181,8 +194,7 @@ contains
       class(wavy_solver), intent(in) :: self
       character(:), allocatable :: words
 
-      words = ''
-      if (self%is_made()) words = self%solver%why_chosen()
+      words = reason_of_choice(self%traits)
    end function why_chosen
 
    !> Modulus, p*, Delta and the cell. Zeros before the solver is made.
@@ -299,7 +311,7 @@ contains
          pressure = self%p_star*found%pbar_over_pstar
       end if
       call start_solution(found, self%solver%surface, self%p_star, pressure, self%keep_fields, &
-                          self%solver%has_error_estimates(), solution, error)
+                          self%traits%has_errors, solution, error)
    end subroutine solve_one
 
    !> Errors: exit_bad_input if the solver cannot find loads by the key yield.

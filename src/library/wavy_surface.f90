@@ -16,7 +16,7 @@ module wavycon_wavy_surface
    use wavycon_problem_report, only: problem_report
    use wavycon_problems, only: problem_list_type
    use wavycon_surface, only: surface_type
-   use wavycon_surface_group, only: check_surface_group, make_surface, surface_table
+   use wavycon_surface_group, only: check_sides, check_surface_group, make_surface, surface_table
    implicit none (type, external)
    private
 
@@ -229,11 +229,10 @@ contains
 
       call read_group_text(surface_table(), keys, values, text, problems)
       call check_surface_group(values, problems)
-      if (problems%number > 0) then
-         call fatal_error(error, exit_bad_input, problem_report(problems, text))
-      else
-         call make_surface(values, surface%surface, map, error)
-      end if
+      if (problems%number == 0) call make_surface(values, surface%surface, map, error)
+      if (allocated(surface%surface)) call check_sides(values, surface%surface, problems)
+      if (problems%number > 0) call fatal_error(error, exit_bad_input, problem_report(problems, text))
+      if (allocated(error) .and. allocated(surface%surface)) deallocate (surface%surface)
       surface%kind = values%text('kind')
       if (allocated(error)) surface%trouble = error%message
    end subroutine make_surface_of_keys

@@ -65,6 +65,8 @@ typedef struct wavycon_measures {
     double peak_pressure_over_pstar_error;
     double area_at_hardness_fraction; /* of the nominal area; NaN without a hardness */
     double load_at_hardness_fraction; /* of the load; NaN without a hardness */
+    double area_at_hardness_fraction_error;
+    double load_at_hardness_fraction_error;
     double mean_pressure; /* [pressure] */
     double mean_gap;      /* [length] */
     double approach;      /* [length] */

@@ -7,7 +7,8 @@ module wavycon_foreign_format
    public :: remedy_of_content, remedy_of_name
 
    character(*), parameter :: by_gwyddion = 'open it in Gwyddion and save it as .gsf (File > Save As), or read it '// &
-      'in Python with SurfaceTopography and write numpy.save(file, numpy.ma.filled(topography.heights(), numpy.nan).T)'
+      'in Python with SurfaceTopography and write numpy.save(file, z.T), z = numpy.ma.filled(topography.heights(), '// &
+      'numpy.nan), of a profile numpy.savetxt(file, numpy.c_[topography.positions(), z])'
    character(*), parameter :: by_spreadsheet = 'save the heights as text (.csv)'
    character(*), parameter :: by_numpy = 'read it in Python and write its heights by numpy.save'
 

@@ -14,6 +14,7 @@ module wavycon_gnuplot_map
    use wavycon_map_size, only: check_map_size, check_room, most_points
    use wavycon_measured_map, only: measured_map
    use wavycon_plain_text, only: integer_text
+   use wavycon_point_map, only: find_step
    implicit none (type, external)
    private
 
@@ -120,25 +121,5 @@ contains
          return
       end do
    end subroutine find_columns
-
-   !> The step between coordinates, and whether all steps are equal.
-   subroutine find_step(coordinate, step, is_regular)
-      real(dp), intent(in) :: coordinate(:)   !! at least two
-      real(dp), intent(out) :: step           !! their mean; may be negative
-      logical, intent(out) :: is_regular
-
-      !> Largest deviation of a point from the grid, in steps: single precision keeps seven digits.
-      real(dp), parameter :: tolerance = 0.01_dp
-      integer :: i
-
-      step = 0.0_dp
-      is_regular = .not. any(ieee_is_nan(coordinate))
-      if (.not. is_regular) return
-      associate (n => size(coordinate))
-         step = (coordinate(n) - coordinate(1))/(n - 1)
-         is_regular = abs(step) > 0.0_dp .and. &
-                      all(abs(coordinate - coordinate(1) - step*[(i, i=0, n - 1)]) <= tolerance*abs(step))
-      end associate
-   end subroutine find_step
 
 end module wavycon_gnuplot_map

@@ -1,15 +1,12 @@
 !> Reads height maps in Gwyddion's simple field format, .gsf: https://gwyddion.net/documentation/user-guide-en/gsf.html.
 module wavycon_gsf_map
-   use, intrinsic :: ieee_exceptions, only: ieee_get_status, ieee_overflow, ieee_set_halting_mode, &
-      ieee_set_status, ieee_status_type
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_binary_file, only: binary_file
-   use wavycon_decimal_number, only: read_decimal
    use wavycon_error, only: error_type
-   use wavycon_key_table, only: largest_number, smallest_number
+   use wavycon_file_head, only: entry_of, read_positive
    use wavycon_kinds, only: dp
    use wavycon_measured_map, only: measured_map
-   use wavycon_plain_text, only: excerpt, newline
+   use wavycon_plain_text, only: excerpt
    implicit none (type, external)
    private
 
@@ -35,7 +32,6 @@ contains
       type(measured_map), intent(inout) :: map
       type(error_type), allocatable, intent(out) :: error
 
-      character(:), allocatable :: height_unit, unit
       real(dp) :: points(2), sides(2)
       integer :: last
 
@@ -59,17 +55,15 @@ contains
          call read_number(file, words, 'XReal', sides(1), error)
          if (.not. allocated(error)) call read_number(file, words, 'YReal', sides(2), error)
          if (allocated(error)) return
-         unit = entry_of(words, 'XYUnits')
-         height_unit = entry_of(words, 'ZUnits')
+         call map%set_units(entry_of(words, 'XYUnits', '='), entry_of(words, 'ZUnits', '='))
       end associate
-      ! One side alone: the format's default of the other is 1. Without both the deck gives them.
-      if (any(sides > 0.0_dp)) map%step = merge(sides, 1.0_dp, sides > 0.0_dp)/points
-      if (unit == '') unit = height_unit
-      if (height_unit == '') height_unit = unit
-      if (unit /= '') then
-         map%length_unit = unit
-         map%height_unit = height_unit
+      if (nint(points(1)) == 1) then
+         points = points(2:1:-1)
+         sides = sides(2:1:-1)
       end if
+      ! The format's default of a side is 1.
+      map%is_usual_side = sides <= 0.0_dp
+      map%step = merge(1.0_dp, sides, map%is_usual_side)/points
       file%number_bytes = 4
       file%big_end_first = .false.
       call file%read_heights(int(last + alignment - modulo(last, alignment), int64), nint(points), .false., map, error)
@@ -84,54 +78,14 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       character(:), allocatable :: entry
-      type(ieee_status_type) :: floating_point
       logical :: is_number
 
       number = 0.0_dp
-      entry = entry_of(words, key)
+      entry = entry_of(words, key, '=')
       if (entry == '') return
-      ! 1e999 must be reported as bad input in builds that trap overflow too.
-      call ieee_get_status(floating_point)
-      call ieee_set_halting_mode(ieee_overflow, .false.)
-      call read_decimal(entry, number, is_number)
-      call ieee_set_status(floating_point)
-      if (is_number) is_number = number >= smallest_number .and. number <= largest_number
+      call read_positive(entry, number, is_number)
       if (.not. is_number) call file%refuse("in the head of this .gsf file "//key//" = '"//excerpt(entry)// &
                                             "' is no positive number", error)
    end subroutine read_number
-
-   !> The entry of a key in lines of 'key = entry', without the blanks around it; empty if it is not there.
-   pure function entry_of(words, key) result(entry)
-      character(*), intent(in) :: words, key
-      character(:), allocatable :: entry
-
-      character(*), parameter :: blanks = ' '//achar(9)//achar(13)
-      integer :: equals, first, last
-
-      entry = ''
-      last = index(words, newline)
-      do while (last > 0 .and. last < len(words))
-         first = last + 1
-         last = index(words(first:), newline)
-         if (last > 0) last = last + first - 1
-         associate (line => words(first:merge(last - 1, len(words), last > 0)))
-            equals = index(line, '=')
-            if (equals == 0) cycle
-            if (without_blanks(line(:equals - 1)) /= key) cycle
-            entry = without_blanks(line(equals + 1:))
-            return
-         end associate
-      end do
-
-   contains
-
-      pure function without_blanks(text) result(inner)
-         character(*), intent(in) :: text
-         character(:), allocatable :: inner
-
-         inner = text(max(1, verify(text, blanks)):verify(text, blanks, back=.true.))
-      end function without_blanks
-
-   end function entry_of
 
 end module wavycon_gsf_map

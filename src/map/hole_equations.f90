@@ -196,18 +196,19 @@ contains
    end function neighbour_of
 
    !> Fills the holes of a map: conjugate gradients, preconditioned by `cycle`, until the residual of (M3) is rounding.
+   !> Heights count from one of those around the holes: rounding is that of their differences, none if they are equal.
    subroutine solve(self, height)
       class(hole_equations), intent(inout) :: self
       real(dp), intent(inout) :: height(:, :)   !! shape (M, N); only the missing heights change
 
       real(dp), allocatable :: direction(:), given(:), image(:), residual(:), value(:)
-      real(dp) :: goal, largest, last, slope, slope_before, step, unit
+      real(dp) :: datum, goal, largest, last, slope, slope_before, step, unit
       integer :: iteration, u
 
       associate (finest => self%level(1), n => self%unknowns())
          allocate (value(0:n), direction(0:n), source=0.0_dp)
          allocate (residual(n), image(n))
-         call given_part(self, height, given)
+         call given_part(self, height, given, datum)
          ! Products of tiny heights would vanish.
          unit = maxval(abs(given))
          if (unit > 0.0_dp) given = given/unit
@@ -239,26 +240,33 @@ contains
             end do
          end do
          do u = 1, n
-            height(finest%place(1, u), finest%place(2, u)) = unit*value(u)
+            height(finest%place(1, u), finest%place(2, u)) = datum + unit*value(u)
          end do
       end associate
    end subroutine solve
 
-   !> What the given heights contribute to (M3).
-   subroutine given_part(self, height, given)
+   !> What the given heights over one of them contribute to (M3).
+   subroutine given_part(self, height, given, datum)
       type(hole_equations), intent(in) :: self
       real(dp), intent(in) :: height(:, :)
       real(dp), allocatable, intent(out) :: given(:)   !! shape (n)
+      real(dp), intent(out) :: datum                   !! the first of the given heights
 
       integer :: at(2), side, u
+      logical :: has_datum
 
       associate (finest => self%level(1))
          allocate (given(size(finest%diagonal)), source=0.0_dp)
+         has_datum = .false.
+         datum = 0.0_dp
          do u = 1, size(given)
             do side = 1, 4
                if (finest%neighbour(side, u) > 0) cycle
                at = neighbour_of(finest%place(:, u), side, finest%points, self%periodic)
-               if (any(at > 0)) given(u) = given(u) + self%bond(1 + mod(side - 1, 2))*height(at(1), at(2))
+               if (all(at == 0)) cycle
+               if (.not. has_datum) datum = height(at(1), at(2))
+               has_datum = .true.
+               given(u) = given(u) + self%bond(1 + mod(side - 1, 2))*(height(at(1), at(2)) - datum)
             end do
          end do
       end associate

@@ -12,9 +12,10 @@ module wavycon_length_unit
 
    !> 'um' in the letters of ASCII, with the micro sign and with the Greek letter.
    character(*), parameter :: micro_sign = char(194)//char(181)//'m', greek_letter = char(206)//char(188)//'m'
+   character(*), parameter :: angstrom = char(195)//char(133)
    character(*), parameter :: units(*) = [character(3) :: 'km', 'm', 'cm', 'mm', 'um', micro_sign, greek_letter, 'nm', &
-                                          'pm']
-   integer, parameter :: powers(*) = [3, 0, -2, -3, -6, -6, -6, -9, -12]   !! of ten, in metres
+                                          angstrom, 'pm']
+   integer, parameter :: powers(*) = [3, 0, -2, -3, -6, -6, -6, -9, -10, -12]   !! of ten, in metres
 
 contains
 
@@ -64,6 +65,7 @@ contains
             return
          end if
          map%step = factor*map%step
+         map%uneven_steps = factor*map%uneven_steps
          map%length_unit = unit
       end if
       call find_factor(map%height_unit, map%length_unit, factor, is_known)

@@ -5,9 +5,11 @@ module wavycon_map_changes
    implicit none (type, external)
    private
 
-   public :: map_changes, percent
+   public :: clauses, map_changes, percent
 
    type :: map_changes
+      real(dp) :: step = 0.0_dp             !! along x [length]
+      real(dp) :: uneven_steps(2) = 0.0_dp  !! as of measured_map
       character(9) :: detrend = 'none'      !! value of the key
       real(dp) :: rise(2) = 0.0_dp          !! of the linear part that was removed, from border to border [length]
       integer :: points(2) = 0              !! of the map along x and y
@@ -26,34 +28,40 @@ contains
       character(*), intent(in) :: length_unit   !! label of the unit of lengths
       character(:), allocatable :: words
 
+      character(:), allocatable :: trend
+
       words = ''
+      if (self%uneven_steps(2) > 0.0_dp) words = 'resampled to '//integer_text(self%points(1))//' points '// &
+         short_number(self%step)//' apart, which are '//short_number(self%uneven_steps(1))//' to '// &
+         short_number(self%uneven_steps(2))//' apart in the file ['//length_unit//']'
       if (self%detrend /= 'none') then
-         words = 'without its mean'
-         if (self%detrend == 'quadratic') words = 'without its quadratic trend'
-         if (self%detrend == 'plane') words = 'without its plane'
+         trend = 'mean'
+         if (self%detrend == 'quadratic') trend = 'quadratic trend'
+         if (self%detrend == 'plane') trend = 'plane'
+         words = clauses(words, 'without its '//trend)
          if (self%detrend /= 'mean') then
             words = words//', which rises by '//short_number(self%rise(1))
             if (self%points(2) > 1) words = words//' along x and '//short_number(self%rise(2))//' along y'
             words = words//' ['//length_unit//']'
          end if
       end if
-      if (self%filled > 0) words = joined(words, integer_text(self%filled)//' missing height'// &
+      if (self%filled > 0) words = clauses(words, integer_text(self%filled)//' missing height'// &
                                           trim(merge(' ', 's', self%filled == 1))//' filled ('// &
                                           percent(real(self%filled, dp)/product(self%points))//')')
-      if (self%edges == 'mirror') words = joined(words, 'continued by its mirror images')
-      if (self%edges == 'window') words = joined(words, 'tapered at its borders, which changes '// &
+      if (self%edges == 'mirror') words = clauses(words, 'continued by its mirror images')
+      if (self%edges == 'window') words = clauses(words, 'tapered at its borders, which changes '// &
                                                  percent(self%tapered)//' of its points')
    end function words
 
    !> Two clauses.
-   pure function joined(first, second) result(words)
+   pure function clauses(first, second) result(words)
       character(*), intent(in) :: first    !! may be empty
       character(*), intent(in) :: second
       character(:), allocatable :: words
 
       words = second
       if (first /= '') words = first//'; '//second
-   end function joined
+   end function clauses
 
    !> A part in per cent, such as '2.5 %'.
    pure function percent(part) result(share)

@@ -4,6 +4,7 @@ module wavycon_map_file
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_binary_file, only: binary_file
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
+   use wavycon_file_head, only: take_text_head
    use wavycon_foreign_format, only: remedy_of_content, remedy_of_name
    use wavycon_gnuplot_map, only: is_gnuplot, read_gnuplot_map
    use wavycon_grid_slab, only: grid_slab
@@ -14,8 +15,9 @@ module wavycon_map_file
    use wavycon_measured_map, only: measured_map
    use wavycon_npy_map, only: is_npy, read_npy_map
    use wavycon_number_table, only: number_table, read_number_table
-   use wavycon_plain_text, only: escaped, lower_case
+   use wavycon_plain_text, only: escaped, integer_text, lower_case
    use wavycon_point_map, only: are_points, take_points
+   use wavycon_profile_map, only: resample_profile, take_profile
    use wavycon_ranks, only: share_error
    use wavycon_system, only: path_device, path_kind
    implicit none (type, external)
@@ -70,6 +72,8 @@ contains
       if (file%in_slabs) call share_error(error)
       if (allocated(error)) return
       call mark_missing(map, missing_value)
+      if (allocated(map%x)) call resample_profile(path, map, error)
+      if (allocated(error)) return
       slab = map%columns()
       missing = [merge(1, 0, map%has_missing_value), 0]
       if (allocated(map%missing)) missing(2) = count(map%missing, kind=int64)
@@ -122,14 +126,31 @@ contains
          if (remedy /= '') error%message = error%message//' ('//remedy//')'
          return
       end if
-      if (map%format == 'auto') map%format = merge('xyz   ', 'matrix', are_points(table))
+      if (table%next_head > 0) then
+         call fatal_error(error, exit_bad_input, escaped(file%path)//':'//integer_text(table%next_head)// &
+                          ': another map begins here: write each map to a file of its own')
+         return
+      end if
+      if (map%format == 'auto') then
+         map%format = 'matrix'
+         if (are_points(table, 3)) map%format = 'xyz'
+         if (are_points(table, 2)) map%format = 'xz'
+      end if
       call check_room(file%path, [size(table%values)/merge(3, 1, map%format == 'xyz'), 1], error)
       if (allocated(error)) return
-      if (map%format == 'xyz') then
+      select case (map%format)
+      case ('xyz')
          call take_points(table, map, error)
-      else
+      case ('xz')
+         call take_profile(table, map, error)
+      case default
          call take_matrix(table, map, error)
-      end if
+      end select
+      if (.not. allocated(error)) call take_text_head(file, map, error)
+      if (allocated(error)) return
+      if (size(map%height, 1) > 1) return
+      map%height = transpose(map%height)
+      map%step = map%step(2:1:-1)
    end subroutine read_text
 
    !> Marks the missing heights: those that are NaN and those that have a given value, in double or in single precision.

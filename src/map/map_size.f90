@@ -9,7 +9,7 @@ module wavycon_map_size
    implicit none (type, external)
    private
 
-   public :: check_map_size, check_room, check_slab_room
+   public :: check_map_size, check_room, check_slab_room, laid_along_x
 
    !> Fewest and most points along a side.
    integer, parameter, public :: least_points = 4, most_points = 1048576
@@ -26,9 +26,18 @@ contains
          if (m < least_points .or. (n < least_points .and. n /= 1) .or. max(m, n) > most_points) &
             call fatal_error(error, exit_bad_input, escaped(source)//': a map of '//integer_text(m)//' x '// &
                              integer_text(n)//' points: there must be '//integer_text(least_points)//' to '// &
-                             integer_text(most_points)//' along each side, or one row for a profile')
+                             integer_text(most_points)//' along each side, or one row or column for a profile')
       end associate
    end subroutine check_map_size
+
+   !> The points of a map; of one column those of a profile along x.
+   pure function laid_along_x(points) result(laid)
+      integer, intent(in) :: points(2)
+      integer :: laid(2)
+
+      laid = points
+      if (points(1) == 1) laid = points(2:1:-1)
+   end function laid_along_x
 
    !> Checks that there is memory for a map that is whole on each rank, and its surface. Errors: exit_file_trouble.
    subroutine check_room(source, points, error)

@@ -21,7 +21,7 @@ module wavycon_map_statistics
       !> continued periodically [length].
       real(dp) :: border_step(2) = 0.0_dp
       logical :: lacks_missing_value = .false.   !! whether the deck gives a missing_value that no height has
-      logical :: is_equal_spacing = .false.   !! whether the side along y follows from equal steps along x and y
+      character(:), allocatable :: assumed_sides   !! sides that neither deck nor file gives, in words; empty if none
       character(:), allocatable :: length_unit                      !! that the file names, or the deck in its place
       type(map_changes) :: changes                                  !! of the measured map
       character(:), allocatable :: path                             !! absolute
@@ -53,6 +53,7 @@ contains
       call take_moments(slab, height, statistics)
       call take_steps(slab, height, statistics)
       statistics%path = path
+      statistics%assumed_sides = ''
    end function statistics_of
 
    !> Finds the root mean square, skewness and kurtosis of the heights, eq. (M20).

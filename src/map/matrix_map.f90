@@ -3,7 +3,7 @@ module wavycon_matrix_map
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_kinds, only: dp
-   use wavycon_map_size, only: check_map_size
+   use wavycon_map_size, only: check_map_size, laid_along_x
    use wavycon_measured_map, only: measured_map
    use wavycon_number_table, only: number_table
    use wavycon_plain_text, only: escaped, integer_text
@@ -36,7 +36,7 @@ contains
                           "that is missing). Is it file_format = 'xyz'?")
          return
       end do
-      call check_map_size(table%path, [columns, table%rows()], error)
+      call check_map_size(table%path, laid_along_x([columns, table%rows()]), error)
       if (allocated(error)) return
       allocate (map%height(columns, table%rows()))
       do j = 1, table%rows()

@@ -14,11 +14,15 @@ module wavycon_measured_map
       logical, allocatable :: missing(:, :)        !! shape of `height`; not allocated if no height is missing
       logical :: has_missing_value = .false.       !! whether a height has the value of the key missing_value
       real(dp) :: step(2) = 0.0_dp                 !! between points along x and y; 0 where the file does not give it
+      real(dp), allocatable :: x(:)                !! of a profile until it is resampled, if its steps are not equal
+      real(dp) :: uneven_steps(2) = 0.0_dp         !! least and largest of a profile that was resampled, otherwise 0
+      logical :: is_usual_side(2) = .false.        !! whether a step is that of the format's default of the side
       character(7) :: format = ''                  !! a value of the key file_format but 'auto'
       character(:), allocatable :: length_unit     !! of the steps; not allocated if the file does not name units
       character(:), allocatable :: height_unit     !! of the heights; allocated if length_unit is
       type(grid_slab), private :: slab             !! of the points of a map that is spread
    contains
+      procedure :: set_units
       procedure :: spread_over
       procedure :: columns
       procedure :: points
@@ -26,6 +30,18 @@ module wavycon_measured_map
    end type measured_map
 
 contains
+
+   !> Sets the units that a file names; if it names one, it is that of both.
+   pure subroutine set_units(self, length_unit, height_unit)
+      class(measured_map), intent(inout) :: self
+      character(*), intent(in) :: length_unit, height_unit   !! empty if the file does not name them
+
+      if (length_unit == '' .and. height_unit == '') return
+      self%length_unit = length_unit
+      self%height_unit = height_unit
+      if (length_unit == '') self%length_unit = height_unit
+      if (height_unit == '') self%height_unit = length_unit
+   end subroutine set_units
 
    !> Says that `height` has, or will have, the own columns of a map.
    pure subroutine spread_over(self, slab)

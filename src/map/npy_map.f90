@@ -3,6 +3,7 @@ module wavycon_npy_map
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_binary_file, only: binary_file
    use wavycon_error, only: error_type
+   use wavycon_map_size, only: laid_along_x
    use wavycon_measured_map, only: measured_map
    use wavycon_plain_text, only: excerpt, integer_text
    implicit none (type, external)
@@ -67,7 +68,7 @@ contains
          return
       end if
       ! The last index of the array is the one along x.
-      points = [sides(2), sides(1)]
+      points = laid_along_x([sides(2), sides(1)])
       if (number == 1) points = [sides(1), 1]
       call file%read_heights(int(last, int64), points, number == 2 .and. order == 'True', map, error)
    end subroutine read_npy_map

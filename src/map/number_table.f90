@@ -20,6 +20,7 @@ module wavycon_number_table
       integer, allocatable :: first(:)          !! index of the first value of each row; one more: size(values) + 1
       integer, allocatable :: line(:)           !! line of the file of each row
       logical, allocatable :: ends_open(:)      !! whether the row ends in a separator: a last number may be missing
+      integer :: next_head = 0                  !! line behind the first row with the head of another map; 0: none
    contains
       procedure :: rows
       procedure :: length
@@ -136,6 +137,7 @@ contains
          line = line + 1
          call next_line(content, behind, first, last)
          used_before = used
+         if (used > 0 .and. index(content(last + 1:behind - 1), '# Width:') == 1) table%next_head = line
          call read_line(content(first:last), table%values, used, ends_open, trouble)
          if (allocated(trouble)) then
             call fatal_error(error, exit_bad_input, escaped(table%path)//':'//integer_text(line)//': '//trouble)

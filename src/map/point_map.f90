@@ -5,14 +5,14 @@ module wavycon_point_map
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_key_table, only: smallest_number
    use wavycon_kinds, only: dp
-   use wavycon_map_size, only: check_map_size, check_room
+   use wavycon_map_size, only: check_map_size, check_room, laid_along_x
    use wavycon_measured_map, only: measured_map
    use wavycon_number_table, only: number_table
    use wavycon_plain_text, only: escaped, integer_text, short_number
    implicit none (type, external)
    private
 
-   public :: are_points, take_points
+   public :: are_points, find_step, has_numbers, take_points
 
    !> Largest deviation of a point from the grid, in steps: coordinates in files are often rounded.
    real(dp), parameter :: tolerance = 0.01_dp
@@ -26,26 +26,28 @@ module wavycon_point_map
 
 contains
 
-   !> Whether all lines have three numbers and there are more lines than the three of a small map.
-   pure logical function are_points(table)
+   !> Whether all lines have so many numbers, coordinates and a height, and there are more than three lines.
+   pure logical function are_points(table, numbers)
       type(number_table), intent(in) :: table
+      integer, intent(in) :: numbers
 
       integer :: k
 
       are_points = table%rows() > 3
+      if (are_points) are_points = any([(table%length(k) == numbers, k=1, table%rows())])
       do k = 1, table%rows()
          if (.not. are_points) return
-         are_points = has_three(table, k)
+         are_points = has_numbers(table, k, numbers)
       end do
    end function are_points
 
-   !> Whether a line has x, y and z; the last may be missing behind a separator.
-   elemental logical function has_three(table, k)
+   !> Whether a line has so many numbers; the last, the height, may be missing behind a separator.
+   elemental logical function has_numbers(table, k, numbers)
       type(number_table), intent(in) :: table
-      integer, intent(in) :: k
+      integer, intent(in) :: k, numbers
 
-      has_three = table%length(k) == 3 .or. (table%length(k) == 2 .and. table%ends_open(k))
-   end function has_three
+      has_numbers = table%length(k) == numbers .or. (table%length(k) == numbers - 1 .and. table%ends_open(k))
+   end function has_numbers
 
    !> Makes a map from points in any order; heights of points without a line are NaN. x and y of the map rise. Errors:
    !> exit_bad_input if the points do not form a regular grid.
@@ -62,7 +64,7 @@ contains
       integer :: i, j, k, points(2)
 
       do k = 1, table%rows()
-         if (.not. has_three(table, k)) then
+         if (.not. has_numbers(table, k, 3)) then
             call bad_line(k, 'this line has '//integer_text(table%length(k))// &
                           " numbers: file_format = 'xyz' needs x, y and z")
             return
@@ -81,7 +83,7 @@ contains
       end do
       points = axis%number
       call check_grid()
-      if (.not. allocated(error)) call check_map_size(table%path, points, error)
+      if (.not. allocated(error)) call check_map_size(table%path, laid_along_x(points), error)
       if (.not. allocated(error)) call check_room(table%path, points, error)
       if (allocated(error)) return
       if (int(least_percentage, int64)*product(int(points, int64)) > 100*int(table%rows(), int64)) then
@@ -214,5 +216,23 @@ contains
 
       is_on = abs(coordinate - axis%first - (index_on(axis, coordinate) - 1)*axis%step) <= tolerance*axis%step
    end function is_on
+
+   !> The step between coordinates, and whether all steps are equal.
+   subroutine find_step(coordinate, step, is_regular)
+      real(dp), intent(in) :: coordinate(:)   !! at least two
+      real(dp), intent(out) :: step           !! their mean; may be negative
+      logical, intent(out) :: is_regular
+
+      integer :: i
+
+      step = 0.0_dp
+      is_regular = .not. any(ieee_is_nan(coordinate))
+      if (.not. is_regular) return
+      associate (n => size(coordinate))
+         step = (coordinate(n) - coordinate(1))/(n - 1)
+         is_regular = abs(step) > 0.0_dp .and. &
+                      all(abs(coordinate - coordinate(1) - step*[(i, i=0, n - 1)]) <= tolerance*abs(step))
+      end associate
+   end subroutine find_step
 
 end module wavycon_point_map

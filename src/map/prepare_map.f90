@@ -51,6 +51,8 @@ contains
       largest = maxval(abs(map%height))
       call slab%largest(largest)
       changes%points = slab%points
+      changes%step = map%step(1)
+      changes%uneven_steps = map%uneven_steps
       if (allocated(map%missing)) changes%filled = count(map%missing)
       call check_holes(source, preparation, map, error)
       if (allocated(error)) return

@@ -27,14 +27,18 @@ module wavycon_contact_measures
       real(dp) :: mean_gap_error = 0.0_dp                !! error estimate of the mean gap, in its unit, or `unknown`
       real(dp) :: contact_area_error = 0.0_dp            !! likewise of the contact area
       real(dp) :: peak_pressure_error = 0.0_dp           !! likewise of the peak pressure
-      !> Where the pressure is the hardness: fraction of the nominal area, and of the load. With a hardness
-      !> contact_area_error holds for this area too.
+      !> Where the pressure is the hardness: fraction of the nominal area and of the load, and their error estimates or
+      !> `unknown`.
       real(dp) :: area_at_hardness_fraction = 0.0_dp
       real(dp) :: load_at_hardness_fraction = 0.0_dp
+      real(dp) :: area_at_hardness_error = 0.0_dp
+      real(dp) :: load_at_hardness_error = 0.0_dp
       !> On a grid: the points in contact over all points, and this area corrected by (C26) of src/contact/README.md,
       !> which is for surfaces alone. Otherwise `unknown`.
       real(dp) :: contact_area_counted_fraction = unknown
       real(dp) :: contact_area_corrected_fraction = unknown
+      !> That of wavycon_load_concentration, of a light contact on a height map; otherwise 0.
+      real(dp) :: load_concentration = 0.0_dp
    contains
       procedure :: errors => errors_of_measures
       procedure :: are_resolved
@@ -111,7 +115,8 @@ contains
 
    !> The measures where there is no solution: zeros with unknown errors.
    pure type(contact_measures) function unmeasured() result(measures)
-      measures = contact_measures(mean_gap_error=unknown, contact_area_error=unknown, peak_pressure_error=unknown)
+      measures = contact_measures(mean_gap_error=unknown, contact_area_error=unknown, peak_pressure_error=unknown, &
+                                  area_at_hardness_error=unknown, load_at_hardness_error=unknown)
    end function unmeasured
 
    !> Measures the series of a pressure and its displacement, eqs. (19), (28) of Johnson, Greenwood & Higginson (1985).

@@ -88,6 +88,8 @@ contains
          call find_regions(spot, pool, 1, curves, area, length, is_map, spots)
          call find_regions(pool, spot, -1, curves, 1.0_dp - area, length, is_map, pools)
       end if
+      call add_up_to(area, spots)
+      call add_up_to(1.0_dp - area, pools)
       spots%load_fraction = nan()
       if (size(loads) == size(spots)) spots%load_fraction = loads
       pools%load_fraction = nan()
@@ -178,6 +180,16 @@ contains
       end do
       regions%area_fraction = min(max(regions%area_fraction, 0.0_dp), 1.0_dp)
    end subroutine find_regions
+
+   !> Scales the areas so that their sum is the total. They differ by rounding, where areas below zero were set to zero,
+   !> and where the contact area is that which carries the load at the hardness.
+   pure subroutine add_up_to(total, regions)
+      real(dp), intent(in) :: total   !! over the nominal area
+      type(contact_region), intent(inout) :: regions(:)
+
+      if (sum(regions%area_fraction) > 0.0_dp) &
+         regions%area_fraction = regions%area_fraction*(total/sum(regions%area_fraction))
+   end subroutine add_up_to
 
    !> The strips of a 1-D contact and the gaps between them: all endless along y, none along x.
    subroutine find_strips(strips, spots, pools)

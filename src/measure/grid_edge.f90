@@ -37,6 +37,7 @@ module wavycon_grid_edge
       procedure :: area_correction
       procedure :: place
       procedure :: at
+      procedure :: column
       procedure :: contact_of_column
       procedure :: points_in_contact
       procedure :: number_of_points
@@ -145,26 +146,38 @@ contains
       end if
    end function at
 
-   !> Which points of a column are in contact, from the last point of the period before to the first one of the next.
-   pure function contact_of_column(self, l) result(inside)
+   !> Pressure or minus the gap of a column, from the last point of the period before to the first one of the next.
+   pure function column(self, l) result(values)
       class(grid_edge), intent(in) :: self
       integer, intent(in) :: l   !! as of `at`
-      logical :: inside(0:self%slab%points(1) + 1)
+      real(dp) :: values(0:self%slab%points(1) + 1)
 
       integer :: m
 
       m = self%slab%points(1)
       if (.not. self%slab%is_spread) then
-         inside(1:m) = self%pressure_or_gap(:, self%place(l, 2)) > 0.0_dp
+         values(1:m) = self%pressure_or_gap(:, self%place(l, 2))
       else if (l < self%slab%first) then
-         inside(1:m) = self%low(:, reach + 1 - (self%slab%first - l)) > 0.0_dp
+         values(1:m) = self%low(:, reach + 1 - (self%slab%first - l))
       else if (l > self%slab%last) then
-         inside(1:m) = self%high(:, l - self%slab%last) > 0.0_dp
+         values(1:m) = self%high(:, l - self%slab%last)
       else
-         inside(1:m) = self%pressure_or_gap(:, l - self%slab%first + 1) > 0.0_dp
+         values(1:m) = self%pressure_or_gap(:, l - self%slab%first + 1)
       end if
-      inside(0) = inside(self%place(0, 1))
-      inside(m + 1) = inside(self%place(m + 1, 1))
+      values(0) = values(self%place(0, 1))
+      values(m + 1) = values(self%place(m + 1, 1))
+   end function column
+
+   !> Which points of a column are in contact, likewise.
+   pure function contact_of_column(self, l) result(inside)
+      class(grid_edge), intent(in) :: self
+      integer, intent(in) :: l   !! as of `at`
+      logical :: inside(0:self%slab%points(1) + 1)
+
+      real(dp) :: values(0:self%slab%points(1) + 1)
+
+      values = self%column(l)
+      inside = values > 0.0_dp
    end function contact_of_column
 
    !> The number of points of the grid in contact.

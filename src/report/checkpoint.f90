@@ -26,7 +26,7 @@ module wavycon_checkpoint
 
    public :: checkpoint_file, checkpoint_name, read_checkpoint
 
-   character(*), parameter :: mark = 'wavycon checkpoint 3'//newline
+   character(*), parameter :: mark = 'wavycon checkpoint 4'//newline
    integer, parameter :: bytes_of_word = 8
    !> End of all messages about a checkpoint that cannot be used.
    character(*), parameter :: way_out = '. Without --resume all loads are solved, and the checkpoint is replaced.'
@@ -241,9 +241,9 @@ contains
       name = checkpoint_name(results)
       found = path_kind(name) /= path_absent
       if (.not. found) then
-         if (path_kind(name_of_others(results)) /= path_absent) call fatal_error(error, exit_bad_input, &
-            escaped(name_of_others(results))//': the checkpoint is of a run on another number of ranks'//way_out)
-         return
+         ! It is not of this run, and says of how many ranks it is.
+         name = name_of_others(results)
+         if (path_kind(name) == path_absent) return
       end if
       open (newunit=unit, file=name, access='stream', form='unformatted', status='old', action='read', &
             iostat=status, iomsg=message)
@@ -307,18 +307,20 @@ contains
       if (understood) call move_alloc(solution, results%loads(load)%solution)
    end subroutine take_solution
 
-   !> A text that identifies what is solved: version, surface, number of ranks that share the work, and the resolved
-   !> deck without the paths of deck and results.
+   !> A text that identifies what is solved: version, number of ranks that share the work, surface, and the resolved
+   !> deck without the paths of deck and results. The surface follows the ranks as each has its columns of a large one.
    function description(results) result(text)
       type(results_type), intent(in) :: results
       character(:), allocatable :: text
 
       character(20) :: number
+      integer :: ranks
 
+      ranks = merge(results%sharing%ranks, 1, results%sharing%is_shared())
       write (number, '(i0)') surface_checksum(results%scene%surface)
-      text = 'wavycon '//version//' ('//revision//')'//newline//'surface '//trim(number)//newline// &
-             integer_text(merge(results%sharing%ranks, 1, results%sharing%is_shared()))//' ranks'//newline// &
-             results%scene%essence
+      text = 'wavycon '//version//' ('//revision//')'//newline// &
+             integer_text(ranks)//trim(merge(' rank ', ' ranks', ranks == 1))//newline// &
+             'surface '//trim(number)//newline//results%scene%essence
    end function description
 
    !> Compares the descriptions of two runs. Errors: exit_bad_input if they differ.
@@ -344,9 +346,9 @@ contains
       case (1)
          words = 'is of '//line_before//', this is '//line_now
       case (2)
-         words = 'is of another surface: the deck or its height map has changed'
+         words = 'is of a run on '//line_before//', this one has '//line_now//'. Resume on '//line_before
       case (3)
-         words = 'is of a run on '//line_before//', this one has '//line_now
+         words = 'is of another surface: the deck or its height map has changed'
       case default
          words = "is of another deck: '"//excerpt(line_now)//"' was '"//excerpt(line_before)//"'"
       end select

@@ -1,14 +1,14 @@
 !> <case>.coefficients.dat: the Fourier coefficients of the pressure, A_i of eq. (12) or A_ij of eq. (25), a block for
 !> each load.
 module wavycon_coefficients_table
-   use wavycon_contact_solver, only: contact_solver
+   use wavycon_contact_solver, only: solver_traits
    use wavycon_error, only: error_type
    use wavycon_fourier_series, only: fourier_series
    use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
    use wavycon_results, only: results_type
    use wavycon_surface, only: surface_type
-   use wavycon_solver_list, only: solvers_with_coefficients
+   use wavycon_method_list, only: solvers_with_coefficients
    use wavycon_table, only: table_type
    implicit none (type, external)
    private
@@ -40,15 +40,15 @@ contains
       words = 'The Fourier coefficients of the pressure.'
    end function meaning
 
-   function refusal(self, solver, surface) result(words)
+   function refusal(self, traits, surface) result(words)
       class(coefficients_table), intent(in) :: self
-      class(contact_solver), intent(in) :: solver
+      type(solver_traits), intent(in) :: traits
       type(surface_type), intent(in) :: surface
       character(:), allocatable :: words
 
       associate (unused => self, unused_too => surface); end associate
       words = ''
-      if (.not. solver%has_coefficients()) words = "solver = '"//solver%name()//"' has no series of given length; "// &
+      if (.not. traits%has_coefficients) words = "solver = '"//trim(traits%name)//"' has no series of given length; "// &
          solvers_with_coefficients()//' has'
    end function refusal
 

@@ -4,14 +4,14 @@
 !> NaN, its degree 0.
 module wavycon_details_table
    use wavycon_contact_details, only: contact_details
-   use wavycon_contact_solver, only: contact_solver
+   use wavycon_contact_solver, only: solver_traits
    use wavycon_contact_status, only: status_code
    use wavycon_error, only: error_type
    use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
    use wavycon_results, only: not_a_number, results_type
    use wavycon_surface, only: surface_type
-   use wavycon_solver_list, only: solvers_with_details
+   use wavycon_method_list, only: solvers_with_details
    use wavycon_table, only: table_type
    implicit none (type, external)
    private
@@ -56,15 +56,15 @@ contains
               'error estimate.'
    end function meaning
 
-   function refusal(self, solver, surface) result(words)
+   function refusal(self, traits, surface) result(words)
       class(details_table), intent(in) :: self
-      class(contact_solver), intent(in) :: solver
+      type(solver_traits), intent(in) :: traits
       type(surface_type), intent(in) :: surface
       character(:), allocatable :: words
 
       associate (unused => self, unused_too => surface); end associate
       words = ''
-      if (.not. solver%has_details()) words = "solver = '"//solver%name()// &
+      if (.not. traits%has_details) words = "solver = '"//trim(traits%name)// &
          "' does not compute them for every load; "//solvers_with_details()//' does'
    end function refusal
 

@@ -34,7 +34,7 @@ contains
          character(:), allocatable :: text
 
          text = ''
-         if (results%solver%has_error_estimates()) text = at_right('error', error_width)
+         if (results%traits%has_errors) text = at_right('error', error_width)
       end function error
 
    end function heading_of_loads
@@ -63,7 +63,7 @@ contains
          character(:), allocatable :: text
 
          text = ''
-         if (results%solver%has_error_estimates()) text = error_cell(or_nan(number))
+         if (results%traits%has_errors) text = error_cell(or_nan(number))
       end function error
 
    end function line_of_load

@@ -77,7 +77,7 @@ contains
       is_written_by_all = .not. is_text(results%scene%output%text('map_format'), points)
       if (.not. is_written_by_all) return
       if (.not. allocated(results%loads)) then
-         grid = results%solver%given_grid()
+         grid = results%traits%given_grid
          is_written_by_all = all(points == grid .or. points == 2*grid)
          return
       end if

@@ -3,7 +3,7 @@ module wavycon_results
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use wavycon_column_text, only: column_name, column_unit
    use wavycon_contact_solution, only: contact_solution_item
-   use wavycon_contact_solver, only: contact_solver
+   use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_kinds, only: dp
    use wavycon_largest_stress, only: largest_stress
    use wavycon_output_file, only: output_file
@@ -22,6 +22,8 @@ module wavycon_results
    type :: results_type
       type(scene_type), allocatable :: scene
       class(contact_solver), allocatable :: solver
+      type(solver_traits) :: traits                          !! of the solver
+      character(:), allocatable :: method                    !! the solver and its discretisation in words
       type(contact_solution_item), allocatable :: loads(:)   !! in the deck's order
       !> The largest von Mises and shear stresses, shape (bodies, loads); not allocated unless the deck asks for them.
       type(largest_stress), allocatable :: von_mises(:, :), shear(:, :)
@@ -61,7 +63,7 @@ contains
          if (allocated(self%scene%map)) call put_statistics(self%scene, file)
          call file%put('# material: e_star['//pressure//'] = '//exact_number(self%scene%e_star)// &
                        ', p*['//pressure//'] = '//exact_number(self%scene%p_star))
-         call file%put('# method: '//self%solver%name()//', '//self%solver%describe())
+         call file%put('# method: '//self%method)
       end associate
       do i = 1, size(columns)
          units(i) = self%unit_in_words(trim(column_unit(columns(i))))
@@ -95,6 +97,8 @@ contains
                        ', points_y[-] = '//integer_text(map%points(2))// &
                        number_of('lowest', unit, map%lowest)//number_of('highest', unit, map%highest)// &
                        number_of('rms_height', unit, map%rms))
+         if (map%assumed_sides /= '') call file%put('# sides: '//map%assumed_sides)
+         if (map%changes%words(unit) /= '') call file%put('# prepared: '//map%changes%words(unit))
          if (.not. map%rms > 0.0_dp) return
          call file%put('# roughness: skewness[-] = '//exact_number(map%skewness)// &
                        number_of('kurtosis', '-', map%kurtosis)//number_of('rms_slope', '-', roughness%slope)// &

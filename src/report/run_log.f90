@@ -102,7 +102,9 @@ contains
             '), heights over their mean '// &
             short_number(scene%map%lowest)//' to '//short_number(scene%map%highest)//', rms '// &
             short_number(scene%map%rms)//' ['//scene%length_unit//']')
-         if (allocated(scene%map)) call show_sides(self, scene%map)
+         if (allocated(scene%map)) then
+            if (scene%map%assumed_sides /= '') call self%say('sides     '//scene%map%assumed_sides)
+         end if
          if (allocated(scene%map) .and. scene%surface%amplitude > 0.0_dp) call self%say( &
             'roughness '//roughness_words(scene))
          if (allocated(scene%map)) then
@@ -114,11 +116,11 @@ contains
             ! A broken border is a step between two points.
             if (.not. any(scene%map%is_broken_along([1, 2]))) call show_unresolved_slopes(self, scene%roughness)
          end if
-         if (scene%has_units) call show_steep_slopes(self, scene)
+         call show_unlikely_slopes(self, scene)
          call self%say('material  '//material_words(scene))
          call self%say('loads     '//integer_text(size(scene%target))//', '//target_words(scene%loads_by)// &
                        ' from '//short_number(minval(scene%target))//' to '//short_number(maxval(scene%target)))
-         call self%say('method    '//results%solver%name()//', '//results%solver%describe())
+         call self%say('method    '//results%method)
          if (results%sharing%words() /= '') call self%say('ranks     '//results%sharing%words())
       end associate
    end subroutine show_scene
@@ -147,15 +149,6 @@ contains
       if (scene%surface%has_hardness()) words = words//', hardness = '// &
          short_number(scene%surface%hardness*scene%p_star)//' ['//scene%pressure_unit//']'
    end function material_words
-
-   !> Says that the side along y follows from that along x.
-   subroutine show_sides(self, map)
-      class(run_log), intent(inout) :: self
-      type(map_statistics), intent(in) :: map
-
-      if (map%is_equal_spacing) call self%say('sides     length_y = length_x*'//integer_text(map%points(2))//'/'// &
-         integer_text(map%points(1))//': the points are equally far apart along x and y')
-   end subroutine show_sides
 
    !> Warns of a map whose opposite borders do not fit together.
    subroutine show_broken_borders(self, map, length_unit)
@@ -193,16 +186,23 @@ contains
                     'they make contact areas smaller')
    end subroutine show_unresolved_slopes
 
-   !> Warns of a surface that is too steep for the theory, most likely by a mistake of units.
-   subroutine show_steep_slopes(self, scene)
+   !> Warns of a surface that is too steep for the theory, if the deck has units, and of one that is all but flat: most
+   !> likely by a mistake of units.
+   subroutine show_unlikely_slopes(self, scene)
       class(run_log), intent(inout) :: self
       type(scene_type), intent(in) :: scene
 
       !> The theory of small slopes is off by the order of their square, here a tenth.
       real(dp), parameter :: steepest = 0.3_dp
-      character(:), allocatable :: borders, cause
+      !> Heights in m beside sides in um make slopes of 1e-4 (polished silicon) to 10 a million times smaller.
+      real(dp), parameter :: flattest = 1e-5_dp
+      character(:), allocatable :: borders, cause, verdict
+      logical :: is_flat
 
-      if (scene%roughness%slope <= steepest) return
+      is_flat = scene%roughness%slope > 0.0_dp .and. scene%roughness%slope < flattest
+      if (.not. (is_flat .or. (scene%has_units .and. scene%roughness%slope > steepest))) return
+      verdict = '; the theory needs small ones.'
+      if (is_flat) verdict = '; those of real surfaces are larger.'
       borders = ''
       cause = 'Are amplitudes and wavelengths in one unit?'
       if (has_file(scene)) cause = 'Do height_scale, and the sides of the cell, suit the units of the file?'
@@ -210,8 +210,8 @@ contains
          if (any(scene%map%is_broken_along([1, 2]))) borders = ', with the steps across its borders'
       end if
       call self%say('note: the slopes of the surface are '//short_number(scene%roughness%slope)//' (rms)'//borders// &
-                    '; the theory needs small ones. '//cause)
-   end subroutine show_steep_slopes
+                    verdict//' '//cause)
+   end subroutine show_unlikely_slopes
 
    !> Whether the surface is a height map from a file.
    pure logical function has_file(scene)

@@ -1,6 +1,6 @@
 !> <case>.spectrum.dat: the power spectra of the surface, a block for the isotropic one and one for lines along x and y.
 module wavycon_spectrum_table
-   use wavycon_contact_solver, only: contact_solver
+   use wavycon_contact_solver, only: solver_traits
    use wavycon_error, only: error_type
    use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
@@ -41,15 +41,15 @@ contains
    end function meaning
 
    !> The fourth power of a length must be a number.
-   function refusal(self, solver, surface) result(words)
+   function refusal(self, traits, surface) result(words)
       class(spectrum_table), intent(in) :: self
-      class(contact_solver), intent(in) :: solver
+      type(solver_traits), intent(in) :: traits
       type(surface_type), intent(in) :: surface
       character(:), allocatable :: words
 
       real(dp), parameter :: largest = 1.0e75_dp
 
-      associate (unused => self, unused_too => solver); end associate
+      associate (unused => self, unused_too => traits); end associate
       words = ''
       if (max(surface%amplitude, maxval(surface%length)) > largest) words = 'it has the fourth power of lengths, '// &
          'which may be up to '//short_number(largest)//'; choose another unit of length'

@@ -21,6 +21,7 @@ module wavycon_summary_table
       'contact_area_fraction[-]', 'peak_pressure_over_pstar[-]', 'min_pressure_over_pstar[-]', &
       'mean_gap_over_amplitude_error[-]', 'contact_area_fraction_error[-]', 'peak_pressure_over_pstar_error[-]', &
       'area_at_hardness_fraction[-]', 'load_at_hardness_fraction[-]', &
+      'area_at_hardness_fraction_error[-]', 'load_at_hardness_fraction_error[-]', &
       'contact_area_counted_fraction[-]', 'contact_area_corrected_fraction[-]', 'linear_area_fraction[-]', &
       'mean_pressure[pressure]', 'mean_gap[length]', 'approach[length]', 'contact_area[area]', &
       'peak_pressure[pressure]', 'active_constraints[-]', 'iterations[-]', 'residual[-]', 'solver[-]', &
@@ -89,15 +90,18 @@ contains
       integer, intent(in) :: load
       character(narrowest) :: words(size(summary_columns))
 
-      real(dp) :: at_hardness(2), errors(3)
+      real(dp) :: at_hardness(4), errors(3)
 
       associate (scene => results%scene, solution => results%loads(load)%solution, &
                  measures => results%loads(load)%solution%measures)
          errors = not_a_number()
-         if (results%solver%has_error_estimates()) errors = or_nan(measures%errors())
+         if (results%traits%has_errors) errors = or_nan(measures%errors())
          at_hardness = not_a_number()
-         if (scene%surface%has_hardness()) &
-            at_hardness = [measures%area_at_hardness_fraction, measures%load_at_hardness_fraction]
+         if (scene%surface%has_hardness()) then
+            at_hardness(:2) = [measures%area_at_hardness_fraction, measures%load_at_hardness_fraction]
+            if (results%traits%has_errors) &
+               at_hardness(3:) = or_nan([measures%area_at_hardness_error, measures%load_at_hardness_error])
+         end if
          words = [character(narrowest) :: &
                   integer_text(load), &
                   number_words([solution%pbar_over_pstar, &

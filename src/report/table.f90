@@ -1,6 +1,6 @@
 !> The type that all tables of results extend. src/README.md describes how to add a table.
 module wavycon_table
-   use wavycon_contact_solver, only: contact_solver
+   use wavycon_contact_solver, only: solver_traits
    use wavycon_error, only: error_type
    use wavycon_results, only: results_type
    use wavycon_scene, only: scene_type
@@ -66,13 +66,13 @@ contains
 
    !> `refusal`: why the table cannot be written for a solver and a surface, as a sentence for a message; empty if it
    !> can. Here it is empty.
-   function refusal(self, solver, surface) result(words)
+   function refusal(self, traits, surface) result(words)
       class(table_type), intent(in) :: self
-      class(contact_solver), intent(in) :: solver   !! started or not
+      type(solver_traits), intent(in) :: traits   !! started or not
       type(surface_type), intent(in) :: surface
       character(:), allocatable :: words
 
-      associate (unused => self, unused_too => solver, also_unused => surface); end associate
+      associate (unused => self, unused_too => traits, also_unused => surface); end associate
       words = ''
    end function refusal
 

@@ -4,7 +4,7 @@
 !> of the paper; (29) with the coefficient of the whole lattice; asymptotes with further terms; and the radii of the
 !> contact spot at light load and of the crack at heavy load.
 module wavycon_theory_table
-   use wavycon_contact_solver, only: contact_solver
+   use wavycon_contact_solver, only: solver_traits
    use wavycon_error, only: error_type
    use wavycon_hertz_line, only: hertz_line_contact_area_fraction
    use wavycon_hertz_point, only: hertz_point_contact_area_fraction, hertz_point_peak_pressure_over_pstar, &
@@ -64,13 +64,13 @@ contains
       words = 'The closed forms beside the numbers.'
    end function meaning
 
-   function refusal(self, solver, surface) result(words)
+   function refusal(self, traits, surface) result(words)
       class(theory_table), intent(in) :: self
-      class(contact_solver), intent(in) :: solver
+      type(solver_traits), intent(in) :: traits
       type(surface_type), intent(in) :: surface
       character(:), allocatable :: words
 
-      associate (unused => self, unused_too => solver); end associate
+      associate (unused => self, unused_too => traits); end associate
       words = ''
       if (.not. surface%is_paper_wave()) words = 'closed forms exist only for the waves of the paper: '//paper_waves()
    end function refusal

@@ -2,20 +2,24 @@
 module wavycon_run_scene
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_checkpoint, only: checkpoint_file, checkpoint_name, read_checkpoint
+   use wavycon_constants, only: pi
    use wavycon_contact_measures, only: is_known
    use wavycon_contact_status, only: converged, not_found, unresolved
+   use wavycon_contact_tuning, only: least_concentration
    use wavycon_error, only: error_type, exit_file_trouble, exit_fine, exit_not_converged, fatal_error
    use wavycon_find_stresses, only: find_stresses
    use wavycon_fourier_series, only: fourier_series
    use wavycon_kinds, only: dp
+   use wavycon_lattice_sums, only: rectangular_distance_sum
+   use wavycon_method_list, only: get_method, start_solver
    use wavycon_output_file, only: output_file
    use wavycon_plain_text, only: escaped, integer_text, short_number
    use wavycon_ranks, only: add_over_ranks, any_rank, is_first_rank, share_error, work_alone
    use wavycon_results, only: results_type
    use wavycon_run_log, only: run_log
-   use wavycon_scene, only: by_yield, scene_type
+   use wavycon_scene, only: by_contact_area, by_yield, scene_type
+   use wavycon_solver_method, only: solver_method
    use wavycon_solve_loads, only: solve_loads
-   use wavycon_solver_list, only: start_solver
    use wavycon_surface, only: whole_surface
    use wavycon_system, only: has_memory_for, make_directories
    use wavycon_tables, only: all_tables, table_item
@@ -75,7 +79,7 @@ contains
       by_first = [(.not. tables(i)%table%is_written_by_all(results), i=1, size(tables))]
       points = 0
       if (need_fields(tables, by_first) .or. asks_for_largest(results%scene)) &
-         points = size(results%scene%target)*product(int(results%solver%given_grid(), int64))
+         points = size(results%scene%target)*product(int(results%traits%given_grid, int64))
       call check_memory(results, points, need_surface(tables, by_first), error)
       call share_error(error)
    end subroutine check_sharing
@@ -176,11 +180,15 @@ contains
       type(results_type), intent(out) :: results                  !! without loads
       type(table_item), allocatable, intent(out) :: tables(:)     !! that are to be written
 
+      character(:), allocatable :: description
+
       call move_alloc(scene, results%scene)
       call requested_tables(results%scene, tables)
       associate (scene => results%scene)
-         call start_solver(scene%surface, scene%method, keep_fields(scene, tables), results%solver)
-         results%sharing = choose_sharing(results%solver, size(scene%target), need_fields(tables), &
+         call start_solver(scene%surface, scene%method, keep_fields(scene, tables), results%solver, description)
+         results%method = scene%method%text('solver')//', '//description
+         results%traits = results%solver%traits()
+         results%sharing = choose_sharing(results%traits, size(scene%target), need_fields(tables), &
                                           scene%loads_by == by_yield)
          if (scene%surface%is_spread() .and. results%sharing%kind /= spread_grids) then
             call whole_surface(scene%surface, first_only=.not. results%sharing%is_shared())
@@ -370,6 +378,7 @@ contains
       integer, intent(out) :: status
 
       character(:), allocatable :: loads
+      class(solver_method), allocatable :: method
       integer :: bad, i, unreached, without_area
 
       bad = 0
@@ -385,10 +394,15 @@ contains
       loads = integer_text(size(results%loads))
       associate (scene => results%scene)
          call note_unresolved(results, log)
-         if (without_area > 0) call log%say('note: at '//integer_text(without_area)//' loads '// &
-                                            results%solver%why_no_area()//', so that their contact area shows as 0')
-         if (scene%loads_by == by_yield .and. .not. results%solver%has_error_estimates()) call log%say( &
-            "note: solver = '"//results%solver%name()//"' estimates no errors; a light load of first yield may be "// &
+         if (scene%loads_by /= by_yield) call note_unreached(results, log)
+         call note_images(results, log)
+         if (without_area > 0) then
+            call get_method(scene%method, method)
+            call log%say('note: at '//integer_text(without_area)//' loads '//method%why_no_area(scene%method)// &
+                         ', so that their contact area shows as 0')
+         end if
+         if (scene%loads_by == by_yield .and. .not. results%traits%has_errors) call log%say( &
+            "note: solver = '"//scene%method%text('solver')//"' estimates no errors; a light load of first yield may be "// &
             "wrong by a factor of 2. solver = 'auto' estimates them")
          if (scene%loads_by == by_yield .and. unreached > 0) call log%say('note: for '//integer_text(unreached)// &
             ' loads no mean pressure was found that brings the stresses to the given part of the yield stress')
@@ -403,6 +417,61 @@ contains
       end associate
       status = merge(exit_fine, exit_not_converged, bad == 0)
    end subroutine sum_up
+
+   !> Says what the periodic images of a single spot on a measured map add to its approach (C27).
+   subroutine note_images(results, log)
+      type(results_type), intent(in) :: results
+      type(run_log), intent(inout) :: log
+
+      real(dp) :: factor, largest, pressure, side(2)
+      integer :: i, spots
+
+      associate (scene => results%scene, surface => results%scene%surface)
+         if (.not. allocated(scene%map) .or. surface%dimension == 1 .or. surface%mirrored) return
+         if (scene%map%path == '') return
+         side = surface%sides()
+         factor = rectangular_distance_sum(side(1)/side(2))/pi
+         spots = 0
+         largest = 0.0_dp
+         do i = 1, size(results%loads)
+            associate (measures => results%loads(i)%solution%measures)
+               if (measures%load_concentration < least_concentration) cycle
+               spots = spots + 1
+               pressure = scene%p_star*results%loads(i)%solution%pbar_over_pstar
+               largest = max(largest, abs(factor*pressure*sqrt(product(side))/scene%e_star)/ &
+                                      (surface%amplitude*measures%approach_over_amplitude))
+            end associate
+         end do
+         if (spots > 0) call log%say('note: at '//integer_text(spots)//' of '//integer_text(size(results%loads))// &
+            ' loads the contact is one spot. Its periodic images change the approach, by up to '// &
+            integer_text(nint(100*largest))//' %: that of the spot alone is approach '// &
+            merge('+ ', '- ', factor < 0.0_dp)//short_number(abs(factor))//'*mean_pressure*sqrt(cell_x*cell_y)/e_star')
+      end associate
+   end subroutine note_images
+
+   !> Says how many contact areas or mean gaps no load has on the grid, and what helps.
+   subroutine note_unreached(results, log)
+      type(results_type), intent(in) :: results
+      type(run_log), intent(inout) :: log
+
+      character(:), allocatable :: limit
+      integer :: i, unreached
+
+      unreached = 0
+      do i = 1, size(results%loads)
+         associate (solution => results%loads(i)%solution, measures => results%loads(i)%solution%measures)
+            if (solution%status /= not_found .or. solution%pbar_over_pstar > 0.0_dp) cycle
+            unreached = unreached + 1
+            limit = ' mean gaps are above the largest that the grid shows, '// &
+                    short_number(measures%mean_gap_over_amplitude)
+            if (results%scene%loads_by == by_contact_area) limit = &
+               ' contact areas are below the least that the grid shows, '//short_number(measures%contact_area_fraction)
+         end associate
+      end do
+      if (unreached > 0) call log%say('note: '//integer_text(unreached)//' of '//integer_text(size(results%loads))// &
+         limit//' where its highest points just touch: no load has them. Give more grid_points or a smaller '// &
+         "accuracy; expansions, solver = 'fitted', have no such limit")
+   end subroutine note_unreached
 
    !> Says which values have no error estimate and which are no larger than theirs, and what helps.
    subroutine note_unresolved(results, log)

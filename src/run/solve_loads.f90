@@ -41,7 +41,7 @@ contains
       are_spread = results%sharing%kind == spread_loads
       associate (target => results%scene%target, loads_by => results%scene%loads_by, solver => results%solver)
          order = descending(merge(-target, target, loads_by == by_mean_gap))
-         length = merge(block_length, 1, solver%starts_from_last_load())
+         length = merge(block_length, 1, results%traits%continues_last_load)
          if (are_spread) then
             allocate (results%rank_of_load(size(order)))
             results%rank_of_load(order) = [(mod((i - 1)/length, results%sharing%ranks), i=1, size(order))]
@@ -58,7 +58,7 @@ contains
             end if
             progress%load = i
             known = allocated(results%loads(load)%solution) .and. &
-                    (loads_by == by_pressure .or. .not. solver%starts_from_last_load())
+                    (loads_by == by_pressure .or. .not. results%traits%continues_last_load)
             if (known) then
                call solver%skip_load(target(load))
             else

@@ -1,7 +1,7 @@
 !> How the ranks share the work of a scene.
 module wavycon_work_sharing
    use, intrinsic :: iso_fortran_env, only: int64
-   use wavycon_contact_solver, only: contact_solver
+   use wavycon_contact_solver, only: solver_traits
    use wavycon_grid_slab, only: grid_slab
    use wavycon_plain_text, only: integer_text
    use wavycon_ranks, only: rank_count
@@ -31,8 +31,8 @@ module wavycon_work_sharing
 contains
 
    !> Decides how the ranks share the work. The decision depends on the deck and the number of ranks alone.
-   type(work_sharing) function choose_sharing(solver, loads, need_fields, need_stresses) result(sharing)
-      class(contact_solver), intent(in) :: solver   !! started
+   type(work_sharing) function choose_sharing(traits, loads, need_fields, need_stresses) result(sharing)
+      type(solver_traits), intent(in) :: traits     !! of the started solver
       integer, intent(in) :: loads                  !! their number
       logical, intent(in) :: need_fields            !! whether tables need fields, edges or details of all loads
       logical, intent(in) :: need_stresses          !! whether a load is found by its stresses
@@ -42,9 +42,9 @@ contains
 
       sharing%ranks = rank_count()
       if (sharing%ranks == 1) return
-      call slab%start(max(solver%finest_grid(), 1))
+      call slab%start(max(traits%finest_grid, 1))
       can_spread_loads = loads >= sharing%ranks .and. .not. need_fields
-      is_large = product(int(solver%given_grid(), int64)) >= large_grid
+      is_large = product(int(traits%given_grid, int64)) >= large_grid
       if (slab%is_spread .and. .not. need_stresses .and. (is_large .or. .not. can_spread_loads)) then
          sharing%kind = spread_grids
       else if (can_spread_loads) then

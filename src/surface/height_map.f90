@@ -7,12 +7,12 @@ module wavycon_height_map
    use wavycon_key_table, only: choice_key, key_type, largest_number, real_key, smallest_number, text_key
    use wavycon_kinds, only: dp
    use wavycon_length_unit, only: convert_lengths
-   use wavycon_map_changes, only: map_changes
+   use wavycon_map_changes, only: clauses, map_changes
    use wavycon_map_file, only: read_height_map
    use wavycon_map_statistics, only: map_statistics, statistics_of
    use wavycon_map_tuning, only: usual_window_width
    use wavycon_measured_map, only: measured_map
-   use wavycon_plain_text, only: escaped, short_number
+   use wavycon_plain_text, only: escaped, integer_text, short_number
    use wavycon_prepare_map, only: map_preparation, prepare_map
    use wavycon_ranks, only: share_error
    use wavycon_problems, only: problem_list_type
@@ -61,11 +61,11 @@ contains
             "program is started. The last row and column are the cell's last, not copies of the first.", &
             longest_path, required=.true.), &
          choice_key('file_format', "'auto'", &
-            "'matrix', a row of heights for each y; 'xyz', lines of x, y, z on a regular grid; 'npy' of numpy; "// &
-            "'gsf' of Gwyddion; 'gnuplot', its binary matrix; 'auto', what the file looks like, xyz if "// &
-            'all lines have three numbers. xyz and gnuplot give the sides of the cell, gsf also units: leave out '// &
-            'length_x and length_y.', &
-            [character(7) :: 'auto', 'matrix', 'xyz', 'npy', 'gsf', 'gnuplot']), &
+            "'matrix', a row of heights for each y; 'xyz', lines of x, y, z on a regular grid; 'xz', lines of x "// &
+            "and z of a profile; 'npy' of numpy; 'gsf' of Gwyddion; 'gnuplot', its binary matrix; 'auto', what the file "// &
+            'looks like, xyz if all lines have three numbers, xz if all have two. xyz, xz and gnuplot give the '// &
+            'sides of the cell, gsf and heads of texts also units: leave out length_x and length_y.', &
+            [character(7) :: 'auto', 'matrix', 'xyz', 'xz', 'npy', 'gsf', 'gnuplot']), &
          real_key('missing_value', '', '-', 'heights of the file that have this value are missing, as are nan and '// &
             'empty fields between commas, semicolons or tabs.'), &
          real_key('height_scale', '1.0', 'length', "length of one unit of the file's heights; beside a file with "// &
@@ -103,9 +103,8 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(measured_map) :: heights
-      character(:), allocatable :: file, path
+      character(:), allocatable :: assumed_sides, file, path
       real(dp) :: length(2)
-      logical :: is_equal_spacing
 
       file = values%text('file')
       path = place_of_map(values%deck_path, file)
@@ -116,14 +115,14 @@ contains
       call share_error(error)
       if (.not. allocated(error)) call read_map(values, path, heights, error)
       call share_error(error)
-      if (.not. allocated(error)) call take_sides(values, path, heights, length, is_equal_spacing, error)
+      if (.not. allocated(error)) call take_sides(values, path, heights, length, assumed_sides, error)
       if (.not. allocated(error)) call surface_of_map(path, values, length, heights, surface, map, error)
       if (allocated(error)) then
          error%message = error%message//' (the height map of '//escaped(values%deck_path)//')'
          return
       end if
       map%path = full_path(path)
-      map%is_equal_spacing = is_equal_spacing
+      map%assumed_sides = assumed_sides
       map%lacks_missing_value = values%has('missing_value') .and. .not. heights%has_missing_value
       if (allocated(heights%length_unit)) map%length_unit = heights%length_unit
    end subroutine make
@@ -153,37 +152,55 @@ contains
       end if
    end subroutine read_map
 
-   !> The sides of the cell: those of the file, or those of the deck. Errors: exit_bad_input if both give them.
-   subroutine take_sides(values, path, heights, length, is_equal_spacing, error)
+   !> The sides of the cell: those of the file, those of the deck, or assumed ones. Errors: exit_bad_input if file and
+   !> deck give one.
+   subroutine take_sides(values, path, heights, length, assumed, error)
       type(group_values), intent(inout) :: values
       character(*), intent(in) :: path
       type(measured_map), intent(in) :: heights
       real(dp), intent(out) :: length(2)           !! L_x, L_y [length]; of a profile the second is not used
-      logical, intent(out) :: is_equal_spacing     !! whether L_y follows from equal steps along x and y
+      character(:), allocatable, intent(out) :: assumed   !! the sides that neither gives, in words; empty if none
       type(error_type), allocatable, intent(out) :: error
 
-      character(:), allocatable :: sides
-      integer :: points(2)
+      character(*), parameter :: keys(2) = ['length_x', 'length_y']
+      character(:), allocatable :: sides, unit
+      integer :: d, points(2)
+      logical :: is_given(2)   ! by the deck
 
-      is_equal_spacing = .false.
+      assumed = ''
+      unit = ''
+      if (allocated(values%length_unit)) unit = ' ['//escaped(values%length_unit)//']'
+      if (allocated(heights%length_unit)) unit = ' ['//escaped(heights%length_unit)//']'
+      is_given = [values%has(keys(1)), values%has(keys(2))]
       points = heights%points()
       associate (m => points(1), n => points(2), step => heights%step)
-         if (step(1) > 0.0_dp) then
+         if (step(1) > 0.0_dp .and. .not. (all(heights%is_usual_side) .and. any(is_given))) then
             length = step*[m, n]
             if (n == 1) length(2) = length(1)
             sides = short_number(length(1))
             if (n > 1) sides = sides//' x '//short_number(length(2))
-            if (allocated(heights%length_unit)) sides = sides//' ['//escaped(heights%length_unit)//']'
-            if (values%has('length_x') .or. values%has('length_y')) &
+            if (any(is_given .and. .not. heights%is_usual_side)) &
                call fatal_error(error, exit_bad_input, escaped(path)//': the file gives the sides of the cell, '// &
-                                sides//': leave out length_x and length_y')
-            call values%leave_out('length_x')
-            call values%leave_out('length_y')
+                                sides//unit//': leave out length_x and length_y')
+            do d = 1, merge(1, 2, n == 1)
+               if (is_given(d)) length(d) = values%real(keys(d))
+               if (is_given(d)) cycle
+               call values%leave_out(keys(d))
+               if (heights%is_usual_side(d)) assumed = clauses(assumed, keys(d)//' = '//short_number(length(d))// &
+                  unit//' is assumed: the file does not give it, and 1 is the default of .gsf files')
+            end do
+            if (n == 1) call values%leave_out('length_y')
             return
          end if
          length = values%real('length_x')
-         is_equal_spacing = n > 1 .and. m /= n .and. .not. values%has('length_y')
-         if (is_equal_spacing) length(2) = length(1)*n/m
+         if (.not. is_given(1)) assumed = 'length_x = '//short_number(length(1))//unit// &
+                                          ' is assumed: neither the deck nor the file gives it'
+         if (n > 1 .and. .not. is_given(2)) then
+            length(2) = length(1)*n/m
+            sides = 'length_y = length_x'
+            if (m /= n) sides = sides//'*'//integer_text(n)//'/'//integer_text(m)
+            assumed = clauses(assumed, sides//': the points are equally far apart along x and y')
+         end if
          call values%set_default('length_y', length(2))
          length(2) = values%real('length_y')
       end associate

@@ -2,6 +2,8 @@
 """scripts/plot draws every kind of table, and says what it cannot draw.
 
 usage: test_plot.py --program WAVYCON [unittest's options]
+
+The long tests, Plot.every_table_in_every_format and Plot.strips_have_clean_ends, run only if they are named.
 """
 import html
 import os
@@ -101,18 +103,27 @@ class Plot(unittest.TestCase):
         shown = re.sub(r"<title>.*?</title>", "", picture.read_text(encoding="utf-8"), flags=re.S)
         return re.sub(r"\s+", " ", html.unescape(re.sub(r"<[^>]*>", "", shown)))
 
-    def test_every_table_in_every_format(self):
+    def test_every_kind_of_table(self):
+        self.check_tables(all_tables=False, formats=["svg"])
+
+    def every_table_in_every_format(self):
+        self.check_tables(all_tables=True, formats=SOUND_START)
+
+    def check_tables(self, all_tables, formats):
         kinds = set()
         for path in sorted(self.folder.glob("*.dat")) + sorted(self.folder.glob("*.npy")):
             if path.name.startswith(("sweep", "bodies")):
                 continue   # they have more than can be shown, which is said
-            kinds.add(Table(path).kind)
-            for form, start in SOUND_START.items():
+            kind = Table(path).kind
+            if kind in kinds and not all_tables:
+                continue
+            kinds.add(kind)
+            for form in formats:
                 with self.subTest(table=path.name, format=form):
                     said, complaints = self.plot("--format", form, path.name)
                     picture = path.with_suffix("." + form)
                     self.assertEqual((f"picture: {picture.name}\n", ""), (said, complaints))
-                    self.assertTrue(picture.read_bytes().startswith(start))
+                    self.assertTrue(picture.read_bytes().startswith(SOUND_START[form]))
         self.assertEqual(set(facts.FACTS), kinds)
 
     def test_labels(self):
@@ -197,7 +208,7 @@ class Plot(unittest.TestCase):
         for expected, area in zip(Table(self.folder/"line.summary.dat").column("contact_area_fraction"), areas):
             self.assertAlmostEqual(expected, area, delta=2e-3)
 
-    def test_strips_have_clean_ends(self):
+    def strips_have_clean_ends(self):
         """The strips of a wave are symmetric, row by row of the picture. gnuplot reads the picture."""
         self.plot("line.contour.dat")
         subprocess.run(["gnuplot", "-d"], cwd=self.folder, check=True, text=True, input="set table 'pixels'\n"

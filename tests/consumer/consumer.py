@@ -14,6 +14,7 @@ except ImportError:
 DOUBLES = ("pbar_over_pstar mean_gap_over_amplitude approach_over_amplitude contact_area_fraction "
            "peak_pressure_over_pstar min_pressure_over_pstar mean_gap_over_amplitude_error contact_area_fraction_error "
            "peak_pressure_over_pstar_error area_at_hardness_fraction load_at_hardness_fraction "
+           "area_at_hardness_fraction_error load_at_hardness_fraction_error "
            "mean_pressure mean_gap approach contact_area peak_pressure residual").split()
 
 

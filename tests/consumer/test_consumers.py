@@ -4,7 +4,8 @@
 usage: test_consumers.py --build BUILD --cmake CMAKE --sources SOURCES --generator GENERATOR --c CC --fortran FC
                          --flags FLAGS --numpy PYTHON
 
-PYTHON: one that may have numpy, if the one that runs this has not.
+PYTHON: one that may have numpy, if the one that runs this has not. The long test, Consumers.memory, runs only if it is
+named.
 """
 import argparse
 import math
@@ -237,7 +238,7 @@ class Consumers(unittest.TestCase):
     def test_threads(self):
         self.assertEqual("0 failures\n", run(self.folder / "project" / "threads"))
 
-    def test_memory(self):
+    def memory(self):
         if self.is_sanitized:
             self.skipTest("valgrind cannot run a program with a sanitizer")
         if not shutil.which("valgrind"):

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Runs programs of MPI.
 
-usage: ranks.py --mpiexec MPIEXEC PROGRAM [ARGUMENT ...]
+usage: ranks.py --mpiexec MPIEXEC --ranks N[,N...] PROGRAM [ARGUMENT ...]
 
-Runs a program on 1 to 5 ranks. Exit status: 0 if that of every run is 0, else 1.
+Runs a program on each of these numbers of ranks. Exit status: 0 if that of every run is 0, else 1.
 """
 import os
 import re
@@ -12,7 +12,6 @@ import subprocess
 import sys
 import time
 
-RANKS = (1, 2, 3, 4, 5)
 PATIENCE = 120.0  # a run that takes longer is ended and counts as hanging [s]
 
 # More ranks than processors, as root too, which containers need, by the variables of Open MPI 4 and of 5, whose launcher
@@ -72,13 +71,18 @@ def run(mpiexec, ranks, arguments, folder=None, patience=PATIENCE):
     return finish(start(mpiexec, ranks, arguments, folder), patience)
 
 
+def numbers(text):
+    """The numbers of ranks of the option --ranks."""
+    return tuple(map(int, text.split(",")))
+
+
 def main(words):
-    if len(words) < 3 or words[0] != "--mpiexec":
+    if len(words) < 5 or words[0] != "--mpiexec" or words[2] != "--ranks":
         print(__doc__, file=sys.stderr)
         return 1
     failed = 0
-    for ranks in RANKS:
-        outcome = run(words[1], ranks, words[2:])
+    for ranks in numbers(words[3]):
+        outcome = run(words[1], ranks, words[4:])
         print(f"{ranks} ranks:", "hangs" if outcome.status is None else f"exit status {outcome.status}")
         print(outcome.stdout, end="", flush=True)
         print(outcome.stderr, end="", file=sys.stderr, flush=True)

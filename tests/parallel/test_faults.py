@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Faults of one rank or of the machine: all ranks end soon, with one message and no incomplete file.
 
-usage: test_faults.py --mpiexec MPIEXEC --program WAVYCON --parallel WAVYCON_MPI
+usage: test_faults.py --mpiexec MPIEXEC --ranks 3 --program WAVYCON --parallel WAVYCON_MPI
 """
 import argparse
 import os
@@ -132,6 +132,9 @@ class Faults(unittest.TestCase):
             with self.subTest(rank=number):
                 self.kill(number, signal.SIGKILL)
         self.kill(1, signal.SIGKILL)
+        outcome = run(self.mpiexec, 2, self.command("--resume"), self.folder)
+        self.assertEqual(EXIT_BAD_INPUT, outcome.status)
+        self.assertIn(f"of a run on {RANKS} ranks, this one has 2 ranks. Resume on {RANKS} ranks", outcome.stderr)
         outcome = run(self.mpiexec, RANKS, self.command("--resume"), self.folder)
         self.assertEqual((0, ""), (outcome.status, outcome.stderr))
         self.assertRegex(outcome.stdout, r"(?m)^resumed +[1-9]")
@@ -220,7 +223,7 @@ class Faults(unittest.TestCase):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    for name in "mpiexec", "program", "parallel":
+    for name in "mpiexec", "ranks", "program", "parallel":
         parser.add_argument(f"--{name}", required=True)
     options, rest = parser.parse_known_args()
     for name, value in vars(options).items():

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """How ranks share the loads of a deck and what they write together.
 
-usage: test_shared_work.py --mpiexec MPIEXEC --program WAVYCON --parallel WAVYCON_MPI
+usage: test_shared_work.py --mpiexec MPIEXEC --ranks N[,N...] --program WAVYCON --parallel WAVYCON_MPI
 """
 import argparse
 import pathlib
@@ -11,7 +11,7 @@ import tempfile
 import unittest
 
 sys.dont_write_bytecode = True
-from ranks import run  # noqa: E402
+from ranks import numbers, run  # noqa: E402
 
 WAVE = "&surface kind = 'wave_2d' /\n"
 SWEEP = "&load sweep_from = 0.02, sweep_to = 0.95, sweep_steps = 60 /\n"
@@ -47,7 +47,7 @@ class SharedWork(unittest.TestCase):
             self.solve(deck, 0, "serial")
             serial = table(self.folder/"serial"/"deck.summary.dat")
             first = None
-            for ranks in (2, 3, 5):
+            for ranks in self.ranks:
                 with self.subTest(solver=solver, ranks=ranks):
                     outcome = self.solve(deck, ranks, f"ranks-{ranks}")
                     self.assertEqual((0, ""), (outcome.status, outcome.stderr))
@@ -66,7 +66,7 @@ class SharedWork(unittest.TestCase):
         deck = (WAVE + "&load pbar_over_pstar = 0.3, 0.1, 0.2, 1.2, 0 /\n&stress nu = 0.3, yield_stress = 1 /\n"
                 "&method solver = 'grid', grid_points = 64 /\n")
         self.solve(deck, 0, "serial")
-        for ranks in (2, 3):
+        for ranks in self.ranks:
             outcome = self.solve(deck, ranks, f"ranks-{ranks}")
             self.assertEqual((0, ""), (outcome.status, outcome.stderr))
             self.assertIn("the loads are spread over them", outcome.stdout)
@@ -77,7 +77,7 @@ class SharedWork(unittest.TestCase):
     def test_the_first_rank_alone(self):
         deck = WAVE + "&load pbar_over_pstar = 0.3, 0.1, 0.2 /\n&method solver = 'fitted' /\n&output contours = t /\n"
         self.solve(deck, 0, "serial")
-        outcome = self.solve(deck, 3, "ranks")
+        outcome = self.solve(deck, max(self.ranks), "ranks")
         self.assertEqual((0, ""), (outcome.status, outcome.stderr))
         self.assertIn("the first one works alone", outcome.stdout)
         for name in "deck.summary.dat", "deck.contour.dat":
@@ -98,8 +98,10 @@ class SharedWork(unittest.TestCase):
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser()
-    for name in "mpiexec", "program", "parallel":
+    for name in "mpiexec", "ranks", "program", "parallel":
         parser.add_argument(f"--{name}", required=True)
     given, rest = parser.parse_known_args()
     SharedWork.mpiexec, SharedWork.program, SharedWork.parallel = given.mpiexec, given.program, given.parallel
+    # One rank has nothing to share.
+    SharedWork.ranks = tuple(number for number in numbers(given.ranks) if number > 1)
     unittest.main(argv=[sys.argv[0], *rest])

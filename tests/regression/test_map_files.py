@@ -20,7 +20,7 @@ from virtual_environment import python_with  # noqa: E402
 try:
     import gsffile
     import numpy
-    from SurfaceTopography import Topography
+    from SurfaceTopography import NonuniformLineScan, Topography
 except ImportError:  # this Python only makes the environment
     pass
 
@@ -137,15 +137,27 @@ class MapFiles(unittest.TestCase):
         topography = Topography(self.heights.T, (M*STEP, N*STEP), unit="m")
         topography.to_matrix("topography.dat")
         numpy.save("topography.npy", topography.heights().T)
-        expected = self.summary("map.dat")
+        expected = self.summary("map.dat", self.sides())
+        # The text has a head with the sides, as those of Gwyddion.
         self.assertEqual(expected, self.summary("topography.dat"))
-        self.assertEqual(expected, self.summary("topography.npy"))
+        self.assertEqual(expected, self.summary("topography.npy", self.sides()))
         masked = numpy.ma.masked_where(numpy.arange(N*M).reshape(N, M) == 17, self.heights)
         topography = Topography(masked.T, (M*STEP, N*STEP), unit="m")
         topography.to_matrix("topography.dat")
         numpy.save("topography.npy", numpy.ma.filled(topography.heights(), numpy.nan).T)
         for name in "topography.dat", "topography.npy":
             self.assertIn(f"{name}: 1 of {M*N} heights are missing (", self.refusal(name))
+
+    def test_a_line_scan_of_unequal_steps(self):
+        # Two waves, the shorter one of 16 mean steps, as inputs/README.md writes line scans; slope (rms) 0.2.
+        x = numpy.arange(256) + numpy.random.default_rng(7).uniform(-0.4, 0.4, 256)
+        scan = NonuniformLineScan(x, sum(256/k*numpy.cos(2*numpy.pi*k*x/256)/10/numpy.pi for k in (1, 16)), unit="um")
+        numpy.savetxt("scan.txt", numpy.c_[scan.positions(), scan.heights()])
+        self.summary("scan.txt", ", edges = 'mirror'")
+        head = pathlib.Path("made/deck.summary.dat").read_text(encoding="utf-8")
+        self.assertIn("# prepared: resampled to 256 points", head)
+        slope = float(head.split("rms_slope[-] = ")[1].split(",")[0])
+        self.assertLess(abs(slope/0.2 - 1), 0.005)
 
     def test_a_matrix_that_gnuplot_reads(self):
         if not shutil.which("gnuplot"):

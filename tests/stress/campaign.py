@@ -22,6 +22,7 @@ import faults as machine_faults
 import fuzz_decks
 import fuzz_maps
 import honest_estimates
+import long_tests
 import names
 import quadratic_programmes
 import random_scenes
@@ -32,7 +33,11 @@ import valgrind_runs
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 MOST_SHOWN = 20  # failures of a part that are printed
-PARTS = ("qp", "loads", "solvers", "stresses", "decks", "faults", "builds", "valgrind")
+PARTS = ("tests", "qp", "loads", "solvers", "stresses", "decks", "faults", "builds", "valgrind")
+
+
+def tests(settings, results):
+    yield long_tests.campaign(settings.programs.parents[1], results)
 
 
 def qp(settings, results):

@@ -20,7 +20,8 @@ function(wavycon_add_pf_test name label source)
   else()
     add_pfunit_ctest(${name} TEST_SOURCES ${source} LINK_LIBRARIES ${ARGN})
   endif()
-  target_compile_options(${name} PRIVATE ${wavycon_test_flags})
+  # Tests spend their time in the library: less optimisation of their own code halves the time to compile it.
+  target_compile_options(${name} PRIVATE ${wavycon_test_flags} $<$<CONFIG:Release>:-O1>)
   wavycon_test_properties(${name} ${label})
 endfunction()
 

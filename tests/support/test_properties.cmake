@@ -4,8 +4,9 @@
 set(wavycon_failure_words
   "ERROR: [A-Za-z]+Sanitizer" "SUMMARY: [A-Za-z]+Sanitizer" "runtime error:" "OK\n \\(0 tests\\)")
 
-# wavycon_test_properties(name label): a test passes if its exit status is 0 and it prints none of these words.
-function(wavycon_test_properties name label)
-  set_property(TEST ${name} PROPERTY LABELS ${label})
+# wavycon_test_properties(name labels): a test passes if its exit status is 0 and it prints none of these words.
+# Tests with the label `long` are left out by scripts/test and run by scripts/stress.
+function(wavycon_test_properties name labels)
+  set_property(TEST ${name} PROPERTY LABELS ${labels})
   set_property(TEST ${name} APPEND PROPERTY FAIL_REGULAR_EXPRESSION ${wavycon_failure_words})
 endfunction()

@@ -3,7 +3,7 @@ import os
 import subprocess
 import sys
 
-PIP = ["-m", "pip", "install", "--disable-pip-version-check", "--no-input", "--timeout", "10", "--retries", "1"]
+PIP = ["-m", "pip", "install", "--disable-pip-version-check", "--no-input", "--no-compile", "--timeout", "10", "--retries", "1"]
 PATIENCE = 600  # [s] for one installation
 
 

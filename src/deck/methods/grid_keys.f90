@@ -1,17 +1,25 @@
 !> Keys of &method that several solvers read.
-module wavycon_solver_keys
+module wavycon_grid_keys
+   use wavycon_contact_solver, only: solver_traits
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: integer_key, key_type, real_key
    use wavycon_kinds, only: dp
+   use wavycon_plain_text, only: integer_text, short_number
    use wavycon_problems, only: problem_list_type
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
 
-   public :: accuracy_key, check_grid_points, grid_points_key, is_another_way, points_of_grid, residual_key, &
-             set_grid_defaults
+   public :: accuracy_key, check_grid_points, describe_grid, grid_keys, is_another_way, points_of_grid, set_grid_defaults
 
 contains
+
+   !> Those of 'grid' and 'auto'.
+   function grid_keys() result(rows)
+      type(key_type), allocatable :: rows(:)
+
+      rows = [accuracy_key(), grid_points_key(), residual_key()]
+   end function grid_keys
 
    pure type(key_type) function accuracy_key() result(key)
       key = real_key('accuracy', '1e-3', '-', &
@@ -84,6 +92,34 @@ contains
          'grid_points must be even: of surfaces with mirror symmetry half of them are solved each way')
    end subroutine check_grid_points
 
+   !> The grid in words: `describe` of 'grid'.
+   function describe_grid(values, surface, traits) result(words)
+      type(group_values), intent(in) :: values
+      type(surface_type), intent(in) :: surface
+      type(solver_traits), intent(in) :: traits
+      character(:), allocatable :: words
+
+      integer :: points(2)
+
+      associate (unused => traits); end associate
+      points = points_of_grid(values, surface)/surface%parts()
+      if (all(points > 0)) then
+         words = 'a grid of '//integer_text(points(1))
+         if (surface%dimension == 2) words = words//' x '//integer_text(points(2))
+         words = words//' points'
+         if (values%real('residual') > 0.0_dp) words = words//' to a residual of '//short_number(values%real('residual'))
+      else
+         words = 'grids refined until mean gap, area and peak pressure are within '// &
+                 short_number(values%real('accuracy'))
+      end if
+      if (surface%mirrored) then
+         words = words//', on the map without its mirror images'
+      else if (surface%shape%is_even()) then
+         words = words//', on a quarter of the cell'
+      end if
+      if (all(points == 0) .and. surface%has_smaller_cell()) words = words//' turned by 45 degrees'
+   end function describe_grid
+
    !> Whether two keys of &method choose the grid in different ways: accuracy, or grid_points.
    pure logical function is_another_way(key, other)
       character(*), intent(in) :: key, other
@@ -92,4 +128,4 @@ contains
                        (key == 'grid_points' .and. other == 'accuracy')
    end function is_another_way
 
-end module wavycon_solver_keys
+end module wavycon_grid_keys

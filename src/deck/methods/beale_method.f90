@@ -1,0 +1,219 @@
+!> solver = 'beale': the paper's truncated Fourier series.
+module wavycon_beale_method
+   use wavycon_beale_contact, only: beale_contact
+   use wavycon_constraint_points, only: choose_points
+   use wavycon_contact_solver, only: contact_solver, solver_traits
+   use wavycon_fourier_terms, only: choose_terms, fourier_terms, symmetry_diagonal, symmetry_full, symmetry_none
+   use wavycon_group_values, only: group_values
+   use wavycon_key_table, only: choice_key, integer_key, key_type, real_key
+   use wavycon_kinds, only: dp
+   use wavycon_plain_text, only: integer_text, short_number
+   use wavycon_problems, only: problem_list_type
+   use wavycon_solver_method, only: solver_method
+   use wavycon_surface, only: surface_type
+   use wavycon_surface_kinds, only: is_paper_kind, paper_waves
+   implicit none (type, external)
+   private
+
+   public :: beale_method
+
+   !> The paper's numbers, for 1-D and 2-D waves.
+   integer, parameter :: default_harmonics(2) = [10, 9]
+   !> Largest values accepted from a deck, for 1-D and 2-D waves, so that a mistyped number does not run for hours.
+   integer, parameter :: most_harmonics = 60, most_constraint_points(2) = [6001, 601]
+   !> Most elements of the constraints' matrix. A few copies of it exist at a time, each of 160 MB.
+   real(dp), parameter :: most_elements = 2.0e7_dp
+
+   type, extends(solver_method) :: beale_method
+   contains
+      procedure, nopass :: name
+      procedure, nopass :: meaning
+      procedure, nopass :: keys
+      procedure, nopass :: refusal
+      procedure, nopass :: is_default_for
+      procedure, nopass :: set_defaults
+      procedure, nopass :: check
+      procedure, nopass :: advice
+      procedure, nopass :: traits
+      procedure, nopass :: make
+      procedure, nopass :: describe
+      procedure, nopass :: why_no_area
+   end type beale_method
+
+contains
+
+   pure function name() result(words)
+      character(:), allocatable :: words
+
+      words = 'beale'
+   end function name
+
+   pure function meaning() result(words)
+      character(:), allocatable :: words
+
+      words = "the paper's truncated series by Beale's method, for its waves; their default"
+   end function meaning
+
+   function keys() result(rows)
+      type(key_type), allocatable :: rows(:)
+
+      rows = [ &
+         integer_key('harmonics', '9 (2-D), 10 (1-D)', 'highest harmonic of the pressure, in each direction.', &
+            1, most_harmonics), &
+         integer_key('constraint_points', 'in proportion to harmonics', &
+            'equally spaced points on half a wavelength, ends included, in each direction, at which the pressure '// &
+            'is constrained. More than harmonics; at most 601 in 2-D. The default is 3 harmonics in 2-D '// &
+            "and 2.5 harmonics + 1 in 1-D: the paper's 27 for 9 and 26 for 10.", 2, &
+            maxval(most_constraint_points)), &
+         choice_key('symmetry', "'full'", &
+            "in 2-D, symmetry of the pressure. 'full': alike in x and y and at both crests (29 unknowns, 196 "// &
+            "points by default); 'diagonal': at both crests (49, 378); 'none' (99, 729).", &
+            ['full    ', 'diagonal', 'none    ']), &
+         choice_key('minimiser', "'dual'", &
+            "how the minimum of the energy is found, which is one and the same. 'dual': Goldfarb and Idnani's "// &
+               "method, "// &
+            "from the load before; 'beale': Beale's method as in the paper, each load from an even pressure.", &
+            ['dual ', 'beale']), &
+         real_key('edge_level', '0.1', 'p*', 'the isobar that is taken as the edge of contact.', &
+            above=0.0_dp, below=1.0_dp)]
+   end function keys
+
+   function refusal(surface) result(words)
+      type(surface_type), intent(in) :: surface
+      character(:), allocatable :: words
+
+      words = ''
+      if (.not. surface%is_paper_wave()) words = 'is for the waves of the paper: '//paper_waves()
+   end function refusal
+
+   !> Kinds that are waves of the paper by definition. A sum of waves that equals one is solved to an accuracy by
+   !> default, as all other sums are.
+   logical function is_default_for(surface, kind)
+      type(surface_type), intent(in) :: surface
+      character(*), intent(in) :: kind
+
+      is_default_for = is_paper_kind(kind)
+      if (is_default_for) is_default_for = surface%is_paper_wave()
+   end function is_default_for
+
+   subroutine set_defaults(values, surface)
+      type(group_values), intent(inout) :: values
+      type(surface_type), intent(in) :: surface
+
+      call values%set_default('harmonics', default_harmonics(surface%dimension))
+      call values%set_default('constraint_points', default_constraint_points(surface%dimension, &
+                                                                             values%integer('harmonics')))
+      if (surface%dimension == 1) call values%leave_out('symmetry')
+   end subroutine set_defaults
+
+   !> As many points to a harmonic as the paper has: 27 for 9 harmonics of the 2-D wave, 26 (25 intervals) for 10 of the
+   !> 1-D wave. Always more than harmonics.
+   pure integer function default_constraint_points(dimension, harmonics) result(points)
+      integer, intent(in) :: dimension   !! 1 or 2
+      integer, intent(in) :: harmonics   !! >= 1
+
+      points = 3*harmonics
+      if (dimension == 1) points = (5*harmonics + 1)/2 + 1
+   end function default_constraint_points
+
+   subroutine check(values, surface, problems)
+      type(group_values), intent(in) :: values
+      type(surface_type), intent(in) :: surface
+      type(problem_list_type), intent(inout) :: problems
+
+      type(fourier_terms) :: terms
+      integer, allocatable :: k(:), l(:)
+      integer :: harmonics, points
+
+      if (surface%dimension == 1 .and. values%has('symmetry')) call values%complain(problems, 'symmetry', &
+         'symmetry means nothing in 1-D: leave it out')
+      if (values%is_bad('harmonics') .or. values%is_bad('constraint_points')) return
+      harmonics = values%integer('harmonics')
+      points = values%integer('constraint_points')
+      if (points > most_constraint_points(surface%dimension)) then
+         call values%complain(problems, 'constraint_points', 'constraint_points must be at most '// &
+            integer_text(most_constraint_points(surface%dimension))//' in '//integer_text(surface%dimension)// &
+            '-D, got '//integer_text(points))
+      else if (points <= harmonics) then
+         call problems%add(max(values%place_of('harmonics'), values%place_of('constraint_points')), &
+            'constraint_points must be more than harmonics, got '//integer_text(points)//' and '// &
+            integer_text(harmonics)//trim(merge('              ', ' (the default)', values%has('harmonics'))))
+      else if (.not. values%is_bad('symmetry')) then
+         terms = choose_terms(surface%dimension, harmonics, symmetry_of(values))
+         call choose_points(surface%dimension, points, symmetry_of(values), k, l)
+         if (real(terms%count(), dp)*size(k)*merge(2, 1, surface%has_hardness()) > most_elements) &
+            call values%complain(problems, 'constraint_points', 'harmonics = '//integer_text(harmonics)// &
+               ' and constraint_points = '//integer_text(points)//' make '//integer_text(terms%count())// &
+               ' unknowns and '//integer_text(size(k))//' constraints: too many for the memory. Give fewer '// &
+               'constraint_points (harmonics + 1 serve well), or a symmetry')
+      end if
+   end subroutine check
+
+   function advice(key) result(words)
+      character(*), intent(in) :: key
+      character(:), allocatable :: words
+
+      words = ''
+      if (key == 'accuracy') words = ': its series has no error estimate'
+      if (key == 'grid_points') words = ': it has harmonics and constraint_points'
+   end function advice
+
+   pure integer function symmetry_of(values) result(symmetry)
+      type(group_values), intent(in) :: values
+
+      select case (values%text('symmetry'))
+      case ('none')
+         symmetry = symmetry_none
+      case ('diagonal')
+         symmetry = symmetry_diagonal
+      case default
+         symmetry = symmetry_full
+      end select
+   end function symmetry_of
+
+   type(solver_traits) function traits()
+      type(beale_contact) :: solver
+
+      traits = solver%traits()
+   end function traits
+
+   subroutine make(values, surface, keep_fields, solver)
+      type(group_values), intent(in) :: values
+      type(surface_type), intent(in) :: surface
+      logical, intent(in) :: keep_fields
+      class(contact_solver), allocatable, intent(out) :: solver
+
+      type(beale_contact), allocatable :: own
+
+      associate (fields_are_always_kept => keep_fields); end associate
+      allocate (own)
+      call own%start(surface, values%integer('harmonics'), values%integer('constraint_points'), symmetry_of(values), &
+                     values%real('edge_level'), values%text('minimiser') == 'beale')
+      call move_alloc(own, solver)
+   end subroutine make
+
+   function describe(values, surface, traits) result(words)
+      type(group_values), intent(in) :: values
+      type(surface_type), intent(in) :: surface
+      type(solver_traits), intent(in) :: traits
+      character(:), allocatable :: words
+
+      type(fourier_terms) :: terms
+      integer, allocatable :: k(:), l(:)
+
+      associate (unused => traits); end associate
+      terms = choose_terms(surface%dimension, values%integer('harmonics'), symmetry_of(values))
+      call choose_points(surface%dimension, values%integer('constraint_points'), symmetry_of(values), k, l)
+      words = integer_text(terms%harmonics)//' harmonics ('//integer_text(terms%count())//' unknowns), '// &
+              integer_text(size(k)*merge(2, 1, surface%has_hardness()))//' constraint points, edge_level[p*] = '// &
+              short_number(values%real('edge_level'))
+   end function describe
+
+   function why_no_area(values) result(words)
+      type(group_values), intent(in) :: values
+      character(:), allocatable :: words
+
+      words = 'no pressure reaches edge_level = '//short_number(values%real('edge_level'))//' p*'
+   end function why_no_area
+
+end module wavycon_beale_method

@@ -1,0 +1,130 @@
+!> The head of a height map's file: lines of a key and its entry, as .gsf files and Gwyddion's texts have them.
+module wavycon_file_head
+   use, intrinsic :: ieee_exceptions, only: ieee_get_status, ieee_overflow, ieee_set_halting_mode, &
+      ieee_set_status, ieee_status_type
+   use wavycon_binary_file, only: binary_file
+   use wavycon_decimal_number, only: read_decimal
+   use wavycon_error, only: error_type
+   use wavycon_key_table, only: largest_number, smallest_number
+   use wavycon_kinds, only: dp
+   use wavycon_length_unit, only: find_factor
+   use wavycon_measured_map, only: measured_map
+   use wavycon_plain_text, only: excerpt, newline
+   implicit none (type, external)
+   private
+
+   public :: entry_of, read_positive, take_text_head
+
+contains
+
+   !> Takes sides and units from the comments of a text, as Gwyddion writes them when it exports a matrix,
+   !>
+   !>     # Width: 10.00 µm
+   !>     # Height: 10.00 µm
+   !>     # Value units: m
+   !>
+   !> or points, with `# Lateral units: m` in place of the first two. Numbers may have a decimal comma. Width and height
+   !> without a unit, which may be numbers of points, and one without the other are remarks. Errors: exit_bad_input for
+   !> units of the sides that do not convert into each other.
+   subroutine take_text_head(file, map, error)
+      class(binary_file), intent(in) :: file
+      type(measured_map), intent(inout) :: map   !! with heights
+      type(error_type), allocatable, intent(out) :: error
+
+      character(:), allocatable :: height_unit, unit, unit_y
+      real(dp) :: factor, sides(2)
+      logical :: is_known
+
+      associate (head => newline//file%head)
+         call read_length(entry_of(head, 'Width', ':'), sides(1), unit)
+         call read_length(entry_of(head, 'Height', ':'), sides(2), unit_y)
+         if (any(map%step > 0.0_dp) .or. any(sides <= 0.0_dp)) then
+            unit = entry_of(head, 'Lateral units', ':')
+         else
+            call find_factor(unit_y, unit, factor, is_known)
+            if (.not. is_known) call file%refuse("its head gives the width in '"//excerpt(unit)// &
+                                                 "' and the height in '"//excerpt(unit_y)//"': they must be lengths", &
+                                                 error)
+            map%step = sides*[1.0_dp, factor]/shape(map%height)
+         end if
+         height_unit = entry_of(head, 'Value units', ':')
+      end associate
+      call map%set_units(unit, height_unit)
+   end subroutine take_text_head
+
+   !> Reads a length and its unit, such as '10.00 µm'.
+   subroutine read_length(entry, length, unit)
+      character(*), intent(in) :: entry
+      real(dp), intent(out) :: length                   !! 0 if this is none
+      character(:), allocatable, intent(out) :: unit    !! empty if this is none
+
+      character(:), allocatable :: number
+      logical :: is_number
+      integer :: comma, last
+
+      length = 0.0_dp
+      unit = ''
+      last = verify(entry, '+-.,0123456789eE') - 1
+      if (last < 1) return
+      number = entry(:last)
+      comma = index(number, ',')
+      if (comma > 0) number(comma:comma) = '.'
+      call read_positive(number, length, is_number)
+      if (is_number) unit = trim(adjustl(entry(last + 1:)))
+      if (.not. is_number) length = 0.0_dp
+   end subroutine read_length
+
+   !> Reads a word as a positive number in the range of lengths.
+   subroutine read_positive(word, number, is_number)
+      character(*), intent(in) :: word
+      real(dp), intent(out) :: number
+      logical, intent(out) :: is_number   !! whether it is one
+
+      type(ieee_status_type) :: floating_point
+
+      ! 1e999 must be reported as bad input in builds that trap overflow too.
+      call ieee_get_status(floating_point)
+      call ieee_set_halting_mode(ieee_overflow, .false.)
+      call read_decimal(word, number, is_number)
+      call ieee_set_status(floating_point)
+      if (is_number) is_number = number >= smallest_number .and. number <= largest_number
+   end subroutine read_positive
+
+   !> The entry of a key in the lines behind the first one, without the blanks around it; empty if it is not there.
+   !> Lines may begin with the mark of a comment.
+   pure function entry_of(words, key, separator) result(entry)
+      character(*), intent(in) :: words, key
+      character(1), intent(in) :: separator   !! between key and entry
+      character(:), allocatable :: entry
+
+      character(*), parameter :: blanks = ' '//achar(9)//achar(13)
+      integer :: first, last, middle
+
+      entry = ''
+      last = index(words, newline)
+      do while (last > 0 .and. last < len(words))
+         first = last + 1
+         last = index(words(first:), newline)
+         if (last > 0) last = last + first - 1
+         associate (line => words(first:merge(last - 1, len(words), last > 0)))
+            middle = index(line, separator)
+            if (middle == 0) cycle
+            if (between(line(:middle - 1), blanks//'#') /= key) cycle
+            entry = between(line(middle + 1:), blanks)
+            return
+         end associate
+      end do
+
+   contains
+
+      !> What stands between characters that are left out.
+      pure function between(text, left_out) result(inner)
+         character(*), intent(in) :: text, left_out
+         character(:), allocatable :: inner
+
+         inner = text(max(1, verify(text, left_out)):verify(text, left_out, back=.true.))
+      end function between
+
+   end function entry_of
+
+end module wavycon_file_head

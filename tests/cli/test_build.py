@@ -1,0 +1,116 @@
+#!/usr/bin/env python3
+"""scripts/build, with a stand-in for cmake: what it builds, what it says, and that two at once do not disturb each other.
+
+usage: test_build.py [unittest's options]
+"""
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+SCRIPTS = pathlib.Path(__file__).resolve().parents[2]/"scripts"
+# It writes what it is asked for, and while it builds another one must not.
+CMAKE = """#!/bin/sh
+case $1 in
+-S)
+   printf '%s\\n' CMAKE_BUILD_TYPE:S=Release WAVYCON_TESTS:B=ON "CMAKE_HOME_DIRECTORY:I=$2" >"$4/CMakeCache.txt"
+   echo "$*" | grep -o 'WAVYCON_MPI=.*' | sed 's/=/:S=/' >>"$4/CMakeCache.txt"
+   touch "$4/build.ninja"
+   ;;
+--build)
+   echo "begins $4" >>"$2/order"
+   sleep 0.3
+   echo "ends $4" >>"$2/order"
+   for i in 1 2 3 4 5 6 7 8; do echo "compiling"; echo "Warning: number $i"; done
+   ;;
+esac
+"""
+
+
+def write(path, text):
+    path.write_text(text)
+    path.chmod(0o755)
+
+
+class Build(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.programs = pathlib.Path(folder.name)
+        write(cls.programs/"cmake", CMAKE)
+        # All other programs but flock, which not every system has.
+        for path in (path for folder in os.get_exec_path() for path in pathlib.Path(folder).glob("*")):
+            if path.name != "flock" and not os.path.lexists(cls.programs/path.name):
+                (cls.programs/path.name).symlink_to(path)
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="a folder with blanks ")
+        self.addCleanup(folder.cleanup)
+        self.root = pathlib.Path(folder.name).resolve()
+        for name in "scripts", "src", "tests":
+            (self.root/name).mkdir()
+        (self.root/"CMakeLists.txt").touch()
+        for name in "build", "common.sh":
+            shutil.copy(SCRIPTS/name, self.root/"scripts")
+        write(self.root/"scripts"/"dependencies", "#!/bin/sh\n")
+
+    def start(self, *words, flock=True):
+        path = str(self.programs) + (os.pathsep + os.environ["PATH"] if flock else "")
+        return subprocess.Popen([self.root/"scripts"/"build", *words], env=dict(os.environ, PATH=path), text=True,
+                                stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+
+    def build(self, *words):
+        """Runs it; what it says."""
+        process = self.start(*words)
+        said, complaints = process.communicate()
+        self.assertEqual((0, ""), (process.returncode, said), complaints)
+        return complaints
+
+    def built(self):
+        return (self.root/"build"/"order").read_text().splitlines()
+
+    def test_targets(self):
+        self.build("wavycon")
+        self.build("--mpi")
+        self.build("--mpi", "all")
+        self.build()
+        self.assertEqual(["ends wavycon", "ends wavycon-mpi", "ends all", "ends all"], self.built()[1::2])
+
+    def test_few_warnings_are_shown(self):
+        said = self.build("wavycon")
+        self.assertIn("8 warnings", said)
+        self.assertEqual(5, said.count("Warning: number"))
+        self.assertNotIn("compiling", said)
+
+    def test_builds_wait_for_each_other(self):
+        self.check_three(flock=True)
+
+    def test_builds_wait_without_flock_too(self):
+        self.check_three(flock=False)
+
+    def check_three(self, flock):
+        self.build("wavycon")
+        (self.root/"build"/"order").unlink()
+        processes = [self.start("wavycon", flock=flock) for _ in range(3)]
+        said = [process.communicate()[1] for process in processes]
+        self.assertEqual([0, 0, 0], [process.returncode for process in processes], said)
+        self.assertEqual(["begins wavycon", "ends wavycon"]*3, self.built())
+        self.assertEqual(2, sum("waiting for another build to end" in words for words in said), said)
+
+    def test_a_build_that_was_killed_keeps_none_waiting(self):
+        self.build("wavycon")
+        ended = subprocess.Popen(["true"])
+        ended.wait()
+        (self.root/"build"/"lock.d").mkdir()
+        (self.root/"build"/"lock.d"/"process").write_text(str(ended.pid))
+        process = self.start("wavycon", flock=False)
+        self.assertNotIn("waiting", process.communicate(timeout=30)[1])
+        self.assertEqual(0, process.returncode)
+
+
+if __name__ == "__main__":
+    unittest.main()
