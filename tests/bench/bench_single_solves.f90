@@ -36,7 +36,7 @@ program bench_single_solves
 
    do
       read (input_unit, *, iostat=ios) load, count
-      if (ios /= 0) stop 0, quiet=.true.
+      if (ios /= 0) stop
       allocate (times(count))
       do i = 1, count
          contact = fresh
@@ -64,7 +64,7 @@ contains
       read (word, *, iostat=failed) argument
       if (failed /= 0) then
          write (error_unit, '(a)') 'usage: bench_single_solves HARMONICS POINTS'
-         stop 1, quiet=.true.
+         stop 1
       end if
    end function argument
 
