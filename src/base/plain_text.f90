@@ -1,4 +1,4 @@
-!> Text for messages and decks: lower case, numbers, quotes, and escapes for bytes that do not print.
+!> Text for messages and decks: lower case, numbers, lists, quotes, and escapes for bytes that do not print.
 module wavycon_plain_text
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_kinds, only: dp
@@ -6,6 +6,7 @@ module wavycon_plain_text
    private
 
    public :: lower_case, integer_text, short_number, exact_number, quoted, unquoted, system_words
+   public :: clauses, in_quotes, listed, percent
    public :: is_printable, escaped, excerpt, character_count, is_continuation
 
    !> An integer in decimal, without blanks.
@@ -106,6 +107,51 @@ contains
       text = fraction(:verify(fraction, '0', back=.true.))
       if (text(len(text):) == '.') text = text(:len(text) - 1)
    end function without_final_zeros
+
+   !> "'name'"
+   elemental function in_quotes(name) result(words)
+      character(*), intent(in) :: name
+      character(len(name) + 2) :: words
+
+      words = "'"//trim(name)//"'"
+   end function in_quotes
+
+   !> "a, b, c" or, with a last separator such as ' and ', "a, b and c".
+   pure function listed(names, last) result(words)
+      character(*), intent(in) :: names(:)              !! at least one; blanks at their ends are left out
+      character(*), intent(in), optional :: last
+      character(:), allocatable :: words
+
+      integer :: i
+
+      words = trim(names(1))
+      do i = 2, size(names)
+         if (present(last) .and. i == size(names)) then
+            words = words//last//trim(names(i))
+         else
+            words = words//', '//trim(names(i))
+         end if
+      end do
+   end function listed
+
+   !> Two clauses.
+   pure function clauses(first, second) result(words)
+      character(*), intent(in) :: first    !! may be empty
+      character(*), intent(in) :: second
+      character(:), allocatable :: words
+
+      words = second
+      if (first /= '') words = first//'; '//second
+   end function clauses
+
+   !> A part in per cent, such as '2.5 %'.
+   pure function percent(part) result(share)
+      real(dp), intent(in) :: part   !! 0 .. 1
+      character(:), allocatable :: share
+
+      share = short_number(0.1_dp*nint(1000*part))//' %'
+      if (part > 0.0_dp .and. nint(1000*part) == 0) share = 'below 0.1 %'
+   end function percent
 
    !> The text as a Fortran character constant.
    pure function quoted(text) result(constant)

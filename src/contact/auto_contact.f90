@@ -11,6 +11,7 @@ module wavycon_auto_contact
    use wavycon_grid_contact, only: grid_contact
    use wavycon_kinds, only: dp
    use wavycon_ranks, only: any_rank
+   use wavycon_solution_record, only: by_choice
    use wavycon_solver_progress, only: solver_progress
    use wavycon_surface, only: surface_type
    implicit none (type, external)
@@ -104,7 +105,7 @@ contains
       type(solver_traits) :: of_grids
 
       if (allocated(self%first)) traits = self%first%traits()
-      traits%name = 'auto'
+      traits%solver = by_choice
       traits%has_details = .false.
       traits%choice = self%choice
       if (.not. allocated(self%second)) return

@@ -9,6 +9,7 @@ module wavycon_beale_contact
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, solver_traits
+   use wavycon_contact_status, only: status_of_programme
    use wavycon_contact_tuning, only: lightest_start
    use wavycon_dual_solver, only: dual_solver
    use wavycon_edge_curves, only: edge_curve, strip_ends, trace_edges, turn_curves
@@ -17,8 +18,9 @@ module wavycon_beale_contact
    use wavycon_isobar_grid, only: isobar_grid, start_isobar_grid
    use wavycon_kinds, only: dp
    use wavycon_line_zeros, only: line_zeros
-   use wavycon_qp_problem, only: qp_problem, qp_solution, qp_status_name
+   use wavycon_qp_problem, only: qp_problem, qp_solution
    use wavycon_series_fields, only: series_fields
+   use wavycon_solution_record, only: by_series
    use wavycon_series_stress, only: series_stress, start_series_stress
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type, turned_paper_wave
@@ -27,8 +29,6 @@ module wavycon_beale_contact
    private
 
    public :: beale_contact, beale_solution
-
-   character(*), parameter :: solver_name = 'beale'
 
    !> What the solver and its solutions share.
    type :: series_setup
@@ -108,7 +108,7 @@ contains
    subroutine solve_series(self, pbar_over_pstar, solution)
       class(beale_contact), intent(inout) :: self
       real(dp), intent(in) :: pbar_over_pstar       !! 0 < P < 1 or H
-      type(beale_solution), intent(out) :: solution !! status of wavycon_qp_problem; x = 0 if no minimum was found
+      type(beale_solution), intent(out) :: solution !! x = 0 if no minimum was found
 
       type(qp_problem) :: problem
       type(qp_solution) :: programme
@@ -140,8 +140,8 @@ contains
       end if
       if (.not. allocated(programme%x)) deallocate (self%solver)
 
-      solution%status = qp_status_name(programme%status)
-      solution%solver = solver_name
+      solution%status = status_of_programme(programme%status)
+      solution%solver = by_series
       solution%residual = programme%kkt_residual
       if (.not. allocated(programme%x)) return
       solution%x = programme%x
@@ -158,7 +158,7 @@ contains
    type(solver_traits) function traits(self)
       class(beale_contact), intent(in) :: self
 
-      traits = solver_traits(name=solver_name, has_errors=.false., has_coefficients=.true., &
+      traits = solver_traits(solver=by_series, has_errors=.false., has_coefficients=.true., &
                              continues_last_load=.not. self%by_beale)
    end function traits
 

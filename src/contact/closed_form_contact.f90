@@ -10,6 +10,7 @@ module wavycon_closed_form_contact
    use wavycon_edge_curves, only: edge_curve, strip_ends
    use wavycon_kinds, only: dp
    use wavycon_kuznetsov, only: kuznetsov_mean_gap_over_amplitude
+   use wavycon_solution_record, only: by_closed_form
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type
    use wavycon_westergaard, only: westergaard_contact_area_fraction, westergaard_displacement_over_amplitude, &
@@ -19,8 +20,6 @@ module wavycon_closed_form_contact
    private
 
    public :: closed_form_contact, closed_form_exists
-
-   character(*), parameter :: solver_name = 'closed_form'
 
    type, extends(contact_solver) :: closed_form_contact
    contains
@@ -65,7 +64,7 @@ contains
       class(closed_form_contact), intent(in) :: self
 
       associate (unused => self); end associate
-      traits = solver_traits(name=solver_name)
+      traits = solver_traits(solver=by_closed_form)
    end function traits
 
    !> Westergaard's solution: eqs. (4), (7), and (20) of the paper.
@@ -78,7 +77,7 @@ contains
          allocate (closed_form_solution :: solution)
          solution%pbar_over_pstar = pbar_over_pstar
          solution%status = closed_form
-         solution%solver = solver_name
+         solution%solver = by_closed_form
          solution%measures = contact_measures( &
                              mean_gap_over_amplitude=gap, approach_over_amplitude=1.0_dp - gap, &
                              contact_area_fraction=westergaard_contact_area_fraction(pbar_over_pstar), &

@@ -6,7 +6,7 @@ module wavycon_contact_solution
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_details, only: contact_details
    use wavycon_contact_fields, only: contact_fields
-   use wavycon_contact_measures, only: contact_measures, unmeasured
+   use wavycon_contact_measures, only: unmeasured
    use wavycon_contact_spots, only: contact_spots, find_spots, no_spots, one_region
    use wavycon_contact_status, only: full_contact, is_good_status
    use wavycon_edge_curves, only: edge_curve
@@ -14,28 +14,18 @@ module wavycon_contact_solution
    use wavycon_fourier_series, only: fourier_series
    use wavycon_kinds, only: dp
    use wavycon_series_stress, only: series_stress, start_series_stress
+   use wavycon_solution_record, only: solution_record
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
 
    public :: contact_solution, contact_solution_item, solution_without_contact_edge, no_solution
-   public :: pack_common, unpack_common
-
-   !> Size of the array that pack_common makes.
-   integer, parameter, public :: packed_values = 19
 
    !> Error of the stresses under a series that is known exactly, over the peak pressure.
    real(dp), parameter :: rounding = 1e-14_dp
 
-   type, abstract :: contact_solution
-      real(dp) :: pbar_over_pstar = 0.0_dp    !! P >= 0, the mean pressure over p*
-      type(contact_measures) :: measures
-      character(12) :: solver = 'none'        !! name of the solver; 'none' if no solver was needed
-      integer(int64) :: active_constraints = 0   !! points at which the pressure is held at zero or at the hardness
-      integer :: iterations = 0               !! for a quadratic programme, exchanges of variables since the last load
-      real(dp) :: residual = 0.0_dp           !! relative, as each solver defines it
-      character(16) :: status = ''            !! one of wavycon_contact_status, or of wavycon_qp_problem
+   type, abstract, extends(solution_record) :: contact_solution
    contains
       procedure :: is_good
       procedure :: largest_error
@@ -48,8 +38,8 @@ module wavycon_contact_solution
       procedure :: spread_points
       procedure :: collect_fields
       procedure :: is_kept
-      procedure :: pack_kept => pack_common
-      procedure :: unpack_kept => unpack_common
+      procedure :: pack_kept
+      procedure :: unpack_kept
    end type contact_solution
 
    abstract interface
@@ -178,46 +168,30 @@ contains
       is_kept = .false.
    end function is_kept
 
-   !> `pack_kept`: the numbers of the solution in one array, from which `unpack_kept` restores it. An extension of the
-   !> type appends its own numbers to those of pack_common.
-   pure subroutine pack_common(self, values)
+   !> `pack_kept`: what the checkpoint keeps of a solution besides its record, for `unpack_kept`. Here it is nothing.
+   pure subroutine pack_kept(self, values)
       class(contact_solution), intent(in) :: self
       real(dp), allocatable, intent(out) :: values(:)   !! not allocated if there is not enough memory
 
-      associate (measures => self%measures)
-         values = [self%pbar_over_pstar, measures%mean_gap_over_amplitude, measures%approach_over_amplitude, &
-                   measures%contact_area_fraction, measures%peak_pressure_over_pstar, &
-                   measures%min_pressure_over_pstar, measures%mean_gap_error, measures%contact_area_error, &
-                   measures%peak_pressure_error, measures%area_at_hardness_fraction, &
-                   measures%load_at_hardness_fraction, measures%area_at_hardness_error, &
-                   measures%load_at_hardness_error, measures%contact_area_counted_fraction, &
-                   measures%contact_area_corrected_fraction, measures%load_concentration, &
-                   real(self%active_constraints, dp), real(self%iterations, dp), self%residual]
-      end associate
-   end subroutine pack_common
+      associate (unused => self); end associate
+      allocate (values(0))
+   end subroutine pack_kept
 
-   !> `unpack_kept`: restores the solution from the array of `pack_kept`, except the names of solver and status.
-   pure subroutine unpack_common(self, values, understood)
+   !> `unpack_kept`: restores what pack_kept made; the record is there.
+   pure subroutine unpack_kept(self, values, understood)
       class(contact_solution), intent(inout) :: self
-      real(dp), intent(in) :: values(:)                 !! size >= packed_values
+      real(dp), intent(in) :: values(:)
       logical, intent(out) :: understood                !! .false. if these are not the numbers of such a solution
 
-      understood = size(values) >= packed_values
-      if (.not. understood) return
-      self%pbar_over_pstar = values(1)
-      self%measures = contact_measures(values(2), values(3), values(4), values(5), values(6), values(7), values(8), &
-                                       values(9), values(10), values(11), values(12), values(13), values(14), values(15), &
-                                       values(16))
-      self%active_constraints = nint(values(17), int64)
-      self%iterations = nint(values(18))
-      self%residual = values(19)
-   end subroutine unpack_common
+      associate (unused => self); end associate
+      understood = size(values) == 0
+   end subroutine unpack_kept
 
    !> Makes the solution that stands for a failure: fields of NaN, no edge, and unknown errors.
    subroutine no_solution(pbar_over_pstar, solver, status, solution)
       real(dp), intent(in) :: pbar_over_pstar        !! P
-      character(*), intent(in) :: solver             !! name of the solver that failed
-      character(*), intent(in) :: status             !! why: a name of wavycon_contact_status
+      integer, intent(in) :: solver                  !! that failed, a name of wavycon_solution_record
+      integer, intent(in) :: status                  !! why: a name of wavycon_contact_status
       class(contact_solution), allocatable, intent(out) :: solution
 
       allocate (solution_without_contact_edge :: solution)

@@ -6,6 +6,7 @@ module wavycon_contact_solver
    use wavycon_contact_solution, only: contact_solution, no_solution, solution_without_contact_edge
    use wavycon_contact_status, only: above_hardness, full_contact, no_load, not_finite, not_found
    use wavycon_kinds, only: dp
+   use wavycon_solution_record, only: no_solver
    use wavycon_solver_progress, only: solver_progress
    use wavycon_surface, only: surface_type
    implicit none (type, external)
@@ -16,7 +17,7 @@ module wavycon_contact_solver
    !> What is known of a solver and its solutions without a load. Of a solver that was not started grids and levels are
    !> zero.
    type :: solver_traits
-      character(12) :: name = ''               !! that its solutions without numbers have
+      integer :: solver = no_solver            !! of its solutions without numbers
       logical :: has_errors = .true.           !! whether the measures of its solutions have error estimates
       logical :: has_coefficients = .false.    !! whether every solution has `coefficients`, those of a Fourier series
       logical :: has_details = .false.         !! whether every partial contact has `details`
@@ -81,14 +82,14 @@ contains
       is_number = .not. ieee_is_nan(pbar_over_pstar)
       if (.not. self%is_started) then
          traits = self%traits()
-         call no_solution(pbar_over_pstar, traits%name, not_found, solution)
+         call no_solution(pbar_over_pstar, traits%solver, not_found, solution)
          return
       end if
       if (is_number) then
          is_partial = pbar_over_pstar > 0.0_dp .and. pbar_over_pstar < 1.0_dp
          if (self%surface%has_hardness()) then
             if (pbar_over_pstar >= self%surface%hardness) then
-               call no_solution(pbar_over_pstar, 'none', above_hardness, solution)
+               call no_solution(pbar_over_pstar, no_solver, above_hardness, solution)
                return
             end if
             is_partial = pbar_over_pstar > 0.0_dp .and. &

@@ -30,7 +30,7 @@ contains
       type(edgeless_fields), intent(out) :: fields
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: pbar_over_pstar   !! P
-      character(*), intent(in) :: status        !! full_contact, no_load, or that of a load without a solution
+      integer, intent(in) :: status             !! full_contact, no_load, or that of a load without a solution
 
       fields%full = status == full_contact
       fields%solved = fields%full .or. status == no_load

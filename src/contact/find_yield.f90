@@ -114,7 +114,7 @@ contains
          log_p = next
       end do
       traits = solver%traits()
-      call no_solution(exp(at_largest), traits%name, not_found, solution)
+      call no_solution(exp(at_largest), traits%solver, not_found, solution)
    end subroutine find_root
 
    !> ln of the largest stress over the target, and its error estimate. NaN if the load has no solution.

@@ -9,14 +9,13 @@ module wavycon_fitted_contact
    use wavycon_fitted_solution, only: fitted_solution
    use wavycon_fitted_solver, only: fitted_answer, fitted_less_exact, fitted_solved, solve_fitted
    use wavycon_kinds, only: dp
+   use wavycon_solution_record, only: by_expansions
    use wavycon_surface, only: surface_type
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
    private
 
    public :: fitted_contact
-
-   character(*), parameter :: solver_name = 'fitted'
 
    type, extends(contact_solver) :: fitted_contact
       type(fitted_frame), private :: frame
@@ -68,7 +67,7 @@ contains
                            self%accuracy/(1.0_dp + self%surface%full_contact_peak), answer, self%last, self%keep_fields)
       end if
       if (answer%status /= fitted_solved .and. answer%status /= fitted_less_exact) then
-         call no_solution(pbar_over_pstar, solver_name, not_found, solution)
+         call no_solution(pbar_over_pstar, by_expansions, not_found, solution)
          return
       end if
       self%last = answer
@@ -76,7 +75,7 @@ contains
       errors = known_errors([answer%mean_gap_error, answer%area_error, answer%peak_error*self%frame%pressure_unit], &
                             self%surface%full_contact_peak)
       own%pbar_over_pstar = pbar_over_pstar
-      own%solver = solver_name
+      own%solver = by_expansions
       own%measures = contact_measures(mean_gap_over_amplitude=answer%mean_gap, &
                                       approach_over_amplitude=1.0_dp - answer%mean_gap, &
                                       contact_area_fraction=answer%area_fraction, &
@@ -101,7 +100,7 @@ contains
       class(fitted_contact), intent(in) :: self
 
       associate (unused => self); end associate
-      traits = solver_traits(name=solver_name, has_details=.true., continues_last_load=.true.)
+      traits = solver_traits(solver=by_expansions, has_details=.true., continues_last_load=.true.)
    end function traits
 
    subroutine forget_last_load(self)

@@ -7,9 +7,9 @@ module wavycon_grid_contact
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_measures, only: contact_measures, or_nan, unknown
-   use wavycon_contact_solution, only: contact_solution, no_solution, pack_common, packed_values, unpack_common
+   use wavycon_contact_solution, only: contact_solution, no_solution
    use wavycon_contact_solver, only: contact_solver, solver_traits
-   use wavycon_contact_status, only: converged, no_memory, not_accurate, unresolved
+   use wavycon_contact_status, only: converged, iteration_limit, no_memory, not_accurate, unresolved
    use wavycon_contact_tuning, only: largest_spot, least_search_points, worst_search_accuracy
    use wavycon_edge_curves, only: edge_curve, shift_curve, strip_ends, trace_edges, turn_curves, whole_strips
    use wavycon_grid_cascade, only: cascade_answer, solve_by_cascade
@@ -23,8 +23,8 @@ module wavycon_grid_contact
    use wavycon_load_concentration, only: load_concentration
    use wavycon_measure_tuning, only: edge_offset
    use wavycon_ranks, only: gather_columns, is_first_rank
-   use wavycon_qp_problem, only: qp_iteration_limit, qp_status_name
    use wavycon_region_numbers, only: region_numbers
+   use wavycon_solution_record, only: by_grids
    use wavycon_series_stress, only: series_stress, start_series_stress
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type
@@ -34,8 +34,6 @@ module wavycon_grid_contact
    private
 
    public :: grid_contact, grid_solution
-
-   character(*), parameter :: solver_name = 'grid'
 
    type, extends(contact_solver) :: grid_contact
       real(dp), private :: accuracy = 0.0_dp                 !! requested
@@ -68,7 +66,7 @@ module wavycon_grid_contact
       procedure :: unpack_kept
    end type grid_solution
 
-   !> Numbers in the array of pack_kept between those of pack_common and the field.
+   !> Numbers in the array of pack_kept before the field.
    integer, parameter :: own_values = 9
 
 contains
@@ -119,7 +117,7 @@ contains
 
       type(grid_plan) :: plan
 
-      traits = solver_traits(name=solver_name, coarser_levels=coarser_levels(self))
+      traits = solver_traits(solver=by_grids, coarser_levels=coarser_levels(self))
       if (.not. self%is_started) return
       if (allocated(self%smaller)) then
          plan = plan_grids(self%smaller, self%points)
@@ -152,12 +150,12 @@ contains
          call solve_cell(self, self%surface, pbar_over_pstar, answer)
       end if
       if (.not. allocated(answer%edge)) then
-         call no_solution(pbar_over_pstar, solver_name, no_memory, solution)
+         call no_solution(pbar_over_pstar, by_grids, no_memory, solution)
          return
       end if
       allocate (own)
       own%pbar_over_pstar = pbar_over_pstar
-      own%solver = solver_name
+      own%solver = by_grids
       own%turned = allocated(self%smaller)
       own%measures = contact_measures(mean_gap_over_amplitude=answer%values(1), &
                                       approach_over_amplitude=1.0_dp - answer%state%mean_gap, &
@@ -184,7 +182,7 @@ contains
       own%iterations = answer%iterations
       own%residual = answer%state%residual
       if (.not. answer%state%converged) then
-         own%status = qp_status_name(qp_iteration_limit)
+         own%status = iteration_limit
       else if (answer%accurate) then
          own%status = converged
       else if (answer%out_of_memory) then
@@ -371,23 +369,21 @@ contains
       allocate (grid_solution :: solution)
    end subroutine new_kept_solution
 
-   !> After the numbers of pack_common: the imprint, the stiffness of `edge`, the points along x and y (zeros if the
+   !> The imprint, the stiffness of `edge`, the points along x and y (zeros if the
    !> fields were not kept), the width of the slabs and the first column of this rank's, whether the cell is turned,
    !> whether the grid covers a quarter of it, and the pressures and gaps at the own columns.
    pure subroutine pack_kept(self, values)
       class(grid_solution), intent(in) :: self
       real(dp), allocatable, intent(out) :: values(:)
 
-      real(dp), allocatable :: common(:)
       real(dp) :: stiffness(2)
       integer :: first, j, layout(4), status
       integer(int64) :: rows
 
-      call pack_common(self, common)
       layout = 0
       rows = 0
       stiffness = 1.0_dp
-      first = packed_values + own_values
+      first = own_values
       if (allocated(self%edge)) then
          associate (slab => self%edge%slab)
             layout = [slab%points, slab%width, slab%first]
@@ -399,7 +395,7 @@ contains
          allocate (values(first), stat=status)
       end if
       if (status /= 0) return
-      values(:first) = [common, self%imprint, stiffness, real(layout, dp), 0.0_dp, 0.0_dp]
+      values(:first) = [self%imprint, stiffness, real(layout, dp), 0.0_dp, 0.0_dp]
       if (self%turned) values(first - 1) = 1.0_dp
       if (.not. allocated(self%edge)) return
       if (self%edge%even) values(first) = 1.0_dp
@@ -419,9 +415,8 @@ contains
       real(dp), allocatable :: field(:, :)
       type(grid_slab) :: slab
 
-      call unpack_common(self, values, understood)
-      first = packed_values + own_values
-      if (understood) understood = size(values) >= first
+      first = own_values
+      understood = size(values) >= first
       if (understood) understood = all(values(first - 5:first - 2) >= 0.0_dp .and. &
                                        values(first - 5:first - 2) <= huge(layout))
       if (.not. understood) return

@@ -4,11 +4,11 @@ module wavycon_deck_groups
    use wavycon_deck_text, only: deck_text_type
    use wavycon_deck_tokens, only: is_broken_word, is_word
    use wavycon_group_values, only: group_values
-   use wavycon_key_table, only: allowed_values, group_names, key_group_type, key_index, key_names, key_type, listed
+   use wavycon_key_table, only: allowed_values, group_names, key_group_type, key_index, key_names, key_type
    use wavycon_key_values, only: read_value, word_value
    use wavycon_kinds, only: dp
    use wavycon_nearest_name, only: did_you_mean, nearest_name
-   use wavycon_plain_text, only: excerpt, integer_text, lower_case
+   use wavycon_plain_text, only: excerpt, integer_text, listed, lower_case
    use wavycon_problems, only: problem_list_type
    implicit none (type, external)
    private

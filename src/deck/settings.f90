@@ -12,11 +12,12 @@ module wavycon_settings
    use wavycon_plain_text, only: excerpt, integer_text, is_printable, lower_case, quoted, unquoted
    use wavycon_problems, only: problem_list_type
    use wavycon_scene_group, only: longest_name, name_letters
-   use wavycon_self_affine, only: is_another_roughness => is_another_way
+   use wavycon_self_affine_kind, only: is_another_roughness => is_another_way
    use wavycon_grid_keys, only: is_another_grid => is_another_way
    use wavycon_method_list, only: get_methods, keys_of_methods, method_item
    use wavycon_stress_group, only: is_another_depth => is_another_way
-   use wavycon_surface_kinds, only: get_surface_kinds, keys_of_kinds, surface_kind_item
+   use wavycon_surface_kind, only: surface_kind
+   use wavycon_surface_kinds, only: get_surface_kinds, number_of_kinds
    implicit none (type, external)
    private
 
@@ -147,15 +148,14 @@ contains
 
       type(alternative_type), allocatable :: alternatives(:)
       type(method_item), allocatable :: methods(:)
-      type(surface_kind_item), allocatable :: kinds(:)
+      type(surface_kind) :: kinds(number_of_kinds)
 
       replaces = key == setting%key
       if (replaces) return
       select case (setting%group//'.'//setting%key)
       case ('surface.kind')
          call get_surface_kinds(kinds)
-         call keys_of_kinds(kinds, alternatives)
-         replaces = is_key_of_others(alternatives)
+         replaces = is_key_of_others(kinds%alternative_type)
       case ('method.solver')
          call get_methods(methods)
          call keys_of_methods(methods, alternatives)

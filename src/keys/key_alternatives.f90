@@ -4,7 +4,8 @@
 !> alternatives and the keys in the resolved deck follow from these declarations.
 module wavycon_key_alternatives
    use wavycon_group_values, only: group_values
-   use wavycon_key_table, only: choice_key, in_quotes, key_index, key_type, listed, meaning_length
+   use wavycon_key_table, only: choice_key, key_index, key_type, meaning_length
+   use wavycon_plain_text, only: in_quotes, listed
    use wavycon_problems, only: problem_list_type
    implicit none (type, external)
    private

@@ -2,21 +2,18 @@
 !>
 !> Checks of decks, the key reference of --help and the comments of resolved decks all follow from these tables.
 module wavycon_key_table
+   use wavycon_constants, only: largest_number
    use wavycon_kinds, only: dp
-   use wavycon_plain_text, only: integer_text, short_number
+   use wavycon_plain_text, only: in_quotes, integer_text, listed, short_number
    implicit none (type, external)
    private
 
    public :: key_type, key_group_type, real_key, integer_key, logical_key, text_key, choice_key
-   public :: key_group, key_index, key_names, group_names, allowed_values, in_quotes, listed
+   public :: key_group, key_index, key_names, group_names, allowed_values
 
    !> Types of values.
    integer, parameter, public :: real_value = 1, integer_value = 2, logical_value = 3, text_value = 4, &
       choice_value = 5
-
-   !> A number of a deck is 0 or between these in size, so that products of a few of them neither overflow nor
-   !> underflow.
-   real(dp), parameter, public :: smallest_number = 1.0e-90_dp, largest_number = 1.0e90_dp
 
    integer, parameter :: name_length = 24, choice_length = 12, most_choices = 12
    integer, parameter, public :: meaning_length = 640
@@ -207,31 +204,5 @@ contains
          words = words//trim(merge(' < ', ' <=', key%below))//' '//short_number(key%most)
       end if
    end function bounds
-
-   !> "'name'"
-   elemental function in_quotes(name) result(words)
-      character(*), intent(in) :: name
-      character(len(name) + 2) :: words
-
-      words = "'"//trim(name)//"'"
-   end function in_quotes
-
-   !> "a, b, c" or, with a last separator such as ' and ', "a, b and c".
-   pure function listed(names, last) result(words)
-      character(*), intent(in) :: names(:)              !! at least one; blanks at their ends are left out
-      character(*), intent(in), optional :: last
-      character(:), allocatable :: words
-
-      integer :: i
-
-      words = trim(names(1))
-      do i = 2, size(names)
-         if (present(last) .and. i == size(names)) then
-            words = words//last//trim(names(i))
-         else
-            words = words//', '//trim(names(i))
-         end if
-      end do
-   end function listed
 
 end module wavycon_key_table

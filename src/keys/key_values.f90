@@ -2,9 +2,10 @@
 module wavycon_key_values
    use, intrinsic :: ieee_exceptions, only: ieee_get_status, ieee_overflow, ieee_set_halting_mode, ieee_set_status, &
       ieee_status_type
+   use wavycon_constants, only: largest_number, smallest_number
    use wavycon_decimal_number, only: read_decimal
-   use wavycon_key_table, only: allowed_values, choice_value, integer_value, key_type, largest_number, &
-      logical_value, real_value, smallest_number, text_value
+   use wavycon_key_table, only: allowed_values, choice_value, integer_value, key_type, logical_value, &
+      real_value, text_value
    use wavycon_kinds, only: dp
    use wavycon_nearest_name, only: did_you_mean
    use wavycon_plain_text, only: excerpt, integer_text, is_printable, lower_case, unquoted

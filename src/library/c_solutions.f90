@@ -3,6 +3,7 @@ module wavycon_c_solutions
    use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_int, c_ptr, c_size_t
    use wavycon_c_handles, only: begin_call, check_pointers, close_call, handle_at, handle_type, not_a_handle, &
       put_text
+   use wavycon_contact_status, only: status_name
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_kinds, only: dp
    use wavycon_wavy_solution, only: wavy_measures
@@ -40,7 +41,7 @@ contains
       call begin_call()
       call find_solution(solution, contents, trouble)
       call check_pointers([c_associated(buffer)], trouble)
-      if (.not. allocated(trouble)) call put_text(contents%solution%status(), buffer, bytes)
+      if (.not. allocated(trouble)) call put_text(trim(status_name(contents%solution%status())), buffer, bytes)
       get_status = close_call(error, trouble)
    end function get_status
 

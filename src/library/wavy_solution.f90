@@ -9,12 +9,13 @@ module wavycon_wavy_solution
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_measures, only: or_nan
    use wavycon_contact_solution, only: contact_solution, solution_without_contact_edge
-   use wavycon_contact_status, only: not_found, status_code
+   use wavycon_contact_status, only: not_found, status_code, status_name
    use wavycon_edge_curves, only: edge_curve, keep_curves_of_quarter
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, exit_fine, exit_not_converged, fatal_error
    use wavycon_kinds, only: dp
    use wavycon_linear_area, only: linear_area_fraction
    use wavycon_plain_text, only: integer_text
+   use wavycon_solution_record, only: solver_names
    use wavycon_solution_stress, only: solution_stress, wavy_largest_stress
    use wavycon_surface, only: surface_type
    use wavycon_system, only: has_memory_for
@@ -156,13 +157,12 @@ contains
       if (.not. allocated(self%solution)) measures%status_code = int(status_code(not_found), c_int)
    end function measures
 
-   !> The status in a word, such as 'converged' or 'not_accurate'.
-   pure function status(self)
+   !> The status, such as converged or not_accurate.
+   pure integer function status(self)
       class(wavy_solution), intent(in) :: self
-      character(:), allocatable :: status
 
       status = not_found
-      if (allocated(self%solution)) status = trim(self%solution%status)
+      if (allocated(self%solution)) status = self%solution%status
    end function status
 
    !> The name of the solver; 'none' if no solver was needed.
@@ -171,7 +171,7 @@ contains
       character(:), allocatable :: name
 
       name = 'none'
-      if (allocated(self%solution)) name = trim(self%solution%solver)
+      if (allocated(self%solution)) name = trim(solver_names(self%solution%solver))
    end function name_of_solver
 
    !> Whether the numbers are as accurate as requested.
@@ -378,7 +378,8 @@ contains
       call check_kept(self, error)
       if (allocated(error)) return
       if (is_failure(self%solution)) then
-         call fatal_error(error, exit_bad_input, 'there are no fields: the status of the solution is '//self%status())
+         call fatal_error(error, exit_bad_input, 'there are no fields: the status of the solution is '// &
+                          trim(status_name(self%status())))
       else
          call self%solution%fields(self%surface, self%fields)
       end if

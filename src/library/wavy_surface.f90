@@ -7,6 +7,7 @@ module wavycon_wavy_surface
    use wavycon_group_text, only: read_group_text
    use wavycon_group_values, only: group_values
    use wavycon_height_map, only: surface_of_map
+   use wavycon_height_map_kind, only: preparation_of
    use wavycon_map_size, only: check_map_size, check_room
    use wavycon_key_table, only: key_index
    use wavycon_kinds, only: dp
@@ -173,7 +174,8 @@ contains
             allocate (map%height, source=heights)
          end if
          allocate (surface%surface)
-         call surface_of_map(source, values, [length_x, length_y], map, surface%surface, statistics, error)
+         call surface_of_map(source, preparation_of(values), values%real('height_scale'), [length_x, length_y], map, &
+                             surface%surface, statistics, error)
       end if
       surface%kind = 'file'
       if (.not. allocated(error)) return

@@ -11,7 +11,7 @@
 module wavycon
    use wavycon_contact_details, only: contact_details
    use wavycon_contact_status, only: above_hardness, closed_form, converged, full_contact, is_good_status, no_load, &
-      no_memory, not_accurate, not_finite, not_found, status_code, unresolved
+      no_memory, not_accurate, not_finite, not_found, status_code, status_name, unresolved
    use wavycon_deck_run, only: run_deck
    use wavycon_dundurs, only: dundurs_coefficients, dundurs_pressure_over_pstar
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, exit_fine, exit_not_converged

@@ -3,9 +3,9 @@ module wavycon_file_head
    use, intrinsic :: ieee_exceptions, only: ieee_get_status, ieee_overflow, ieee_set_halting_mode, &
       ieee_set_status, ieee_status_type
    use wavycon_binary_file, only: binary_file
+   use wavycon_constants, only: largest_number, smallest_number
    use wavycon_decimal_number, only: read_decimal
    use wavycon_error, only: error_type
-   use wavycon_key_table, only: largest_number, smallest_number
    use wavycon_kinds, only: dp
    use wavycon_length_unit, only: find_factor
    use wavycon_measured_map, only: measured_map

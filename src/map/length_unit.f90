@@ -1,10 +1,9 @@
 !> Units of length of map files: the metre and its decimal multiples.
 module wavycon_length_unit
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
-   use wavycon_key_table, only: listed
    use wavycon_kinds, only: dp
    use wavycon_measured_map, only: measured_map
-   use wavycon_plain_text, only: escaped, excerpt
+   use wavycon_plain_text, only: escaped, excerpt, listed
    implicit none (type, external)
    private
 
@@ -40,7 +39,7 @@ contains
    !> it is. Errors: exit_bad_input for a unit that is not one of the metre.
    subroutine convert_lengths(path, unit, map, error)
       character(*), intent(in) :: path   !! of the map, for the message
-      character(*), intent(in) :: unit   !! the deck's length_unit; empty if it gives none
+      character(*), intent(in) :: unit   !! to convert to; empty: that of the steps
       type(measured_map), intent(inout) :: map   !! with the unit converted to
       type(error_type), allocatable, intent(out) :: error
 

@@ -1,4 +1,4 @@
-!> Reads height maps from files, in any of the formats of the key file_format.
+!> Reads height maps from files, in any of six formats.
 module wavycon_map_file
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use, intrinsic :: iso_fortran_env, only: int64
@@ -33,7 +33,8 @@ contains
    !> Reads a map. Errors: exit_file_trouble if the file cannot be read, exit_bad_input if it is not a map.
    subroutine read_height_map(path, format, map, error, missing_value, in_slabs)
       character(*), intent(in) :: path
-      character(*), intent(in) :: format   !! a value of the key file_format
+      !> 'matrix', 'xyz' or 'xz' of a text, 'npy', 'gsf', 'gnuplot', or 'auto': what the file looks like.
+      character(*), intent(in) :: format
       type(measured_map), intent(out) :: map
       type(error_type), allocatable, intent(out) :: error
       real(dp), intent(in), optional :: missing_value   !! a number of the file that stands for a missing height

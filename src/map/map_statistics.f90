@@ -1,9 +1,9 @@
-!> Size, format and statistics of a height map, for the log and the heads of tables.
+!> Size, format and statistics of a height map.
 module wavycon_map_statistics
    use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp
-   use wavycon_map_changes, only: map_changes
    use wavycon_map_tuning, only: border_ratio
+   use wavycon_prepare_map, only: map_changes
    implicit none (type, external)
    private
 

@@ -12,12 +12,12 @@ module wavycon_measured_map
       !> spread over the ranks the own columns.
       real(dp), allocatable :: height(:, :)
       logical, allocatable :: missing(:, :)        !! shape of `height`; not allocated if no height is missing
-      logical :: has_missing_value = .false.       !! whether a height has the value of the key missing_value
+      logical :: has_missing_value = .false.       !! whether a height had the value that stands for a missing one
       real(dp) :: step(2) = 0.0_dp                 !! between points along x and y; 0 where the file does not give it
       real(dp), allocatable :: x(:)                !! of a profile until it is resampled, if its steps are not equal
       real(dp) :: uneven_steps(2) = 0.0_dp         !! least and largest of a profile that was resampled, otherwise 0
       logical :: is_usual_side(2) = .false.        !! whether a step is that of the format's default of the side
-      character(7) :: format = ''                  !! a value of the key file_format but 'auto'
+      character(7) :: format = ''                  !! of the file, as of read_height_map, but not 'auto'
       character(:), allocatable :: length_unit     !! of the steps; not allocated if the file does not name units
       character(:), allocatable :: height_unit     !! of the heights; allocated if length_unit is
       type(grid_slab), private :: slab             !! of the points of a map that is spread

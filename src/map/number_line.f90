@@ -1,11 +1,11 @@
 !> Reads the numbers of a line.
 !>
-!> Numbers are separated by blanks, tabs, commas or semicolons, and written as in a deck. `nan` and `--` are missing
-!> numbers, and so is nothing between two commas, semicolons or tabs.
+!> Numbers are separated by blanks, tabs, commas or semicolons, and written as `read_decimal` takes them. `nan` and
+!> `--` are missing numbers, and so is nothing between two commas, semicolons or tabs.
 module wavycon_number_line
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use wavycon_constants, only: largest_number
    use wavycon_decimal_number, only: read_decimal
-   use wavycon_key_table, only: largest_number
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: excerpt, lower_case, short_number
    implicit none (type, external)

@@ -2,8 +2,8 @@
 module wavycon_point_map
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_fortran_env, only: int64
+   use wavycon_constants, only: smallest_number
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
-   use wavycon_key_table, only: smallest_number
    use wavycon_kinds, only: dp
    use wavycon_map_size, only: check_map_size, check_room, laid_along_x
    use wavycon_measured_map, only: measured_map

@@ -6,26 +6,38 @@ module wavycon_prepare_map
    use wavycon_grid_slab, only: grid_slab
    use wavycon_fill_missing, only: fill_holes
    use wavycon_kinds, only: dp
-   use wavycon_map_changes, only: map_changes, percent
    use wavycon_map_tuning, only: usual_window_width
    use wavycon_measured_map, only: measured_map
-   use wavycon_plain_text, only: escaped, integer_text, short_number
+   use wavycon_plain_text, only: escaped, integer_text, percent, short_number
    use wavycon_window, only: taper_borders
    implicit none (type, external)
    private
 
-   public :: map_preparation, prepare_map
+   public :: map_changes, map_preparation, prepare_map
 
    !> Heights that are left are zero if they differ by at most this part of the largest one that was there: they are
    !> rounding.
    real(dp), parameter :: rounding = 64*epsilon(1.0_dp)
 
-   !> Values of the keys of the same names.
+   !> What is done to a map.
    type :: map_preparation
-      character(9) :: detrend = 'none'
-      character(8) :: fill_missing = 'none', edges = 'periodic'
+      character(9) :: detrend = 'none'         !! what is subtracted: 'none', 'mean', 'plane', 'quadratic'
+      character(8) :: fill_missing = 'none'    !! 'none': missing heights are an error; 'harmonic': (M3) fills them
+      character(8) :: edges = 'periodic'       !! 'periodic'; 'mirror': mirror images continue it; 'window': tapered
       real(dp) :: window_width = usual_window_width   !! over the side, 0 < window_width <= 1/2
    end type map_preparation
+
+   !> What was done to it.
+   type :: map_changes
+      real(dp) :: step = 0.0_dp             !! along x [length]
+      real(dp) :: uneven_steps(2) = 0.0_dp  !! as of measured_map
+      character(9) :: detrend = 'none'      !! as of map_preparation
+      real(dp) :: rise(2) = 0.0_dp          !! of the linear part that was removed, from border to border [length]
+      integer :: points(2) = 0              !! of the map along x and y
+      integer :: filled = 0                 !! number of points that were missing
+      character(8) :: edges = 'periodic'    !! as of map_preparation
+      real(dp) :: tapered = 0.0_dp          !! part of the points that the window changed
+   end type map_changes
 
 contains
 

@@ -14,8 +14,8 @@ module wavycon_map_tuning
    !> half a map of 256 x 256 and 1024 x 1024 points; with 2 it is 18 for both, and the time falls by a third.
    integer, parameter, public :: visits = 2
 
-   !> Default of the key window_width: part of a side over which a taper rises from the mean to the heights. A wider
-   !> taper changes more of the map, a narrower one adds slopes of its own: README.md in this directory has a table.
+   !> Usual part of a side over which a taper rises from the mean to the heights. A wider taper changes more of the map,
+   !> a narrower one adds slopes of its own: README.md in this directory has a table.
    real(dp), parameter, public :: usual_window_width = 0.05_dp
 
    !> Steps across the border are too large above this multiple of those across any line inside, both root mean square.

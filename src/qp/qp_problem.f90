@@ -5,7 +5,7 @@ module wavycon_qp_problem
    implicit none (type, external)
    private
 
-   public :: qp_problem, qp_solution, row_products, qp_status_name, gradient_terms
+   public :: qp_problem, qp_solution, row_products, gradient_terms
 
    !> How a solver ended.
    integer, parameter, public :: qp_converged = 0
@@ -54,31 +54,6 @@ module wavycon_qp_problem
    end type qp_solution
 
 contains
-
-   !> The name of a status in tables.
-   pure function qp_status_name(status) result(name)
-      integer, intent(in) :: status
-      character(:), allocatable :: name
-
-      select case (status)
-      case (qp_converged)
-         name = 'converged'
-      case (qp_iteration_limit)
-         name = 'iteration_limit'
-      case (qp_infeasible)
-         name = 'infeasible'
-      case (qp_infeasible_start)
-         name = 'infeasible_start'
-      case (qp_not_convex)
-         name = 'not_convex'
-      case (qp_not_finite)
-         name = 'not_finite'
-      case (qp_inaccurate)
-         name = 'inaccurate'
-      case default
-         name = 'unknown'
-      end select
-   end function qp_status_name
 
    !> Cx - b, by the fastest way there is.
    subroutine slacks(self, x, values)

@@ -17,6 +17,7 @@ module wavycon_checkpoint
    use wavycon_plain_text, only: escaped, excerpt, integer_text, newline, system_words
    use wavycon_ranks, only: is_first_rank, this_rank
    use wavycon_results, only: results_type
+   use wavycon_solution_record, only: record_of_words, record_words, words_of_record
    use wavycon_surface, only: surface_type
    use wavycon_system, only: file_size, path_absent, path_file, path_kind, process_id, remove_file, remove_when_interrupted, &
       rename_file
@@ -26,7 +27,7 @@ module wavycon_checkpoint
 
    public :: checkpoint_file, checkpoint_name, read_checkpoint
 
-   character(*), parameter :: mark = 'wavycon checkpoint 4'//newline
+   character(*), parameter :: mark = 'wavycon checkpoint 5'//newline
    integer, parameter :: bytes_of_word = 8
    !> End of all messages about a checkpoint that cannot be used.
    character(*), parameter :: way_out = '. Without --resume all loads are solved, and the checkpoint is replaced.'
@@ -138,14 +139,12 @@ contains
       integer, intent(in) :: load             !! its number in the deck's order
       class(contact_solution), intent(in) :: solution
 
-      character(len(solution%solver) + len(solution%status)) :: names
       real(dp), allocatable :: values(:)
 
       if (.not. self%opened .or. .not. solution%is_kept()) return
-      names = solution%solver//solution%status
       call solution%pack_kept(values)
       if (allocated(values)) then
-         call put(self, [int(load, int64), words_of(names), transfer(values, [0_int64])])
+         call put(self, [int(load, int64), words_of_record(solution), transfer(values, [0_int64])])
       else
          call close_file(self)
       end if
@@ -284,26 +283,21 @@ contains
 
    !> Restores the solution of a record.
    subroutine take_solution(words, results, understood)
-      integer(int64), intent(in) :: words(:)    !! number of the load; names of solver and status; array of pack_kept
+      integer(int64), intent(in) :: words(:)    !! number of the load; solution record; array of pack_kept
       type(results_type), intent(inout) :: results
       logical, intent(out) :: understood        !! .false.: the record is no solution of a load of this deck
 
-      character(:), allocatable :: text
       class(contact_solution), allocatable :: solution
-      integer :: load, names
+      integer :: load
 
       understood = .false.
-      if (size(words) == 0) return
+      if (size(words) < 1 + record_words) return
       if (words(1) < 1 .or. words(1) > size(results%loads)) return
       load = int(words(1))
       call results%solver%new_kept_solution(solution)
       if (.not. allocated(solution) .or. allocated(results%loads(load)%solution)) return
-      names = size(words_of(solution%solver//solution%status))
-      if (size(words) < names + 1) return
-      text = text_of(words(2:names + 1))//repeat(' ', len(solution%solver) + len(solution%status))
-      solution%solver = text(:len(solution%solver))
-      solution%status = text(len(solution%solver) + 1:)
-      call solution%unpack_kept(transfer(words(names + 2:), [0.0_dp]), understood)
+      solution%solution_record = record_of_words(words(2:1 + record_words))
+      call solution%unpack_kept(transfer(words(2 + record_words:), [0.0_dp]), understood)
       if (understood) call move_alloc(solution, results%loads(load)%solution)
    end subroutine take_solution
 

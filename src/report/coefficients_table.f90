@@ -7,6 +7,7 @@ module wavycon_coefficients_table
    use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
    use wavycon_results, only: results_type
+   use wavycon_solution_record, only: solver_names
    use wavycon_surface, only: surface_type
    use wavycon_method_list, only: solvers_with_coefficients
    use wavycon_table, only: table_type
@@ -48,8 +49,8 @@ contains
 
       associate (unused => self, unused_too => surface); end associate
       words = ''
-      if (.not. traits%has_coefficients) words = "solver = '"//trim(traits%name)//"' has no series of given length; "// &
-         solvers_with_coefficients()//' has'
+      if (.not. traits%has_coefficients) words = "solver = '"//trim(solver_names(traits%solver))// &
+         "' has no series of given length; "//solvers_with_coefficients()//' has'
    end function refusal
 
    !> Errors: exit_file_trouble.

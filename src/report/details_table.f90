@@ -5,11 +5,12 @@
 module wavycon_details_table
    use wavycon_contact_details, only: contact_details
    use wavycon_contact_solver, only: solver_traits
-   use wavycon_contact_status, only: status_code
+   use wavycon_contact_status, only: status_code, status_name
    use wavycon_error, only: error_type
    use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
    use wavycon_results, only: not_a_number, results_type
+   use wavycon_solution_record, only: solver_names
    use wavycon_surface, only: surface_type
    use wavycon_method_list, only: solvers_with_details
    use wavycon_table, only: table_type
@@ -64,7 +65,7 @@ contains
 
       associate (unused => self, unused_too => surface); end associate
       words = ''
-      if (.not. traits%has_details) words = "solver = '"//trim(traits%name)// &
+      if (.not. traits%has_details) words = "solver = '"//trim(solver_names(traits%solver))// &
          "' does not compute them for every load; "//solvers_with_details()//' does'
    end function refusal
 
@@ -103,7 +104,7 @@ contains
             end associate
             call file%add(details%degree)
             call file%add(status_code(solution%status))
-            call file%add(trim(solution%status))
+            call file%add(trim(status_name(solution%status)))
             call file%end_row()
          end associate
       end do

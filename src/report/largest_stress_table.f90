@@ -1,6 +1,6 @@
 !> <case>.stress_largest.dat: the largest von Mises stress and the largest shear stress of each load and body.
 module wavycon_largest_stress_table
-   use wavycon_contact_status, only: status_code
+   use wavycon_contact_status, only: status_code, status_name
    use wavycon_error, only: error_type
    use wavycon_kinds, only: dp
    use wavycon_largest_stress, only: largest_stress
@@ -78,7 +78,7 @@ contains
                call put_largest(yielding)
                call put_largest(shear)
                call file%add(status_code(solution%status))
-               call file%add(trim(solution%status))
+               call file%add(trim(status_name(solution%status)))
                call file%end_row()
             end associate
          end do

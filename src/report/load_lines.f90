@@ -5,9 +5,11 @@
 !> characters.
 module wavycon_load_lines
    use wavycon_contact_measures, only: or_nan
+   use wavycon_contact_status, only: status_name
    use wavycon_kinds, only: dp
    use wavycon_log_columns, only: at_left, at_right, cell, error_cell, error_width, load_width, width, with_unit
    use wavycon_results, only: results_type
+   use wavycon_solution_record, only: solver_names
    implicit none (type, external)
    private
 
@@ -52,7 +54,8 @@ contains
                 cell(measures%contact_area_fraction, width)//error(measures%contact_area_error)// &
                 cell(measures%peak_pressure_over_pstar, width)//error(measures%peak_pressure_error)
          if (results%scene%gives_modulus) line = line//cell(results%peak_pressure(load), width)
-         line = line//' '//at_left(trim(solution%solver), solver_width(results))//'  '//trim(solution%status)
+         line = line//' '//at_left(trim(solver_names(solution%solver)), solver_width(results))//'  '// &
+                trim(status_name(solution%status))
       end associate
 
    contains
@@ -76,7 +79,7 @@ contains
 
       solver_width = len('solver')
       do i = 1, size(results%loads)
-         solver_width = max(solver_width, len_trim(results%loads(i)%solution%solver))
+         solver_width = max(solver_width, len_trim(solver_names(results%loads(i)%solution%solver)))
       end do
    end function solver_width
 

@@ -4,10 +4,12 @@ module wavycon_results
    use wavycon_column_text, only: column_name, column_unit
    use wavycon_contact_solution, only: contact_solution_item
    use wavycon_contact_solver, only: contact_solver, solver_traits
+   use wavycon_contact_status, only: status_name
    use wavycon_kinds, only: dp
    use wavycon_largest_stress, only: largest_stress
    use wavycon_output_file, only: output_file
    use wavycon_plain_text, only: escaped, exact_number, integer_text
+   use wavycon_preparation_words, only: preparation_words
    use wavycon_scene, only: scene_type
    use wavycon_version, only: revision, version
    use wavycon_work_sharing, only: work_sharing
@@ -92,13 +94,16 @@ contains
       type(scene_type), intent(in) :: scene
       type(output_file), intent(inout) :: file
 
+      character(:), allocatable :: words
+
       associate (map => scene%map, roughness => scene%roughness, unit => scene%length_unit)
          call file%put('# map: points_x[-] = '//integer_text(map%points(1))// &
                        ', points_y[-] = '//integer_text(map%points(2))// &
                        number_of('lowest', unit, map%lowest)//number_of('highest', unit, map%highest)// &
                        number_of('rms_height', unit, map%rms))
          if (map%assumed_sides /= '') call file%put('# sides: '//map%assumed_sides)
-         if (map%changes%words(unit) /= '') call file%put('# prepared: '//map%changes%words(unit))
+         words = preparation_words(map%changes, unit)
+         if (words /= '') call file%put('# prepared: '//words)
          if (.not. map%rms > 0.0_dp) return
          call file%put('# roughness: skewness[-] = '//exact_number(map%skewness)// &
                        number_of('kurtosis', '-', map%kurtosis)//number_of('rms_slope', '-', roughness%slope)// &
@@ -149,7 +154,7 @@ contains
 
       associate (solution => self%loads(load)%solution)
          call file%begin_block('load '//integer_text(load)//': pbar/p* = '//exact_number(solution%pbar_over_pstar)// &
-                               ', '//trim(solution%status))
+                               ', '//trim(status_name(solution%status)))
       end associate
    end subroutine begin_block
 

@@ -5,6 +5,7 @@ module wavycon_run_log
    use wavycon_load_lines, only: heading_of_loads, line_of_load
    use wavycon_map_statistics, only: map_statistics
    use wavycon_plain_text, only: escaped, integer_text, short_number
+   use wavycon_preparation_words, only: preparation_words
    use wavycon_results, only: results_type
    use wavycon_roughness, only: roughness_type
    use wavycon_scene, only: scene_type, target_words
@@ -89,6 +90,8 @@ contains
       class(run_log), intent(inout) :: self
       type(results_type), intent(in) :: results
 
+      character(:), allocatable :: words
+
       if (self%quiet) return
       associate (scene => results%scene)
          call self%say('wavycon '//version//' ('//revision//')')
@@ -108,8 +111,8 @@ contains
          if (allocated(scene%map) .and. scene%surface%amplitude > 0.0_dp) call self%say( &
             'roughness '//roughness_words(scene))
          if (allocated(scene%map)) then
-            if (scene%map%changes%words(scene%length_unit) /= '') &
-               call self%say('prepared  '//scene%map%changes%words(scene%length_unit))
+            words = preparation_words(scene%map%changes, scene%length_unit)
+            if (words /= '') call self%say('prepared  '//words)
             if (scene%map%lacks_missing_value) &
                call self%say('note: no height of the file has the missing_value of the deck')
             call show_broken_borders(self, scene%map, scene%length_unit)

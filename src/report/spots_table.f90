@@ -3,7 +3,7 @@
 !> The table has a row for each load. A load without a solution has NaN.
 module wavycon_spots_table
    use wavycon_contact_spots, only: contact_spots
-   use wavycon_contact_status, only: status_code
+   use wavycon_contact_status, only: status_code, status_name
    use wavycon_error, only: error_type
    use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
@@ -66,7 +66,7 @@ contains
             call file%add([solution%pbar_over_pstar, solution%measures%contact_area_fraction])
             call put_regions(file, regions)
             call file%add(status_code(solution%status))
-            call file%add(trim(solution%status))
+            call file%add(trim(status_name(solution%status)))
             call file%end_row()
          end associate
       end do

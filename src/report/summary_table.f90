@@ -1,13 +1,14 @@
 !> <case>.summary.dat: mean gap, contact area, pressures, iterations, residual and status, a line for each load.
 module wavycon_summary_table
    use wavycon_contact_measures, only: or_nan
-   use wavycon_contact_status, only: status_code
+   use wavycon_contact_status, only: status_code, status_name
    use wavycon_error, only: error_type
    use wavycon_kinds, only: dp
    use wavycon_linear_area, only: linear_area_fraction
    use wavycon_output_file, only: narrowest, number_words, output_file
    use wavycon_plain_text, only: integer_text
    use wavycon_results, only: not_a_number, results_type
+   use wavycon_solution_record, only: solver_names
    use wavycon_table, only: table_type
    implicit none (type, external)
    private
@@ -118,8 +119,8 @@ contains
                                 scene%surface%nominal_area()*measures%contact_area_fraction, &
                                 results%peak_pressure(load)]), &
                   integer_text(solution%active_constraints), integer_text(solution%iterations), &
-                  number_words(solution%residual), solution%solver, &
-                  integer_text(status_code(solution%status)), solution%status]
+                  number_words(solution%residual), solver_names(solution%solver), &
+                  integer_text(status_code(solution%status)), status_name(solution%status)]
       end associate
    end function summary_row
 

@@ -6,9 +6,10 @@ module wavycon_share_solutions
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_kinds, only: dp
    use wavycon_largest_stress, only: largest_stress
-   use wavycon_measured_solution, only: solution_from_words, solution_words, words_of_solution
+   use wavycon_measured_solution, only: measured_solution
    use wavycon_ranks, only: add_over_ranks, this_rank
    use wavycon_results, only: results_type
+   use wavycon_solution_record, only: record_of_words, record_words, words_of_record
    implicit none (type, external)
    private
 
@@ -25,17 +26,19 @@ contains
 
       integer :: load
       integer(int64), allocatable :: words(:)
+      type(measured_solution), allocatable :: other
 
-      allocate (words(solution_words*size(results%loads)), source=0_int64)
+      allocate (words(record_words*size(results%loads)), source=0_int64)
       do load = 1, size(results%loads)
          if (results%rank_of_load(load) == this_rank()) &
-            words((load - 1)*solution_words + 1:load*solution_words) = words_of_solution(results%loads(load)%solution)
+            words((load - 1)*record_words + 1:load*record_words) = words_of_record(results%loads(load)%solution)
       end do
       call add_over_ranks(words)
       do load = 1, size(results%loads)
-         if (results%rank_of_load(load) /= this_rank()) &
-            call solution_from_words(words((load - 1)*solution_words + 1:load*solution_words), &
-                                     results%loads(load)%solution)
+         if (results%rank_of_load(load) == this_rank()) cycle
+         allocate (other)
+         other%solution_record = record_of_words(words((load - 1)*record_words + 1:load*record_words))
+         call move_alloc(other, results%loads(load)%solution)
       end do
    end subroutine share_solutions
 

@@ -1,233 +1,37 @@
 !> A random self-affine surface, made from its spectrum.
 module wavycon_self_affine
+   use wavycon_constants, only: largest_number, smallest_number
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_grid_slab, only: grid_slab
-   use wavycon_group_values, only: group_values
-   use wavycon_key_table, only: choice_key, integer_key, key_type, largest_number, real_key, smallest_number
    use wavycon_kinds, only: dp
-   use wavycon_map_size, only: check_slab_room, least_points, most_points
+   use wavycon_map_size, only: check_slab_room
    use wavycon_map_statistics, only: map_statistics, statistics_of
-   use wavycon_plain_text, only: escaped, integer_text, short_number
-   use wavycon_problems, only: problem_list_type
-   use wavycon_self_affine_heights, only: has_waves, least_points_of, make_heights, self_affine_spectrum
+   use wavycon_plain_text, only: short_number
+   use wavycon_self_affine_heights, only: make_heights, self_affine_spectrum
    use wavycon_surface, only: surface_of_points, surface_type
-   use wavycon_surface_keys, only: length_x_key, length_y_key
-   use wavycon_surface_kind, only: surface_kind
    implicit none (type, external)
    private
 
-   public :: self_affine_kind, is_another_way
-
-   type, extends(surface_kind) :: self_affine_kind
-   contains
-      procedure, nopass :: name
-      procedure, nopass :: meaning
-      procedure, nopass :: keys
-      procedure, nopass :: set_defaults
-      procedure, nopass :: check
-      procedure, nopass :: make
-   end type self_affine_kind
-
-   !> Most points along a side that a deck without `points` gets.
-   integer, parameter :: most_default_points = 8192
+   public :: self_affine_surface
 
 contains
 
-   function name() result(words)
-      character(:), allocatable :: words
-
-      words = 'self_affine'
-   end function name
-
-   function meaning() result(words)
-      character(:), allocatable :: words
-
-      words = 'a random rough surface, made from its spectrum'
-   end function meaning
-
-   function keys() result(rows)
-      type(key_type), allocatable :: rows(:)
-
-      rows = [ &
-         length_x_key(), length_y_key(), &
-         real_key('hurst', '0.8', '-', 'Hurst exponent of the roughness.', least=0.0_dp, most=1.0_dp), &
-         real_key('rms_height', '', 'length', 'root mean square of the height; or give rms_slope.', above=0.0_dp), &
-         real_key('rms_slope', '', '-', 'root mean square of the slope, the size of the gradient; or give '// &
-                  'rms_height.', above=0.0_dp), &
-         real_key('long_wavelength', 'the longer side of the cell', 'length', 'longest wave, the long cut-off.', &
-                  above=0.0_dp), &
-         real_key('rolloff_wavelength', 'long_wavelength', 'length', &
-                  'the spectrum of the heights is flat for longer waves and self-affine for shorter ones.', &
-                  above=0.0_dp), &
-         real_key('short_wavelength', 'rolloff_wavelength/64', 'length', 'shortest wave, the short cut-off.', &
-                  above=0.0_dp), &
-         choice_key('spectrum', "'ideal'", &
-            "amplitudes of the waves: 'ideal', those of the spectrum; 'random', those of a Gaussian process with "// &
-            'this spectrum. Phases are random.', [character(6) :: 'ideal', 'random']), &
-         integer_key('seed', '1', 'of the random numbers. The surface depends on the seed and on the keys above, '// &
-                     'not on points.', 1, huge(1)), &
-         integer_key('points', 'from short_wavelength', &
-                     'points of the cell along x and y on which the surface is made, and solved unless &method '// &
-                     'says otherwise; one number for both, and 1 along y for a profile. The default is the least '// &
-                     'power of two with at least four points to short_wavelength, if that is not more than 8192.', &
-                     1, most_points, most_values=2)]
-   end function keys
-
-   subroutine set_defaults(values)
-      type(group_values), intent(inout) :: values
-
-      real(dp) :: length(2)
-      integer :: points(2)
-
-      points = given_points(values)
-      length = values%real('length_x')
-      ! Without length_y points are as far apart along y as along x.
-      if (points(2) > 1) length(2) = length(1)*points(2)/points(1)
-      call values%set_default('length_y', length(2))
-      length(2) = values%real('length_y')
-      call values%set_default('long_wavelength', merge(length(1), maxval(length), points(2) == 1))
-      call values%set_default('rolloff_wavelength', values%real('long_wavelength'))
-      call values%set_default('short_wavelength', values%real('rolloff_wavelength')/64)
-      if (points(1) == 0) points = default_points(length/values%real('short_wavelength'))
-      if (.not. values%is_bad('points')) call values%set('points', points)
-   end subroutine set_defaults
-
-   !> The points that the deck gives along x and y; zeros if it gives none.
-   pure function given_points(values) result(points)
-      type(group_values), intent(in) :: values
-      integer :: points(2)
-
-      points = 0
-      if (.not. values%has('points') .or. values%is_bad('points')) return
-      associate (given => values%integers('points'))
-         points = given(1)
-         points(2) = given(size(given))
-      end associate
-   end function given_points
-
-   !> The least power of two with four points to the shortest wave.
-   elemental integer function default_points(waves) result(points)
-      real(dp), intent(in) :: waves   !! of the shortest wavelength along a side
-
-      points = least_points
-      do while (points < 4*waves .and. points < most_default_points)
-         points = 2*points
-      end do
-   end function default_points
-
-   !> Reports a missing or second measure of the roughness, cut-offs out of order, too few points, and cut-offs between
-   !> which the cell has no wave.
-   subroutine check(values, problems)
-      type(group_values), intent(in) :: values
-      type(problem_list_type), intent(inout) :: problems
-
-      type(self_affine_spectrum) :: spectrum
-      integer :: before
-
-      if (.not. values%has('rms_height') .and. .not. values%has('rms_slope')) &
-         call values%complain(problems, 'kind', "kind = 'self_affine' needs rms_height or rms_slope")
-      call values%forbid(problems, 'rms_height', 'rms_slope', 'give one of them')
-      if (values%any_bad()) return
-      before = problems%number
-      spectrum = spectrum_of(values)
-      call check_order('long_wavelength', spectrum%longest, &
-                       'the longest side of the cell', maxval(spectrum%length(:spectrum%dimension)))
-      call check_order('rolloff_wavelength', spectrum%rolloff, 'long_wavelength', spectrum%longest)
-      call check_order('short_wavelength', spectrum%shortest, 'rolloff_wavelength', spectrum%rolloff)
-      call check_points(values, spectrum, problems)
-      if (problems%number > before) return
-      if (.not. has_waves(spectrum)) call values%complain(problems, 'short_wavelength', &
-         'nothing varies: no wave of the cell has a length from short_wavelength = '// &
-         short_number(spectrum%shortest)//' to long_wavelength = '//short_number(spectrum%longest))
-
-   contains
-
-      !> Reports a length that is longer than another one.
-      subroutine check_order(key, length, most_words, most)
-         character(*), intent(in) :: key, most_words
-         real(dp), intent(in) :: length, most
-
-         if (length > most) call values%complain(problems, key, key//' = '//short_number(length)// &
-                                                 ' must not be longer than '//most_words//', '//short_number(most))
-      end subroutine check_order
-
-   end subroutine check
-
-   !> Reports numbers of points that are too small, by themselves or for the shortest wave.
-   subroutine check_points(values, spectrum, problems)
-      type(group_values), intent(in) :: values
-      type(self_affine_spectrum), intent(in) :: spectrum
-      type(problem_list_type), intent(inout) :: problems
-
-      integer :: least(2), points(2)
-
-      points = values%integers('points')
-      if (points(1) < least_points .or. (points(2) < least_points .and. spectrum%dimension == 2)) then
-         call values%complain(problems, 'points', 'there must be at least '//integer_text(least_points)// &
-                              ' points along each side, or 1 along y for a profile')
-         return
-      end if
-      least = least_points_of(spectrum)
-      if (all(points >= least)) return
-      if (any(least > most_points)) then
-         call values%complain(problems, 'short_wavelength', 'short_wavelength = '// &
-            short_number(spectrum%shortest)//' needs '//grid_words(least)//' points, and more than '// &
-            integer_text(most_points)//' a side are not possible: give a longer one or a smaller cell')
-      else
-         call values%complain(problems, 'points', grid_words(points)//' points are too few for short_wavelength = '// &
-            short_number(spectrum%shortest)//': it needs '//grid_words(least)// &
-            ', and accurate contact areas twice as many each way or more')
-      end if
-   end subroutine check_points
-
-   !> "2 x 3", as for the sides of a grid.
-   pure function grid_words(points) result(words)
-      integer, intent(in) :: points(2)
-      character(:), allocatable :: words
-
-      words = integer_text(points(1))//' x '//integer_text(points(2))
-   end function grid_words
-
-   !> The spectrum that the keys describe.
-   pure function spectrum_of(values) result(spectrum)
-      type(group_values), intent(in) :: values
-      type(self_affine_spectrum) :: spectrum
-
-      integer :: points(2)
-
-      points = values%integers('points')
-      spectrum%dimension = merge(1, 2, points(2) == 1)
-      spectrum%length = [values%real('length_x'), values%real('length_y')]
-      spectrum%hurst = values%real('hurst')
-      spectrum%longest = values%real('long_wavelength')
-      spectrum%rolloff = values%real('rolloff_wavelength')
-      spectrum%shortest = values%real('short_wavelength')
-      spectrum%by_slope = values%has('rms_slope')
-      spectrum%rms = merge(values%real('rms_slope'), values%real('rms_height'), spectrum%by_slope)
-      spectrum%random_amplitudes = values%text('spectrum') == 'random'
-      spectrum%seed = values%integer('seed')
-   end function spectrum_of
-
-   !> Errors: exit_file_trouble if there is not enough memory, exit_bad_input for heights out of range.
-   subroutine make(values, surface, map, error)
-      type(group_values), intent(inout) :: values
+   !> Makes the surface. Errors: exit_file_trouble if there is not enough memory, exit_bad_input for heights out of range.
+   subroutine self_affine_surface(source, spectrum, points, surface, map, error)
+      character(*), intent(in) :: source                   !! of the spectrum, for messages
+      type(self_affine_spectrum), intent(in) :: spectrum   !! has_waves
+      integer, intent(in) :: points(2)                     !! of the cell along x and y, not below least_points_of
       type(surface_type), intent(out) :: surface
       type(map_statistics), allocatable, intent(out) :: map
       type(error_type), allocatable, intent(out) :: error
 
-      character(:), allocatable :: source
-      type(self_affine_spectrum) :: spectrum
       type(grid_slab) :: slab
       real(dp), allocatable :: height(:, :)
       real(dp) :: largest(1)
-      integer :: points(2)
       logical :: is_made
 
-      source = escaped(values%deck_path)//": kind = 'self_affine'"
-      points = values%integers('points')
       call check_slab_room(source, points, error)
       if (allocated(error)) return
-      spectrum = spectrum_of(values)
       call slab%start(points)
       allocate (height(points(1), slab%columns()))
       call make_heights(spectrum, height, is_made, points)
@@ -245,14 +49,6 @@ contains
       end if
       map = statistics_of(height, 'made', '', points)
       surface = surface_of_points(spectrum%length, height, points=points)
-   end subroutine make
-
-   !> Whether two keys of &surface give the roughness in different ways: rms_height, or rms_slope.
-   pure logical function is_another_way(key, other)
-      character(*), intent(in) :: key, other
-
-      is_another_way = (key == 'rms_height' .and. other == 'rms_slope') .or. &
-                       (key == 'rms_slope' .and. other == 'rms_height')
-   end function is_another_way
+   end subroutine self_affine_surface
 
 end module wavycon_self_affine

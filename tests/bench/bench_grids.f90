@@ -39,7 +39,7 @@ program bench_grids
    call measure_orders(2)
    if (.not. all_accurate) then
       write (error_unit, '(a)') 'bench: a load is not as accurate as asked for'
-      stop 1, quiet=.true.
+      stop 1
    end if
 
 contains

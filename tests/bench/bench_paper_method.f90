@@ -318,7 +318,7 @@ contains
       character(*), intent(in) :: message
 
       write (error_unit, '(2a)') 'bench_paper_method: ', message
-      stop 1, quiet=.true.
+      stop 1
    end subroutine give_up
 
 end program bench_paper_method

@@ -186,7 +186,7 @@ contains
 
       if (is_first_rank()) write (error_unit, '(a)') words
       call end_ranks(1)
-      stop 1, quiet=.true.
+      stop 1
    end subroutine stop_with
 
 end program bench_ranks

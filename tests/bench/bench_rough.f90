@@ -23,7 +23,7 @@ program bench_rough
 
    if (command_argument_count() /= size(argument)) then
       write (error_unit, '(a)') 'usage: bench_rough HEIGHTS POINTS LOAD RESIDUAL PRESSURES'
-      stop 1, quiet=.true.
+      stop 1
    end if
    do i = 1, size(argument)
       call get_command_argument(i, argument(i))

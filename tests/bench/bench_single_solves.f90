@@ -9,6 +9,7 @@
 program bench_single_solves
    use, intrinsic :: iso_fortran_env, only: error_unit, input_unit, output_unit
    use samples, only: clock_ms
+   use wavycon_contact_status, only: status_name
    use wavycon_beale_contact, only: beale_contact, beale_solution
    use wavycon_fourier_terms, only: symmetry_full
    use wavycon_kinds, only: dp
@@ -35,7 +36,7 @@ program bench_single_solves
 
    do
       read (input_unit, *, iostat=ios) load, count
-      if (ios /= 0) stop 0, quiet=.true.
+      if (ios /= 0) stop
       allocate (times(count))
       do i = 1, count
          contact = fresh
@@ -43,7 +44,7 @@ program bench_single_solves
          call contact%solve_series(load, solution)
          times(i) = clock_ms() - before
       end do
-      write (output_unit, '(a,1x,i0)') trim(solution%status), solution%iterations
+      write (output_unit, '(a,1x,i0)') trim(status_name(solution%status)), solution%iterations
       write (output_unit, numbers) times
       write (output_unit, numbers) solution%x
       flush (output_unit)
@@ -63,7 +64,7 @@ contains
       read (word, *, iostat=failed) argument
       if (failed /= 0) then
          write (error_unit, '(a)') 'usage: bench_single_solves HARMONICS POINTS'
-         stop 1, quiet=.true.
+         stop 1
       end if
    end function argument
 

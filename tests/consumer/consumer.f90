@@ -1,8 +1,8 @@
 !> A steel surface with waves 1 mm long and 1 um in amplitude against a rigid flat: lengths in m, pressures in Pa.
 program consumer
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-   use wavycon, only: dp, error_type, largest_shear, make_heights, make_solver, make_wave_2d, principal_stresses, von_mises, &
-      wavy_edge, wavy_largest_stress, wavy_measures, wavy_solution, wavy_solver, wavy_surface
+   use wavycon, only: dp, error_type, largest_shear, make_heights, make_solver, make_wave_2d, principal_stresses, &
+      status_name, von_mises, wavy_edge, wavy_largest_stress, wavy_measures, wavy_solution, wavy_solver, wavy_surface
    implicit none (type, external)
 
    type(error_type), allocatable :: error
@@ -26,7 +26,7 @@ program consumer
       if (allocated(error)) error stop error%message
       m = solution%measures()
       print '(5es24.16, 1x, a)', m%pbar_over_pstar, m%mean_gap, m%contact_area_fraction, m%peak_pressure, &
-         m%peak_pressure_over_pstar_error, solution%status()
+         m%peak_pressure_over_pstar_error, trim(status_name(solution%status()))
    end do
    call solution%map([48, 32], pressure, gap, displacement, error)
    call solution%edges(edges, error)
@@ -51,7 +51,7 @@ program consumer
    call solver%solve('yield', 1.0_dp, solution, error)
    if (allocated(error)) error stop error%message
    m = solution%measures()
-   print '(2es24.16, 1x, a)', m%mean_pressure, m%contact_area_fraction, solution%status()
+   print '(2es24.16, 1x, a)', m%mean_pressure, m%contact_area_fraction, trim(status_name(solution%status()))
 
    ! A measured map with a tilt and a hole.
    do j = 0, 11
@@ -67,5 +67,5 @@ program consumer
    call solver%solve('pbar_over_pstar', 0.2_dp, solution, error)
    if (allocated(error)) error stop error%message
    m = solution%measures()
-   print '(3es24.16, 1x, a)', m%mean_gap, m%contact_area, m%mean_pressure, solution%status()
+   print '(3es24.16, 1x, a)', m%mean_gap, m%contact_area, m%mean_pressure, trim(status_name(solution%status()))
 end program consumer

@@ -96,11 +96,11 @@ def explained_statuses(text):
 
 def statuses_of_sources():
     """{status: code} as the sources have them."""
-    of_contact = read("src/contact/contact_status.f90")
-    codes = {name: int(code) for name, code in re.findall(r"case \((\w+)\)\s+status_code = (\d+)", of_contact)}
-    other = int(re.search(r"case default\s+status_code = (\d+)", of_contact)[1])
-    of_programme = re.findall(r"case \(qp_\w+\)\s+name = '(\w+)'", read("src/qp/qp_problem.f90"))
-    return {**{name: other for name in of_programme}, **codes}
+    text = read("src/contact/contact_status.f90")
+    codes = {name: int(code) for line in re.findall(r"integer, parameter, public :: (.*)", text)
+             for name, code in re.findall(r"(\w+) = (\d+)", line)}
+    return {name: codes.get(constant, codes["other_failure"])
+            for constant, name in re.findall(r"case \((.+)\)\s+name = '(\w+)'", text)}
 
 
 def named_keys(text):

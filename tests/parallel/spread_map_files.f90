@@ -8,12 +8,11 @@ program spread_map_files
    use wavycon_error, only: error_type
    use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp, sp
-   use wavycon_map_changes, only: map_changes
    use wavycon_map_file, only: read_height_map
    use wavycon_map_statistics, only: map_statistics, statistics_of
    use wavycon_measured_map, only: measured_map
    use wavycon_mpi_ranks, only: start_mpi
-   use wavycon_prepare_map, only: map_preparation, prepare_map
+   use wavycon_prepare_map, only: map_changes, map_preparation, prepare_map
    use wavycon_ranks, only: any_rank, is_first_rank, rank_count, work_alone
    use wavycon_self_affine_heights, only: make_heights, self_affine_spectrum
    implicit none (type, external)

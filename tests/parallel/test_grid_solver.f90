@@ -38,7 +38,7 @@ program test_grid_solver
       call compare(.false., grids(:, k), 0.1_dp, hardnesses(k), tolerance)
    end do
    call end_ranks(0)
-   if (failed) error stop 1, quiet=.true.
+   if (failed) error stop 1
 
 contains
 

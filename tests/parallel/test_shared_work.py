@@ -83,14 +83,14 @@ class SharedWork(unittest.TestCase):
         for name in "deck.summary.dat", "deck.contour.dat":
             self.assertEqual((self.folder/"serial"/name).read_bytes(), (self.folder/"ranks"/name).read_bytes())
 
-    def test_a_checkpoint_of_another_number_of_ranks_is_refused(self):
+    def test_a_file_of_another_number_of_ranks_is_refused(self):
         deck = WAVE + "&load pbar_over_pstar = 0.3, 0.1 /\n&method solver = 'grid', grid_points = 1024 /\n"
         (self.folder/"results").mkdir()
         for name, ranks in ("deck.checkpoint", 2), ("deck.checkpoint.0", 1):
             (self.folder/"results"/name).write_text("anything")
             outcome = self.solve(deck, ranks, "results", "--resume")
             self.assertEqual(EXIT_BAD_INPUT, outcome.status)
-            self.assertIn("of a run on another number of ranks", outcome.stderr)
+            self.assertIn(f"{name}: ", outcome.stderr)
             outcome = self.solve(deck, ranks, "results")
             self.assertEqual((0, ""), (outcome.status, outcome.stderr))
             self.assertEqual([], [path.name for path in (self.folder/"results").glob("*checkpoint*")])

@@ -7,11 +7,12 @@ program stress_loads
    use command_words, only: number, word
    use stress_kkt_in_quad, only: check_in_quad, kkt_type
    use stress_problem_file, only: write_problem
+   use wavycon_contact_status, only: status_name, status_of_programme
    use wavycon_complementary_energy, only: energy_problem
    use wavycon_dual_solver, only: dual_solver
    use wavycon_fourier_terms, only: choose_terms, fourier_terms, symmetry_diagonal, symmetry_full, symmetry_none
    use wavycon_kinds, only: dp
-   use wavycon_qp_problem, only: qp_problem, qp_solution, qp_converged, qp_status_name
+   use wavycon_qp_problem, only: qp_problem, qp_solution, qp_converged
    implicit none (type, external)
 
    !> The library's tolerance for the status converged (kkt_tolerance).
@@ -71,7 +72,8 @@ program stress_loads
          call write_problem(word(5)//'/case-'//word(4)//'-'//trim(name), problem, problem%bounds)
       end if
       write (*, '(es24.16, 4("|", i0), 2("|", a), 5("|", es10.2e3), "|", i0, "|", f0.3)') loads(i), dimension, harmonics, &
-         size(problem%linear), size(problem%bounds), qp_status_name(solution%status), trim(verdict), kkt%stationarity, &
+         size(problem%linear), size(problem%bounds), &
+         trim(status_name(status_of_programme(solution%status))), trim(verdict), kkt%stationarity, &
          kkt%feasibility, kkt%sign, kkt%complementarity, solution%kkt_residual, solution%pivots, seconds
    end do
 

@@ -11,11 +11,11 @@ program stress_qp
    use stress_kkt_in_quad, only: check_in_quad, kkt_type
    use stress_problem_file, only: read_problem, write_problem
    use stress_random_numbers, only: random_stream
+   use wavycon_contact_status, only: status_name, status_of_programme
    use wavycon_beale, only: beale_solver
    use wavycon_dual_solver, only: dual_solver
    use wavycon_kinds, only: dp
-   use wavycon_qp_problem, only: qp_problem, qp_solution, qp_converged, qp_infeasible, qp_infeasible_start, &
-                                 qp_status_name
+   use wavycon_qp_problem, only: qp_problem, qp_solution, qp_converged, qp_infeasible, qp_infeasible_start
    implicit none (type, external)
 
    !> The library's tolerance for the status converged (kkt_tolerance), here for each constraint on its own scale.
@@ -99,7 +99,8 @@ contains
       end if
       write (*, '(i0, "|", a, 4("|", i0), 3("|", a), 7("|", es10.2e3), "|", i0, "|", f0.3)') case, &
          trim(kind_names(recipe%kind)), recipe%n, recipe%m, recipe%pushing, recipe%twist_bits, &
-         trim(qp_status_name(wanted)), trim(qp_status_name(solution%status)), trim(verdict), programme%condition, &
+         trim(status_name(status_of_programme(wanted))), trim(status_name(status_of_programme(solution%status))), &
+         trim(verdict), programme%condition, &
          kkt%stationarity, kkt%feasibility, kkt%sign, kkt%complementarity, error, solution%kkt_residual, &
          solution%pivots, seconds
       flush (6)
@@ -152,7 +153,8 @@ contains
 
       call read_problem(path, problem, first_bounds)
       call solve(problem, first_bounds, solution, seconds)
-      write (*, '(a, i0, a, f0.3, a, es10.2e3)') qp_status_name(solution%status)//', ', solution%pivots, ' pivots, ', &
+      write (*, '(a, i0, a, f0.3, a, es10.2e3)') trim(status_name(status_of_programme(solution%status)))//', ', &
+         solution%pivots, ' pivots, ', &
          seconds, ' s, own residual ', solution%kkt_residual
       if (.not. allocated(solution%x)) return
       kkt = check_in_quad(problem, solution)

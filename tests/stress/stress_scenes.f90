@@ -9,6 +9,7 @@ program stress_scenes
    use stress_kkt_of_grid, only: check_grid, grid_kkt
    use stress_random_numbers, only: random_stream
    use wavycon_contact_solver, only: contact_solver
+   use wavycon_contact_status, only: status_name
    use wavycon_contact_solution, only: contact_solution
    use wavycon_deck, only: deck_type
    use wavycon_error, only: error_type
@@ -52,18 +53,19 @@ program stress_scenes
          of_expansion = check_expansion(solution%lattice, solution%answer, stream, number(3))
          associate (measures => solution%measures)
             write (*, '(a, "|", es24.16, "|", a, 9("|", es10.2e3))') 'expansion', scene%target(i), &
-               trim(solution%status), of_expansion%contact, of_expansion%noise, of_expansion%tension, &
+               trim(status_name(solution%status)), of_expansion%contact, of_expansion%noise, of_expansion%tension, &
                of_expansion%overlap, of_expansion%balance, solution%residual, &
                measures%mean_gap_error, measures%contact_area_error, measures%peak_pressure_error
          end associate
       type is (grid_solution)
          of_grid = check_grid(scene%surface, solution)
          write (*, '(a, "|", es24.16, "|", a, 8("|", es23.15e3), "|", i0)') 'grid', scene%target(i), &
-            trim(solution%status), of_grid%load, of_grid%residual, of_grid%complementarity, of_grid%gap, solution%residual, &
+            trim(status_name(solution%status)), of_grid%load, of_grid%residual, of_grid%complementarity, of_grid%gap, &
+            solution%residual, &
             solution%measures%mean_gap_over_amplitude + solution%imprint, of_grid%edge_gap, of_grid%depth, &
             solution%iterations
       class default
-         write (*, '(a, "|", es24.16, "|", a)') 'none', scene%target(i), trim(solution%status)
+         write (*, '(a, "|", es24.16, "|", a)') 'none', scene%target(i), trim(status_name(solution%status))
       end select
    end do
 

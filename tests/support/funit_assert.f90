@@ -252,7 +252,7 @@ contains
          return
       end if
 
-      call require_conformable(assertion, shape(expected), shape(actual), message, location, conform)
+      call require_conformable(assertion, shape_of(expected), shape_of(actual), message, location, conform)
       if (.not. conform) return
       allocate (a, source=flat_reals(actual))
       allocate (e, source=flat_reals(expected))
@@ -266,7 +266,7 @@ contains
       end if
       if (present(tolerance)) difference = difference//' (tolerance '//real_text(tolerance)//')'
       call fail_elements(assertion, relation, real_text(e(first)), real_text(a(first)), difference, first, &
-         count(.not. holds_reals(relation, e, a, allowed)), shape(actual), message, location)
+         count(.not. holds_reals(relation, e, a, allowed)), shape_of(actual), message, location)
    end subroutine check_reals
 
    subroutine check_integers(assertion, relation, expected, actual, message, location)
@@ -280,7 +280,7 @@ contains
       logical :: conform
 
       call count_assertion()
-      call require_conformable(assertion, shape(expected), shape(actual), message, location, conform)
+      call require_conformable(assertion, shape_of(expected), shape_of(actual), message, location, conform)
       if (.not. conform) return
       allocate (a, source=flat_integers(actual))
       allocate (e, source=flat_integers(expected))
@@ -290,7 +290,7 @@ contains
       ! In reals, which hold every difference of default integers exactly.
       call fail_elements(assertion, relation, integer_text(e(first)), integer_text(a(first)), &
          whole_text(real(a(first), dp) - real(e(first), dp)), first, &
-         count(.not. holds_integers(relation, e, a)), shape(actual), message, location)
+         count(.not. holds_integers(relation, e, a)), shape_of(actual), message, location)
    end subroutine check_integers
 
    subroutine check_logicals(assertion, expected, actual, message, location)
@@ -304,7 +304,7 @@ contains
       logical :: conform
 
       call count_assertion()
-      call require_conformable(assertion, shape(expected), shape(actual), message, location, conform)
+      call require_conformable(assertion, shape_of(expected), shape_of(actual), message, location, conform)
       if (.not. conform) return
       allocate (a, source=flat_logicals(actual))
       allocate (e, source=flat_logicals(expected))
@@ -313,7 +313,7 @@ contains
       if (first == 0) return
       call fail_elements(assertion, '==', merge('.true. ', '.false.', e(first)), &
          merge('.true. ', '.false.', a(first)), '', first, count(e .neqv. a), &
-         shape(actual), message, location)
+         shape_of(actual), message, location)
    end subroutine check_logicals
 
    ! ---- comparing ----
@@ -417,6 +417,19 @@ contains
             indent//'actual:     shape '//list_text(actual)//', which cannot be compared', message, location)
       end if
    end subroutine require_conformable
+
+   !> The shape. gfortran 11 writes beyond the result of `shape` for a scalar of assumed rank.
+   function shape_of(x) result(extents)
+      type(*), intent(in) :: x(..)
+      integer, allocatable :: extents(:)
+
+      integer :: i
+
+      allocate (extents(rank(x)))
+      do i = 1, size(extents)
+         extents(i) = size(x, i)
+      end do
+   end function shape_of
 
    function flat_reals(x) result(flat)
       real(dp), intent(in) :: x(..)

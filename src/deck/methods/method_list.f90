@@ -8,7 +8,7 @@ module wavycon_method_list
    use wavycon_grid_method, only: grid_method
    use wavycon_group_values, only: group_values
    use wavycon_key_alternatives, only: alternative_type
-   use wavycon_key_table, only: in_quotes, listed
+   use wavycon_plain_text, only: in_quotes, listed
    use wavycon_solver_method, only: solver_method
    use wavycon_surface, only: surface_type
    implicit none (type, external)

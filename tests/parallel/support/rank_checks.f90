@@ -43,7 +43,7 @@ contains
    subroutine end_checks()
       failed = any_rank(.not. good) .or. failed
       call end_ranks(merge(1, 0, failed))
-      if (failed) error stop 1, quiet=.true.
+      if (failed) error stop 1
    end subroutine end_checks
 
 end module rank_checks

@@ -1,0 +1,204 @@
+!> kind = 'file': a height map.
+module wavycon_height_map_kind
+   use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
+   use wavycon_group_values, only: group_values
+   use wavycon_height_map, only: surface_of_map
+   use wavycon_key_table, only: choice_key, real_key, text_key
+   use wavycon_kinds, only: dp
+   use wavycon_length_unit, only: convert_lengths
+   use wavycon_map_file, only: read_height_map
+   use wavycon_map_statistics, only: map_statistics
+   use wavycon_map_tuning, only: usual_window_width
+   use wavycon_measured_map, only: measured_map
+   use wavycon_plain_text, only: clauses, escaped, integer_text, short_number
+   use wavycon_prepare_map, only: map_preparation
+   use wavycon_problems, only: problem_list_type
+   use wavycon_ranks, only: share_error
+   use wavycon_surface, only: surface_type
+   use wavycon_surface_keys, only: length_x_key, length_y_key
+   use wavycon_surface_kind, only: surface_kind
+   use wavycon_system, only: full_path, path_absent, path_kind
+   implicit none (type, external)
+   private
+
+   public :: height_map_kind, preparation_of
+
+   integer, parameter :: longest_path = 1000
+
+contains
+
+   type(surface_kind) function height_map_kind() result(kind)
+      kind%name = 'file'
+      kind%meaning = 'a height map'
+      allocate (kind%keys, source=[ &
+         length_x_key(), &
+         length_y_key('side of the periodic cell along y; without it points are equally far apart along x and y.'), &
+         text_key('file', '', &
+            'a periodic map of heights, upwards to the other body; looked for beside the deck, then where the '// &
+            "program is started. The last row and column are the cell's last, not copies of the first.", &
+            longest_path, required=.true.), &
+         choice_key('file_format', "'auto'", &
+            "'matrix', a row of heights for each y; 'xyz', lines of x, y, z on a regular grid; 'xz', lines of x "// &
+            "and z of a profile; 'npy' of numpy; 'gsf' of Gwyddion; 'gnuplot', its binary matrix; 'auto', what the "// &
+            'file looks like, xyz if all lines have three numbers, xz if all have two. xyz, xz and gnuplot give the '// &
+            'sides of the cell, gsf and heads of texts also units: leave out length_x and length_y.', &
+            [character(7) :: 'auto', 'matrix', 'xyz', 'xz', 'npy', 'gsf', 'gnuplot']), &
+         real_key('missing_value', '', '-', 'heights of the file that have this value are missing, as are nan and '// &
+            'empty fields between commas, semicolons or tabs.'), &
+         real_key('height_scale', '1.0', 'length', "length of one unit of the file's heights; beside a file with "// &
+            'units a factor.', above=0.0_dp), &
+         choice_key('detrend', "'none'", &
+            "what is subtracted first, fitted to the heights that are there by least squares: 'mean', 'plane' or "// &
+            "'quadratic', a polynomial of the second degree.", &
+            [character(9) :: 'none', 'mean', 'plane', 'quadratic']), &
+         choice_key('fill_missing', "'none'", &
+            "heights that are missing: 'none', they are an error; 'harmonic', filled after `detrend` by the "// &
+            "smooth surface of Laplace's equation.", [character(8) :: 'none', 'harmonic']), &
+         choice_key('edges', "'periodic'", &
+            "how the map continues beyond its borders: 'periodic', its last points are neighbours of its first; "// &
+            "'mirror', by its mirror images; 'window', periodic after a taper to the mean at the borders.", &
+            [character(8) :: 'periodic', 'mirror', 'window']), &
+         real_key('window_width', short_number(usual_window_width), '-', &
+            "with edges = 'window': width of the taper at each border, over the side.", above=0.0_dp, most=0.5_dp)])
+      kind%make => make
+      kind%check => check
+   end function height_map_kind
+
+   subroutine check(values, problems)
+      type(group_values), intent(in) :: values
+      type(problem_list_type), intent(inout) :: problems
+
+      if (values%has('window_width') .and. values%text('edges') /= 'window') &
+         call values%complain(problems, 'window_width', "window_width is for edges = 'window'")
+   end subroutine check
+
+   !> Reads the map. Errors: exit_file_trouble if the file cannot be read, exit_bad_input if it is not a map, its holes
+   !> are not to be filled, its heights are out of range, its unit is unknown, or the deck gives sides of the cell beside
+   !> those of the file, which may be in another unit.
+   subroutine make(values, surface, map, error)
+      type(group_values), intent(inout) :: values
+      type(surface_type), intent(out) :: surface
+      type(map_statistics), allocatable, intent(out) :: map
+      type(error_type), allocatable, intent(out) :: error
+
+      type(measured_map) :: heights
+      character(:), allocatable :: assumed_sides, file, path
+      real(dp) :: length(2)
+
+      if (values%text('edges') /= 'window') call values%leave_out('window_width')
+      file = values%text('file')
+      path = place_of_map(values%deck_path, file)
+      if (path_kind(path) == path_absent .and. file(1:1) /= '/') then
+         call fatal_error(error, exit_file_trouble, escaped(file)// &
+                          ': there is no such file beside the deck, nor where the program was started')
+      end if
+      call share_error(error)
+      if (.not. allocated(error)) call read_map(values, path, heights, error)
+      call share_error(error)
+      if (.not. allocated(error)) call take_sides(values, path, heights, length, assumed_sides, error)
+      if (.not. allocated(error)) call surface_of_map(path, preparation_of(values), values%real('height_scale'), &
+                                                      length, heights, surface, map, error)
+      if (allocated(error)) then
+         error%message = error%message//' (the height map of '//escaped(values%deck_path)//')'
+         return
+      end if
+      map%path = full_path(path)
+      map%assumed_sides = assumed_sides
+      map%lacks_missing_value = values%has('missing_value') .and. .not. heights%has_missing_value
+      if (allocated(heights%length_unit)) map%length_unit = heights%length_unit
+   end subroutine make
+
+   !> Reads the map and converts its lengths to the deck's unit. Errors: as of `make`.
+   subroutine read_map(values, path, heights, error)
+      type(group_values), intent(in) :: values
+      character(*), intent(in) :: path
+      type(measured_map), intent(out) :: heights
+      type(error_type), allocatable, intent(out) :: error
+
+      character(:), allocatable :: unit
+      real(dp), allocatable :: missing_value   ! not allocated: the argument is absent
+
+      if (values%has('missing_value')) missing_value = values%real('missing_value')
+      ! The equations of holes need the whole map.
+      call read_height_map(path, values%text('file_format'), heights, error, missing_value, &
+                           in_slabs=values%text('fill_missing') == 'none')
+      if (allocated(error)) return
+      unit = ''
+      if (allocated(values%length_unit)) unit = values%length_unit
+      call convert_lengths(path, unit, heights, error)
+   end subroutine read_map
+
+   !> How the keys say that the map is prepared.
+   type(map_preparation) function preparation_of(values)
+      type(group_values), intent(in) :: values
+
+      preparation_of = map_preparation(values%text('detrend'), values%text('fill_missing'), values%text('edges'), &
+                                       values%real('window_width'))
+   end function preparation_of
+
+   !> The sides of the cell: those of the file, those of the deck, or assumed ones. Errors: exit_bad_input if file and
+   !> deck give one.
+   subroutine take_sides(values, path, heights, length, assumed, error)
+      type(group_values), intent(inout) :: values
+      character(*), intent(in) :: path
+      type(measured_map), intent(in) :: heights
+      real(dp), intent(out) :: length(2)           !! L_x, L_y [length]; of a profile the second is not used
+      character(:), allocatable, intent(out) :: assumed   !! the sides that neither gives, in words; empty if none
+      type(error_type), allocatable, intent(out) :: error
+
+      character(*), parameter :: keys(2) = ['length_x', 'length_y']
+      character(:), allocatable :: sides, unit
+      integer :: d, points(2)
+      logical :: is_given(2)   ! by the deck
+
+      assumed = ''
+      unit = ''
+      if (allocated(values%length_unit)) unit = ' ['//escaped(values%length_unit)//']'
+      if (allocated(heights%length_unit)) unit = ' ['//escaped(heights%length_unit)//']'
+      is_given = [values%has(keys(1)), values%has(keys(2))]
+      points = heights%points()
+      associate (m => points(1), n => points(2), step => heights%step)
+         if (step(1) > 0.0_dp .and. .not. (all(heights%is_usual_side) .and. any(is_given))) then
+            length = step*[m, n]
+            if (n == 1) length(2) = length(1)
+            sides = short_number(length(1))
+            if (n > 1) sides = sides//' x '//short_number(length(2))
+            if (any(is_given .and. .not. heights%is_usual_side)) &
+               call fatal_error(error, exit_bad_input, escaped(path)//': the file gives the sides of the cell, '// &
+                                sides//unit//': leave out length_x and length_y')
+            do d = 1, merge(1, 2, n == 1)
+               if (is_given(d)) length(d) = values%real(keys(d))
+               if (is_given(d)) cycle
+               call values%leave_out(keys(d))
+               if (heights%is_usual_side(d)) assumed = clauses(assumed, keys(d)//' = '//short_number(length(d))// &
+                  unit//' is assumed: the file does not give it, and 1 is the default of .gsf files')
+            end do
+            if (n == 1) call values%leave_out('length_y')
+            return
+         end if
+         length = values%real('length_x')
+         if (.not. is_given(1)) assumed = 'length_x = '//short_number(length(1))//unit// &
+                                          ' is assumed: neither the deck nor the file gives it'
+         if (n > 1 .and. .not. is_given(2)) then
+            length(2) = length(1)*n/m
+            sides = 'length_y = length_x'
+            if (m /= n) sides = sides//'*'//integer_text(n)//'/'//integer_text(m)
+            assumed = clauses(assumed, sides//': the points are equally far apart along x and y')
+         end if
+         call values%set_default('length_y', length(2))
+         length(2) = values%real('length_y')
+      end associate
+   end subroutine take_sides
+
+   !> The path of the map: in the directory of the deck or, if it is not there, in the one the program was started in.
+   function place_of_map(deck_path, file) result(path)
+      character(*), intent(in) :: deck_path, file
+      character(:), allocatable :: path
+
+      path = deck_path(:index(deck_path, '/', back=.true.))//file
+      if (file(1:1) == '/') path = file
+      if (path_kind(path) /= path_absent) return
+      if (path_kind(file) /= path_absent) path = file
+   end function place_of_map
+
+end module wavycon_height_map_kind

@@ -1,0 +1,56 @@
+!> The list of all kinds of surface. A new kind adds its line to `get_surface_kinds`.
+module wavycon_surface_kinds
+   use wavycon_crossed_1d_kind, only: crossed_1d_kind
+   use wavycon_height_map_kind, only: height_map_kind
+   use wavycon_hexagonal_kind, only: hexagonal_kind
+   use wavycon_plain_text, only: listed
+   use wavycon_self_affine_kind, only: self_affine_kind
+   use wavycon_surface_kind, only: surface_kind
+   use wavycon_wave_1d_kind, only: wave_1d_kind
+   use wavycon_wave_2d_kind, only: wave_2d_kind
+   use wavycon_wave_sum_kind, only: wave_sum_kind
+   implicit none (type, external)
+   private
+
+   public :: get_surface_kinds, paper_waves, is_paper_kind
+
+   integer, parameter, public :: number_of_kinds = 7
+
+contains
+
+   !> All kinds, in the order of the key reference.
+   subroutine get_surface_kinds(kinds)
+      type(surface_kind), intent(out) :: kinds(number_of_kinds)
+
+      kinds(1) = wave_1d_kind()
+      kinds(2) = wave_2d_kind()
+      kinds(3) = crossed_1d_kind()
+      kinds(4) = hexagonal_kind()
+      kinds(5) = wave_sum_kind()
+      kinds(6) = height_map_kind()
+      kinds(7) = self_affine_kind()
+   end subroutine get_surface_kinds
+
+   !> The kinds that are waves of Johnson, Greenwood & Higginson (1985), eqs. (3) and (21), and their conditions, for
+   !> messages.
+   function paper_waves() result(words)
+      character(:), allocatable :: words
+
+      type(surface_kind) :: kinds(number_of_kinds)
+
+      call get_surface_kinds(kinds)
+      words = listed(pack(kinds%paper_wave_if, kinds%paper_wave_if /= ''))
+   end function paper_waves
+
+   !> Whether a kind is by definition a wave of the paper, perhaps on a condition. A sum of waves may equal one; use
+   !> surface_type%is_paper_wave to find out.
+   logical function is_paper_kind(name)
+      character(*), intent(in) :: name   !! of a kind; .false. for any other text
+
+      type(surface_kind) :: kinds(number_of_kinds)
+
+      call get_surface_kinds(kinds)
+      is_paper_kind = any(kinds%name == name .and. kinds%paper_wave_if /= '')
+   end function is_paper_kind
+
+end module wavycon_surface_kinds
