@@ -42,6 +42,19 @@ module wavycon_wavy_solver
       integer(c_int) :: dimension = 0          !! 1 for a profile, otherwise 2
    end type wavy_scales
 
+   !> In C a thread that solves a load lets others into the library meanwhile, but not into this solver: c_lock.c.
+   interface
+      subroutine begin_solve(is_solving) bind(c, name='wavycon_begin_solve')
+         import :: c_int
+         integer(c_int), intent(inout) :: is_solving
+      end subroutine begin_solve
+
+      subroutine end_solve(is_solving) bind(c, name='wavycon_end_solve')
+         import :: c_int
+         integer(c_int), intent(inout) :: is_solving
+      end subroutine end_solve
+   end interface
+
    !> A solver of one surface. It may start a load from the one solved before, which is fastest from high to low loads.
    type :: wavy_solver
       private
@@ -57,6 +70,7 @@ module wavycon_wavy_solver
       real(dp), allocatable :: mean_pressure(:)
       type(stress_setting), allocatable :: stress     !! of the deck's &stress or of set_stress
       character(:), allocatable :: trouble            !! why it could not be made
+      integer(c_int) :: is_solving = 0                !! 1: a thread of a C program solves a load
    contains
       procedure :: is_made
       procedure :: name => get_name
@@ -304,7 +318,9 @@ contains
 
       if (loads_by == by_yield) call check_yield(self, error)
       if (allocated(error)) return
+      call begin_solve(self%is_solving)
       call solve_target(self%solver, loads_by, target, found, self%stress)
+      call end_solve(self%is_solving)
       if (present(mean_pressure)) then
          pressure = mean_pressure
       else

@@ -17,8 +17,9 @@
    fastest: element [j][i] of double a[points_y][points_x] is at x number i, y number j. In numpy they have the shape
    (points_y, points_x). Texts end in a null character; those that do not fit into `buffer` are cut.
 
-   Threads may share the library and its objects: a call waits until that of another thread has ended. To use several
-   processors, see wavycon_set_threads, which is for the whole program, or solve in several processes. */
+   Threads may share the library and its objects. Loads are solved at the same time, each with a solver of its own; any
+   other call, and a second one with the same solver, waits until that of another thread has ended. No thread may delete
+   what another uses. To use several processors for one large grid, see wavycon_set_threads. */
 #ifndef WAVYCON_H
 #define WAVYCON_H
 

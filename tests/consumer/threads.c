@@ -4,7 +4,7 @@
 #include <string.h>
 #include <wavycon.h>
 
-enum { number_of_threads = 4, points = 16, repeats = 2 };
+enum { number_of_threads = 8, points = 16, repeats = 2 };
 static double heights[points][points];
 
 typedef struct results {
@@ -50,6 +50,31 @@ static void *work(void *answer)
     return NULL;
 }
 
+/* The lock of the library. */
+void wavycon_lock(void);
+void wavycon_unlock(void);
+void wavycon_begin_solve(int *is_solving);
+void wavycon_end_solve(int *is_solving);
+
+static void *call(void *unused)
+{
+    wavycon_delete(&(wavycon_error){wavycon_new_error()});
+    return unused;
+}
+
+/* Hangs unless a thread gets into the library while another one solves. */
+static void calls_go_on_while_a_load_is_solved(void)
+{
+    pthread_t other;
+    int is_solving = 0;
+    wavycon_lock();
+    wavycon_begin_solve(&is_solving);
+    pthread_create(&other, NULL, call, NULL);
+    pthread_join(other, NULL);
+    wavycon_end_solve(&is_solving);
+    wavycon_unlock();
+}
+
 int main(void)
 {
     static results all[number_of_threads + 1];
@@ -60,6 +85,7 @@ int main(void)
         state = 1664525u*state + 1013904223u;
         heights[k/points][k%points] = state/4294967296.0;
     }
+    calls_go_on_while_a_load_is_solved();
     for (int i = 0; i < number_of_threads; i++)
         pthread_create(&threads[i], NULL, work, &all[i]);
     for (int i = 0; i < number_of_threads; i++)
