@@ -6,7 +6,8 @@ module wavycon_grid_solution
    use wavycon_contact_solution, only: contact_solution
    use wavycon_edge_curves, only: edge_curve, shift_curve, strip_ends, trace_edges, turn_curves, whole_strips
    use wavycon_fourier_series, only: fourier_series
-   use wavycon_grid_edge, only: grid_edge, grid_strip_edges, make_grid_edge
+   use wavycon_grid_area, only: grid_strip_edges
+   use wavycon_grid_edge, only: grid_edge, make_grid_edge
    use wavycon_grid_fields, only: grid_fields, start_grid_fields
    use wavycon_grid_slab, only: grid_slab
    use wavycon_grid_transform, only: grid_transform
