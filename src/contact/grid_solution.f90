@@ -169,9 +169,9 @@ contains
       is_kept = .true.
    end function is_kept
 
-   !> The imprint, the stiffness of `edge`, the points along x and y (zeros if the fields were not kept), the width of the
-   !> slabs and the first column of this rank's, whether the cell is turned, whether the grid covers a quarter of it, and
-   !> the pressures and gaps at the own columns.
+   !> The imprint, the stiffness of `edge`, the points along x and y (zeros if the fields were not kept), the width of
+   !> the slabs and the first column of this rank's, whether the cell is turned, whether the grid covers a quarter of it,
+   !> and the pressures and gaps at the own columns.
    pure subroutine pack_kept(self, values)
       class(grid_solution), intent(in) :: self
       real(dp), allocatable, intent(out) :: values(:)
