@@ -9,7 +9,8 @@ module wavycon_grid_cascade
    use wavycon_contact_measures, only: known_errors, unknown
    use wavycon_contact_tuning, only: iteration_limit, iterations_of_root
    use wavycon_counted_area, only: corrected_area_fraction, counted_area_fraction
-   use wavycon_grid_edge, only: grid_contact_area, grid_edge, joined, make_grid_edge, pressure_per_gap, start_grid_edge
+   use wavycon_grid_area, only: grid_contact_area
+   use wavycon_grid_edge, only: grid_edge, joined, make_grid_edge, pressure_per_gap, start_grid_edge
    use wavycon_grid_error, only: change_history, estimate_errors, unresolved_errors
    use wavycon_grid_peak, only: grid_peak_pressure
    use wavycon_grid_plan, only: finer_grid, fits_memory, grid_plan, plan_grids

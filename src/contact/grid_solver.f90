@@ -101,8 +101,8 @@ contains
       state%corrections = state%corrections + 1
       ! A correction without iterations corrects the approach alone. It counts, so that the number of steps is limited.
       state%iterations = state%iterations + max(1, correction%iterations)
-      state%local_iterations = state%local_iterations + correction%local_iterations
-      state%plain_iterations = state%plain_iterations + correction%plain_iterations
+      state%local_iterations = state%local_iterations + correction%preconditioner%local_iterations
+      state%plain_iterations = state%plain_iterations + correction%preconditioner%plain_iterations
    end subroutine correct_pressure
 
    !> The mean gap of surfaces that touch where they overlap, G [Delta]: zero if no point is open.

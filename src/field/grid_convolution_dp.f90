@@ -2,6 +2,7 @@
 module wavycon_grid_convolution_dp
    use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr
    use, intrinsic :: iso_fortran_env, only: int64
+   use wavycon_assertion, only: assert, assertions_stop
    use wavycon_constants, only: pi
    use wavycon_fftw, only: execute_real_to_waves => fftw_execute_dft_r2c, execute_waves => fftw_execute_dft, &
                            execute_waves_to_real => fftw_execute_dft_c2r
@@ -20,5 +21,6 @@ module wavycon_grid_convolution_dp
    logical, parameter :: keeps_lines = .false.
 
    include 'grid_convolution.inc'
+   include 'spectrum_rows.inc'
 
 end module wavycon_grid_convolution_dp

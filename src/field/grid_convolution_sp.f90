@@ -2,6 +2,7 @@
 module wavycon_grid_convolution_sp
    use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr
    use, intrinsic :: iso_fortran_env, only: int64
+   use wavycon_assertion, only: assert, assertions_stop
    use wavycon_constants, only: pi
    use wavycon_fftw, only: execute_real_to_waves => fftwf_execute_dft_r2c, execute_waves => fftwf_execute_dft, &
                            execute_waves_to_real => fftwf_execute_dft_c2r
@@ -18,5 +19,6 @@ module wavycon_grid_convolution_sp
    logical, parameter :: keeps_lines = .true.
 
    include 'grid_convolution.inc'
+   include 'spectrum_rows.inc'
 
 end module wavycon_grid_convolution_sp

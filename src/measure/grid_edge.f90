@@ -2,9 +2,9 @@
 !> src/contact/README.md.
 !>
 !> The points are those of wavycon_grid_transform: M x N on a quarter of the cell, whose mirror images fill the
-!> plane, or on the whole cell. Of a grid that is spread over ranks, each has the edge in its own columns; its area is
-!> that of the grid, and needs the columns of the neighbours that `fetch_neighbours` gets. The pressure of the last point in contact and the gap of the first outside are both
-!> linear in the place of the edge between them, so that their ratio gives the place.
+!> plane, or on the whole cell. Of a grid that is spread over ranks, each has the edge in its own columns and in those
+!> of the neighbours that `fetch_neighbours` gets. The pressure of the last point in contact and the gap of the first
+!> outside are both linear in the place of the edge between them, so that their ratio gives the place.
 module wavycon_grid_edge
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_constants, only: pi
@@ -12,13 +12,12 @@ module wavycon_grid_edge
    use wavycon_grid_slab, only: grid_slab
    use wavycon_grid_transform, only: image_of_point, point_angle
    use wavycon_kinds, only: dp
-   use wavycon_line_zeros, only: length_inside
    use wavycon_measure_tuning, only: aligned_slope, edge_offset, gap_weight, turn_area
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
 
-   public :: grid_edge, grid_contact_area, grid_strip_edges, joined, make_grid_edge, pressure_per_gap, start_grid_edge
+   public :: grid_edge, aligned_part, angle_steps, balance, joined, make_grid_edge, pressure_per_gap, start_grid_edge
 
    type, extends(contact_edge) :: grid_edge
       !> The pressure, > 0, in contact, minus the gap, <= 0, elsewhere, in any unit, at the own columns of the grid, shape
@@ -49,7 +48,7 @@ module wavycon_grid_edge
 
    !> Of an edge that runs along a line of the grid (C11): the weight of the first gap, times E*/(2 h), against the last
    !> pressure; and how far inside the last point in contact the edge lies when that pressure vanishes, in steps.
-   real(dp), parameter :: aligned_weight = pi/exp(1.0_dp), aligned_offset = 0.19000928592905364_dp
+   real(dp), parameter, public :: aligned_weight = pi/exp(1.0_dp), aligned_offset = 0.19000928592905364_dp
 
 contains
 
@@ -236,19 +235,19 @@ contains
       class(grid_edge), intent(in) :: self
       integer, intent(in) :: k, l, number
 
-      integer :: k_in, l_in, k_out, l_out
+      integer :: inner, k_in, l_in, k_out, l_out, outer
       real(dp) :: phi_in, theta_in, phi_out, theta_out, t
+      logical :: first
 
-      k_in = k + corner_k(number)
-      l_in = l + corner_l(number)
-      k_out = k + corner_k(number + 1)
-      l_out = l + corner_l(number + 1)
-      point%exists = self%in_contact(k_in, l_in) .neqv. self%in_contact(k_out, l_out)
+      first = self%in_contact(k + corner_k(number), l + corner_l(number))
+      point%exists = first .neqv. self%in_contact(k + corner_k(number + 1), l + corner_l(number + 1))
       if (.not. point%exists) return
-      if (self%in_contact(k_out, l_out)) then
-         call swap(k_in, k_out)
-         call swap(l_in, l_out)
-      end if
+      inner = merge(number, number + 1, first)
+      outer = merge(number + 1, number, first)
+      k_in = k + corner_k(inner)
+      l_in = l + corner_l(inner)
+      k_out = k + corner_k(outer)
+      l_out = l + corner_l(outer)
       t = balance(self, k_in, l_in, k_out, l_out, gap_weight)
       call self%angles(k_in, l_in, phi_in, theta_in)
       call self%angles(k_out, l_out, phi_out, theta_out)
@@ -316,81 +315,6 @@ contains
       area = product(angle_steps(self))*(turn_area*turns + aligned_part(self, k, l, low, high))
    end function area_correction
 
-   !> The fraction of the surface in contact: (C11) in 1-D, (C12) in 2-D. Of a grid that is spread, after
-   !> `fetch_neighbours`; all ranks must call it.
-   real(dp) function grid_contact_area(edge) result(fraction)
-      type(grid_edge), intent(in) :: edge
-
-      real(dp), allocatable :: areas(:, :), edges(:)
-      integer :: j
-
-      if (edge%slab%points(2) == 1) then
-         call grid_strip_edges(edge, edges)
-         if (edge%even) then
-            fraction = length_inside(edges, edge%in_contact(1, 1), 0.0_dp, pi)/pi
-         else
-            fraction = length_inside(edges, edge%in_contact(1, 1), 0.0_dp, 2*pi)/(2*pi)
-         end if
-         return
-      end if
-
-      allocate (areas(1, edge%slab%columns()))
-      do j = edge%slab%first, edge%slab%last
-         areas(1, j - edge%slab%first + 1) = area_of_cells(edge, j)
-      end do
-      ! The mirror line divides the cells at the rim of the quarter.
-      if (edge%even .and. edge%slab%first == 1 .and. edge%slab%columns() > 0) &
-         areas(1, 1) = areas(1, 1) + area_of_cells(edge, 0)
-      fraction = max(sum(edge%slab%column_totals(areas)), 0.0_dp)/edge%number_of_points()
-   end function grid_contact_area
-
-   !> The area in contact of a column of cells [cells], by (C12).
-   pure real(dp) function area_of_cells(edge, l) result(area)
-      type(grid_edge), intent(in) :: edge
-      integer, intent(in) :: l   !! the column of points before
-
-      logical :: high(0:edge%slab%points(1) + 1), low(0:edge%slab%points(1) + 1)
-      real(dp) :: share, steps(2)
-      integer :: i, m
-
-      m = edge%slab%points(1)
-      steps = angle_steps(edge)
-      low = edge%contact_of_column(l)
-      high = edge%contact_of_column(l + 1)
-      area = 0.0_dp
-      if (.not. any(low) .and. .not. any(high)) return
-      do i = merge(0, 1, edge%even), m
-         share = 1.0_dp
-         if (edge%even) then
-            ! The mirror lines divide the cells at the rim of the quarter: half of each counts.
-            share = merge(0.5_dp, 1.0_dp, i == 0 .or. i == m) &
-                    *merge(0.5_dp, 1.0_dp, l == 0 .or. l == edge%slab%points(2))
-         end if
-         if (all([low(i:i + 1), high(i:i + 1)])) then
-            area = area + share
-         else if (any([low(i:i + 1), high(i:i + 1)])) then
-            area = area + share*(edge%cell_area(i, l)/product(steps) &
-                                 + turn_area*turns(low(i:i + 1), high(i:i + 1)) &
-                                 + aligned_part(edge, i, l, low(i:i + 1), high(i:i + 1)))
-         end if
-      end do
-   end function area_of_cells
-
-   !> Turns of the edge in one cell, positive where the contact is convex; their sum over a closed edge is 1 or -1.
-   !> Parts in contact that meet at a corner are taken as connected, as in cell_area.
-   pure real(dp) function turns(low, high)
-      logical, intent(in) :: low(2), high(2)   !! whether the corners are in contact
-
-      select case (count([low, high]))
-      case (1)
-         turns = 0.25_dp
-      case (2)
-         turns = merge(-0.5_dp, 0.0_dp, (low(1) .eqv. high(2)) .and. (low(1) .neqv. low(2)))
-      case default
-         turns = -0.25_dp
-      end select
-   end function turns
-
    !> What (C11) adds to the area of a cell, in cells, where the edge runs along a line of the grid.
    pure real(dp) function aligned_part(edge, k, l, low, high) result(change)
       type(grid_edge), intent(in) :: edge
@@ -420,49 +344,5 @@ contains
       aligned = [(balance(edge, k_in(i), l_in(i), k_out(i), l_out(i), aligned_weight), i=1, 2)]
       change = (1.0_dp - slope/aligned_slope)*(0.5_dp*sum(aligned - any_direction) - aligned_offset + edge_offset)
    end function aligned_part
-
-   !> The edges of contact in 1-D, ascending [rad]: between 0 and pi of an even surface, otherwise within a period from
-   !> the first point.
-   pure subroutine grid_strip_edges(edge, edges)
-      type(grid_edge), intent(in) :: edge
-      real(dp), allocatable, intent(out) :: edges(:)
-
-      real(dp) :: found(edge%slab%points(1)), step
-      integer :: i, count
-
-      count = 0
-      step = angle(edge, 2, 1) - angle(edge, 1, 1)
-      do i = 1, size(found) - merge(1, 0, edge%even)
-         if (edge%in_contact(i, 1) .eqv. edge%in_contact(i + 1, 1)) cycle
-         count = count + 1
-         if (edge%in_contact(i, 1)) then
-            found(count) = angle(edge, i, 1) + step*distance_to_edge(edge, i, 1)
-         else
-            found(count) = angle(edge, i + 1, 1) - step*distance_to_edge(edge, i + 1, -1)
-         end if
-      end do
-      allocate (edges, source=found(:count))
-   end subroutine grid_strip_edges
-
-   !> The distance of the edge from a point in contact towards its neighbour outside in 1-D, in steps (C11).
-   pure real(dp) function distance_to_edge(edge, k, dk) result(distance)
-      type(grid_edge), intent(in) :: edge
-      integer, intent(in) :: k    !! the point in contact
-      integer, intent(in) :: dk   !! the step to its neighbour, 1 or -1
-
-      distance = balance(edge, k, 1, k + dk, 1, aligned_weight) - aligned_offset
-      ! A contact of one point has no negative width.
-      if (.not. edge%in_contact(k - dk, 1)) distance = max(distance, 0.0_dp)
-   end function distance_to_edge
-
-   elemental subroutine swap(a, b)
-      integer, intent(inout) :: a, b
-
-      integer :: c
-
-      c = a
-      a = b
-      b = c
-   end subroutine swap
 
 end module wavycon_grid_edge

@@ -9,12 +9,14 @@ program test_spread_solutions
    use wavycon_contact_solution, only: contact_solution
    use wavycon_counted_area, only: corrected_area_fraction, counted_area_fraction, edge_crossings
    use wavycon_find_load, only: solve_for_contact_area, solve_for_mean_gap
-   use wavycon_grid_contact, only: grid_contact, grid_solution
-   use wavycon_grid_edge, only: grid_contact_area, grid_edge, start_grid_edge
+   use wavycon_grid_area, only: grid_contact_area
+   use wavycon_grid_contact, only: grid_contact
+   use wavycon_grid_edge, only: grid_edge, start_grid_edge
    use wavycon_grid_error, only: unresolved_errors
    use wavycon_grid_peak, only: grid_peak_pressure
    use wavycon_grid_plan, only: fits_memory
    use wavycon_grid_slab, only: grid_slab, least_spread_points
+   use wavycon_grid_solution, only: grid_solution
    use wavycon_kinds, only: dp
    use wavycon_mpi_ranks, only: start_mpi
    use wavycon_ranks, only: is_first_rank, rank_count, work_alone

@@ -5,8 +5,8 @@
 !> pressure and the mean gap of the solution; its gap is checked.
 module stress_kkt_of_grid
    use, intrinsic :: iso_fortran_env, only: real128
-   use wavycon_grid_contact, only: grid_solution
    use wavycon_grid_edge, only: grid_edge
+   use wavycon_grid_solution, only: grid_solution
    use wavycon_kinds, only: dp
    use wavycon_surface, only: surface_type
    implicit none (type, external)

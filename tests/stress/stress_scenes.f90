@@ -14,7 +14,7 @@ program stress_scenes
    use wavycon_deck, only: deck_type
    use wavycon_error, only: error_type
    use wavycon_fitted_solution, only: fitted_solution
-   use wavycon_grid_contact, only: grid_solution
+   use wavycon_grid_solution, only: grid_solution
    use wavycon_kinds, only: dp
    use wavycon_read_deck, only: read_deck
    use wavycon_make_scene, only: make_scene

@@ -1,0 +1,275 @@
+!> The solution of a load on a grid: its fields, edge curves and stresses, and what a checkpoint keeps of it.
+module wavycon_grid_solution
+   use, intrinsic :: iso_fortran_env, only: int64
+   use wavycon_contact_fields, only: contact_fields
+   use wavycon_contact_measures, only: or_nan
+   use wavycon_contact_solution, only: contact_solution
+   use wavycon_edge_curves, only: edge_curve, shift_curve, strip_ends, trace_edges, turn_curves, whole_strips
+   use wavycon_fourier_series, only: fourier_series
+   use wavycon_grid_area, only: grid_strip_edges
+   use wavycon_grid_edge, only: grid_edge, make_grid_edge
+   use wavycon_grid_fields, only: grid_fields, start_grid_fields
+   use wavycon_grid_slab, only: grid_slab
+   use wavycon_grid_transform, only: grid_transform
+   use wavycon_kinds, only: dp
+   use wavycon_measure_tuning, only: edge_offset
+   use wavycon_ranks, only: gather_columns, is_first_rank
+   use wavycon_region_numbers, only: region_numbers
+   use wavycon_series_stress, only: series_stress, start_series_stress
+   use wavycon_stress_fields, only: stress_fields
+   use wavycon_surface, only: surface_type
+   use wavycon_system, only: has_memory_for
+   use wavycon_turned_series, only: to_difference_angles
+   implicit none (type, external)
+   private
+
+   public :: grid_solution
+
+   type, extends(contact_solution) :: grid_solution
+      type(grid_edge), allocatable :: edge    !! pressure and gap at the grid points; not allocated if not kept
+      logical :: turned = .false.    !! the grid's cell is the smaller one, turned by 45 degrees
+      real(dp) :: imprint = 0.0_dp            !! mean overlap where p = H [Delta] (C22)
+   contains
+      procedure :: fields
+      procedure :: edge_curves
+      procedure :: stresses
+      procedure :: spread_points
+      procedure :: collect_fields
+      procedure :: is_kept
+      procedure :: pack_kept
+      procedure :: unpack_kept
+   end type grid_solution
+
+   !> Numbers in the array of pack_kept before the field.
+   integer, parameter :: own_values = 9
+
+contains
+
+   pure integer(int64) function spread_points(self)
+      class(grid_solution), intent(in) :: self
+
+      spread_points = 0
+      if (.not. allocated(self%edge)) return
+      if (self%edge%slab%is_spread) spread_points = product(int(self%edge%slab%points, int64))
+   end function spread_points
+
+   !> Gathers the fields of a solution whose grid is spread over the ranks on the first of them; the others have none
+   !> afterwards. All ranks must call it.
+   subroutine collect_fields(self)
+      class(grid_solution), intent(inout) :: self
+
+      type(grid_edge), allocatable :: whole
+      real(dp), allocatable :: values(:, :)
+
+      if (.not. allocated(self%edge)) return
+      associate (slab => self%edge%slab)
+         if (.not. slab%is_spread) return
+         allocate (values(slab%points(1), merge(slab%points(2), 0, is_first_rank())))
+         call gather_columns(slab%columns_of_ranks(), self%edge%pressure_or_gap, values, first_only=.true.)
+      end associate
+      if (is_first_rank()) then
+         allocate (whole)
+         call make_grid_edge(whole, values, self%edge%even, self%edge%stiffness)
+      end if
+      deallocate (self%edge)
+      if (allocated(whole)) call move_alloc(whole, self%edge)
+   end subroutine collect_fields
+
+   subroutine fields(self, surface, answer)
+      class(grid_solution), intent(in) :: self
+      type(surface_type), intent(in) :: surface
+      class(contact_fields), allocatable, intent(out) :: answer
+
+      type(grid_fields), allocatable :: own
+
+      if (.not. allocated(self%edge)) return
+      allocate (own)
+      call start_grid_fields(own, surface, self%edge, self%measures%mean_gap_over_amplitude - self%imprint, self%turned)
+      call move_alloc(own, answer)
+   end subroutine fields
+
+   subroutine edge_curves(self, surface, curves, loads)
+      class(grid_solution), intent(in) :: self
+      type(surface_type), intent(in) :: surface
+      type(edge_curve), allocatable, intent(out) :: curves(:)
+      real(dp), allocatable, intent(out), optional :: loads(:)
+
+      type(region_numbers) :: numbers
+      real(dp), allocatable :: edges(:)
+      integer :: i
+
+      if (.not. allocated(self%edge)) then
+         allocate (curves(0))
+         if (present(loads)) allocate (loads(0))
+      else if (surface%dimension == 2) then
+         if (self%turned) then
+            ! The surface's cell is two of the grid's.
+            call trace_edges(self%edge, curves, self%edge%period*[2, 1], self%edge%period(1), numbers)
+         else
+            call trace_edges(self%edge, curves, numbers=numbers, with_images=surface%mirrored)
+         end if
+         do i = 1, size(curves)
+            call shift_curve(curves(i), self%edge%period, edge_offset)
+         end do
+         if (self%turned) call turn_curves(curves, factor=0.5_dp)
+         if (present(loads)) call spot_loads(self%edge, numbers, loads)
+      else
+         call grid_strip_edges(self%edge, edges)
+         if (self%edge%even) then
+            call strip_ends(edges, self%edge%in_contact(1, 1), curves)
+         else
+            call whole_strips(edges, self%edge%in_contact(1, 1), curves)
+         end if
+         if (present(loads)) call strip_loads(self%edge, size(curves), loads)
+      end if
+   end subroutine edge_curves
+
+   !> Of the series that interpolates the pressures at the points. Its error is that of the peak pressure and the part
+   !> of the series' last octave, or unknown as that of the peak is. Without the memory for the series there are no
+   !> stresses.
+   subroutine stresses(self, surface, answer)
+      class(grid_solution), intent(in) :: self
+      type(surface_type), intent(in) :: surface
+      class(stress_fields), allocatable, intent(out) :: answer
+
+      type(fourier_series) :: pressure
+      type(grid_transform) :: transform
+      type(series_stress), allocatable :: own
+      !> Of the whole cell: pressures, series, waves; twice as many from a turned cell.
+      integer(int64), parameter :: numbers_a_point = 8
+      real(dp) :: error
+      real(dp), allocatable :: values(:, :)
+
+      if (.not. allocated(self%edge)) return
+      allocate (own)
+      if (.not. has_memory_for(numbers_a_point*product(int(self%edge%period, int64)))) then
+         own%exist = .false.
+         call move_alloc(own, answer)
+         return
+      end if
+      values = max(self%edge%pressure_or_gap, 0.0_dp)
+      ! If all points are in contact below full contact, they miss a gap; with it closed the pressure there is P - 1.
+      error = self%measures%peak_pressure_error
+      if (all(values > 0.0_dp)) error = max(error, 1.0_dp - self%pbar_over_pstar)
+      error = or_nan(error)
+      call transform%start(shape(values), self%edge%even)
+      call transform%series(values, pressure)
+      deallocate (values)
+      if (self%turned) pressure = to_difference_angles(pressure)
+      call start_series_stress(own, surface, pressure, self%pbar_over_pstar, &
+                               pressure_error=error, is_sampled=.true.)
+      call move_alloc(own, answer)
+   end subroutine stresses
+
+   !> Solutions on grids are written to checkpoints: they may take minutes, those of other solvers take seconds.
+   pure logical function is_kept(self)
+      class(grid_solution), intent(in) :: self
+
+      associate (unused => self); end associate
+      is_kept = .true.
+   end function is_kept
+
+   !> The imprint, the stiffness of `edge`, the points along x and y (zeros if the fields were not kept), the width of
+   !> the slabs and the first column of this rank's, whether the cell is turned, whether the grid covers a quarter of it,
+   !> and the pressures and gaps at the own columns.
+   pure subroutine pack_kept(self, values)
+      class(grid_solution), intent(in) :: self
+      real(dp), allocatable, intent(out) :: values(:)
+
+      real(dp) :: own(own_values)
+      integer :: j, status
+      integer(int64) :: numbers, rows
+
+      own = 0.0_dp
+      own(:3) = [self%imprint, 1.0_dp, 1.0_dp]
+      if (self%turned) own(8) = 1.0_dp
+      numbers = 0
+      if (allocated(self%edge)) then
+         associate (edge => self%edge, slab => self%edge%slab)
+            own(2:7) = [edge%stiffness, real([slab%points, slab%width, slab%first], dp)]
+            if (edge%even) own(9) = 1.0_dp
+            numbers = size(edge%pressure_or_gap, kind=int64)
+         end associate
+      end if
+      allocate (values(own_values + numbers), stat=status)
+      if (status /= 0) return
+      values(:own_values) = own
+      if (numbers == 0) return
+      rows = size(self%edge%pressure_or_gap, 1)
+      do j = 1, size(self%edge%pressure_or_gap, 2)
+         values(own_values + (j - 1)*rows + 1:own_values + j*rows) = self%edge%pressure_or_gap(:, j)
+      end do
+   end subroutine pack_kept
+
+   !> N.B. Without exchange: another rank may not understand its numbers.
+   pure subroutine unpack_kept(self, values, understood)
+      class(grid_solution), intent(inout) :: self
+      real(dp), intent(in) :: values(:)
+      logical, intent(out) :: understood
+
+      integer :: columns, j, layout(4)
+      integer(int64) :: rows
+      real(dp), allocatable :: field(:, :)
+      type(grid_slab) :: slab
+
+      understood = size(values) >= own_values
+      if (understood) understood = all(values(4:7) >= 0.0_dp .and. values(4:7) <= huge(layout))
+      if (.not. understood) return
+      layout = nint(values(4:7))
+      slab = grid_slab(points=layout(:2), width=layout(3), first=layout(4), is_spread=layout(3) < layout(2))
+      slab%last = min(slab%first - 1 + slab%width, slab%points(2))
+      columns = slab%columns()
+      rows = slab%points(1)
+      if (all(layout == 0)) columns = 0
+      understood = columns >= 0 .and. rows*columns == size(values, kind=int64) - own_values
+      if (.not. understood) return
+      self%imprint = values(1)
+      self%turned = values(8) > 0.0_dp
+      if (rows == 0) return
+      allocate (field(rows, columns))
+      do j = 1, columns
+         field(:, j) = values(own_values + (j - 1)*rows + 1:own_values + j*rows)
+      end do
+      allocate (self%edge)
+      call make_grid_edge(self%edge, field, values(9) > 0.0_dp, values(2:3), slab)
+   end subroutine unpack_kept
+
+   !> What each spot carries of the load: the pressures at its points.
+   pure subroutine spot_loads(edge, numbers, loads)
+      type(grid_edge), intent(in) :: edge
+      type(region_numbers), intent(in) :: numbers   !! of the points
+      real(dp), allocatable, intent(out) :: loads(:)
+
+      integer :: k, l
+
+      allocate (loads(numbers%spots), source=0.0_dp)
+      do l = 0, ubound(numbers%at, 2)
+         do k = 0, ubound(numbers%at, 1)
+            associate (spot => numbers%at(k, l))
+               if (spot > 0) loads(spot) = loads(spot) + edge%pressure_or_gap(edge%place(k, 1), edge%place(l, 2))
+            end associate
+         end do
+      end do
+      if (numbers%spots > 0) loads = loads/sum(loads)
+   end subroutine spot_loads
+
+   !> The same of the strips of a 1-D contact, which begin with the one of the first point.
+   pure subroutine strip_loads(edge, strips, loads)
+      type(grid_edge), intent(in) :: edge
+      integer, intent(in) :: strips   !! their number
+      real(dp), allocatable, intent(out) :: loads(:)
+
+      integer :: k, strip
+
+      allocate (loads(strips), source=0.0_dp)
+      if (strips == 0) return
+      strip = merge(1, 0, edge%in_contact(1, 1))
+      do k = 1, edge%period(1)
+         if (.not. edge%in_contact(k, 1)) cycle
+         if (k > 1 .and. .not. edge%in_contact(k - 1, 1)) strip = mod(strip, strips) + 1
+         loads(strip) = loads(strip) + edge%pressure_or_gap(edge%place(k, 1), 1)
+      end do
+      loads = loads/sum(loads)
+   end subroutine strip_loads
+
+end module wavycon_grid_solution

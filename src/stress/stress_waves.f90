@@ -1,0 +1,196 @@
+!> The waves of a pressure that is a Fourier series, at a depth and in the stresses on a plane: (S3) and the waves of
+!> (S4) and (S5) of README.md in this directory.
+module wavycon_stress_waves
+   use wavycon_assertion, only: assert
+   use wavycon_constants, only: pi
+   use wavycon_elastic_body, only: elastic_body
+   use wavycon_fourier_series, only: fourier_series
+   use wavycon_grid_transform, only: grid_transform
+   use wavycon_kinds, only: dp
+   use wavycon_stress_tensor, only: xx, xy, xz, yy, yz, zz
+   implicit none (type, external)
+   private
+
+   public :: stress_waves, octave_weights
+
+   !> Waves whose factor exp(-q Z) is smaller than exp(-37) are rounding.
+   real(dp), parameter, public :: deepest = 37.0_dp
+
+   type :: stress_waves
+      real(dp) :: side_ratio = 1.0_dp           !! L_y/L_x
+      !> W of (S3), p = P + sum of Re W exp(i(kX + lY)) over k > 0, and over l > 0 for k = 0; shape (0:m, -n:n) [p*].
+      complex(dp), allocatable :: wave(:, :)
+      real(dp) :: sampled_from = huge(1.0_dp)   !! waves with q above this are those of a grid's last octave
+      real(dp) :: faintest = deepest            !! waves with q Z above this are left out
+      real(dp), allocatable :: decay(:, :)      !! exp(-q Z) of the depth in use, shape (0:., 0:.)
+      real(dp), private :: decay_depth = 0.0_dp !! Z [rad]
+   contains
+      procedure :: start
+      procedure :: use_depth
+      procedure :: octave_reaches
+      procedure :: transform
+   end type stress_waves
+
+contains
+
+   subroutine start(self, pressure, side_ratio, is_sampled)
+      class(stress_waves), intent(out) :: self
+      type(fourier_series), intent(in) :: pressure    !! p/p*; the mean is ignored
+      real(dp), intent(in) :: side_ratio              !! L_y/L_x, > 0
+      logical, intent(in) :: is_sampled               !! whether the series is that of values on a grid
+
+      integer :: k, l, m, n
+
+      call assert(side_ratio > 0.0_dp, 'side_ratio > 0')
+      m = ubound(pressure%c, 1)
+      n = ubound(pressure%c, 2)
+      self%side_ratio = side_ratio
+      if (is_sampled) then
+         self%sampled_from = 0.5_dp*m
+         if (n > 0) self%sampled_from = 0.5_dp*min(real(m, dp), n/self%side_ratio)
+      end if
+      allocate (self%wave(0:m, -n:n), source=(0.0_dp, 0.0_dp))
+      do l = 0, n
+         do k = 0, m
+            associate (up => self%wave(k, l), down => self%wave(k, -l))
+               if (k == 0 .and. l == 0) cycle
+               if (k > 0 .and. l > 0) then
+                  up = 0.5_dp*pressure%c(k, l)
+                  down = up
+                  if (pressure%is_even()) cycle
+                  up = up - 0.5_dp*cmplx(pressure%ss(k, l), pressure%sc(k, l) + pressure%cs(k, l), dp)
+                  down = down + 0.5_dp*cmplx(pressure%ss(k, l), pressure%cs(k, l) - pressure%sc(k, l), dp)
+               else
+                  up = pressure%c(k, l)
+                  if (pressure%is_even()) cycle
+                  if (l == 0) up = up - cmplx(0.0_dp, pressure%sc(k, l), dp)
+                  if (k == 0) up = up - cmplx(0.0_dp, pressure%cs(k, l), dp)
+               end if
+            end associate
+         end do
+      end do
+   end subroutine start
+
+   !> Computes the factors exp(-q Z) of a depth, unless they are those of the last call.
+   subroutine use_depth(self, depth)
+      class(stress_waves), intent(inout) :: self
+      real(dp), intent(in) :: depth   !! Z >= 0 [rad]
+
+      real(dp) :: q_z
+      integer :: k, l, last(2)
+
+      call assert(depth >= 0.0_dp, 'depth >= 0')
+      if (allocated(self%decay)) then
+         if (abs(depth - self%decay_depth) <= 0.0_dp) return
+         deallocate (self%decay)
+      end if
+      last = ubound(self%wave)
+      if (depth > 0.0_dp) last = floor(min(self%faintest/depth*[1.0_dp, self%side_ratio], real(last, dp)))
+      ! With one more in each direction, for a series without waves in one of them.
+      allocate (self%decay(0:last(1) + 1, 0:last(2) + 1), source=0.0_dp)
+      do l = 0, last(2)
+         do k = 0, last(1)
+            q_z = depth*sqrt(k**2 + (l/self%side_ratio)**2)
+            if (q_z > self%faintest) exit
+            self%decay(k, l) = exp(-q_z)
+         end do
+      end do
+      self%decay_depth = depth
+   end subroutine use_depth
+
+   !> Whether waves of the last octave reach the depth in use.
+   pure logical function octave_reaches(self)
+      class(stress_waves), intent(in) :: self
+
+      octave_reaches = norm2((ubound(self%decay) - 1)*[1.0_dp, 1.0_dp/self%side_ratio]) > self%sampled_from
+   end function octave_reaches
+
+   !> The weights of a wave of the last octave in (S5), to its sign.
+   pure function octave_weights(n_x, n_y, q_z) result(weights)
+      real(dp), intent(in) :: n_x, n_y   !! its direction
+      real(dp), intent(in) :: q_z        !! q Z
+      complex(dp) :: weights(3)
+
+      weights = (1.0_dp + q_z)*[(1.0_dp, 0.0_dp), cmplx(0.0_dp, n_x, dp), cmplx(0.0_dp, n_y, dp)]
+   end function octave_weights
+
+   !> The six components on a plane and, if asked for, the three sums of (S5).
+   subroutine transform(self, points, offset, depth, body, pbar_over_pstar, number, fields)
+      class(stress_waves), intent(inout) :: self
+      integer, intent(in) :: points(2)
+      real(dp), intent(in) :: offset(2), depth, pbar_over_pstar
+      type(elastic_body), intent(in) :: body
+      integer, intent(in) :: number                          !! of fields, 6 or 9
+      real(dp), allocatable, intent(out) :: fields(:, :, :)  !! shape (N_x, N_y, number)
+
+      complex(dp), allocatable :: waves(:, :, :)
+      type(grid_transform) :: plane
+      real(dp) :: mean(6)
+      integer :: i
+
+      allocate (fields(points(1), points(2), number))
+      allocate (waves(points(1)/2 + 1, points(2), number), source=(0.0_dp, 0.0_dp))
+      call plane%start(points, even=.false.)
+      call add_waves(self, points, offset, depth, body%nu, waves)
+      do i = 1, number
+         plane%waves = waves(:, :, i)
+         call plane%backward(fields(:, :, i))
+      end do
+      mean = body%stress(reshape([(0.0_dp, i=1, 12)], [6, 2]), pbar_over_pstar)
+      do i = 1, 6
+         if (abs(mean(i)) > 0.0_dp) fields(:, :, i) = fields(:, :, i) + mean(i)
+      end do
+   end subroutine transform
+
+   !> Adds the waves of the components of the stress to their spectra, and to three more, if there are, those of
+   !> the last octave for the error (S5).
+   subroutine add_waves(self, points, offset, depth, nu, spectra)
+      type(stress_waves), intent(inout) :: self
+      integer, intent(in) :: points(2)
+      real(dp), intent(in) :: offset(2), depth, nu
+      complex(dp), intent(inout) :: spectra(0:, 0:, :)   !! shape (0:N_x/2, 0:N_y - 1, 6 or 9)
+
+      complex(dp) :: here(size(spectra, 3)), turn_x(0:ubound(self%wave, 1)), wave
+      real(dp) :: n_x, n_y, q, q_y
+      integer :: k, l, last(2)
+
+      call self%use_depth(depth)
+      last = ubound(self%decay) - 1
+      turn_x = [(exp(cmplx(0.0_dp, 2*pi*modulo(k*offset(1)/points(1), 1.0_dp), dp)), k=0, ubound(self%wave, 1))]
+      do l = -last(2), last(2)
+         q_y = l/self%side_ratio
+         associate (turn_y => exp(cmplx(0.0_dp, 2*pi*modulo(l*offset(2)/points(2), 1.0_dp), dp)))
+            do k = merge(1, 0, l <= 0), last(1)
+               if (max(abs(self%wave(k, l)%re), abs(self%wave(k, l)%im)) <= 0.0_dp) cycle
+               q = sqrt(k**2 + q_y**2)
+               if (q*depth > self%faintest) exit
+               wave = 0.5_dp*self%decay(k, abs(l))*self%wave(k, l)*turn_x(k)*turn_y
+               n_x = k/q
+               n_y = q_y/q
+               here(xx) = -(n_x**2*(1.0_dp - q*depth) + 2*nu*n_y**2)*wave
+               here(yy) = -(n_y**2*(1.0_dp - q*depth) + 2*nu*n_x**2)*wave
+               here(zz) = -(1.0_dp + q*depth)*wave
+               here(xy) = -n_x*n_y*(1.0_dp - 2*nu - q*depth)*wave
+               here(xz) = cmplx(0.0_dp, k*depth, dp)*wave
+               here(yz) = cmplx(0.0_dp, q_y*depth, dp)*wave
+               here(7:) = (0.0_dp, 0.0_dp)
+               if (q > self%sampled_from .and. size(here) > 6) here(7:) = octave_weights(n_x, n_y, q*depth)*wave
+               call add(modulo(k, points(1)), modulo(l, points(2)), here)
+               call add(modulo(-k, points(1)), modulo(-l, points(2)), conjg(here))
+            end do
+         end associate
+      end do
+
+   contains
+
+      !> Adds a wave, unless it belongs to the half of the spectrum that the transform takes from the other one.
+      subroutine add(k, l, here)
+         integer, intent(in) :: k, l
+         complex(dp), intent(in) :: here(:)
+
+         if (2*k <= points(1)) spectra(k, l, :) = spectra(k, l, :) + here
+      end subroutine add
+
+   end subroutine add_waves
+
+end module wavycon_stress_waves
