@@ -5,7 +5,6 @@ module wavycon_make_scene
    use wavycon_group_values, only: group_values
    use wavycon_kinds, only: dp
    use wavycon_load_group, only: given_loads
-   use wavycon_material_group, only: plane_strain_modulus
    use wavycon_resolved_deck, only: resolved_deck_text
    use wavycon_scene, only: scene_type
    use wavycon_stress_group, only: make_stress_setting
@@ -26,11 +25,11 @@ contains
       call move_alloc(deck%surface, scene%surface)
       call move_alloc(deck%map, scene%map)
       scene%roughness = scene%surface%roughness()
-      scene%e_star = plane_strain_modulus(deck%material)
+      scene%e_star = deck%e_star
+      scene%p_star = deck%p_star
       scene%gives_modulus = deck%material%has('e_star') .or. deck%material%has('e1')
       scene%has_units = scene%gives_modulus .or. deck%scene%has('pressure_unit') .or. deck%scene%has('length_unit')
       if (allocated(scene%map)) scene%has_units = scene%has_units .or. allocated(scene%map%length_unit)
-      scene%p_star = scene%surface%full_contact_pressure(scene%e_star)
       call take_loads(deck%load, scene%surface%amplitude, scene%p_star, scene%loads_by, scene%target, &
                       scene%mean_pressure)
       call make_stress_setting(deck%stress, deck%material, scene%p_star, scene%stress_setting)

@@ -13,8 +13,7 @@ module wavycon_wavy_solver
    use wavycon_method_list, only: start_solver
    use wavycon_load_group, only: check_load_group, check_loads_of_surface, load_table
    use wavycon_make_scene, only: make_scene, take_loads
-   use wavycon_material_group, only: check_hardness, check_material_group, hardness_over_pstar, material_table, &
-                                     plane_strain_modulus
+   use wavycon_material_group, only: check_material_group, material_table
    use wavycon_method_group, only: check_method_group, method_table
    use wavycon_plain_text, only: integer_text
    use wavycon_problem_report, only: problem_report
@@ -105,13 +104,7 @@ contains
          return
       end if
       call read_group_text(material_table(), material, values, text, problems)
-      if (problems%number == 0) call check_material_group(values, problems)
-      if (problems%number == 0) then
-         solver%e_star = plane_strain_modulus(values)
-         solver%p_star = inner%full_contact_pressure(solver%e_star)
-         inner%hardness = hardness_over_pstar(values, solver%p_star)
-         call check_hardness(values, solver%p_star, problems)
-      end if
+      if (problems%number == 0) call check_material_group(values, inner, solver%e_star, solver%p_star, problems)
       if (problems%number == 0) then
          call read_group_text(method_table(), method, values, text, problems)
          call check_method_group(values, kind, inner, problems)
