@@ -279,7 +279,9 @@ void wavycon_use_one_thread_for_matrices(void)
    OpenMP reads this when the program starts, so a program with the option --threads starts itself again. */
 void wavycon_let_waiting_threads_sleep(void)
 {
-    char **words = NULL, *program;
+    enum { step = 4096 };
+    char *longer, *text = NULL, **words = NULL, *program = NULL;
+    size_t count = 0, got, length = 0;
     int has_option = 0;
     FILE *file;
     if (getenv("OMP_WAIT_POLICY") != NULL || getenv("GOMP_SPINCOUNT") != NULL)
@@ -287,23 +289,33 @@ void wavycon_let_waiting_threads_sleep(void)
     file = fopen("/proc/self/cmdline", "r");
     if (file == NULL)
         return;
-    for (size_t i = 0;; i++) {
-        size_t room = 0;
-        words = realloc(words, (i + 1)*sizeof *words);
-        if (words == NULL)
+    do {
+        longer = realloc(text, length + step + 1);
+        if (longer == NULL)
             break;
-        words[i] = NULL;
-        if (getdelim(&words[i], &room, '\0', file) <= 0) {
-            words[i] = NULL;
-            break;
-        }
-        has_option |= strncmp(words[i], "--threads", strlen("--threads")) == 0;
-    }
+        text = longer;
+        got = fread(text + length, 1, step, file);
+        length += got;
+    } while (got > 0);
     fclose(file);
-    if (words == NULL || !has_option)
-        return;
-    /* Without success the program goes on as it is. */
-    program = realpath("/proc/self/exe", NULL);
-    if (program != NULL && setenv("OMP_WAIT_POLICY", "passive", 0) == 0)
-        execv(program, words);
+    if (longer != NULL) {
+        text[length] = '\0';
+        for (size_t i = 0; i < length; i += strlen(text + i) + 1) {
+            has_option |= strncmp(text + i, "--threads", strlen("--threads")) == 0;
+            count++;
+        }
+    }
+    if (has_option)
+        words = calloc(count + 1, sizeof *words);
+    if (words != NULL) {
+        program = realpath("/proc/self/exe", NULL);
+        for (size_t i = 0, k = 0; k < count; i += strlen(text + i) + 1)
+            words[k++] = text + i;
+        /* Without success the program goes on as it is. */
+        if (program != NULL && setenv("OMP_WAIT_POLICY", "passive", 0) == 0)
+            execv(program, words);
+    }
+    free(program);
+    free(words);
+    free(text);
 }

@@ -4,7 +4,7 @@ module wavycon_output_group
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: choice_key, integer_key, key_group, key_group_type, key_type, logical_key, text_key
    use wavycon_map_table, only: text_side
-   use wavycon_method_list, only: get_method
+   use wavycon_method_list, only: method_of
    use wavycon_plain_text, only: integer_text
    use wavycon_problems, only: problem_list_type
    use wavycon_solver_method, only: solver_method
@@ -71,7 +71,7 @@ contains
       type(surface_type), allocatable, intent(in) :: surface   !! not allocated if it has problems
       type(problem_list_type), intent(inout) :: problems
 
-      class(solver_method), allocatable :: chosen
+      type(solver_method) :: chosen
       type(table_item), allocatable :: tables(:)
       character(:), allocatable :: key, refusal
       integer :: i
@@ -80,14 +80,14 @@ contains
       call values%set('directory', plain_directory(values%text('directory')))
       if (.not. allocated(surface)) return
       if (.not. method%is_bad('grid_points')) call set_points(values, given_points(method, surface), surface%dimension)
-      call get_method(method, chosen)
-      if (.not. allocated(chosen)) return
+      chosen = method_of(method)
+      if (chosen%name == '') return
       call all_tables(tables)
       do i = 1, size(tables)
          key = tables(i)%table%key()
          if (key == '' .or. tables(i)%table%group() /= 'output') cycle
          if (.not. values%logical(key)) cycle
-         refusal = tables(i)%table%refusal(chosen%traits(), surface)
+         refusal = tables(i)%table%refusal(chosen%traits, surface)
          if (refusal /= '') call values%complain(problems, key, key//' cannot be written: '//refusal)
       end do
    end subroutine check_output_group

@@ -14,8 +14,9 @@ module wavycon_settings
    use wavycon_scene_group, only: longest_name, name_letters
    use wavycon_self_affine_kind, only: is_another_roughness => is_another_way
    use wavycon_grid_keys, only: is_another_grid => is_another_way
-   use wavycon_method_list, only: get_methods, keys_of_methods, method_item
+   use wavycon_method_list, only: get_methods, number_of_methods
    use wavycon_stress_group, only: is_another_depth => is_another_way
+   use wavycon_solver_method, only: solver_method
    use wavycon_surface_kind, only: surface_kind
    use wavycon_surface_kinds, only: get_surface_kinds, number_of_kinds
    implicit none (type, external)
@@ -146,8 +147,7 @@ contains
       type(setting_type), intent(in) :: setting
       character(*), intent(in) :: key
 
-      type(alternative_type), allocatable :: alternatives(:)
-      type(method_item), allocatable :: methods(:)
+      type(solver_method) :: methods(number_of_methods)
       type(surface_kind) :: kinds(number_of_kinds)
 
       replaces = key == setting%key
@@ -158,8 +158,7 @@ contains
          replaces = is_key_of_others(kinds%alternative_type)
       case ('method.solver')
          call get_methods(methods)
-         call keys_of_methods(methods, alternatives)
-         replaces = is_key_of_others(alternatives)
+         replaces = is_key_of_others(methods%alternative_type)
       case default
          select case (setting%group)
          case ('load')

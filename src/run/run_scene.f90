@@ -10,7 +10,7 @@ module wavycon_run_scene
    use wavycon_find_stresses, only: find_stresses
    use wavycon_kinds, only: dp
    use wavycon_lattice_sums, only: rectangular_distance_sum
-   use wavycon_method_list, only: get_method, start_solver
+   use wavycon_method_list, only: method_of, start_solver
    use wavycon_output_file, only: output_file
    use wavycon_plain_text, only: escaped, integer_text, short_number
    use wavycon_ranks, only: add_over_ranks, any_rank, is_first_rank, share_error, work_alone
@@ -371,8 +371,8 @@ contains
       type(run_log), intent(inout) :: log
       integer, intent(out) :: status
 
-      character(:), allocatable :: loads
-      class(solver_method), allocatable :: method
+      character(:), allocatable :: loads, words
+      type(solver_method) :: method
       integer :: bad, i, unreached, without_area
 
       bad = 0
@@ -391,8 +391,9 @@ contains
          if (scene%loads_by /= by_yield) call note_unreached(results, log)
          call note_images(results, log)
          if (without_area > 0) then
-            call get_method(scene%method, method)
-            call log%say('note: at '//integer_text(without_area)//' loads '//method%why_no_area(scene%method)// &
+            method = method_of(scene%method)
+            call method%why_no_area(scene%method, words)
+            call log%say('note: at '//integer_text(without_area)//' loads '//words// &
                          ', so that their contact area shows as 0')
          end if
          if (scene%loads_by == by_yield .and. .not. results%traits%has_errors) call log%say( &

@@ -5,7 +5,7 @@ module wavycon_beale_method
    use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_fourier_terms, only: choose_terms, fourier_terms, symmetry_diagonal, symmetry_full, symmetry_none
    use wavycon_group_values, only: group_values
-   use wavycon_key_table, only: choice_key, integer_key, key_type, real_key
+   use wavycon_key_table, only: choice_key, integer_key, real_key
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: integer_text, short_number
    use wavycon_problems, only: problem_list_type
@@ -24,67 +24,51 @@ module wavycon_beale_method
    !> Most elements of the constraints' matrix. A few copies of it exist at a time, each of 160 MB.
    real(dp), parameter :: most_elements = 2.0e7_dp
 
-   type, extends(solver_method) :: beale_method
-   contains
-      procedure, nopass :: name
-      procedure, nopass :: meaning
-      procedure, nopass :: keys
-      procedure, nopass :: refusal
-      procedure, nopass :: is_default_for
-      procedure, nopass :: set_defaults
-      procedure, nopass :: check
-      procedure, nopass :: advice
-      procedure, nopass :: traits
-      procedure, nopass :: make
-      procedure, nopass :: describe
-      procedure, nopass :: why_no_area
-   end type beale_method
-
 contains
 
-   pure function name() result(words)
-      character(:), allocatable :: words
+   type(solver_method) function beale_method() result(method)
+      type(beale_contact) :: solver
 
-      words = 'beale'
-   end function name
+      method%name = 'beale'
+      method%meaning = "the paper's truncated series by Beale's method, for its waves; their default"
+      allocate (method%keys, source=[ &
+            integer_key('harmonics', '9 (2-D), 10 (1-D)', 'highest harmonic of the pressure, in each direction.', &
+               1, most_harmonics), &
+            integer_key('constraint_points', 'in proportion to harmonics', &
+               'equally spaced points on half a wavelength, ends included, in each direction, at which the pressure '// &
+               'is constrained. More than harmonics; at most 601 in 2-D. The default is 3 harmonics in 2-D '// &
+               "and 2.5 harmonics + 1 in 1-D: the paper's 27 for 9 and 26 for 10.", 2, &
+               maxval(most_constraint_points)), &
+            choice_key('symmetry', "'full'", &
+               "in 2-D, symmetry of the pressure. 'full': alike in x and y and at both crests (29 unknowns, 196 "// &
+               "points by default); 'diagonal': at both crests (49, 378); 'none' (99, 729).", &
+               ['full    ', 'diagonal', 'none    ']), &
+            choice_key('minimiser', "'dual'", &
+               "how the minimum of the energy is found, which is one and the same. 'dual': Goldfarb and Idnani's "// &
+                  "method, "// &
+               "from the load before; 'beale': Beale's method as in the paper, each load from an even pressure.", &
+               ['dual ', 'beale']), &
+            real_key('edge_level', '0.1', 'p*', 'the isobar that is taken as the edge of contact.', &
+               above=0.0_dp, below=1.0_dp)])
+      method%traits = solver%traits()
+      method%no_accuracy = ': its series has no error estimate'
+      method%no_grid = ': it has harmonics and constraint_points'
+      method%refusal => refusal
+      method%is_default_for => is_default_for
+      method%set_defaults => set_defaults
+      method%check => check
+      method%make => make
+      method%describe => describe
+      method%why_no_area => why_no_area
+   end function beale_method
 
-   pure function meaning() result(words)
-      character(:), allocatable :: words
-
-      words = "the paper's truncated series by Beale's method, for its waves; their default"
-   end function meaning
-
-   function keys() result(rows)
-      type(key_type), allocatable :: rows(:)
-
-      rows = [ &
-         integer_key('harmonics', '9 (2-D), 10 (1-D)', 'highest harmonic of the pressure, in each direction.', &
-            1, most_harmonics), &
-         integer_key('constraint_points', 'in proportion to harmonics', &
-            'equally spaced points on half a wavelength, ends included, in each direction, at which the pressure '// &
-            'is constrained. More than harmonics; at most 601 in 2-D. The default is 3 harmonics in 2-D '// &
-            "and 2.5 harmonics + 1 in 1-D: the paper's 27 for 9 and 26 for 10.", 2, &
-            maxval(most_constraint_points)), &
-         choice_key('symmetry', "'full'", &
-            "in 2-D, symmetry of the pressure. 'full': alike in x and y and at both crests (29 unknowns, 196 "// &
-            "points by default); 'diagonal': at both crests (49, 378); 'none' (99, 729).", &
-            ['full    ', 'diagonal', 'none    ']), &
-         choice_key('minimiser', "'dual'", &
-            "how the minimum of the energy is found, which is one and the same. 'dual': Goldfarb and Idnani's "// &
-               "method, "// &
-            "from the load before; 'beale': Beale's method as in the paper, each load from an even pressure.", &
-            ['dual ', 'beale']), &
-         real_key('edge_level', '0.1', 'p*', 'the isobar that is taken as the edge of contact.', &
-            above=0.0_dp, below=1.0_dp)]
-   end function keys
-
-   function refusal(surface) result(words)
+   subroutine refusal(surface, words)
       type(surface_type), intent(in) :: surface
-      character(:), allocatable :: words
+      character(:), allocatable, intent(out) :: words
 
       words = ''
       if (.not. surface%is_paper_wave()) words = 'is for the waves of the paper: '//paper_waves()
-   end function refusal
+   end subroutine refusal
 
    !> Kinds that are waves of the paper by definition. A sum of waves that equals one is solved to an accuracy by
    !> default, as all other sums are.
@@ -149,15 +133,6 @@ contains
       end if
    end subroutine check
 
-   function advice(key) result(words)
-      character(*), intent(in) :: key
-      character(:), allocatable :: words
-
-      words = ''
-      if (key == 'accuracy') words = ': its series has no error estimate'
-      if (key == 'grid_points') words = ': it has harmonics and constraint_points'
-   end function advice
-
    pure integer function symmetry_of(values) result(symmetry)
       type(group_values), intent(in) :: values
 
@@ -170,12 +145,6 @@ contains
          symmetry = symmetry_full
       end select
    end function symmetry_of
-
-   type(solver_traits) function traits()
-      type(beale_contact) :: solver
-
-      traits = solver%traits()
-   end function traits
 
    subroutine make(values, surface, keep_fields, solver)
       type(group_values), intent(in) :: values
@@ -192,11 +161,11 @@ contains
       call move_alloc(own, solver)
    end subroutine make
 
-   function describe(values, surface, traits) result(words)
+   subroutine describe(values, surface, traits, words)
       type(group_values), intent(in) :: values
       type(surface_type), intent(in) :: surface
       type(solver_traits), intent(in) :: traits
-      character(:), allocatable :: words
+      character(:), allocatable, intent(out) :: words
 
       type(fourier_terms) :: terms
       integer, allocatable :: k(:), l(:)
@@ -207,13 +176,13 @@ contains
       words = integer_text(terms%harmonics)//' harmonics ('//integer_text(terms%count())//' unknowns), '// &
               integer_text(size(k)*merge(2, 1, surface%has_hardness()))//' constraint points, edge_level[p*] = '// &
               short_number(values%real('edge_level'))
-   end function describe
+   end subroutine describe
 
-   function why_no_area(values) result(words)
+   subroutine why_no_area(values, words)
       type(group_values), intent(in) :: values
-      character(:), allocatable :: words
+      character(:), allocatable, intent(out) :: words
 
       words = 'no pressure reaches edge_level = '//short_number(values%real('edge_level'))//' p*'
-   end function why_no_area
+   end subroutine why_no_area
 
 end module wavycon_beale_method

@@ -10,16 +10,10 @@ module wavycon_grid_keys
    implicit none (type, external)
    private
 
-   public :: accuracy_key, check_grid_points, describe_grid, grid_keys, is_another_way, points_of_grid, set_grid_defaults
+   public :: accuracy_key, check_grid_points, describe_grid, grid_points_key, is_another_way, points_of_grid, &
+      residual_key, set_grid_defaults
 
 contains
-
-   !> Those of 'grid' and 'auto'.
-   function grid_keys() result(rows)
-      type(key_type), allocatable :: rows(:)
-
-      rows = [accuracy_key(), grid_points_key(), residual_key()]
-   end function grid_keys
 
    pure type(key_type) function accuracy_key() result(key)
       key = real_key('accuracy', '1e-3', '-', &
@@ -93,11 +87,11 @@ contains
    end subroutine check_grid_points
 
    !> The grid in words: `describe` of 'grid'.
-   function describe_grid(values, surface, traits) result(words)
+   subroutine describe_grid(values, surface, traits, words)
       type(group_values), intent(in) :: values
       type(surface_type), intent(in) :: surface
       type(solver_traits), intent(in) :: traits
-      character(:), allocatable :: words
+      character(:), allocatable, intent(out) :: words
 
       integer :: points(2)
 
@@ -118,7 +112,7 @@ contains
          words = words//', on a quarter of the cell'
       end if
       if (all(points == 0) .and. surface%has_smaller_cell()) words = words//' turned by 45 degrees'
-   end function describe_grid
+   end subroutine describe_grid
 
    !> Whether two keys of &method choose the grid in different ways: accuracy, or grid_points.
    pure logical function is_another_way(key, other)

@@ -2,7 +2,8 @@
 module wavycon_grid_method
    use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_grid_contact, only: grid_contact
-   use wavycon_grid_keys, only: describe_grid, grid_keys, points_of_grid, set_grid_defaults, check_grid_points
+   use wavycon_grid_keys, only: accuracy_key, check_grid_points, describe_grid, grid_points_key, points_of_grid, &
+      residual_key, set_grid_defaults
    use wavycon_group_values, only: group_values
    use wavycon_solver_method, only: solver_method
    use wavycon_surface, only: surface_type
@@ -11,37 +12,20 @@ module wavycon_grid_method
 
    public :: grid_method
 
-   type, extends(solver_method) :: grid_method
-   contains
-      procedure, nopass :: name
-      procedure, nopass :: meaning
-      procedure, nopass :: keys => grid_keys
-      procedure, nopass :: set_defaults => set_grid_defaults
-      procedure, nopass :: check => check_grid_points
-      procedure, nopass :: traits
-      procedure, nopass :: make
-      procedure, nopass :: describe => describe_grid
-   end type grid_method
-
 contains
 
-   pure function name() result(words)
-      character(:), allocatable :: words
-
-      words = 'grid'
-   end function name
-
-   pure function meaning() result(words)
-      character(:), allocatable :: words
-
-      words = 'ever finer grids until mean gap, area and peak pressure are accurate'
-   end function meaning
-
-   type(solver_traits) function traits()
+   type(solver_method) function grid_method() result(method)
       type(grid_contact) :: solver
 
-      traits = solver%traits()
-   end function traits
+      method%name = 'grid'
+      method%meaning = 'ever finer grids until mean gap, area and peak pressure are accurate'
+      allocate (method%keys, source=[accuracy_key(), grid_points_key(), residual_key()])
+      method%traits = solver%traits()
+      method%set_defaults => set_grid_defaults
+      method%check => check_grid_points
+      method%make => make
+      method%describe => describe_grid
+   end function grid_method
 
    subroutine make(values, surface, keep_fields, solver)
       type(group_values), intent(in) :: values

@@ -1,9 +1,9 @@
-!> What a deck says about a solver: its name, its keys of &method, what it refuses, and how the values of the keys start
-!> it. src/README.md describes how to add a solver.
+!> What a deck says about a solver: its name, its keys of &method, what it refuses, and how their values start it.
+!> src/README.md describes how to add a solver.
 module wavycon_solver_method
    use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_group_values, only: group_values
-   use wavycon_key_table, only: key_type
+   use wavycon_key_alternatives, only: alternative_type
    use wavycon_problems, only: problem_list_type
    use wavycon_surface, only: surface_type
    implicit none (type, external)
@@ -11,44 +11,52 @@ module wavycon_solver_method
 
    public :: solver_method
 
-   !> A value of the key `solver`. Of the procedures below the deferred ones must be written; the others have defaults.
-   !>
-   !> N.B. A method has no components: `get_methods` makes its list by copying.
-   type, abstract :: solver_method
-   contains
-      procedure(words_interface), deferred, nopass :: name
-      procedure(words_interface), deferred, nopass :: meaning
-      procedure(keys_interface), deferred, nopass :: keys
-      procedure, nopass :: refusal => no_refusal
-      procedure, nopass :: is_default_for => never
-      procedure, nopass :: set_defaults => no_defaults
-      procedure, nopass :: check => no_check
-      procedure, nopass :: advice => no_advice
-      procedure(traits_interface), deferred, nopass :: traits
-      procedure(make_interface), deferred, nopass :: make
-      procedure(describe_interface), deferred, nopass :: describe
-      procedure, nopass :: why_no_area => no_reason
+   !> A value of the key `solver`. A key that two solvers read must have the same type, unit and bounds in both; its
+   !> meaning may differ.
+   type, extends(alternative_type) :: solver_method
+      type(solver_traits) :: traits         !! of the solver before it is started
+      !> Why it has no key `accuracy` or `grid_points`, as the end of a sentence such as ': it has no grid'.
+      character(40) :: no_accuracy = '', no_grid = ''
+      procedure(refusal_interface), pointer, nopass :: refusal => null()          !! null: it refuses no surface
+      procedure(default_interface), pointer, nopass :: is_default_for => null()   !! null: for none
+      procedure(defaults_interface), pointer, nopass :: set_defaults => null()    !! null: none depends on the surface
+      procedure(check_interface), pointer, nopass :: check => null()              !! null: none contradicts another
+      procedure(make_interface), pointer, nopass :: make => null()
+      procedure(describe_interface), pointer, nopass :: describe => null()
+      procedure(reason_interface), pointer, nopass :: why_no_area => null()       !! null: contact always has an area
    end type solver_method
 
    abstract interface
-      !> `name`: the value of the key `solver` in decks, at most 12 characters. `meaning`: one clause for the key
-      !> reference.
-      pure function words_interface() result(words)
-         character(:), allocatable :: words
-      end function words_interface
+      !> `refusal`: why the solver cannot solve a surface, as the end of a sentence such as 'is for the 1-D wave'; empty
+      !> if it can.
+      subroutine refusal_interface(surface, words)
+         import :: surface_type
+         type(surface_type), intent(in) :: surface
+         character(:), allocatable, intent(out) :: words
+      end subroutine refusal_interface
 
-      !> `keys`: the keys of &method that the solver reads, besides `solver`. A key that two solvers read must have
-      !> the same type, unit and bounds in both; its meaning may differ.
-      function keys_interface() result(keys)
-         import :: key_type
-         type(key_type), allocatable :: keys(:)
-      end function keys_interface
+      !> `is_default_for`: whether this solver is the default for a surface. If several are, the first of the list is.
+      logical function default_interface(surface, kind)
+         import :: surface_type
+         type(surface_type), intent(in) :: surface
+         character(*), intent(in) :: kind              !! of the surface, as the deck names it
+      end function default_interface
 
-      !> `traits`: those of the solver before it is started.
-      function traits_interface() result(traits)
-         import :: solver_traits
-         type(solver_traits) :: traits
-      end function traits_interface
+      !> `set_defaults`: sets the defaults that depend on the surface and leaves keys without a meaning for it out of the
+      !> resolved deck.
+      subroutine defaults_interface(values, surface)
+         import :: group_values, surface_type
+         type(group_values), intent(inout) :: values   !! of &method
+         type(surface_type), intent(in) :: surface
+      end subroutine defaults_interface
+
+      !> `check`: reports values that contradict each other or the surface.
+      subroutine check_interface(values, surface, problems)
+         import :: group_values, problem_list_type, surface_type
+         type(group_values), intent(in) :: values             !! after `set_defaults`
+         type(surface_type), intent(in) :: surface
+         type(problem_list_type), intent(inout) :: problems   !! to which they are added
+      end subroutine check_interface
 
       !> `make`: starts the solver with the values of &method.
       subroutine make_interface(values, surface, keep_fields, solver)
@@ -60,72 +68,20 @@ module wavycon_solver_method
       end subroutine make_interface
 
       !> `describe`: the discretisation in words, for the log and the heads of tables.
-      function describe_interface(values, surface, traits) result(words)
+      subroutine describe_interface(values, surface, traits, words)
          import :: group_values, solver_traits, surface_type
          type(group_values), intent(in) :: values      !! as of `make`
          type(surface_type), intent(in) :: surface
          type(solver_traits), intent(in) :: traits     !! of the started solver
-         character(:), allocatable :: words
-      end function describe_interface
+         character(:), allocatable, intent(out) :: words
+      end subroutine describe_interface
+
+      !> `why_no_area`: why a converged solution may have no contact area, such as 'no pressure reaches 0.1 p*'.
+      subroutine reason_interface(values, words)
+         import :: group_values
+         type(group_values), intent(in) :: values      !! of &method
+         character(:), allocatable, intent(out) :: words
+      end subroutine reason_interface
    end interface
-
-contains
-
-   !> `refusal`: why the solver cannot solve a surface, as the end of a sentence such as 'is for the 1-D wave'; empty
-   !> if it can. Here it is empty.
-   function no_refusal(surface) result(words)
-      type(surface_type), intent(in) :: surface
-      character(:), allocatable :: words
-
-      associate (unused => surface); end associate
-      words = ''
-   end function no_refusal
-
-   !> `is_default_for`: whether this solver is the default for a surface. If several are, the first of the list is
-   !> taken. Here it is not.
-   logical function never(surface, kind)
-      type(surface_type), intent(in) :: surface
-      character(*), intent(in) :: kind           !! of the surface, as the deck names it
-
-      associate (unused => surface, unused_too => kind); end associate
-      never = .false.
-   end function never
-
-   !> `set_defaults`: sets the defaults that depend on the surface and leaves keys without a meaning for it out of the
-   !> resolved deck. Here there are none.
-   subroutine no_defaults(values, surface)
-      type(group_values), intent(inout) :: values   !! of &method
-      type(surface_type), intent(in) :: surface
-
-      associate (unused => values, unused_too => surface); end associate
-   end subroutine no_defaults
-
-   !> `check`: reports values that contradict each other or the surface. Here there are none.
-   subroutine no_check(values, surface, problems)
-      type(group_values), intent(in) :: values           !! after `set_defaults`
-      type(surface_type), intent(in) :: surface
-      type(problem_list_type), intent(inout) :: problems   !! to which they are added
-
-      associate (unused => values, unused_too => surface, also_unused => problems); end associate
-   end subroutine no_check
-
-   !> `advice`: what to give instead of a key of another solver, or why this one has no such key, as the end of a
-   !> sentence such as ': it has no grid'. Here it is empty.
-   function no_advice(key) result(words)
-      character(*), intent(in) :: key   !! that other solvers read
-      character(:), allocatable :: words
-
-      words = key(:0)
-   end function no_advice
-
-   !> `why_no_area`: why a converged solution may have no contact area, such as 'no pressure reaches 0.1 p*'; empty if it
-   !> always has one. Here it is empty.
-   function no_reason(values) result(words)
-      type(group_values), intent(in) :: values   !! of &method
-      character(:), allocatable :: words
-
-      associate (unused => values); end associate
-      words = ''
-   end function no_reason
 
 end module wavycon_solver_method
