@@ -78,7 +78,7 @@ contains
          if (sharing%is_shared()) words = words//' on each rank'
       end associate
       words = words//' for grids of up to '//integer_text(points(1))
-      if (results%scene%surface%dimension == 2) words = words//' x '//integer_text(points(2))
+      if (results%solver%surface%dimension == 2) words = words//' x '//integer_text(points(2))
       words = words//' points in the part of the cell that is solved'
       available = available_memory()
       if (available < 0) return

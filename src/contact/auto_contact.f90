@@ -12,7 +12,6 @@ module wavycon_auto_contact
    use wavycon_kinds, only: dp
    use wavycon_ranks, only: any_rank
    use wavycon_solution_record, only: by_choice
-   use wavycon_solver_progress, only: solver_progress
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
@@ -23,19 +22,16 @@ module wavycon_auto_contact
    integer, parameter, public :: has_closed_form = 1, has_expansions = 2, has_neither = 3, has_a_hardness = 4, &
       points_are_given = 5, points_are_of_the_map = 6
 
-   type, extends(contact_solver) :: auto_contact
-      integer, private :: choice = 0                           !! one of the names above
-      class(contact_solver), allocatable, private :: first     !! solves every load
-      type(grid_contact), allocatable, private :: second       !! solves the loads that the first one failed to
+   !> The solver on grids, with another one before it.
+   type, extends(grid_contact) :: auto_contact
+      integer, private :: choice = 0                          !! one of the names above
+      class(contact_solver), allocatable, private :: first    !! tries every load; not allocated: grids alone
    contains
       procedure :: start
       procedure :: solve_partial_contact
       procedure :: traits
-      procedure :: show_progress
-      procedure :: use_level
       procedure :: forget_last_load
       procedure :: skip_load
-      procedure :: new_kept_solution
    end type auto_contact
 
 contains
@@ -51,12 +47,10 @@ contains
 
       type(closed_form_contact), allocatable :: closed_form
       type(fitted_contact), allocatable :: fitted
-      type(grid_contact), allocatable :: grid
       type(fitted_frame) :: frame
       logical :: by_accuracy
 
-      self%surface = surface
-      self%is_started = allocated(surface%shape%c)
+      call self%grid_contact%start(surface, accuracy, keep_fields, points, residual)
       by_accuracy = .true.
       if (present(points)) by_accuracy = all(points == 0)
       call find_frame(surface, frame)
@@ -66,22 +60,18 @@ contains
          call move_alloc(closed_form, self%first)
          self%choice = has_closed_form
       else if (frame%is_found() .and. by_accuracy .and. .not. surface%has_hardness()) then
-         allocate (fitted, self%second)
+         allocate (fitted)
          call fitted%start(surface, accuracy, keep_fields)
-         call self%second%start(surface, accuracy, keep_fields)
          call move_alloc(fitted, self%first)
          self%choice = has_expansions
       else
-         allocate (grid)
-         call grid%start(surface, accuracy, keep_fields, points, residual)
-         call move_alloc(grid, self%first)
          self%choice = has_neither
          if (surface%has_hardness()) self%choice = has_a_hardness
          if (.not. by_accuracy) self%choice = merge(points_are_of_the_map, points_are_given, all(points == surface%points))
       end if
    end subroutine start
 
-   !> If the first solution is not good, the load is solved on grids too, and the better of the two solutions is
+   !> Without a good solution of the first solver the load is solved on grids, and the better of the two solutions is
    !> returned. Ranks on different machines may have first solutions of different digits: they decide together.
    subroutine solve_partial_contact(self, pbar_over_pstar, solution)
       class(auto_contact), intent(inout) :: self
@@ -90,10 +80,13 @@ contains
 
       class(contact_solution), allocatable :: on_grids
 
+      if (.not. allocated(self%first)) then
+         call self%grid_contact%solve_partial_contact(pbar_over_pstar, solution)
+         return
+      end if
       call self%first%solve(pbar_over_pstar, solution)
-      if (.not. allocated(self%second)) return
       if (.not. any_rank(.not. solution%is_good())) return
-      call self%second%solve(pbar_over_pstar, on_grids)
+      call self%grid_contact%solve_partial_contact(pbar_over_pstar, on_grids)
       if (any_rank(on_grids%status == converged .or. on_grids%largest_error() <= solution%largest_error())) &
          call move_alloc(on_grids, solution)
    end subroutine solve_partial_contact
@@ -104,29 +97,14 @@ contains
 
       type(solver_traits) :: of_grids
 
+      of_grids = self%grid_contact%traits()
+      traits = of_grids
       if (allocated(self%first)) traits = self%first%traits()
+      if (self%choice == has_expansions) traits%finest_grid = of_grids%finest_grid
       traits%solver = by_choice
       traits%has_details = .false.
       traits%choice = self%choice
-      if (.not. allocated(self%second)) return
-      of_grids = self%second%traits()
-      traits%finest_grid = of_grids%finest_grid
    end function traits
-
-   subroutine show_progress(self, progress)
-      class(auto_contact), intent(inout) :: self
-      class(solver_progress), intent(in), pointer :: progress
-
-      if (allocated(self%first)) call self%first%show_progress(progress)
-      if (allocated(self%second)) call self%second%show_progress(progress)
-   end subroutine show_progress
-
-   subroutine use_level(self, level)
-      class(auto_contact), intent(inout) :: self
-      integer, intent(in) :: level
-
-      if (allocated(self%first)) call self%first%use_level(level)
-   end subroutine use_level
 
    subroutine forget_last_load(self)
       class(auto_contact), intent(inout) :: self
@@ -142,18 +120,7 @@ contains
 
       class(contact_solution), allocatable :: unused
 
-      if (allocated(self%second)) call self%first%solve(pbar_over_pstar, unused)
+      if (allocated(self%first)) call self%first%solve(pbar_over_pstar, unused)
    end subroutine skip_load
-
-   subroutine new_kept_solution(self, solution)
-      class(auto_contact), intent(in) :: self
-      class(contact_solution), allocatable, intent(out) :: solution
-
-      if (allocated(self%second)) then
-         call self%second%new_kept_solution(solution)
-      else if (allocated(self%first)) then
-         call self%first%new_kept_solution(solution)
-      end if
-   end subroutine new_kept_solution
 
 end module wavycon_auto_contact

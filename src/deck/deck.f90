@@ -2,6 +2,7 @@
 module wavycon_deck
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: key_group_type
+   use wavycon_kinds, only: dp
    use wavycon_load_group, only: load_table
    use wavycon_map_statistics, only: map_statistics
    use wavycon_material_group, only: material_table
@@ -23,6 +24,7 @@ module wavycon_deck
    type :: deck_type
       character(:), allocatable :: path            !! the deck's file, as the caller named it
       type(group_values) :: scene, material, surface_values, load, stress, method, output
+      real(dp) :: e_star = 0.0_dp, p_star = 0.0_dp !! E*, p* [pressure]
       type(surface_type), allocatable :: surface   !! `make_scene` moves it into the scene
       type(map_statistics), allocatable :: map     !! allocated for a height map; `make_scene` moves it too
    end type deck_type

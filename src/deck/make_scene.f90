@@ -5,8 +5,8 @@ module wavycon_make_scene
    use wavycon_group_values, only: group_values
    use wavycon_kinds, only: dp
    use wavycon_load_group, only: given_loads
-   use wavycon_material_group, only: plane_strain_modulus
-   use wavycon_resolved_deck, only: resolved_deck_text
+   use wavycon_plain_text, only: newline
+   use wavycon_resolved_deck, only: resolved_deck_text, with_text
    use wavycon_scene, only: scene_type
    use wavycon_stress_group, only: make_stress_setting
    implicit none (type, external)
@@ -21,16 +21,14 @@ contains
       type(deck_type), intent(inout) :: deck   !! read without errors; surface and map, which may be large, are moved
       type(scene_type), intent(out) :: scene
 
-      type(deck_type) :: essence
-
       call move_alloc(deck%surface, scene%surface)
       call move_alloc(deck%map, scene%map)
       scene%roughness = scene%surface%roughness()
-      scene%e_star = plane_strain_modulus(deck%material)
+      scene%e_star = deck%e_star
+      scene%p_star = deck%p_star
       scene%gives_modulus = deck%material%has('e_star') .or. deck%material%has('e1')
       scene%has_units = scene%gives_modulus .or. deck%scene%has('pressure_unit') .or. deck%scene%has('length_unit')
       if (allocated(scene%map)) scene%has_units = scene%has_units .or. allocated(scene%map%length_unit)
-      scene%p_star = scene%surface%full_contact_pressure(scene%e_star)
       call take_loads(deck%load, scene%surface%amplitude, scene%p_star, scene%loads_by, scene%target, &
                       scene%mean_pressure)
       call make_stress_setting(deck%stress, deck%material, scene%p_star, scene%stress_setting)
@@ -44,16 +42,14 @@ contains
       scene%surface_kind = deck%surface_values%text('kind')
       scene%method = deck%method
       scene%output = deck%output
-      essence = deck
-      essence%path = ''
-      call essence%output%set('directory', '')
-      scene%essence = resolved_deck_text(essence)
-      essence = deck
+      scene%resolved_deck = resolved_deck_text(deck)
+      ! Its first line has the path of the deck.
+      scene%essence = scene%resolved_deck(index(scene%resolved_deck, newline):)
+      scene%essence = with_text(scene%essence, 'directory', scene%directory, '')
       ! A copy of the resolved deck in another directory must find the map. A map that was made has no file.
-      if (allocated(scene%map)) then
-         if (scene%map%path /= '') call essence%surface_values%set('file', scene%map%path)
-      end if
-      scene%resolved_deck = resolved_deck_text(essence)
+      if (.not. allocated(scene%map)) return
+      if (scene%map%path /= '') scene%resolved_deck = &
+         with_text(scene%resolved_deck, 'file', deck%surface_values%text('file'), scene%map%path)
    end subroutine make_scene
 
    !> Converts loads to the program's normalisation.

@@ -5,11 +5,11 @@ module wavycon_material_group
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: short_number
    use wavycon_problems, only: problem_list_type
+   use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
 
-   public :: material_table, check_material_group, check_hardness, hardness_over_pstar, is_another_way, &
-      plane_strain_modulus
+   public :: material_table, check_material_group, is_another_way
 
    !> The keys that give the stiffness in place of e_star.
    character(3), parameter :: moduli(*) = ['e1 ', 'nu1', 'e2 ', 'nu2']
@@ -37,13 +37,18 @@ contains
    end function material_table
 
    !> Reports moduli without their Poisson's ratios, and moduli beside e_star. Leaves e_star out of the resolved deck
-   !> if e1 is given.
-   subroutine check_material_group(values, problems)
+   !> if e1 is given. Finds E* and, where there is a surface, p* and its hardness, which is checked too.
+   subroutine check_material_group(values, surface, e_star, p_star, problems)
       type(group_values), intent(inout) :: values
+      type(surface_type), allocatable, intent(inout) :: surface   !! not allocated if it has problems
+      real(dp), intent(out) :: e_star, p_star                      !! E*, p* [pressure]; 0 if there are problems
       type(problem_list_type), intent(inout) :: problems
 
-      integer :: i
+      integer :: before, i
 
+      e_star = 0.0_dp
+      p_star = 0.0_dp
+      before = problems%number
       call values%require(problems, 'e1', 'nu1')
       call values%require(problems, 'nu1', 'e1')
       call values%require(problems, 'e2', 'nu2')
@@ -54,18 +59,23 @@ contains
          if (values%has(trim(moduli(i))) .and. values%has('e_star')) exit
       end do
       if (values%has('e1')) call values%leave_out('e_star')
+      if (problems%number > before .or. values%any_bad() .or. .not. allocated(surface)) return
+      e_star = plane_strain_modulus(values)
+      p_star = surface%full_contact_pressure(e_star)
+      if (values%has('hardness')) call take_hardness(values, p_star, surface%hardness, problems)
    end subroutine check_material_group
 
-   !> Reports a hardness on a flat surface, and one so far from p* that its unit is most likely wrong.
-   subroutine check_hardness(values, p_star, problems)
+   !> Takes the hardness. Reports one on a flat surface, and one so far from p* that its unit is most likely wrong.
+   subroutine take_hardness(values, p_star, hardness_over_pstar, problems)
       type(group_values), intent(in) :: values             !! of a &material group without problems
       real(dp), intent(in) :: p_star                       !! p* [pressure]; 0: the surface is flat
+      real(dp), intent(inout) :: hardness_over_pstar       !! of a flat surface as it was
       type(problem_list_type), intent(inout) :: problems
 
       real(dp) :: hardness
 
-      if (.not. values%has('hardness')) return
       hardness = values%real('hardness')
+      if (p_star > 0.0_dp) hardness_over_pstar = hardness/p_star
       if (p_star <= 0.0_dp) then
          call values%complain(problems, 'hardness', &
             'the surface is flat: its pressure is the mean pressure, and a hardness means nothing')
@@ -75,16 +85,7 @@ contains
             short_number(most_hardness)//' of p* = '//short_number(p_star)// &
             '. Do its unit and that of e_star agree, and those of the lengths?')
       end if
-   end subroutine check_hardness
-
-   !> The hardness over p*; huge if there is none.
-   pure real(dp) function hardness_over_pstar(values, p_star) result(hardness)
-      type(group_values), intent(in) :: values   !! of a &material group without problems
-      real(dp), intent(in) :: p_star             !! p* [pressure]
-
-      hardness = huge(hardness)
-      if (values%has('hardness') .and. p_star > 0.0_dp) hardness = values%real('hardness')/p_star
-   end function hardness_over_pstar
+   end subroutine take_hardness
 
    !> Whether two keys of &material give the stiffness in different ways: e_star, or the moduli of the bodies.
    pure logical function is_another_way(key, other)

@@ -11,9 +11,8 @@ module wavycon_read_deck
    use wavycon_deck_text, only: deck_text_type, read_deck_text
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_group_values, only: group_values
-   use wavycon_kinds, only: dp
    use wavycon_load_group, only: check_load_group, check_loads_of_surface
-   use wavycon_material_group, only: check_hardness, check_material_group, hardness_over_pstar, plane_strain_modulus
+   use wavycon_material_group, only: check_material_group
    use wavycon_method_group, only: check_method_group
    use wavycon_output_group, only: check_output_group
    use wavycon_plain_text, only: escaped
@@ -113,26 +112,20 @@ contains
       if (allocated(deck%map%length_unit)) call deck%scene%set('length_unit', deck%map%length_unit)
    end subroutine read_surface
 
-   !> Checks &material and &load and, where these and the surface have no problems, hardness and loads against p* and
-   !> Delta. Sets the hardness of the surface.
+   !> Checks &material, which gives p* and the hardness of the surface, and &load and, where these and the surface have
+   !> no problems, the loads against p* and Delta.
    subroutine check_material_and_loads(deck, problems)
       type(deck_type), intent(inout) :: deck   !! after read_surface
       type(problem_list_type), intent(inout) :: problems
 
-      real(dp) :: p_star
       integer :: before
 
       before = problems%number
-      call check_material_group(deck%material, problems)
-      if (problems%number == before .and. .not. deck%material%any_bad() .and. allocated(deck%surface)) then
-         p_star = deck%surface%full_contact_pressure(plane_strain_modulus(deck%material))
-         call check_hardness(deck%material, p_star, problems)
-         deck%surface%hardness = hardness_over_pstar(deck%material, p_star)
-      end if
+      call check_material_group(deck%material, deck%surface, deck%e_star, deck%p_star, problems)
       call check_load_group(deck%load, problems)
       if (problems%number > before .or. deck%material%any_bad() .or. deck%load%any_bad()) return
       if (deck%load%place == 0 .or. .not. allocated(deck%surface)) return
-      call check_loads_of_surface(deck%load, deck%surface%amplitude, p_star, problems)
+      call check_loads_of_surface(deck%load, deck%surface%amplitude, deck%p_star, problems)
    end subroutine check_material_and_loads
 
 end module wavycon_read_deck

@@ -13,8 +13,7 @@ module wavycon_wavy_solver
    use wavycon_method_list, only: start_solver
    use wavycon_load_group, only: check_load_group, check_loads_of_surface, load_table
    use wavycon_make_scene, only: make_scene, take_loads
-   use wavycon_material_group, only: check_hardness, check_material_group, hardness_over_pstar, material_table, &
-                                     plane_strain_modulus
+   use wavycon_material_group, only: check_material_group, material_table
    use wavycon_method_group, only: check_method_group, method_table
    use wavycon_plain_text, only: integer_text
    use wavycon_problem_report, only: problem_report
@@ -24,7 +23,6 @@ module wavycon_wavy_solver
    use wavycon_solution_stress, only: stress_setting_of_keys
    use wavycon_solve_target, only: solve_target
    use wavycon_stress_setting, only: stress_setting
-   use wavycon_surface, only: surface_type
    use wavycon_wavy_solution, only: start_solution, wavy_solution
    use wavycon_wavy_surface, only: copy_surface, number_words, wavy_surface
    implicit none (type, external)
@@ -60,15 +58,11 @@ module wavycon_wavy_solver
       private
       class(contact_solver), allocatable :: solver
       type(solver_traits) :: traits                   !! of the solver
-      character(:), allocatable :: solver_name, description
-      real(dp) :: e_star = 1.0_dp                     !! [pressure]
-      real(dp) :: p_star = 0.0_dp                     !! [pressure]
+      character(:), allocatable :: description
+      !> Of the deck or, without one, modulus, p* and &method; stress_setting is that of the deck or of set_stress.
+      type(scene_type) :: scene
       logical :: keep_fields = .true.                 !! in the solutions that the caller gets
       logical :: has_fields = .true.                  !! whether the solver has them, which loads by the key yield need
-      integer :: loads_by = by_pressure               !! of the deck's loads
-      real(dp), allocatable :: target(:)              !! of the deck's loads, as of scene_type
-      real(dp), allocatable :: mean_pressure(:)
-      type(stress_setting), allocatable :: stress     !! of the deck's &stress or of set_stress
       character(:), allocatable :: trouble            !! why it could not be made
       integer(c_int) :: is_solving = 0                !! 1: a thread of a C program solves a load
    contains
@@ -111,33 +105,27 @@ contains
       type(deck_text_type) :: text
       type(group_values) :: values
       type(problem_list_type) :: problems
-      type(surface_type), allocatable :: inner
 
-      call copy_surface(surface, inner, kind, error)
+      call copy_surface(surface, solver%scene%surface, kind, error)
       if (allocated(error)) then
          solver%trouble = error%message
          return
       end if
       call read_group_text(material_table(), material, values, text, problems)
-      if (problems%number == 0) call check_material_group(values, problems)
-      if (problems%number == 0) then
-         solver%e_star = plane_strain_modulus(values)
-         solver%p_star = inner%full_contact_pressure(solver%e_star)
-         inner%hardness = hardness_over_pstar(values, solver%p_star)
-         call check_hardness(values, solver%p_star, problems)
-      end if
-      if (problems%number == 0) then
-         call read_group_text(method_table(), method, values, text, problems)
-         call check_method_group(values, kind, inner, problems)
-      end if
+      associate (scene => solver%scene)
+         if (problems%number == 0) &
+            call check_material_group(values, scene%surface, scene%e_star, scene%p_star, problems)
+         if (problems%number == 0) then
+            call read_group_text(method_table(), method, scene%method, text, problems)
+            call check_method_group(scene%method, kind, scene%surface, problems)
+         end if
+      end associate
       if (problems%number > 0) then
          call fatal_error(error, exit_bad_input, problem_report(problems, text))
          solver%trouble = error%message
          return
       end if
-      solver%keep_fields = keep_fields
-      solver%has_fields = keep_fields
-      call start(solver, inner, values)
+      call start(solver, keep_fields)
    end subroutine make_solver_of_material
 
    !> Makes the solver that a deck describes, with its loads, see number_of_loads and solve_load; &output has no effect.
@@ -149,33 +137,26 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(deck_type) :: deck
-      type(scene_type) :: scene
 
       call read_deck(path, deck, error)
       if (allocated(error)) then
          solver%trouble = error%message
          return
       end if
-      call make_scene(deck, scene)
-      solver%e_star = scene%e_star
-      solver%p_star = scene%p_star
-      solver%keep_fields = keep_fields
-      solver%has_fields = keep_fields .or. scene%loads_by == by_yield
-      solver%loads_by = scene%loads_by
-      call move_alloc(scene%target, solver%target)
-      if (allocated(scene%mean_pressure)) call move_alloc(scene%mean_pressure, solver%mean_pressure)
-      if (allocated(scene%stress_setting)) call move_alloc(scene%stress_setting, solver%stress)
-      call start(solver, scene%surface, scene%method)
+      call make_scene(deck, solver%scene)
+      call start(solver, keep_fields)
    end subroutine make_solver_of_deck
 
-   subroutine start(solver, surface, method)
-      type(wavy_solver), intent(inout) :: solver
-      type(surface_type), intent(in) :: surface
-      type(group_values), intent(in) :: method
+   !> Starts the solver of its scene.
+   subroutine start(self, keep_fields)
+      type(wavy_solver), intent(inout) :: self
+      logical, intent(in) :: keep_fields
 
-      call start_solver(surface, method, solver%has_fields, solver%solver, solver%description)
-      solver%solver_name = method%text('solver')
-      solver%traits = solver%solver%traits()
+      self%keep_fields = keep_fields
+      self%has_fields = keep_fields .or. self%scene%loads_by == by_yield
+      call start_solver(self%scene%surface, self%scene%method, self%has_fields, self%solver, self%description)
+      deallocate (self%scene%surface)
+      self%traits = self%solver%traits()
    end subroutine start
 
    !> Whether the solver has been made.
@@ -191,7 +172,7 @@ contains
       character(:), allocatable :: name
 
       name = ''
-      if (self%is_made()) name = self%solver_name
+      if (self%is_made()) name = self%scene%method%text('solver')
    end function get_name
 
    !> The discretisation in words.
@@ -220,7 +201,7 @@ contains
       if (.not. self%is_made()) return
       associate (surface => self%solver%surface)
          side = surface%sides()
-         scales = wavy_scales(self%e_star, self%p_star, surface%amplitude, side(1), side(2), &
+         scales = wavy_scales(self%scene%e_star, self%scene%p_star, surface%amplitude, side(1), side(2), &
                               int(surface%dimension, c_int))
       end associate
    end function scales
@@ -230,7 +211,7 @@ contains
       class(wavy_solver), intent(in) :: self
 
       number_of_loads = 0
-      if (allocated(self%target)) number_of_loads = size(self%target)
+      if (allocated(self%scene%target)) number_of_loads = size(self%scene%target)
    end function number_of_loads
 
    !> Sets what loads by the key yield need. Errors: exit_bad_input if the solver has not been made, and with all
@@ -244,8 +225,8 @@ contains
       type(stress_setting), allocatable :: setting
 
       call check_made(self, error)
-      if (.not. allocated(error)) call stress_setting_of_keys(keys, self%p_star, setting, error)
-      if (.not. allocated(error)) call move_alloc(setting, self%stress)
+      if (.not. allocated(error)) call stress_setting_of_keys(keys, self%scene%p_star, setting, error)
+      if (.not. allocated(error)) call move_alloc(setting, self%scene%stress_setting)
    end subroutine set_stress
 
    !> Solves one load. A load that cannot be solved as requested is no error, but the status of the solution. Errors:
@@ -268,12 +249,12 @@ contains
       call read_group_text(load_table(), quantity//' = '//number_words(value), values, text, problems)
       call check_load_group(values, problems)
       if (problems%number == 0) &
-         call check_loads_of_surface(values, self%solver%surface%amplitude, self%p_star, problems)
+         call check_loads_of_surface(values, self%solver%surface%amplitude, self%scene%p_star, problems)
       if (problems%number > 0) then
          call fatal_error(error, exit_bad_input, problem_report(problems, text))
          return
       end if
-      call take_loads(values, self%solver%surface%amplitude, self%p_star, loads_by, target, mean_pressure)
+      call take_loads(values, self%solver%surface%amplitude, self%scene%p_star, loads_by, target, mean_pressure)
       if (size(target) /= 1) then
          call fatal_error(error, exit_bad_input, text%path//': this is not one load but '//integer_text(size(target)))
          return
@@ -297,11 +278,15 @@ contains
       if (load < 1 .or. load > self%number_of_loads()) then
          call fatal_error(error, exit_bad_input, 'there is no load '//integer_text(load)//': the deck gives '// &
                           integer_text(self%number_of_loads()))
-      else if (allocated(self%mean_pressure)) then
-         call self%solve_one(self%loads_by, self%target(load), self%mean_pressure(load), solution, error)
-      else
-         call self%solve_one(self%loads_by, self%target(load), solution=solution, error=error)
+         return
       end if
+      associate (scene => self%scene)
+         if (allocated(scene%mean_pressure)) then
+            call self%solve_one(scene%loads_by, scene%target(load), scene%mean_pressure(load), solution, error)
+         else
+            call self%solve_one(scene%loads_by, scene%target(load), solution=solution, error=error)
+         end if
+      end associate
    end subroutine solve_load
 
    !> Errors: as of start_solution and check_yield.
@@ -319,14 +304,14 @@ contains
       if (loads_by == by_yield) call check_yield(self, error)
       if (allocated(error)) return
       call begin_solve(self%is_solving)
-      call solve_target(self%solver, loads_by, target, found, self%stress)
+      call solve_target(self%solver, loads_by, target, found, self%scene%stress_setting)
       call end_solve(self%is_solving)
       if (present(mean_pressure)) then
          pressure = mean_pressure
       else
-         pressure = self%p_star*found%pbar_over_pstar
+         pressure = self%scene%p_star*found%pbar_over_pstar
       end if
-      call start_solution(found, self%solver%surface, self%p_star, pressure, self%keep_fields, &
+      call start_solution(found, self%solver%surface, self%scene%p_star, pressure, self%keep_fields, &
                           self%traits%has_errors, solution, error)
    end subroutine solve_one
 
@@ -337,8 +322,8 @@ contains
 
       logical :: has_yield_stress
 
-      has_yield_stress = allocated(self%stress)
-      if (has_yield_stress) has_yield_stress = allocated(self%stress%yield_stress)
+      has_yield_stress = allocated(self%scene%stress_setting)
+      if (has_yield_stress) has_yield_stress = allocated(self%scene%stress_setting%yield_stress)
       if (.not. has_yield_stress) then
          call fatal_error(error, exit_bad_input, 'yield needs yield_stress, which set_stress sets')
       else if (.not. self%has_fields) then

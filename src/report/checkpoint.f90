@@ -311,7 +311,7 @@ contains
       integer :: ranks
 
       ranks = merge(results%sharing%ranks, 1, results%sharing%is_shared())
-      write (number, '(i0)') surface_checksum(results%scene%surface)
+      write (number, '(i0)') surface_checksum(results%solver%surface)
       text = 'wavycon '//version//' ('//revision//')'//newline// &
              integer_text(ranks)//trim(merge(' rank ', ' ranks', ranks == 1))//newline// &
              'surface '//trim(number)//newline//results%scene%essence

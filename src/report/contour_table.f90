@@ -59,8 +59,8 @@ contains
       call results%open_table('contour', columns, file, in_blocks=.true.)
       any_curve = .false.
       do load = 1, size(results%loads)
-         call results%loads(load)%solution%edge_curves(results%scene%surface, curves)
-         if (results%scene%surface%mirrored) call keep_curves_of_quarter(curves)
+         call results%loads(load)%solution%edge_curves(results%solver%surface, curves)
+         if (results%solver%surface%mirrored) call keep_curves_of_quarter(curves)
          if (size(curves) == 0) cycle
          any_curve = .true.
          call results%begin_block(file, load)
@@ -84,7 +84,7 @@ contains
       do i = 1, size(curve%phi)
          call file%add(load)
          call file%add(number)
-         call file%add(results%scene%surface%length*[curve%phi(i), curve%theta(i)]/(2*pi))
+         call file%add(results%solver%surface%length*[curve%phi(i), curve%theta(i)]/(2*pi))
          call file%end_row()
       end do
    end subroutine put_curve

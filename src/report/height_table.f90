@@ -50,7 +50,7 @@ contains
       type(results_type), intent(in) :: results
 
       associate (unused => self); end associate
-      is_written_by_all = results%scene%surface%is_spread()
+      is_written_by_all = results%solver%surface%is_spread()
    end function is_written_by_all
 
    !> Writes rows of heights along x, over their mean [length]: of a map at its own points, of waves at those of maps.
@@ -63,11 +63,11 @@ contains
       real(dp), allocatable :: height(:, :)
       integer :: points(2)
 
-      if (results%scene%surface%is_spread()) then
+      if (results%solver%surface%is_spread()) then
          call write_by_all(results, error)
          return
       end if
-      associate (surface => results%scene%surface)
+      associate (surface => results%solver%surface)
          points = surface%points/surface%parts()
          if (all(points == 0)) points = map_points(results)
          call file%open(results%scene%directory, results%scene%case//'.height.npy', binary=.true.)
@@ -94,7 +94,7 @@ contains
       type(slab_transform) :: transform
       real(dp), allocatable :: height(:, :)
 
-      associate (surface => results%scene%surface)
+      associate (surface => results%solver%surface)
          call slab%start(surface%points/surface%parts())
          allocate (height(slab%points(1), slab%columns()))
          call transform%start(slab%points, surface%shape%is_even())

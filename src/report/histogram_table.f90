@@ -84,12 +84,12 @@ contains
       integer :: bin, bins, points(2)
       logical :: linear
 
-      associate (scene => results%scene, solution => results%loads(load)%solution)
-         call solution%fields(scene%surface, fields)
+      associate (scene => results%scene, surface => results%solver%surface, solution => results%loads(load)%solution)
+         call solution%fields(surface, fields)
          call fields%own_points(points, offset)
-         linear = any(points == 0) .and. scene%surface%dimension == 2
+         linear = any(points == 0) .and. surface%dimension == 2
          if (any(points == 0)) then
-            points = merge(plane_samples, [line_samples, 1], scene%surface%dimension == 2)
+            points = merge(plane_samples, [line_samples, 1], surface%dimension == 2)
             offset = merge(0.5_dp, 0.0_dp, points > 1)
          end if
          call fields%on_grid(points, offset, pressure, displacement, gap)
@@ -107,7 +107,7 @@ contains
          call file%add(load)
          call file%add(bin)
          call put_bin(pressures, results%scene%p_star)
-         call put_bin(gaps, results%scene%surface%amplitude)
+         call put_bin(gaps, results%solver%surface%amplitude)
          call file%end_row()
       end do
 

@@ -91,8 +91,8 @@ contains
       subroutine put_largest(largest)
          type(largest_stress), intent(in) :: largest
 
-         associate (scene => results%scene, length => results%scene%surface%length, &
-                    parts => results%scene%surface%parts())
+         associate (scene => results%scene, length => results%solver%surface%length, &
+                    parts => results%solver%surface%parts())
             call file%add([scene%p_star*largest%value, [length, length(1)]*largest%place_in_cell(parts)])
          end associate
       end subroutine put_largest

@@ -85,7 +85,7 @@ contains
       is_written_by_all = number > 0 .and. &
          all([(results%loads(load)%solution%spread_points() == number, load=1, size(results%loads))])
       if (.not. is_written_by_all) return
-      call results%loads(1)%solution%fields(results%scene%surface, fields)
+      call results%loads(1)%solution%fields(results%solver%surface, fields)
       call fields%own_points(grid, offset)
       is_written_by_all = all(points == grid)
    end function is_written_by_all
@@ -138,18 +138,18 @@ contains
       real(dp), allocatable :: shape(:, :)
       type(slab_transform) :: transform
 
-      call results%loads(1)%solution%fields(results%scene%surface, fields)
+      call results%loads(1)%solution%fields(results%solver%surface, fields)
       slab = fields%own_slab()
       call fields%own_points(own, offset)
       allocate (shape(slab%points(1), slab%columns()))
-      associate (series => results%scene%surface%shape)
+      associate (series => results%solver%surface%shape)
          call transform%start(slab%points, series%is_even())
          call transform%sample(series, shape)
       end associate
       call file%open(results%scene%directory, results%scene%case//'.map.npy', &
                      npy_header(column_name(columns(2:)), [size(results%loads), points(2), points(1)]))
       do load = 1, size(results%loads)
-         if (load > 1) call results%loads(load)%solution%fields(results%scene%surface, fields)
+         if (load > 1) call results%loads(load)%solution%fields(results%solver%surface, fields)
          ! The mirror images of the columns follow those of a quarter of the cell.
          do image = 1, points(2)/slab%points(2)
             call put_columns(results, load, points, offset, slab, fields, shape, image == 2, file)
@@ -180,7 +180,7 @@ contains
       block = max(1, most_numbers/(numbers*points(1)))
       allocate (rows(numbers, points(1), block))
       allocate (gap(slab%points(1)), p(slab%points(1)), u(slab%points(1)))
-      associate (surface => results%scene%surface, p_star => results%scene%p_star)
+      associate (surface => results%solver%surface, p_star => results%scene%p_star)
          side = surface%sides()
          ! Ranks with fewer columns take part with none.
          do step = 1, (slab%width - 1)/block + 1
@@ -236,12 +236,12 @@ contains
       integer :: load, own(2)
 
       do load = 1, size(results%loads)
-         call results%loads(load)%solution%fields(results%scene%surface, fields)
+         call results%loads(load)%solution%fields(results%solver%surface, fields)
          call fields%own_points(own, offset)
          if (all(own == points)) return
       end do
       ! Of a mirrored map the points are in the middle of their steps, so that none lies on a border.
-      offset = merge(0.5_dp, 0.0_dp, results%scene%surface%parts() > 1)
+      offset = merge(0.5_dp, 0.0_dp, results%solver%surface%parts() > 1)
    end function map_offset
 
    !> Writes the map of a load. The point after the last of a row is the first again and is not written.
@@ -259,7 +259,7 @@ contains
       integer :: k, l
 
       allocate (rows(size(columns) - 1, points(1)))
-      associate (surface => results%scene%surface, p_star => results%scene%p_star)
+      associate (surface => results%solver%surface, p_star => results%scene%p_star)
          call results%loads(load)%solution%fields(surface, fields)
          call fields%on_grid(points, offset, p, u, gap)
          call sample_series(surface%shape, points, offset, shape, surface%parts())

@@ -59,7 +59,7 @@ contains
       call file%put('# wavycon '//version//' ('//revision//')')
       call file%put('# deck: '//escaped(self%scene%deck_path))
       if (self%scene%title /= '') call file%put('# title: '//escaped(self%scene%title))
-      associate (surface => self%scene%surface, length => self%scene%length_unit, pressure => self%scene%pressure_unit)
+      associate (surface => self%solver%surface, length => self%scene%length_unit, pressure => self%scene%pressure_unit)
          call file%put('# surface: '//self%scene%surface_kind// &
                        ', Delta['//length//'] = '//exact_number(surface%amplitude)//cell_sides())
          if (allocated(self%scene%map)) call put_statistics(self%scene, file)
@@ -80,11 +80,11 @@ contains
 
          real(dp) :: side(2)
 
-         side = self%scene%surface%sides()
+         side = self%solver%surface%sides()
          words = ', cell_x['//self%scene%length_unit//'] = '//exact_number(side(1))
-         if (self%scene%surface%dimension == 2) words = words//', cell_y['//self%scene%length_unit//'] = '// &
+         if (self%solver%surface%dimension == 2) words = words//', cell_y['//self%scene%length_unit//'] = '// &
             exact_number(side(2))
-         if (self%scene%surface%mirrored) words = words//', mirrored'
+         if (self%solver%surface%mirrored) words = words//', mirrored'
       end function cell_sides
 
    end subroutine open_table
@@ -134,7 +134,7 @@ contains
          case ('length')
             words = length
          case ('area')
-            words = length//merge('^2', '  ', self%scene%surface%dimension == 2)
+            words = length//merge('^2', '  ', self%solver%surface%dimension == 2)
          case ('length^3', 'length^4', 'rad/length')
             words = unit(:index(unit, 'length') - 1)//length//unit(index(unit, 'length') + len('length'):)
          case ('pressure')

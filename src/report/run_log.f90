@@ -93,13 +93,13 @@ contains
       character(:), allocatable :: words
 
       if (self%quiet) return
-      associate (scene => results%scene)
+      associate (scene => results%scene, surface => results%solver%surface)
          call self%say('wavycon '//version//' ('//revision//')')
          call self%say('deck      '//escaped(scene%deck_path))
          if (scene%title /= '') call self%say('title     '//escaped(scene%title))
          call self%say('surface   '//scene%surface_kind//', Delta = '// &
-                       short_number(scene%surface%amplitude)//' ['//scene%length_unit//'], cell '// &
-                       cell_of(scene%surface)//' ['//scene%length_unit//']')
+                       short_number(surface%amplitude)//' ['//scene%length_unit//'], cell '// &
+                       cell_of(surface)//' ['//scene%length_unit//']')
          if (allocated(scene%map)) call self%say('map       '//integer_text(scene%map%points(1))//' x '// &
             integer_text(scene%map%points(2))//' points ('//trim(scene%map%format)// &
             '), heights over their mean '// &
@@ -108,7 +108,7 @@ contains
          if (allocated(scene%map)) then
             if (scene%map%assumed_sides /= '') call self%say('sides     '//scene%map%assumed_sides)
          end if
-         if (allocated(scene%map) .and. scene%surface%amplitude > 0.0_dp) call self%say( &
+         if (allocated(scene%map) .and. surface%amplitude > 0.0_dp) call self%say( &
             'roughness '//roughness_words(scene))
          if (allocated(scene%map)) then
             words = preparation_words(scene%map%changes, scene%length_unit)
@@ -120,7 +120,7 @@ contains
             if (.not. any(scene%map%is_broken_along([1, 2]))) call show_unresolved_slopes(self, scene%roughness)
          end if
          call show_unlikely_slopes(self, scene)
-         call self%say('material  '//material_words(scene))
+         call self%say('material  '//material_words(scene, surface))
          call self%say('loads     '//integer_text(size(scene%target))//', '//target_words(scene%loads_by)// &
                        ' from '//short_number(minval(scene%target))//' to '//short_number(maxval(scene%target)))
          call self%say('method    '//results%method)
@@ -143,14 +143,15 @@ contains
    end function roughness_words
 
    !> Modulus, p* and, if there is one, hardness.
-   pure function material_words(scene) result(words)
+   pure function material_words(scene, surface) result(words)
       type(scene_type), intent(in) :: scene
+      type(surface_type), intent(in) :: surface
       character(:), allocatable :: words
 
       words = 'E* = '//short_number(scene%e_star)//' ['//scene%pressure_unit//'], p* = '//short_number(scene%p_star)// &
               ' ['//scene%pressure_unit//']'
-      if (scene%surface%has_hardness()) words = words//', hardness = '// &
-         short_number(scene%surface%hardness*scene%p_star)//' ['//scene%pressure_unit//']'
+      if (surface%has_hardness()) words = words//', hardness = '// &
+         short_number(surface%hardness*scene%p_star)//' ['//scene%pressure_unit//']'
    end function material_words
 
    !> Warns of a map whose opposite borders do not fit together.

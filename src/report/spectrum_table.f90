@@ -63,7 +63,7 @@ contains
       type(output_file) :: file
 
       call results%open_table('spectrum', columns, file, in_blocks=.true.)
-      associate (surface => results%scene%surface)
+      associate (surface => results%solver%surface)
          associate (shape => surface%shape, unit => surface%amplitude, length => surface%length, &
                     points => surface%points)
             if (surface%dimension == 2) &

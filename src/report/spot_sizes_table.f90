@@ -72,7 +72,7 @@ contains
       call results%open_table('spot_sizes', columns, file, in_blocks=.true.)
       any_block = .false.
       do load = 1, size(results%loads)
-         call results%loads(load)%solution%spots(results%scene%surface, regions)
+         call results%loads(load)%solution%spots(results%solver%surface, regions)
          if (.not. regions%known) cycle
          any_block = .true.
          call results%begin_block(file, load)
@@ -95,7 +95,7 @@ contains
       real(dp) :: area, mean_pressure
       integer :: i, k
 
-      associate (surface => results%scene%surface)
+      associate (surface => results%solver%surface)
          do i = 1, size(regions)
             associate (region => regions(i))
                area = region%area_fraction*surface%nominal_area()

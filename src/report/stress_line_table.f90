@@ -47,15 +47,15 @@ contains
       real(dp) :: side(2)
       integer :: body, i, load
 
-      associate (scene => results%scene)
-         side = scene%surface%sides()
-         call stress_depths(scene, .false., depths)
+      associate (scene => results%scene, surface => results%solver%surface)
+         side = surface%sides()
+         call stress_depths(scene%stress, surface, .false., depths)
          allocate (parts(6, 2, size(depths)), errors(size(depths)), rows(size(columns) - 2, size(depths)))
          call results%open_table('stress_line', columns, file, in_blocks=.true.)
          do load = 1, size(results%loads)
-            call results%loads(load)%solution%stresses(scene%surface, fields)
+            call results%loads(load)%solution%stresses(surface, fields)
             do i = 1, size(depths)
-               call fields%at(scene%surface%crest(1), scene%surface%crest(2), angle_of_depth(scene, depths(i)), &
+               call fields%at(surface%crest(1), surface%crest(2), angle_of_depth(surface, depths(i)), &
                               parts(:, :, i), errors(i))
             end do
             do body = 1, number_of_bodies(results)

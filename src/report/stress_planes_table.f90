@@ -58,7 +58,7 @@ contains
       real(dp) :: offset(2)
 
       points = map_points(results)
-      call stress_depths(results%scene, .true., depths)
+      call stress_depths(results%scene%stress, results%solver%surface, .true., depths)
       as_text = is_text(results%scene%output%text('map_format'), points)
       if (as_text) then
          call results%open_table('stress_planes', columns, file, in_blocks=.true.)
@@ -75,7 +75,7 @@ contains
       if (file%is_open()) offset = map_offset(results, points)
       do load = 1, size(results%loads)
          if (.not. file%is_open()) exit
-         call results%loads(load)%solution%stresses(results%scene%surface, fields)
+         call results%loads(load)%solution%stresses(results%solver%surface, fields)
          do body = 1, number_of_bodies(results)
             do i = 1, size(depths)
                if (as_text) call results%begin_block(file, load)
@@ -102,9 +102,9 @@ contains
       integer :: k, l
 
       allocate (rows(size(columns) - 2, points(1)))
-      associate (scene => results%scene)
-         side = scene%surface%sides()
-         call fields%on_plane(points, offset, angle_of_depth(scene, depth), scene%stress_setting%body(body), stress, &
+      associate (scene => results%scene, surface => results%solver%surface)
+         side = surface%sides()
+         call fields%on_plane(points, offset, angle_of_depth(surface, depth), scene%stress_setting%body(body), stress, &
                               errors)
          do l = 1, points(2)
             do k = 1, points(1)

@@ -1,10 +1,11 @@
 !> What all tables of stresses at points share: their columns, the numbers of a point, and the depths.
 module wavycon_stress_rows
    use wavycon_constants, only: pi
+   use wavycon_group_values, only: group_values
    use wavycon_kinds, only: dp
    use wavycon_results, only: results_type
-   use wavycon_scene, only: scene_type
    use wavycon_stress_tensor, only: principal_stresses, stress_pressure, von_mises
+   use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
 
@@ -35,8 +36,9 @@ contains
 
    !> The depths of a table: those of planes are the list of depths, if there is one, and those of line and section the
    !> range, if there is one.
-   subroutine stress_depths(scene, of_planes, depths)
-      type(scene_type), intent(in) :: scene   !! with a group &stress
+   subroutine stress_depths(stress, surface, of_planes, depths)
+      type(group_values), intent(in) :: stress    !! the group &stress
+      type(surface_type), intent(in) :: surface
       logical, intent(in) :: of_planes
       real(dp), allocatable, intent(out) :: depths(:)   !! [length]
 
@@ -44,29 +46,27 @@ contains
       logical :: by_list, has_range
       real(dp) :: side(2)
 
-      associate (stress => scene%stress)
-         side = scene%surface%sides()
-         has_range = stress%has('depth_from') .or. stress%has('depth_to') .or. stress%has('depth_steps')
-         by_list = of_planes .or. .not. has_range
-         if (by_list .and. stress%has('depths')) then
-            depths = stress%reals('depths')
-         else if (by_list .and. stress%has('depths_over_cell_x')) then
-            depths = side(1)*stress%reals('depths_over_cell_x')
-         else
-            steps = stress%integer('depth_steps')
-            intervals = max(1, steps - 1)
-            depths = [(side(1)*(stress%real('depth_from')*(intervals - i) + stress%real('depth_to')*i)/intervals, &
-                       i=0, steps - 1)]
-         end if
-      end associate
+      side = surface%sides()
+      has_range = stress%has('depth_from') .or. stress%has('depth_to') .or. stress%has('depth_steps')
+      by_list = of_planes .or. .not. has_range
+      if (by_list .and. stress%has('depths')) then
+         depths = stress%reals('depths')
+      else if (by_list .and. stress%has('depths_over_cell_x')) then
+         depths = side(1)*stress%reals('depths_over_cell_x')
+      else
+         steps = stress%integer('depth_steps')
+         intervals = max(1, steps - 1)
+         depths = [(side(1)*(stress%real('depth_from')*(intervals - i) + stress%real('depth_to')*i)/intervals, &
+                    i=0, steps - 1)]
+      end if
    end subroutine stress_depths
 
    !> Z of a depth [rad].
-   elemental real(dp) function angle_of_depth(scene, depth)
-      type(scene_type), intent(in) :: scene
+   elemental real(dp) function angle_of_depth(surface, depth)
+      type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: depth   !! [length]
 
-      angle_of_depth = 2*pi*depth/scene%surface%length(1)
+      angle_of_depth = 2*pi*depth/surface%length(1)
    end function angle_of_depth
 
    !> The number of bodies whose stresses differ.

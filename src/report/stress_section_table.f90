@@ -63,15 +63,15 @@ contains
 
       number = findloc(['x       ', 'diagonal', 'y       '] == results%scene%stress%text('section'), .true., dim=1)
       call start_surface_line(line, results, number)
-      call stress_depths(results%scene, .false., depths)
+      call stress_depths(results%scene%stress, results%solver%surface, .false., depths)
       allocate (t, source=[(maxval(line%angle(:, k) - line%angle(:, 0)), k=0, ubound(line%angle, 2))])
       allocate (parts(6, 2, size(t), size(depths)), errors(size(t), size(depths)))
       call results%open_table('stress_section', columns, file, in_blocks=.true.)
       do load = 1, size(results%loads)
-         call results%loads(load)%solution%stresses(results%scene%surface, fields)
+         call results%loads(load)%solution%stresses(results%solver%surface, fields)
          do i = 1, size(depths)
-            call fields%on_line(line%angle(:, 0), line%direction, t, angle_of_depth(results%scene, depths(i)), &
-                                parts(:, :, :, i), errors(:, i))
+            call fields%on_line(line%angle(:, 0), line%direction, t, &
+                                angle_of_depth(results%solver%surface, depths(i)), parts(:, :, :, i), errors(:, i))
          end do
          do body = 1, number_of_bodies(results)
             call results%begin_block(file, load)

@@ -93,12 +93,12 @@ contains
 
       real(dp) :: at_hardness(4), errors(3)
 
-      associate (scene => results%scene, solution => results%loads(load)%solution, &
+      associate (scene => results%scene, surface => results%solver%surface, solution => results%loads(load)%solution, &
                  measures => results%loads(load)%solution%measures)
          errors = not_a_number()
          if (results%traits%has_errors) errors = or_nan(measures%errors())
          at_hardness = not_a_number()
-         if (scene%surface%has_hardness()) then
+         if (surface%has_hardness()) then
             at_hardness(:2) = [measures%area_at_hardness_fraction, measures%load_at_hardness_fraction]
             if (results%traits%has_errors) &
                at_hardness(3:) = or_nan([measures%area_at_hardness_error, measures%load_at_hardness_error])
@@ -111,12 +111,12 @@ contains
                                 measures%min_pressure_over_pstar, errors, at_hardness, &
                                 or_nan(measures%contact_area_counted_fraction), &
                                 or_nan(measures%contact_area_corrected_fraction), &
-                                or_nan(linear_area_fraction(scene%surface, scene%roughness%slope, &
+                                or_nan(linear_area_fraction(surface, scene%roughness%slope, &
                                                             solution%pbar_over_pstar)), &
                                 results%mean_pressure(load), &
-                                scene%surface%amplitude*measures%mean_gap_over_amplitude, &
-                                scene%surface%amplitude*measures%approach_over_amplitude, &
-                                scene%surface%nominal_area()*measures%contact_area_fraction, &
+                                surface%amplitude*measures%mean_gap_over_amplitude, &
+                                surface%amplitude*measures%approach_over_amplitude, &
+                                surface%nominal_area()*measures%contact_area_fraction, &
                                 results%peak_pressure(load)]), &
                   integer_text(solution%active_constraints), integer_text(solution%iterations), &
                   number_words(solution%residual), solver_names(solution%solver), &

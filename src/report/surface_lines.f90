@@ -32,7 +32,7 @@ contains
 
       intervals = results%scene%output%integer('line_points')
       line%direction = [merge(0, 1, number == 3), merge(0, 1, number == 1)]
-      associate (surface => results%scene%surface)
+      associate (surface => results%solver%surface)
          way = 2*pi*line%direction/(surface%parts()*intervals)
          start = surface%crest
          if (surface%mirrored) then

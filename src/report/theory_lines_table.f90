@@ -73,7 +73,7 @@ contains
       call results%open_table('theory_lines', columns, file, in_blocks=.true.)
       do load = 1, size(results%loads)
          call results%begin_block(file, load)
-         do line = 1, results%scene%surface%dimension
+         do line = 1, results%solver%surface%dimension
             if (line > 1) call file%put('')
             call put_line(results, file, load, line)
          end do
@@ -93,11 +93,11 @@ contains
 
       load_p = results%loads(load)%solution%pbar_over_pstar
       call start_surface_line(line, results, number)
-      if (results%scene%surface%dimension == 1) dundurs = dundurs_coefficients(load_p, size(dundurs))
+      if (results%solver%surface%dimension == 1) dundurs = dundurs_coefficients(load_p, size(dundurs))
       values = not_a_number()
       do k = 0, ubound(line%distance, 1)
-         call results%scene%surface%paper_angles(line%angle(1, k), line%angle(2, k), phi, theta)
-         if (results%scene%surface%dimension == 1) then
+         call results%solver%surface%paper_angles(line%angle(1, k), line%angle(2, k), phi, theta)
+         if (results%solver%surface%dimension == 1) then
             values(:closed_forms(1)) = [westergaard_pressure_over_pstar(phi/2, load_p), &
                                         westergaard_displacement_over_amplitude(phi/2, load_p), &
                                         westergaard_gap_over_amplitude(phi/2, load_p), &

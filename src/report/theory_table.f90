@@ -86,10 +86,10 @@ contains
       call results%open_table('theory', columns, file, in_blocks=.false.)
       do load = 1, size(results%loads)
          associate (p => results%loads(load)%solution%pbar_over_pstar, &
-                    wavelength => results%scene%surface%paper_wavelength())
+                    wavelength => results%solver%surface%paper_wavelength())
             call file%add(load)
             call file%add(p)
-            if (results%scene%surface%dimension == 1) then
+            if (results%solver%surface%dimension == 1) then
                call file%add([kuznetsov_mean_gap_over_amplitude(p), westergaard_contact_area_fraction(p), &
                               westergaard_peak_pressure_over_pstar(p), hertz_line_contact_area_fraction(p), &
                               line_crack_contact_area_fraction(p), (not_a_number(), i=1, closed_forms(2))])

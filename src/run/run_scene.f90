@@ -8,7 +8,6 @@ module wavycon_run_scene
    use wavycon_contact_tuning, only: least_concentration
    use wavycon_error, only: error_type, exit_file_trouble, exit_fine, exit_not_converged, fatal_error
    use wavycon_find_stresses, only: find_stresses
-   use wavycon_fourier_series, only: fourier_series
    use wavycon_kinds, only: dp
    use wavycon_lattice_sums, only: rectangular_distance_sum
    use wavycon_method_list, only: method_of, start_solver
@@ -105,7 +104,6 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(checkpoint_file) :: checkpoint
-      type(fourier_series) :: nothing
 
       status = exit_fine
       allocate (results%loads(size(results%scene%target)))
@@ -116,10 +114,7 @@ contains
       if (allocated(error)) return
 
       call checkpoint%create(results)
-      ! The solver has a copy of the surface: while it needs the memory the series of a large map is there once less.
-      results%scene%surface%shape = nothing
       call solve_loads(results, checkpoint, log)
-      results%scene%surface%shape = results%solver%surface%shape
       if (any_rank(.not. checkpoint%is_complete())) call log%say('note: not all loads could be written to '// &
                                                                  escaped(checkpoint_name(results))//', to resume from')
       call log%say_timed('solved and measured')
@@ -190,11 +185,10 @@ contains
          results%traits = results%solver%traits()
          results%sharing = choose_sharing(results%traits, size(scene%target), need_fields(tables), &
                                           scene%loads_by == by_yield)
-         if (scene%surface%is_spread() .and. results%sharing%kind /= spread_grids) then
-            call whole_surface(scene%surface, first_only=.not. results%sharing%is_shared())
-            call start_solver(scene%surface, scene%method, keep_fields(scene, tables), results%solver)
-         end if
       end associate
+      deallocate (results%scene%surface)
+      if (results%sharing%kind /= spread_grids) &
+         call whole_surface(results%solver%surface, first_only=.not. results%sharing%is_shared())
    end subroutine start_results
 
    !> The tables that a deck requests; for a flat surface, whose p* and Delta are zero, only those that allow it.
@@ -345,7 +339,7 @@ contains
             call results%loads(load)%solution%collect_fields()
          end do
       end if
-      if (surface) call whole_surface(results%scene%surface, first_only=.true.)
+      if (surface) call whole_surface(results%solver%surface, first_only=.true.)
    end subroutine collect
 
    !> Whether the first rank has the memory for what is spread over the ranks. Errors: exit_file_trouble.
@@ -361,8 +355,8 @@ contains
       if (.not. is_first_rank()) return
       numbers = points
       ! The series, and twice as much while it is gathered.
-      if (surface .and. results%scene%surface%is_spread()) &
-         numbers = numbers + 3*product(int(results%scene%surface%points, int64)/results%scene%surface%parts())
+      if (surface .and. results%solver%surface%is_spread()) &
+         numbers = numbers + 3*product(int(results%solver%surface%points, int64)/results%solver%surface%parts())
       if (has_memory_for(numbers)) return
       call fatal_error(error, exit_file_trouble, 'the first rank has too little memory for the tables: the whole '// &
                        'fields of all loads, and the surface, take '// &
@@ -427,7 +421,7 @@ contains
       real(dp) :: factor, largest, pressure, side(2)
       integer :: i, spots
 
-      associate (scene => results%scene, surface => results%scene%surface)
+      associate (scene => results%scene, surface => results%solver%surface)
          if (.not. allocated(scene%map) .or. surface%dimension == 1 .or. surface%mirrored) return
          if (scene%map%path == '') return
          side = surface%sides()

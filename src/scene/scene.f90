@@ -22,7 +22,7 @@ module wavycon_scene
       character(:), allocatable :: resolved_deck    !! text of a deck with the value in effect of every key
       character(:), allocatable :: essence          !! the same without the paths of deck and results, for checkpoints
       character(:), allocatable :: surface_kind     !! the key `kind` of &surface
-      type(surface_type), allocatable :: surface
+      type(surface_type), allocatable :: surface    !! not allocated once a solver is started, which has it
       type(map_statistics), allocatable :: map      !! allocated for a height map
       type(roughness_type) :: roughness             !! of the surface
       character(:), allocatable :: pressure_unit    !! label of the deck's unit of pressures, such as 'MPa'
