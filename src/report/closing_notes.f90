@@ -1,0 +1,167 @@
+!> The last lines of the log: what a user should know of the solutions, and how many loads were solved.
+module wavycon_closing_notes
+   use wavycon_constants, only: pi
+   use wavycon_contact_measures, only: is_known
+   use wavycon_contact_status, only: converged, not_found, unresolved
+   use wavycon_contact_tuning, only: least_concentration
+   use wavycon_error, only: exit_fine, exit_not_converged
+   use wavycon_kinds, only: dp
+   use wavycon_lattice_sums, only: rectangular_distance_sum
+   use wavycon_method_list, only: method_of
+   use wavycon_plain_text, only: escaped, integer_text, short_number
+   use wavycon_results, only: results_type
+   use wavycon_run_log, only: run_log
+   use wavycon_scene, only: by_contact_area, by_yield
+   use wavycon_solver_method, only: solver_method
+   implicit none (type, external)
+   private
+
+   public :: sum_up
+
+contains
+
+   !> Writes the last lines of the log and finds the exit status.
+   subroutine sum_up(results, log, status)
+      type(results_type), intent(in) :: results
+      type(run_log), intent(inout) :: log
+      integer, intent(out) :: status
+
+      character(:), allocatable :: loads, words
+      type(solver_method) :: method
+      integer :: bad, i, unreached, without_area
+
+      bad = 0
+      without_area = 0
+      do i = 1, size(results%loads)
+         associate (solution => results%loads(i)%solution)
+            if (.not. solution%is_good()) bad = bad + 1
+            if (solution%status == converged .and. solution%measures%contact_area_fraction <= 0.0_dp) &
+               without_area = without_area + 1
+         end associate
+      end do
+      unreached = count([(results%loads(i)%solution%status == not_found, i=1, size(results%loads))])
+      loads = integer_text(size(results%loads))
+      associate (scene => results%scene)
+         call note_unresolved(results, log)
+         if (scene%loads_by /= by_yield) call note_unreached(results, log)
+         call note_images(results, log)
+         if (without_area > 0) then
+            method = method_of(scene%method)
+            call method%why_no_area(scene%method, words)
+            call log%say('note: at '//integer_text(without_area)//' loads '//words// &
+                         ', so that their contact area shows as 0')
+         end if
+         if (scene%loads_by == by_yield .and. .not. results%traits%has_errors) call log%say( &
+            "note: solver = '"//scene%method%text('solver')//"' estimates no errors; a light load of first yield may be "// &
+            "wrong by a factor of 2. solver = 'auto' estimates them")
+         if (scene%loads_by == by_yield .and. unreached > 0) call log%say('note: for '//integer_text(unreached)// &
+            ' loads no mean pressure was found that brings the stresses to the given part of the yield stress')
+         if (scene%p_star <= 0.0_dp) call log%say('the surface is flat: there is only a summary')
+         call log%say('results: '//escaped(scene%directory)//'/'//scene%case//'.summary.dat')
+         if (bad == 0) then
+            call log%say(scene%case//': all '//loads//' loads solved')
+         else
+            call log%say(scene%case//': '//integer_text(bad)//' of '//loads// &
+                         ' loads NOT solved as requested, see the status column')
+         end if
+      end associate
+      status = merge(exit_fine, exit_not_converged, bad == 0)
+   end subroutine sum_up
+
+   !> Says what the periodic images of a single spot on a measured map add to its approach (C27).
+   subroutine note_images(results, log)
+      type(results_type), intent(in) :: results
+      type(run_log), intent(inout) :: log
+
+      real(dp) :: factor, largest, pressure, side(2)
+      integer :: i, spots
+
+      associate (scene => results%scene, surface => results%solver%surface)
+         if (.not. allocated(scene%map) .or. surface%dimension == 1 .or. surface%mirrored) return
+         if (scene%map%path == '') return
+         side = surface%sides()
+         factor = rectangular_distance_sum(side(1)/side(2))/pi
+         spots = 0
+         largest = 0.0_dp
+         do i = 1, size(results%loads)
+            associate (measures => results%loads(i)%solution%measures)
+               if (measures%load_concentration < least_concentration) cycle
+               spots = spots + 1
+               pressure = scene%p_star*results%loads(i)%solution%pbar_over_pstar
+               largest = max(largest, abs(factor*pressure*sqrt(product(side))/scene%e_star)/ &
+                                      (surface%amplitude*measures%approach_over_amplitude))
+            end associate
+         end do
+         if (spots > 0) call log%say('note: at '//integer_text(spots)//' of '//integer_text(size(results%loads))// &
+            ' loads the contact is one spot. Its periodic images change the approach, by up to '// &
+            integer_text(nint(100*largest))//' %: that of the spot alone is approach '// &
+            merge('+ ', '- ', factor < 0.0_dp)//short_number(abs(factor))//'*mean_pressure*sqrt(cell_x*cell_y)/e_star')
+      end associate
+   end subroutine note_images
+
+   !> Says how many contact areas or mean gaps no load has on the grid, and what helps.
+   subroutine note_unreached(results, log)
+      type(results_type), intent(in) :: results
+      type(run_log), intent(inout) :: log
+
+      character(:), allocatable :: limit
+      integer :: i, unreached
+
+      unreached = 0
+      do i = 1, size(results%loads)
+         associate (solution => results%loads(i)%solution, measures => results%loads(i)%solution%measures)
+            if (solution%status /= not_found .or. solution%pbar_over_pstar > 0.0_dp) cycle
+            unreached = unreached + 1
+            limit = ' mean gaps are above the largest that the grid shows, '// &
+                    short_number(measures%mean_gap_over_amplitude)
+            if (results%scene%loads_by == by_contact_area) limit = &
+               ' contact areas are below the least that the grid shows, '//short_number(measures%contact_area_fraction)
+         end associate
+      end do
+      if (unreached > 0) call log%say('note: '//integer_text(unreached)//' of '//integer_text(size(results%loads))// &
+         limit//' where its highest points just touch: no load has them. Give more grid_points or a smaller '// &
+         "accuracy; expansions, solver = 'fitted', have no such limit")
+   end subroutine note_unreached
+
+   !> Says which values have no error estimate and which are no larger than theirs, and what helps.
+   subroutine note_unresolved(results, log)
+      type(results_type), intent(in) :: results
+      type(run_log), intent(inout) :: log
+
+      character(*), parameter :: names(*) = [character(17) :: 'the mean gap', 'the contact area', 'the peak pressure']
+      character(:), allocatable :: loads, words
+      integer :: coarse(3), i, listed, unknown
+
+      coarse = 0
+      unknown = 0
+      do i = 1, size(results%loads)
+         associate (solution => results%loads(i)%solution)
+            if (solution%status /= unresolved) cycle
+            if (any(is_known(solution%measures%errors()))) then
+               coarse = coarse + merge(0, 1, solution%measures%are_resolved())
+            else
+               unknown = unknown + 1
+            end if
+         end associate
+      end do
+      loads = ' of '//integer_text(size(results%loads))//' loads'
+      if (unknown > 0) call log%say('note: the errors of '//integer_text(unknown)//loads//' are unknown: a grid has'// &
+         ' error estimates if its points are multiples of 4, from 64 a side. Give such grid_points, or an accuracy')
+      if (all(coarse == 0)) return
+      words = ''
+      listed = 0
+      do i = 1, size(names)
+         if (coarse(i) == 0) cycle
+         listed = listed + 1
+         if (listed > 1 .and. listed == count(coarse > 0)) then
+            words = words//' and'
+         else if (listed > 1) then
+            words = words//','
+         end if
+         words = words//' '//trim(names(i))//' at '//integer_text(coarse(i))
+      end do
+      call log%say('note: the grid is too coarse for'//words//loads//': the error is as large as the value, or '// &
+                   'unknown. Give an accuracy, or more grid_points')
+   end subroutine note_unresolved
+
+end module wavycon_closing_notes
