@@ -11,7 +11,6 @@ module wavycon_grid_transform
                            fftw_plan_r2r_2d, FFTW_REDFT01, FFTW_REDFT10
    use wavycon_fourier_series, only: fourier_series
    use wavycon_kinds, only: dp
-   use wavycon_wave_packing, only: allocate_series, give_wave, take_wave
    implicit none (type, external)
    private
 
@@ -139,6 +138,8 @@ contains
       real(c_double), intent(inout), contiguous :: field(:, :)   !! shape (M, N); kept
       type(fourier_series), intent(out) :: answer
 
+      complex(dp) :: up, down
+      real(dp) :: weight
       integer :: k, l, m, n
 
       call self%forward(field)
@@ -151,10 +152,22 @@ contains
          answer%c(:, 0) = 0.5_dp*answer%c(:, 0)
          return
       end if
-      call allocate_series(answer, 0, m/2, n/2, even=.false.)
+      allocate (answer%c(0:m/2, 0:n/2), answer%cs(0:m/2, 0:n/2), answer%sc(0:m/2, 0:n/2), answer%ss(0:m/2, 0:n/2))
       do l = 0, n/2
          do k = 0, m/2
-            call take_wave(self%points, self%waves(k + 1, l + 1), self%waves(k + 1, modulo(n - l, n) + 1), k, l, answer)
+            ! Of e^(i(kX + lY)) and e^(i(kX - lY)), which are equal for l = 0, and at all points for 2l = N.
+            weight = merge(1.0_dp, 2.0_dp, k == 0 .or. 2*k == m)/(real(m, dp)*n)
+            up = weight*self%waves(k + 1, l + 1)
+            down = 0.0_dp
+            if (l > 0 .and. 2*l < n) down = weight*self%waves(k + 1, n - l + 1)
+            answer%c(k, l) = real(up + down)
+            answer%sc(k, l) = -aimag(up + down)
+            answer%cs(k, l) = 0.0_dp
+            answer%ss(k, l) = 0.0_dp
+            if (l > 0 .and. 2*l < n) then
+               answer%cs(k, l) = aimag(down - up)
+               answer%ss(k, l) = real(down - up)
+            end if
          end do
       end do
    end subroutine series
@@ -165,7 +178,8 @@ contains
       type(fourier_series), intent(in) :: from                     !! even, if the points are those of a quarter
       real(c_double), intent(out), contiguous :: field(:, :)       !! shape (M, N)
 
-      complex(dp) :: down, up
+      complex(dp) :: even_part, odd_part
+      real(dp) :: weight
       integer :: k, l, m, n, last_k, last_l
 
       m = self%points(1)
@@ -185,9 +199,20 @@ contains
       self%waves = 0.0_dp
       do l = 0, last_l
          do k = 0, last_k
-            call give_wave(self%points, from, k, l, 1.0_dp, up, down)
-            self%waves(k + 1, l + 1) = up
-            if (l > 0 .and. 2*l < n) self%waves(k + 1, n - l + 1) = down
+            weight = merge(1.0_dp, 0.5_dp, k == 0 .or. 2*k == m)
+            even_part = weight*from%c(k, l)
+            odd_part = 0.0_dp
+            if (.not. from%is_even()) then
+               if (k > 0 .and. 2*k < m) even_part = even_part - weight*from%sc(k, l)*(0.0_dp, 1.0_dp)
+               odd_part = -weight*from%cs(k, l)*(0.0_dp, 1.0_dp)
+               if (k > 0 .and. 2*k < m) odd_part = odd_part - weight*from%ss(k, l)
+            end if
+            if (l == 0 .or. 2*l == n) then
+               self%waves(k + 1, l + 1) = even_part
+            else
+               self%waves(k + 1, l + 1) = 0.5_dp*(even_part + odd_part)
+               self%waves(k + 1, n - l + 1) = 0.5_dp*(even_part - odd_part)
+            end if
          end do
       end do
       call self%backward(field)

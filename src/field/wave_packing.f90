@@ -6,7 +6,7 @@ module wavycon_wave_packing
    implicit none (type, external)
    private
 
-   public :: allocate_series, give_cosines, give_wave, give_waves, take_cosines, take_wave, take_waves
+   public :: allocate_series, give_cosines, give_waves, take_cosines, take_waves
 
 contains
 
@@ -46,41 +46,29 @@ contains
       integer, intent(in) :: first                      !! wave number of the first row
       type(fourier_series), intent(inout) :: answer
 
-      integer :: l, r
+      complex(dp) :: down, up
+      real(dp) :: weight
+      integer :: k, l, r
 
-      associate (n => points(2))
+      associate (m => points(1), n => points(2))
          do l = 0, n/2
             do r = 1, size(block, 3)
-               associate (up => block(:, l + 1, r), down => block(:, modulo(n - l, n) + 1, r))
-                  call take_wave(points, cmplx(up(1), up(2), dp), cmplx(down(1), down(2), dp), first + r - 1, l, answer)
-               end associate
+               k = first + r - 1
+               ! Of e^(i(kX + lY)) and e^(i(kX - lY)), which are equal for l = 0, and at all points for 2l = N.
+               weight = merge(1.0_dp, 2.0_dp, k == 0 .or. 2*k == m)/(real(m, dp)*n)
+               up = weight*cmplx(block(1, l + 1, r), block(2, l + 1, r), dp)
+               down = 0.0_dp
+               if (l > 0 .and. 2*l < n) down = weight*cmplx(block(1, n - l + 1, r), block(2, n - l + 1, r), dp)
+               answer%c(k, l) = real(up + down)
+               answer%sc(k, l) = -aimag(up + down)
+               if (l > 0 .and. 2*l < n) then
+                  answer%cs(k, l) = aimag(down - up)
+                  answer%ss(k, l) = real(down - up)
+               end if
             end do
          end do
       end associate
    end subroutine take_waves
-
-   !> The coefficients of the waves e^(i(kX + lY)) and e^(i(kX - lY)), which are equal for l = 0, and at all points for
-   !> 2l = N.
-   pure subroutine take_wave(points, up, down, k, l, answer)
-      integer, intent(in) :: points(2)                  !! M, N
-      complex(dp), intent(in) :: up, down               !! of the transform; down is ignored where the two are equal
-      integer, intent(in) :: k, l
-      type(fourier_series), intent(inout) :: answer
-
-      complex(dp) :: a, b
-      real(dp) :: weight
-
-      weight = merge(1.0_dp, 2.0_dp, k == 0 .or. 2*k == points(1))/(real(points(1), dp)*points(2))
-      a = weight*up
-      b = 0.0_dp
-      if (l > 0 .and. 2*l < points(2)) then
-         b = weight*down
-         answer%cs(k, l) = aimag(b - a)
-         answer%ss(k, l) = real(b - a)
-      end if
-      answer%c(k, l) = real(a + b)
-      answer%sc(k, l) = -aimag(a + b)
-   end subroutine take_wave
 
    !> The inverse of `take_cosines`, for another number of points too.
    pure subroutine give_cosines(points, from, first, block, power, per_wave)
@@ -104,54 +92,42 @@ contains
 
    !> The inverse of `take_waves`, for another number of points too.
    pure subroutine give_waves(points, from, first, block, power, per_wave)
-      integer, intent(in) :: points(2)                    !! M, N
+      integer, intent(in) :: points(2)                  !! M, N
       type(fourier_series), intent(in) :: from
       integer, intent(in) :: first                        !! wave number of the first row
       real(dp), intent(inout) :: block(:, :, :)
       integer, intent(in), optional :: power              !! as of `slab_transform%sample`
       real(dp), intent(in), optional :: per_wave(2)
 
-      complex(dp) :: down, up
+      complex(dp) :: even_part, odd_part
+      real(dp) :: weight
       integer :: k, l, r
 
       block = 0.0_dp
-      do l = 0, min(points(2)/2, ubound(from%c, 2))
-         do r = 1, size(block, 3)
-            k = first + r - 1
-            call give_wave(points, from, k, l, factor(k, l, power, per_wave), up, down)
-            block(:, l + 1, r) = [up%re, up%im]
-            if (l > 0 .and. 2*l < points(2)) block(:, points(2) - l + 1, r) = [down%re, down%im]
-         end do
-      end do
-   end subroutine give_waves
-
-   !> The inverse of `take_wave`.
-   pure subroutine give_wave(points, from, k, l, scale, up, down)
-      integer, intent(in) :: points(2)                    !! M, N
-      type(fourier_series), intent(in) :: from
-      integer, intent(in) :: k, l                         !! of a coefficient that it has
-      real(dp), intent(in) :: scale                       !! of the coefficients
-      complex(dp), intent(out) :: up, down                !! of the transform; down = 0 where the two are equal
-
-      complex(dp) :: even_part, odd_part
-      real(dp) :: weight
-
       associate (m => points(1), n => points(2))
-         weight = merge(1.0_dp, 0.5_dp, k == 0 .or. 2*k == m)*scale
-         even_part = weight*from%c(k, l)
-         odd_part = 0.0_dp
-         if (.not. from%is_even()) then
-            if (k > 0 .and. 2*k < m) even_part = even_part - weight*from%sc(k, l)*(0.0_dp, 1.0_dp)
-            odd_part = -weight*from%cs(k, l)*(0.0_dp, 1.0_dp)
-            if (k > 0 .and. 2*k < m) odd_part = odd_part - weight*from%ss(k, l)
-         end if
-         up = even_part
-         down = 0.0_dp
-         if (l == 0 .or. 2*l == n) return
+         do l = 0, min(n/2, ubound(from%c, 2))
+            do r = 1, size(block, 3)
+               k = first + r - 1
+               weight = merge(1.0_dp, 0.5_dp, k == 0 .or. 2*k == m)*factor(k, l, power, per_wave)
+               even_part = weight*from%c(k, l)
+               odd_part = 0.0_dp
+               if (.not. from%is_even()) then
+                  if (k > 0 .and. 2*k < m) even_part = even_part - weight*from%sc(k, l)*(0.0_dp, 1.0_dp)
+                  odd_part = -weight*from%cs(k, l)*(0.0_dp, 1.0_dp)
+                  if (k > 0 .and. 2*k < m) odd_part = odd_part - weight*from%ss(k, l)
+               end if
+               if (l == 0 .or. 2*l == n) then
+                  block(:, l + 1, r) = [even_part%re, even_part%im]
+               else
+                  up_and_down: associate (up => 0.5_dp*(even_part + odd_part), down => 0.5_dp*(even_part - odd_part))
+                     block(:, l + 1, r) = [real(up), aimag(up)]
+                     block(:, n - l + 1, r) = [real(down), aimag(down)]
+                  end associate up_and_down
+               end if
+            end do
+         end do
       end associate
-      up = 0.5_dp*(even_part + odd_part)
-      down = 0.5_dp*(even_part - odd_part)
-   end subroutine give_wave
+   end subroutine give_waves
 
    !> A power of the frequency of a harmonic: 1 without a power, and 0 of the mean.
    pure real(dp) function factor(k, l, power, per_wave)
