@@ -46,6 +46,7 @@ module wavycon_grid_slab
       !> of ranks if each is zero on all but one.
       generic :: add => add_reals, add_integers
       procedure :: largest
+      procedure :: find_largest
       !> Columns beside the own ones.
       generic :: halo => halo_dp, halo_sp
       !> The whole grid, on every rank.
@@ -201,6 +202,33 @@ contains
 
       if (self%is_spread) call largest_over_ranks(values)
    end subroutine largest
+
+   !> The largest number of a field and the first of the points that have it, over the whole grid.
+   subroutine find_largest(self, field, value, point)
+      class(grid_slab), intent(in) :: self
+      real(dp), intent(in) :: field(:, :)     !! shape (M, columns())
+      real(dp), intent(out) :: value
+      integer, intent(out) :: point(2)        !! from 1
+
+      real(dp) :: most(1), place(1)
+
+      most = maxval(field)
+      call self%largest(most)
+      value = most(1)
+      ! Numbers of points are whole in a real number up to 2^53.
+      place = -huge(place)
+      associate (m => self%points(1))
+         if (any(field >= value)) then
+            point = maxloc(field)
+            place = -(point(1) - 1.0_dp + real(m, dp)*(self%first + point(2) - 2))
+         end if
+         call self%largest(place)
+         point(2) = int(-place(1)/m)
+         point(1) = nint(-place(1) - real(m, dp)*point(2))
+         if (point(1) < 0) point = point + [m, -1]
+      end associate
+      point = point + 1
+   end subroutine find_largest
 
    !> The columns before and after the own ones: columns of other ranks, or at the rim of the grid the images that
    !> continue it. A rank without columns gets none.

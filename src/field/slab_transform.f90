@@ -14,12 +14,12 @@ module wavycon_slab_transform
    use wavycon_kinds, only: dp
    use wavycon_line_plans, only: cosines_to_values, plan_of_line, real_to_waves, values_to_cosines, waves_backward, &
       waves_forward, waves_to_real
-   use wavycon_ranks, only: any_rank, gather_columns, new_row_exchange, ranks_at_work, row_exchange, &
-      this_rank
+   use wavycon_ranks, only: any_rank, gather_columns, new_row_exchange, ranks_at_work, row_exchange, this_rank
+   use wavycon_wave_packing, only: allocate_series, give_cosines, give_waves, take_cosines, take_waves
    implicit none (type, external)
    private
 
-   public :: slab_transform, allocate_series, gather_series
+   public :: slab_transform, gather_series
 
    type :: slab_transform
       integer :: points(2) = 0       !! M, N
@@ -70,18 +70,6 @@ contains
       last = first + exchange%own_rows - 1
    end subroutine rows_of_waves
 
-   !> Allocates a series of zeros with the coefficients of some wave numbers in X, and 0 .. last_y in Y.
-   subroutine allocate_series(answer, first, last, last_y, even)
-      type(fourier_series), intent(inout) :: answer
-      integer, intent(in) :: first, last, last_y
-      logical, intent(in) :: even
-
-      allocate (answer%c(first:last, 0:last_y), source=0.0_dp)
-      if (even) return
-      allocate (answer%cs(first:last, 0:last_y), answer%sc(first:last, 0:last_y), answer%ss(first:last, 0:last_y), &
-                source=0.0_dp)
-   end subroutine allocate_series
-
    !> The series that interpolates a field at the points. All ranks call this.
    subroutine series(self, field, answer)
       class(slab_transform), intent(in) :: self
@@ -92,6 +80,7 @@ contains
       class(row_exchange), allocatable :: exchange
       integer :: first, j, k, last, number, rows
 
+      call assert(all(shape(field) == [self%points(1), self%slab%columns()]), 'the field has the columns of the slab')
       rows = self%waves_x()
       allocate (spectrum(numbers(self%even), rows, self%slab%columns()))
       call columns_to_waves(self, field, spectrum)
@@ -115,9 +104,9 @@ contains
          end do
          call transform_rows(self%even, block(:, :, :number), forwards=.true.)
          if (self%even) then
-            call take_cosines(self, block(:, :, :number), k, answer)
+            call take_cosines(self%points, block(:, :, :number), k, answer)
          else
-            call take_waves(self, block(:, :, :number), k, answer)
+            call take_waves(self%points, block(:, :, :number), k, answer)
          end if
       end do
    end subroutine series
@@ -138,6 +127,7 @@ contains
       class(row_exchange), allocatable :: exchange
       integer :: columns, first, first_column, j, k, last, number, rows, width
 
+      call assert(all(shape(field) == [self%points(1), self%slab%columns()]), 'the field has the columns of the slab')
       first = lbound(from%c, 1)
       last = min(highest_x(self), ubound(from%c, 1))
       first_column = self%slab%first
@@ -159,9 +149,9 @@ contains
       do k = first, last, block_rows
          number = min(block_rows, last - k + 1)
          if (self%even) then
-            call give_cosines(self, from, k, block(:, :, :number), power, per_wave)
+            call give_cosines(self%points, from, k, block(:, :, :number), power, per_wave)
          else
-            call give_waves(self, from, k, block(:, :, :number), power, per_wave)
+            call give_waves(self%points, from, k, block(:, :, :number), power, per_wave)
          end if
          call transform_rows(self%even, block(:, :, :number), forwards=.false.)
          do j = 1, columns
@@ -338,124 +328,5 @@ contains
          end if
       end associate
    end subroutine transform_rows
-
-   !> The coefficients of an even field from rows of its transform.
-   pure subroutine take_cosines(self, block, first, answer)
-      type(slab_transform), intent(in) :: self
-      real(c_double), intent(in) :: block(:, :, :)
-      integer, intent(in) :: first                      !! wave number of the first row
-      type(fourier_series), intent(inout) :: answer
-
-      integer :: k, l
-
-      do l = 0, self%points(2) - 1
-         do k = first, first + size(block, 3) - 1
-            answer%c(k, l) = merge(0.5_dp, 1.0_dp, k == 0)*merge(0.5_dp, 1.0_dp, l == 0)* &
-                             (block(1, l + 1, k - first + 1)/(real(self%points(1), dp)*self%points(2)))
-         end do
-      end do
-   end subroutine take_cosines
-
-   !> The coefficients of any other field.
-   pure subroutine take_waves(self, block, first, answer)
-      type(slab_transform), intent(in) :: self
-      real(c_double), intent(in) :: block(:, :, :)
-      integer, intent(in) :: first                      !! wave number of the first row
-      type(fourier_series), intent(inout) :: answer
-
-      complex(dp) :: down, up
-      real(dp) :: weight
-      integer :: k, l, r
-
-      associate (m => self%points(1), n => self%points(2))
-         do l = 0, n/2
-            do r = 1, size(block, 3)
-               k = first + r - 1
-               ! Of e^(i(kX + lY)) and e^(i(kX - lY)), which are equal for l = 0, and at all points for 2l = N.
-               weight = merge(1.0_dp, 2.0_dp, k == 0 .or. 2*k == m)/(real(m, dp)*n)
-               up = weight*cmplx(block(1, l + 1, r), block(2, l + 1, r), dp)
-               down = 0.0_dp
-               if (l > 0 .and. 2*l < n) down = weight*cmplx(block(1, n - l + 1, r), block(2, n - l + 1, r), dp)
-               answer%c(k, l) = real(up + down)
-               answer%sc(k, l) = -aimag(up + down)
-               if (l > 0 .and. 2*l < n) then
-                  answer%cs(k, l) = aimag(down - up)
-                  answer%ss(k, l) = real(down - up)
-               end if
-            end do
-         end do
-      end associate
-   end subroutine take_waves
-
-   !> The inverse of `take_cosines`, for another number of points too.
-   pure subroutine give_cosines(self, from, first, block, power, per_wave)
-      type(slab_transform), intent(in) :: self
-      type(fourier_series), intent(in) :: from
-      integer, intent(in) :: first                        !! wave number of the first row
-      real(c_double), intent(inout) :: block(:, :, :)
-      integer, intent(in), optional :: power              !! as of `sample`
-      real(dp), intent(in), optional :: per_wave(2)
-
-      integer :: k, l
-
-      block = 0.0_dp
-      do l = 0, min(self%points(2) - 1, ubound(from%c, 2))
-         do k = first, first + size(block, 3) - 1
-            block(1, l + 1, k - first + 1) = merge(1.0_dp, 0.5_dp, k == 0)*merge(1.0_dp, 0.5_dp, l == 0)* &
-                                             from%c(k, l)*factor(k, l, power, per_wave)
-         end do
-      end do
-   end subroutine give_cosines
-
-   !> The inverse of `take_waves`, for another number of points too.
-   pure subroutine give_waves(self, from, first, block, power, per_wave)
-      type(slab_transform), intent(in) :: self
-      type(fourier_series), intent(in) :: from
-      integer, intent(in) :: first                        !! wave number of the first row
-      real(c_double), intent(inout) :: block(:, :, :)
-      integer, intent(in), optional :: power              !! as of `sample`
-      real(dp), intent(in), optional :: per_wave(2)
-
-      complex(dp) :: even_part, odd_part
-      real(dp) :: weight
-      integer :: k, l, r
-
-      block = 0.0_dp
-      associate (m => self%points(1), n => self%points(2))
-         do l = 0, min(n/2, ubound(from%c, 2))
-            do r = 1, size(block, 3)
-               k = first + r - 1
-               weight = merge(1.0_dp, 0.5_dp, k == 0 .or. 2*k == m)*factor(k, l, power, per_wave)
-               even_part = weight*from%c(k, l)
-               odd_part = 0.0_dp
-               if (.not. from%is_even()) then
-                  if (k > 0 .and. 2*k < m) even_part = even_part - weight*from%sc(k, l)*(0.0_dp, 1.0_dp)
-                  odd_part = -weight*from%cs(k, l)*(0.0_dp, 1.0_dp)
-                  if (k > 0 .and. 2*k < m) odd_part = odd_part - weight*from%ss(k, l)
-               end if
-               if (l == 0 .or. 2*l == n) then
-                  block(:, l + 1, r) = [even_part%re, even_part%im]
-               else
-                  up_and_down: associate (up => 0.5_dp*(even_part + odd_part), down => 0.5_dp*(even_part - odd_part))
-                     block(:, l + 1, r) = [real(up), aimag(up)]
-                     block(:, n - l + 1, r) = [real(down), aimag(down)]
-                  end associate up_and_down
-               end if
-            end do
-         end do
-      end associate
-   end subroutine give_waves
-
-   !> A power of the frequency of a harmonic: 1 without a power, and 0 of the mean.
-   pure real(dp) function factor(k, l, power, per_wave)
-      integer, intent(in) :: k, l                         !! wave numbers, >= 0
-      integer, intent(in), optional :: power
-      real(dp), intent(in), optional :: per_wave(2)
-
-      factor = 1.0_dp
-      if (.not. present(power)) return
-      factor = 0.0_dp
-      if (k > 0 .or. l > 0) factor = hypot(k*per_wave(1), l*per_wave(2))**power
-   end function factor
 
 end module wavycon_slab_transform

@@ -44,7 +44,6 @@ module wavycon_expansion_stress
       procedure :: distance_from_edges
       procedure, private :: prepare_series
       procedure, private :: prepare_far
-      procedure, private :: prepare_rule
       procedure, private :: add_near
    end type expansion_stress
 
@@ -279,15 +278,6 @@ contains
       ellipse = x + sqrt(x**2 - 1.0_dp)
    end function ellipse
 
-   !> Makes a rule.
-   subroutine prepare_rule(self, level)
-      class(expansion_stress), intent(inout) :: self
-      integer, intent(in) :: level
-
-      if (.not. allocated(self%rules(level)%x)) &
-         call start_stress_sources(self%rules(level), self%solution, self%radii(level), self%angles(level))
-   end subroutine prepare_rule
-
    !> Adds the fields of one spot or island.
    subroutine add_near(self, half_turn, z, depth, fields)
       class(expansion_stress), intent(inout) :: self
@@ -319,7 +309,8 @@ contains
          level = level_for(self, abs(v), depth/self%stretch)
       end if
       if (level <= levels) then
-         call self%prepare_rule(level)
+         if (.not. allocated(self%rules(level)%x)) &
+            call start_stress_sources(self%rules(level), self%solution, self%radii(level), self%angles(level))
          call self%rules(level)%add_at(z, depth, own)
       else
          if (.not. allocated(self%rays)) then

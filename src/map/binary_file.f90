@@ -165,8 +165,8 @@ contains
    end subroutine take_doubles
 
    !> Reads the heights of a map: from `start` to the end of the file there must be nothing else. Missing heights are
-   !> NaN. With in_slabs large maps are spread over the ranks. Errors: exit_bad_input for a map that is too small or too large, a file of another length, and infinite
-   !> heights; exit_file_trouble.
+   !> NaN. With in_slabs large maps are spread over the ranks. Errors: exit_bad_input for a map that is too small or too
+   !> large, a file of another length, and infinite heights; exit_file_trouble.
    subroutine read_heights(self, start, points, by_columns, map, error)
       class(binary_file), intent(in) :: self
       integer(int64), intent(in) :: start   !! bytes before the first height
@@ -188,8 +188,8 @@ contains
       expected = start + self%number_bytes*product(int(points, int64))
       if (self%bytes /= expected) then
          call self%refuse('its head announces '//integer_text(points(1))//' x '//integer_text(points(2))// &
-                          ' heights, which make a file of '//long_text(expected)//' bytes, but it has '// &
-                          long_text(self%bytes)//': was it copied in full, as binary data?', error)
+                          ' heights, which make a file of '//integer_text(expected)//' bytes, but it has '// &
+                          integer_text(self%bytes)//': was it copied in full, as binary data?', error)
          return
       end if
       if (self%in_slabs) call slab%start(points)
@@ -343,16 +343,5 @@ contains
       halves = swapped(transfer(word, halves))
       swapped_long = transfer(halves(2:1:-1), word)
    end function swapped_long
-
-   !> A long integer in decimal.
-   pure function long_text(number) result(text)
-      integer(int64), intent(in) :: number
-      character(:), allocatable :: text
-
-      character(20) :: buffer
-
-      write (buffer, '(i0)') number
-      text = trim(buffer)
-   end function long_text
 
 end module wavycon_binary_file

@@ -264,8 +264,7 @@ contains
       end associate
    end function curve_length
 
-   !> The centroid of the polygon in a closed curve, in the cell [rad]; on a mirrored map that of its part in the map,
-   !> (A5).
+   !> The centroid of the polygon in a closed curve, in the cell, on a mirrored map of its part in the map [rad]: (A5).
    pure function centroid(curve, is_map) result(centre)
       type(edge_curve), intent(in) :: curve
       logical, intent(in) :: is_map

@@ -7,7 +7,8 @@ module wavycon_self_affine_heights
       return_gsl_errors
    use wavycon_kinds, only: dp
    use wavycon_ranks, only: add_over_ranks
-   use wavycon_slab_transform, only: allocate_series, slab_transform
+   use wavycon_slab_transform, only: slab_transform
+   use wavycon_wave_packing, only: allocate_series
    implicit none (type, external)
    private
 

@@ -5,6 +5,7 @@ module wavycon_surface
    use wavycon_fourier_series, only: fourier_series
    use wavycon_grid_transform, only: point_angle
    use wavycon_kinds, only: dp
+   use wavycon_paper_wave, only: no_paper_wave, paper_wave_of, rounding, straight_paper_wave, turned_paper_wave
    use wavycon_roughness, only: roughness_of, roughness_type
    use wavycon_series_peak, only: find_peak
    use wavycon_slab_transform, only: gather_series, slab_transform
@@ -13,10 +14,7 @@ module wavycon_surface
    private
 
    public :: surface_type, surface_of_series, surface_of_points, whole_surface
-
-   !> Whether the surface is a wave of Johnson, Greenwood & Higginson (1985), and in which angles. Straight: eq. (3) or
-   !> (21) with phi = X, theta = Y. Turned: eq. (21) with phi = (X + Y)/2, theta = (X - Y)/2.
-   integer, parameter, public :: no_paper_wave = 0, straight_paper_wave = 1, turned_paper_wave = 2
+   public :: no_paper_wave, straight_paper_wave, turned_paper_wave
 
    !> h/Delta = 1 - shape(X, Y),  X = 2 pi x/L_x,  Y = 2 pi y/L_y. The shape has mean 0 and peak 1: the surfaces first
    !> touch at its peaks. Delta is the mean gap before load, which is the amplitude of the paper's waves.
@@ -56,9 +54,6 @@ module wavycon_surface
       procedure :: has_smaller_cell
       procedure :: smaller_cell
    end type surface_type
-
-   !> Coefficients of a shape that differ by less than this are equal.
-   real(dp), parameter :: rounding = 1e-13_dp
 
 contains
 
@@ -102,12 +97,13 @@ contains
       type(slab_transform) :: transform
       real(dp), allocatable :: values(:, :)
       real(dp) :: extremes(2), per_wave(2)
-      integer :: grid(2)
+      integer :: crest(2), grid(2)
 
       grid = shape(height)
       if (present(points)) grid = points
       surface%dimension = merge(1, 2, grid(2) == 1)
       if (present(mirrored)) surface%mirrored = mirrored
+      call assert(all(sides > 0.0_dp), 'sides > 0')
       surface%length = surface%parts()*sides
       surface%points = surface%parts()*grid
       call transform%start(grid, even=surface%mirrored)
@@ -115,7 +111,9 @@ contains
       if (lbound(surface%shape%c, 1) == 0) surface%shape%c(0, 0) = 0.0_dp
       allocate (values, mold=height)
       call transform%sample(surface%shape, values)
-      call find_crest(transform, values, surface)
+      call transform%slab%find_largest(values, surface%amplitude, crest)
+      surface%crest = point_angle(crest, transform%points, transform%even)
+      if (surface%dimension == 1) surface%crest(2) = 0.0_dp
       if (surface%amplitude <= 0.0_dp) return
       call divide(surface%shape, surface%amplitude)
       per_wave = 1.0_dp/surface%length
@@ -129,34 +127,6 @@ contains
       call transform%slab%largest(extremes)
       surface%crest_curvature = extremes(1)
    end function surface_of_points
-
-   !> The largest value at the points and the first of the points that have it.
-   subroutine find_crest(transform, values, surface)
-      type(slab_transform), intent(in) :: transform
-      real(dp), intent(in) :: values(:, :)            !! own columns
-      type(surface_type), intent(inout) :: surface    !! gets amplitude and crest
-
-      integer :: best(2)
-      real(dp) :: place(1), value(1)
-
-      value = maxval(values)
-      call transform%slab%largest(value)
-      surface%amplitude = value(1)
-      ! Numbers of points are whole in a real number up to 2^53.
-      place = -huge(place)
-      associate (m => transform%points(1))
-         if (any(values >= value(1))) then
-            best = maxloc(values)
-            place = -(best(1) - 1.0_dp + real(m, dp)*(transform%slab%first + best(2) - 2))
-         end if
-         call transform%slab%largest(place)
-         best(2) = int(-place(1)/m)
-         best(1) = nint(-place(1) - real(m, dp)*best(2))
-         if (best(1) < 0) best = best + [m, -1]
-      end associate
-      surface%crest = point_angle(best + 1, transform%points, transform%even)
-      if (surface%dimension == 1) surface%crest(2) = 0.0_dp
-   end subroutine find_crest
 
    !> Makes a surface that is spread whole, for tables: on the first rank alone, or on all. It stays spread on the others.
    !> All ranks call this; nothing happens if the first rank has it whole. The shape has 8 bytes a point, and takes twice
@@ -349,35 +319,7 @@ contains
       class(surface_type), intent(in) :: self
 
       paper_wave = no_paper_wave
-      if (.not. self%shape%is_even() .or. self%is_spread()) return
-      if (self%dimension == 1) then
-         if (is_wave(1, 0)) paper_wave = straight_paper_wave
-      else if (is_square(self)) then
-         if (is_wave(1, 1)) paper_wave = straight_paper_wave
-         if (is_wave(1, 0)) paper_wave = turned_paper_wave
-      end if
-
-   contains
-
-      !> Whether the shape is cos iX cos jY or, for i /= j, the mean of that and cos jX cos iY.
-      pure logical function is_wave(i, j)
-         integer, intent(in) :: i, j
-
-         real(dp) :: expected
-         integer :: k, l
-
-         is_wave = i <= ubound(self%shape%c, 1) .and. (self%dimension == 1 .or. i <= ubound(self%shape%c, 2))
-         if (.not. is_wave) return
-         do l = 0, ubound(self%shape%c, 2)
-            do k = 0, ubound(self%shape%c, 1)
-               expected = 0.0_dp
-               if (k == i .and. l == j) expected = merge(1.0_dp, 0.5_dp, i == j .or. self%dimension == 1)
-               if (k == j .and. l == i .and. i /= j) expected = 0.5_dp
-               is_wave = is_wave .and. abs(self%shape%c(k, l) - expected) <= rounding
-            end do
-         end do
-      end function is_wave
-
+      if (.not. self%is_spread()) paper_wave = paper_wave_of(self%shape, self%dimension, is_square(self))
    end function paper_wave
 
    !> Whether the surface is a wave of the paper. A flat surface that is not a height map counts as one of amplitude 0
