@@ -1,6 +1,6 @@
-!> Chooses among the solvers: the closed form where there is one, otherwise fitted expansions where these exist for the surface,
-!> with grids for loads at which they are not accurate enough, otherwise grids. The grid alone if its points are given
-!> or the pressure is bounded by a hardness.
+!> Chooses among the solvers: the closed form where there is one, otherwise fitted expansions where these exist for the
+!> surface, with grids for loads at which they are not accurate enough, otherwise grids. The grid alone if its points are
+!> given or the pressure is bounded by a hardness.
 module wavycon_auto_contact
    use wavycon_closed_form_contact, only: closed_form_contact, closed_form_exists
    use wavycon_contact_solution, only: contact_solution
@@ -67,7 +67,8 @@ contains
       else
          self%choice = has_neither
          if (surface%has_hardness()) self%choice = has_a_hardness
-         if (.not. by_accuracy) self%choice = merge(points_are_of_the_map, points_are_given, all(points == surface%points))
+         if (.not. by_accuracy) &
+            self%choice = merge(points_are_of_the_map, points_are_given, all(points == surface%points))
       end if
    end subroutine start
 

@@ -19,8 +19,8 @@ module wavycon_checkpoint
    use wavycon_results, only: results_type
    use wavycon_solution_record, only: record_of_words, record_words, words_of_record
    use wavycon_surface, only: surface_type
-   use wavycon_system, only: file_size, path_absent, path_file, path_kind, process_id, remove_file, remove_when_interrupted, &
-      rename_file
+   use wavycon_system, only: file_size, path_absent, path_file, path_kind, process_id, remove_file, &
+      remove_when_interrupted, rename_file
    use wavycon_version, only: revision, version
    implicit none (type, external)
    private
