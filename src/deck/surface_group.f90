@@ -7,7 +7,7 @@ module wavycon_surface_group
    use wavycon_key_table, only: key_group, key_group_type, key_index, key_type
    use wavycon_kinds, only: dp
    use wavycon_map_statistics, only: map_statistics
-   use wavycon_plain_text, only: short_number
+   use wavycon_plain_text, only: escaped, short_number
    use wavycon_problems, only: problem_list_type
    use wavycon_surface, only: surface_type
    use wavycon_surface_kind, only: surface_kind
@@ -92,7 +92,7 @@ contains
       side = surface%sides()
       if (maxval(side) <= largest_ratio*minval(side)) return
       key = 'file'
-      keys = 'the sides in the file'
+      keys = 'the sides in '//escaped(values%text('file'))
       do k = 1, size(pairs, 2)
          if (.not. any([values%in_effect(trim(pairs(1, k))), values%in_effect(trim(pairs(2, k)))])) cycle
          key = trim(pairs(merge(2, 1, values%has(trim(pairs(2, k)))), k))

@@ -381,8 +381,11 @@ def fuzz_binary(program, seed, count, work, failures):
         (work/name).write_bytes(head + numbers)
         (work/"deck.nml").write_text(text)
         outcome = run([program, "--check", "deck.nml"], work, limits=limits)
+        # A cell that is too long is a mistake of the deck, which names the map.
+        unlike = b": error 1 of 1: the cell is " in outcome.stderr and f"sides in {name} in".encode() in outcome.stderr
+        is_good = is_good and not unlike
         complaints = complaints_about(outcome, (0,) if is_good else (0, 1, 3))
-        if outcome.status in (1, 3) and not outcome.stderr.startswith(name.encode() + b":"):
+        if outcome.status in (1, 3) and not unlike and not outcome.stderr.startswith(name.encode() + b":"):
             complaints.append(f"no map is named: {outcome.stderr.decode(errors='replace')[:80]}")
         if is_good and f"map       {columns} x {lines} points".encode() not in outcome.stdout:
             complaints.append("a good map is not read as it is")
@@ -445,7 +448,7 @@ def monsters(stream, size):
     row = matrix(stream, 64, 1).encode()
     square = matrix(stream, 32, 32).encode()
     yield "one long row", b"1 2 "*(size//4), None
-    yield "one long column", b"1\n2\n"*(size//4), 1
+    yield "one long column", b"1\n2\n"*(size//4), 0
     yield "long rows", (b"0.5 -1 "*(4096) + b"\n")*max(4, size//28673), None
     yield "many rows", row*(size//len(row)), None
     yield "remarks", b"# remark\n"*(size//9) + square, 0
@@ -539,7 +542,7 @@ def odd_files(program, work, failures):
                           ("a mark alone", b"\xef\xbb\xbf"), ("line ends alone", "\r\r\n\n\r")):
         attempt(name, content, 1, "heights.dat: there are no numbers in this file")
     attempt("one point", "1", 1, "a map of 1 x 1 points")
-    attempt("one column", "1\n2\n1\n0\n", 1, "a map of 1 x 4 points")
+    attempt("one column", "1\n2\n1\n0\n", 0, "map       4 x 1 points")
     attempt("two rows", "1 2 3 4\n"*2, 1, "a map of 4 x 2 points")
     attempt("one row", "1 2 1 0\n", 0, "map       4 x 1 points")
     attempt("one row of points", "0 0 1\n1 0 2\n2 0 1\n3 0 0\n", 0, "map       4 x 1 points (xyz)")
