@@ -47,7 +47,8 @@ def decks(quick):
         yield (f"flat-crest-1e-{power}", f"&surface kind = 'crossed_1d', amplitude1 = 1e-{power}, wavelength1 = 1, "
                "amplitude2 = 1, wavelength2 = 1 /\n&load pbar_over_pstar = 1e-5, 1e-3, 0.05, 0.25, 0.7 /\n"
                "&method accuracy = 0.1 /\n", None)
-    for power in () if quick else (1, 2, 4, 8, 16):
+    # A side of more than 1000 times the other is refused.
+    for power in () if quick else (1, 2, 3):
         yield (f"long-cell-1e{power}", "&surface kind = 'crossed_1d', amplitude1 = 1, wavelength1 = 1, amplitude2 = 1, "
                f"wavelength2 = 1e{power} /\n&load pbar_over_pstar = 0.5 /\n&method accuracy = 0.1 /\n", None)
 
