@@ -2,7 +2,7 @@
 module wavycon_fill_missing
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_error, only: error_type, exit_file_trouble, fatal_error
-   use wavycon_hole_equations, only: hole_equations
+   use wavycon_hole_equations, only: fill_by_neighbours
    use wavycon_kinds, only: dp
    use wavycon_measured_map, only: measured_map
    use wavycon_plain_text, only: escaped
@@ -24,16 +24,14 @@ contains
       type(measured_map), intent(inout) :: map    !! with at least one height that is there; `missing` is deallocated
       type(error_type), allocatable, intent(out) :: error
 
-      !> Real numbers for each hole: the equations of all levels and the vectors of the iteration.
-      integer(int64), parameter :: numbers_a_hole = 40
-      type(hole_equations) :: equations
+      !> Real numbers for each missing height: the equations and the vectors of the iteration, on coarser maps too.
+      integer(int64), parameter :: numbers_a_hole = 16
 
       if (.not. has_memory_for(numbers_a_hole*count(map%missing) + size(map%missing))) then
          call fatal_error(error, exit_file_trouble, escaped(source)//': there is not the memory to fill its holes')
          return
       end if
-      call equations%start(map%missing, step, periodic)
-      call equations%solve(map%height)
+      call fill_by_neighbours(map%height, map%missing, step, periodic)
       deallocate (map%missing)
    end subroutine fill_holes
 

@@ -6,7 +6,6 @@ module wavycon_map_file
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_file_head, only: take_text_head
    use wavycon_foreign_format, only: remedy_of_content, remedy_of_name
-   use wavycon_gnuplot_map, only: is_gnuplot, read_gnuplot_map
    use wavycon_grid_slab, only: grid_slab
    use wavycon_gsf_map, only: is_gsf, read_gsf_map
    use wavycon_kinds, only: dp, sp
@@ -33,7 +32,7 @@ contains
    !> Reads a map. Errors: exit_file_trouble if the file cannot be read, exit_bad_input if it is not a map.
    subroutine read_height_map(path, format, map, error, missing_value, in_slabs)
       character(*), intent(in) :: path
-      !> 'matrix', 'xyz' or 'xz' of a text, 'npy', 'gsf', 'gnuplot', or 'auto': what the file looks like.
+      !> 'matrix', 'xyz' or 'xz' of a text, 'npy', 'gsf', or 'auto': what the file looks like.
       character(*), intent(in) :: format
       type(measured_map), intent(out) :: map
       type(error_type), allocatable, intent(out) :: error
@@ -63,8 +62,6 @@ contains
             call read_npy_map(file, map, error)
          case ('gsf')
             call read_gsf_map(file, map, error)
-         case ('gnuplot')
-            call read_gnuplot_map(file, map, error)
          case default
             call read_text(file, map, error)
          end select
@@ -97,8 +94,6 @@ contains
          format = 'npy'
       else if (is_gsf(file%head) .or. ending == 'gsf') then
          format = 'gsf'
-      else if (is_gnuplot(file)) then
-         format = 'gnuplot'
       else
          format = 'auto'
       end if

@@ -4,16 +4,6 @@ module wavycon_map_tuning
    implicit none (type, external)
    private
 
-   !> Factor of the corrections of a coarser level (M4). Corrections that are constant over two by two points are too
-   !> small by about 2: at equal energy they rise half as high as linear ones. It must be below 2, or the cycle is not
-   !> positive definite. Over a hole of half a map of 1024 x 1024 points conjugate gradients take 33, 23, 19, 18 and 19
-   !> iterations with 1, 1.3, 1.5, 1.8 and 1.9.
-   real(dp), parameter, public :: overcorrection = 1.8_dp
-
-   !> Visits of each coarser level in a cycle (M4). With 1 the number of iterations grows with the hole, 32 and 41 over
-   !> half a map of 256 x 256 and 1024 x 1024 points; with 2 it is 18 for both, and the time falls by a third.
-   integer, parameter, public :: visits = 2
-
    !> Usual part of a side over which a taper rises from the mean to the heights. A wider taper changes more of the map,
    !> a narrower one adds slopes of its own: README.md in this directory has a table.
    real(dp), parameter, public :: usual_window_width = 0.05_dp

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Height maps that numpy, gsffile, SurfaceTopography and gnuplot write or read are the same surface to the program.
+"""Height maps that numpy, gsffile and SurfaceTopography write or read are the same surface to the program.
 
 usage: test_map_files.py --program WAVYCON --environment FOLDER
 
@@ -158,27 +158,6 @@ class MapFiles(unittest.TestCase):
         self.assertIn("# prepared: resampled to 256 points", head)
         slope = float(head.split("rms_slope[-] = ")[1].split(",")[0])
         self.assertLess(abs(slope/0.2 - 1), 0.005)
-
-    def test_a_matrix_that_gnuplot_reads(self):
-        if not shutil.which("gnuplot"):
-            self.skipTest("gnuplot is not installed")
-        matrix = numpy.zeros((N + 1, M + 1), numpy.float32)
-        matrix[0, 0] = M
-        matrix[0, 1:] = numpy.arange(M)*STEP
-        matrix[1:, 0] = numpy.arange(N)*STEP
-        matrix[1:, 1:] = self.single
-        matrix.tofile("map.bin")
-        subprocess.run(["gnuplot", "-e", "set format '%.17g'; set table 'map.xyz'; splot 'map.bin' binary matrix"],
-                       check=True)
-        # gnuplot adds the type of each point.
-        text = pathlib.Path("map.xyz").read_text(encoding="utf-8").replace(" i", "")
-        pathlib.Path("map.xyz").write_text(text, encoding="utf-8")
-        numpy.savetxt("map.dat", self.single.astype(float), "%.17g")
-        expected = self.summary("map.dat", self.sides())
-        self.assertEqual(expected, self.summary("map.xyz"))
-        self.assertEqual(expected, self.summary("map.bin"))
-        matrix.byteswap().tofile("map.bin")
-        self.assertEqual(expected, self.summary("map.bin"))
 
 
 def rows_of(path):

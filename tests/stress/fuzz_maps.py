@@ -329,16 +329,6 @@ def gsf_file(stream, columns, rows):
     return head, struct.pack(f"<{columns*rows}f", *(stream.uniform(-1, 1) for _ in range(columns*rows)))
 
 
-def gnuplot_file(stream, columns, rows):
-    """A binary matrix of gnuplot."""
-    order, step = stream.choice("<>"), stream.choice((1, -0.5, 0.1, 1e-6))
-    numbers = []
-    for j in range(rows):
-        numbers += [j*step, *(stream.uniform(-1, 1) for _ in range(columns))]
-    return (struct.pack(f"{order}{columns + 1}f", columns, *(i*step for i in range(columns))),
-            struct.pack(f"{order}{len(numbers)}f", *numbers))
-
-
 def mutate_head(stream, head):
     """A number or a word of a head replaced, bytes changed, or the head cut."""
     action = stream.randrange(6)
@@ -363,7 +353,7 @@ def fuzz_binary(program, seed, count, work, failures):
     slowest, accepted = 0.0, 0
     for i in range(count):
         stream = random.Random(f"{seed} binary map {i}")
-        make, ending = stream.choice(((npy_file, "npy"), (gsf_file, "gsf"), (gnuplot_file, "bin")))
+        make, ending = stream.choice(((npy_file, "npy"), (gsf_file, "gsf")))
         columns, lines = stream.choice(((4, 4), (5, 7), (16, 9), (31, 1)))
         head, numbers = make(stream, columns, lines)
         is_good = stream.random() < 0.1
@@ -377,7 +367,7 @@ def fuzz_binary(program, seed, count, work, failures):
                 place = 4*stream.randrange(len(numbers)//4 + 1)
                 numbers = numbers[:place] + stream.choice(ODD_NUMBERS) + numbers[place + 4:]
         name = f"heights.{stream.choice((ending, ending, 'dat'))}"
-        form = stream.choice(("", "", "", *(f", file_format = '{word}'" for word in ("npy", "gsf", "gnuplot"))))
+        form = stream.choice(("", "", "", *(f", file_format = '{word}'" for word in ("npy", "gsf"))))
         text = (f"&surface kind = 'file', file = '{name}'{'' if is_good else form} /\n"
                 "&load pbar_over_pstar = 0.05 /\n")
         (work/name).write_bytes(head + numbers)

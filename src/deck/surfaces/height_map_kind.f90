@@ -39,10 +39,10 @@ contains
             longest_path, required=.true.), &
          choice_key('file_format', "'auto'", &
             "'matrix', a row of heights for each y; 'xyz', lines of x, y, z on a regular grid; 'xz', lines of x "// &
-            "and z of a profile; 'npy' of numpy; 'gsf' of Gwyddion; 'gnuplot', its binary matrix; 'auto', what the "// &
-            'file looks like, xyz if all lines have three numbers, xz if all have two. xyz, xz and gnuplot give the '// &
+            "and z of a profile; 'npy' of numpy; 'gsf' of Gwyddion; 'auto', what the file looks like, xyz if all "// &
+            'lines have three numbers, xz if all have two. xyz and xz give the '// &
             'sides of the cell, gsf and heads of texts also units: leave out length_x and length_y.', &
-            [character(7) :: 'auto', 'matrix', 'xyz', 'xz', 'npy', 'gsf', 'gnuplot']), &
+            [character(6) :: 'auto', 'matrix', 'xyz', 'xz', 'npy', 'gsf']), &
          real_key('missing_value', '', '-', 'heights of the file that have this value are missing, as are nan and '// &
             'empty fields between commas, semicolons or tabs.'), &
          real_key('height_scale', '1.0', 'length', "length of one unit of the file's heights; beside a file with "// &
