@@ -7,8 +7,8 @@
 module wavycon_contact_extension
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_tuning, only: decay_alone, decay_growth
+   use wavycon_grid_points, only: image_of_point
    use wavycon_grid_slab, only: grid_slab, least_spread_points
-   use wavycon_grid_transform, only: image_of_point
    use wavycon_kinds, only: dp, sp
    use wavycon_threads, only: threads_for
    implicit none (type, external)

@@ -1,8 +1,8 @@
 !> The gap before deformation at the points of a grid that may be spread over the ranks.
 module wavycon_undeformed_gap
    use wavycon_grid_slab, only: grid_slab
+   use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
-   use wavycon_slab_transform, only: slab_transform
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
@@ -18,7 +18,7 @@ contains
       type(grid_slab), intent(in) :: slab                !! of the grid, of a quarter of the cell if the surface is even
       real(dp), intent(out), contiguous :: h(:, :)       !! shape (M, slab%columns())
 
-      type(slab_transform) :: transform
+      type(grid_transform) :: transform
 
       call transform%start(slab%points, surface%shape%is_even())
       call transform%sample(surface%shape, h)

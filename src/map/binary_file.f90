@@ -4,12 +4,11 @@ module wavycon_binary_file
    use, intrinsic :: iso_fortran_env, only: int32, int64, int8
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_file_bytes, only: open_file
-   use wavycon_grid_slab, only: grid_slab
+   use wavycon_grid_slab, only: grid_slab, row_exchange
    use wavycon_kinds, only: dp, sp
-   use wavycon_map_size, only: check_map_size, check_room, check_slab_room
+   use wavycon_map_size, only: check_map_size, check_room
    use wavycon_measured_map, only: measured_map
    use wavycon_plain_text, only: escaped, integer_text, system_words
-   use wavycon_ranks, only: new_row_exchange, read_shared_columns, row_exchange, share_error
    implicit none (type, external)
    private
 
@@ -24,7 +23,7 @@ module wavycon_binary_file
       integer(int64) :: bytes = 0          !! size of the file
       integer :: number_bytes = 4          !! of a number: 4 or 8
       logical :: big_end_first = .false.   !! the byte order of the numbers
-      logical :: in_slabs = .false.        !! whether heights may be spread over the ranks, which then read together
+      logical :: in_slabs = .false.        !! whether a large map is read in slabs
       integer, private :: unit = -1
       logical, private :: is_open = .false.
    contains
@@ -165,7 +164,7 @@ contains
    end subroutine take_doubles
 
    !> Reads the heights of a map: from `start` to the end of the file there must be nothing else. Missing heights are
-   !> NaN. With in_slabs large maps are spread over the ranks. Errors: exit_bad_input for a map that is too small or too
+   !> NaN. With in_slabs of a large map the own columns. Errors: exit_bad_input for a map that is too small or too
    !> large, a file of another length, and infinite heights; exit_file_trouble.
    subroutine read_heights(self, start, points, by_columns, map, error)
       class(binary_file), intent(in) :: self
@@ -227,8 +226,7 @@ contains
 
    end subroutine read_heights
 
-   !> Reads the own columns of a map that is spread over the ranks, which call this together. Errors: as of read_heights,
-   !> the same on all ranks.
+   !> Reads the own columns of a map that is spread. Errors: as of read_heights, the same for all slabs.
    subroutine read_slab(self, start, slab, by_columns, map, error)
       class(binary_file), intent(in) :: self
       integer(int64), intent(in) :: start   !! bytes before the first height
@@ -239,39 +237,34 @@ contains
 
       class(row_exchange), allocatable :: exchange
       real(dp), allocatable :: lines(:, :)
-      integer :: first, length, number   ! of the lines of the file that this rank reads
+      type(grid_slab) :: part               ! of the file's lines
 
-      call check_slab_room(self%path, slab%points, error)
+      call check_room(self%path, slab%points, error, slab)
+      call slab%share_error(error)
       if (allocated(error)) return
-      length = slab%points(1)
-      first = slab%first
-      number = slab%columns()
-      if (by_columns) then
-         call new_row_exchange(slab%points(2), slab%points(1), slab%width, 1, dp, exchange)
-         length = slab%points(2)
-         first = exchange%first_row
-         number = exchange%own_rows
-      end if
-      allocate (lines(length, number))
-      call read_lines(self, start, first, number, by_columns, lines, error)
-      call share_error(error)
+      part = slab
+      if (by_columns) call part%divide(slab%points(2:1:-1))
+      allocate (lines(part%points(1), part%columns()))
+      call read_lines(self, start, part, by_columns, lines, error)
+      call slab%share_error(error)
       if (allocated(error)) return
       call map%spread_over(slab)
       if (by_columns) then
          lines = transpose(lines)
          allocate (map%height(slab%points(1), slab%columns()))
+         call slab%exchange_rows(slab%points(1), 1, dp, exchange)
          call exchange%to_columns(lines, map%height)
       else
          call move_alloc(lines, map%height)
       end if
    end subroutine read_slab
 
-   !> Reads lines of heights: rows of the map, or columns. All ranks call this. Errors: of this rank.
-   subroutine read_lines(self, start, first, number, by_columns, lines, error)
+   !> Reads lines of heights: rows of the map, or columns. Errors: of this process alone.
+   subroutine read_lines(self, start, part, by_columns, lines, error)
       class(binary_file), intent(in) :: self
       integer(int64), intent(in) :: start
-      integer, intent(in) :: first, number         !! of the own lines
-      logical, intent(in) :: by_columns            !! whether the lines are columns
+      type(grid_slab), intent(in) :: part          !! of the lines, which are its columns
+      logical, intent(in) :: by_columns            !! whether the lines are columns of the map
       real(dp), intent(inout) :: lines(:, :)
       type(error_type), allocatable, intent(out) :: error
 
@@ -280,18 +273,18 @@ contains
       integer(int64), allocatable :: words_dp(:, :)
       integer :: infinite, j
 
-      allocate (words_sp(size(lines, 1), merge(number, 0, self%number_bytes == 4)))
-      allocate (words_dp(size(lines, 1), merge(number, 0, self%number_bytes == 8)))
+      allocate (words_sp(size(lines, 1), merge(size(lines, 2), 0, self%number_bytes == 4)))
+      allocate (words_dp(size(lines, 1), merge(size(lines, 2), 0, self%number_bytes == 8)))
       if (self%number_bytes == 4) then
-         call read_shared_columns(self%path, start, 4, size(lines, 1), first, number, words_sp, failure)
+         call part%read_columns(self%path, start, 4, words_sp, failure)
       else
-         call read_shared_columns(self%path, start, 8, size(lines, 1), first, number, words_dp, failure)
+         call part%read_columns(self%path, start, 8, words_dp, failure)
       end if
       if (allocated(failure)) then
          call fatal_error(error, exit_file_trouble, escaped(self%path)//': cannot be read: '//failure)
          return
       end if
-      do j = 1, number
+      do j = 1, size(lines, 2)
          if (self%number_bytes == 4) then
             call take_singles(self, words_sp(:, j), lines(:, j), infinite)
          else
@@ -299,9 +292,9 @@ contains
          end if
          if (infinite == 0) cycle
          if (by_columns) then
-            call refuse_infinite(self, first + j - 1, infinite, error)
+            call refuse_infinite(self, part%first + j - 1, infinite, error)
          else
-            call refuse_infinite(self, infinite, first + j - 1, error)
+            call refuse_infinite(self, infinite, part%first + j - 1, error)
          end if
          return
       end do

@@ -135,7 +135,7 @@ contains
    !> N.B. Counts are numbers of columns: numbers of bytes may exceed the integers of MPI.
    subroutine gather(self, column_bytes, columns, own, whole, first_only)
       class(mpi_team), intent(in) :: self
-      integer(int64), intent(in) :: column_bytes
+      integer, intent(in) :: column_bytes
       integer, intent(in) :: columns(0:)
       type(*), intent(in), target :: own(*)
       type(*), intent(inout), target :: whole(*)
@@ -145,7 +145,7 @@ contains
       type(mpi_datatype) :: column
 
       places = [(sum(columns(0:i - 1)), i=0, size(columns) - 1)]
-      call mpi_type_contiguous(int(column_bytes), mpi_byte, column)
+      call mpi_type_contiguous(column_bytes, mpi_byte, column)
       call mpi_type_commit(column)
       if (first_only) then
          call mpi_gatherv(own, columns(self%this), column, whole, columns, places, column, 0, mpi_comm_world)
@@ -158,7 +158,7 @@ contains
    !> N.B. Counts are numbers of columns, as in `gather`.
    subroutine move(self, column_bytes, have, own, want, wanted)
       class(mpi_team), intent(in) :: self
-      integer(int64), intent(in) :: column_bytes
+      integer, intent(in) :: column_bytes
       integer, intent(in) :: have(:, 0:), want(:, 0:)
       type(*), intent(in), target :: own(*)
       type(*), intent(inout), target :: wanted(*)
@@ -172,7 +172,7 @@ contains
          received_at = max(have(1, :), want(1, mine)) - want(1, mine)
          received = max(0, min(have(2, :), want(2, mine)) - want(1, mine) + 1 - received_at)
       end associate
-      call mpi_type_contiguous(int(column_bytes), mpi_byte, column)
+      call mpi_type_contiguous(column_bytes, mpi_byte, column)
       call mpi_type_commit(column)
       call mpi_alltoallv(own, sent, sent_at, column, wanted, received, received_at, column, mpi_comm_world)
       call mpi_type_free(column)

@@ -3,12 +3,13 @@ module wavycon_surface
    use wavycon_assertion, only: assert
    use wavycon_constants, only: pi, sqrt2
    use wavycon_fourier_series, only: fourier_series
-   use wavycon_grid_transform, only: point_angle
+   use wavycon_grid_points, only: point_angle
+   use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
+   use wavycon_own_waves, only: gather_series
    use wavycon_paper_wave, only: no_paper_wave, paper_wave_of, rounding, straight_paper_wave, turned_paper_wave
    use wavycon_roughness, only: roughness_of, roughness_type
    use wavycon_series_peak, only: find_peak
-   use wavycon_slab_transform, only: gather_series, slab_transform
    use wavycon_turned_series, only: to_sum_angles
    implicit none (type, external)
    private
@@ -94,7 +95,7 @@ contains
       logical, intent(in), optional :: mirrored        !! whether mirror images continue it; .false. if absent
       integer, intent(in), optional :: points(2)       !! M, N of a grid that may be spread; the shape of height if absent
 
-      type(slab_transform) :: transform
+      type(grid_transform) :: transform
       real(dp), allocatable :: values(:, :)
       real(dp) :: extremes(2), per_wave(2)
       integer :: crest(2), grid(2)
@@ -174,7 +175,7 @@ contains
    end function is_height_map
 
    !> Whether each rank has some coefficients of the shape only: those of some wave numbers in X, see
-   !> wavycon_slab_transform. The shape cannot be evaluated then but by wavycon_undeformed_gap; `whole_surface` makes it
+   !> wavycon_grid_transform. The shape cannot be evaluated then but by wavycon_undeformed_gap; `whole_surface` makes it
    !> whole. All other components are the same on all ranks.
    pure logical function is_spread(self)
       class(surface_type), intent(in) :: self
