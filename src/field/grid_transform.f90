@@ -178,28 +178,40 @@ contains
    !> The values of waves at the points of a whole cell, in a grid that is not spread:
    !> f = sum_kl w_kl e^(i(kX + lY)), k = -M/2 .. M/2, l = 0 .. N - 1, where w_-k,N-l is the conjugate of w_kl.
    subroutine sample_waves(self, waves, field)
-      class(grid_transform), intent(in) :: self                   !! even is .false.
-      complex(dp), intent(in) :: waves(:, :)                      !! w_kl, k = 0 .. M/2, shape (M/2 + 1, N)
-      real(dp), intent(out), contiguous :: field(:, :)            !! shape (M, N)
+      class(grid_transform), intent(in) :: self                 !! even is .false.
+      complex(c_double_complex), intent(inout) :: waves(:, :)   !! w_kl, k = 0 .. M/2, shape (M/2 + 1, N); overwritten
+      real(dp), intent(out), contiguous :: field(:, :)          !! shape (M, N)
 
-      real(c_double), allocatable :: block(:, :, :), spectrum(:, :, :)
-      integer :: i, j, k, number
+      complex(c_double_complex), allocatable :: block(:, :), column(:), row(:)
+      real(c_double), allocatable :: values(:)
+      type(c_ptr) :: plan
+      integer :: j, k, number
 
       call assert(all(shape(field) == self%points) .and. .not. self%even, 'the field is that of a whole cell')
-      allocate (spectrum(2, self%waves_x(), self%points(2)), block(2, self%points(2), block_rows))
-      do k = 1, self%waves_x(), block_rows
-         number = min(block_rows, self%waves_x() - k + 1)
-         do j = 1, self%points(2)
-            do i = 1, number
-               block(:, j, i) = [waves(k + i - 1, j)%re, waves(k + i - 1, j)%im]
+      associate (m => self%points(1), n => self%points(2))
+         ! FFTW's vectors must be aligned, also if N is odd.
+         allocate (block(n + modulo(n, 2), block_rows), column(m/2 + 1), row(n), values(m))
+         plan = plan_of_line(waves_backward, n, dp)
+         do k = 1, size(waves, 1), block_rows
+            number = min(block_rows, size(waves, 1) - k + 1)
+            do j = 1, n
+               block(j, :number) = waves(k:k + number - 1, j)
+            end do
+            do j = 1, number
+               call fftw_execute_dft(plan, block(:, j), row)
+               block(:n, j) = row
+            end do
+            do j = 1, n
+               waves(k:k + number - 1, j) = block(j, :number)
             end do
          end do
-         call transform_rows(.false., block(:, :, :number), forwards=.false.)
-         do j = 1, self%points(2)
-            spectrum(:, k:k + number - 1, j) = block(:, j, :number)
+         plan = plan_of_line(waves_to_real, m, dp)
+         do j = 1, n
+            column = waves(:, j)
+            call fftw_execute_dft_c2r(plan, column, values)
+            field(:, j) = values
          end do
-      end do
-      call waves_to_columns(self, spectrum, field)
+      end associate
    end subroutine sample_waves
 
    !> X of the points with first index i [rad].
