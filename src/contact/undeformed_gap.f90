@@ -1,4 +1,4 @@
-!> The gap before deformation at the points of a grid that may be spread over the ranks.
+!> The gap before deformation at the points of a grid.
 module wavycon_undeformed_gap
    use wavycon_grid_slab, only: grid_slab
    use wavycon_grid_transform, only: grid_transform
@@ -11,8 +11,8 @@ module wavycon_undeformed_gap
 
 contains
 
-   !> h/Delta at the points of a grid. Waves of the surface beyond the grid's highest wave number are left out. If the
-   !> grid or the surface is spread all ranks call this. The result does not depend on the number of ranks.
+   !> h/Delta at the points of a grid. Waves of the surface beyond the grid's highest wave number are left out. The
+   !> digits do not depend on how the grid and the surface are spread.
    subroutine sample_undeformed_gap(surface, slab, h)
       type(surface_type), intent(in) :: surface
       type(grid_slab), intent(in) :: slab                !! of the grid, of a quarter of the cell if the surface is even

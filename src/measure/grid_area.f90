@@ -15,8 +15,7 @@ module wavycon_grid_area
 
 contains
 
-   !> The fraction of the surface in contact: (C11) in 1-D, (C12) in 2-D. Of a grid that is spread, after
-   !> `fetch_neighbours`; all ranks must call it.
+   !> The fraction of the surface in contact: (C11) in 1-D, (C12) in 2-D. After `fetch_neighbours`.
    real(dp) function grid_contact_area(edge) result(fraction)
       type(grid_edge), intent(in) :: edge
 

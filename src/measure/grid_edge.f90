@@ -2,8 +2,8 @@
 !> src/contact/README.md.
 !>
 !> The points are those of wavycon_grid_points: M x N on a quarter of the cell, whose mirror images fill the
-!> plane, or on the whole cell. Of a grid that is spread over ranks, each has the edge in its own columns and in those
-!> of the neighbours that `fetch_neighbours` gets. The pressure of the last point in contact and the gap of the first
+!> plane, or on the whole cell. The edge lies in the own columns and in those of the neighbours that
+!> `fetch_neighbours` gets. The pressure of the last point in contact and the gap of the first
 !> outside are both linear in the place of the edge between them, so that their ratio gives the place.
 module wavycon_grid_edge
    use, intrinsic :: iso_fortran_env, only: int64
@@ -98,7 +98,7 @@ contains
       joined = merge(pressure, -max(gap, 0.0_dp), pressure > 0.0_dp)
    end function joined
 
-   !> Gets the columns of the neighbours if the grid is spread; all ranks must call it.
+   !> Gets the columns of the neighbours, if the grid is spread.
    subroutine fetch_neighbours(self)
       class(grid_edge), intent(inout) :: self
 
