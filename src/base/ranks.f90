@@ -15,8 +15,9 @@ module wavycon_ranks
 
    public :: rank_team, row_exchange, use_team
    public :: this_rank, rank_count, ranks_at_work, is_first_rank, work_alone, ranks_on_this_machine, rank_library
-   public :: add_over_ranks, largest_over_ranks, any_rank, exchange_columns, gather_columns, move_columns
-   public :: new_row_exchange, share_error, share_text, read_shared_columns, write_shared_columns, end_ranks
+   public :: add_over_ranks, add_integers_over_ranks, largest_over_ranks, any_rank
+   public :: exchange_columns, gather_columns, move_columns, new_row_exchange
+   public :: share_error, share_text, write_shared_columns, end_ranks
 
    !> Exchanges a matrix whose columns are spread over the ranks for the same matrix with its rows spread, and back. In
    !> both the elements of a column follow each other. An element has one or two real numbers of one precision. Ranks have
@@ -48,8 +49,7 @@ module wavycon_ranks
       procedure(move_blocks), deferred :: move
       procedure(make_row_exchange), deferred :: new_row_exchange
       procedure(send_text), deferred :: share_text
-      procedure(transfer_columns), deferred :: read_columns
-      procedure(transfer_columns), deferred :: write_columns
+      procedure(put_columns), deferred :: write_columns
       procedure(end_run), deferred :: finish
       procedure(get_text), deferred :: library                 !! name and version
    end type rank_team
@@ -127,7 +127,7 @@ module wavycon_ranks
          character(:), allocatable, intent(inout) :: text
       end subroutine send_text
 
-      subroutine transfer_columns(self, path, start, number_bytes, rows, first, columns, values, failure)
+      subroutine put_columns(self, path, start, number_bytes, rows, first, columns, values, failure)
          import :: int64, rank_team
          class(rank_team), intent(in) :: self
          character(*), intent(in) :: path
@@ -137,7 +137,7 @@ module wavycon_ranks
          integer, intent(in) :: first, columns     !! of this rank; columns may be 0
          type(*), intent(inout), target :: values(*)    !! shape (rows, columns)
          character(:), allocatable, intent(out) :: failure   !! the system's words on this rank; allocated if it failed
-      end subroutine transfer_columns
+      end subroutine put_columns
 
       subroutine end_run(self, status)
          import :: rank_team
@@ -329,8 +329,9 @@ contains
       if (ranks_at_work() > 1) call team%share_text(from, text)
    end subroutine share_text
 
-   !> Reads the own columns of a matrix from a file, all ranks at a time: columns follow each other. More than one rank.
-   subroutine read_shared_columns(path, start, number_bytes, rows, first, columns, values, failure)
+   !> Writes the own columns of a matrix to a file that exists, all ranks at a time: columns follow each other. More than
+   !> one rank.
+   subroutine write_shared_columns(path, start, number_bytes, rows, first, columns, values, failure)
       character(*), intent(in) :: path
       integer(int64), intent(in) :: start            !! bytes of the file before the first column of all
       integer, intent(in) :: number_bytes            !! of a number
@@ -338,17 +339,6 @@ contains
       integer, intent(in) :: first, columns          !! the own columns; columns may be 0
       type(*), intent(inout), target :: values(*)    !! shape (rows, columns)
       character(:), allocatable, intent(out) :: failure   !! the system's words, on the ranks that failed
-
-      call team%read_columns(path, start, number_bytes, rows, first, columns, values, failure)
-   end subroutine read_shared_columns
-
-   !> Writes the own columns likewise to a file that exists.
-   subroutine write_shared_columns(path, start, number_bytes, rows, first, columns, values, failure)
-      character(*), intent(in) :: path
-      integer(int64), intent(in) :: start
-      integer, intent(in) :: number_bytes, rows, first, columns
-      type(*), intent(inout), target :: values(*)
-      character(:), allocatable, intent(out) :: failure
 
       call team%write_columns(path, start, number_bytes, rows, first, columns, values, failure)
    end subroutine write_shared_columns

@@ -11,11 +11,10 @@
 module wavycon_grid_slab
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_column_layout, only: column_layout, least_spread_points, most_reach, strip_columns
-   use wavycon_error, only: error_type
    use wavycon_grid_points, only: image_of_point
    use wavycon_kinds, only: dp, sp
    use wavycon_ranks, only: add_over_ranks, any_rank, exchange_columns, gather_columns, largest_over_ranks, &
-      move_columns, new_row_exchange, read_shared_columns, row_exchange, share_error, this_rank
+      move_columns, new_row_exchange, row_exchange, share_error, this_rank
    implicit none (type, external)
    private
 
@@ -31,15 +30,16 @@ module wavycon_grid_slab
       generic :: add => add_reals, add_integers
       procedure :: largest
       procedure :: find_largest
-      procedure :: any => any_true
-      procedure :: share_error => share_slab_error
+      !> Whether something is true on any rank at work, also if each has the whole grid.
+      procedure, nopass :: any => any_rank
+      !> Makes an error of any rank at work that of all, also if each has the whole grid.
+      procedure, nopass :: share_error
       !> Columns beside the own ones.
       generic :: halo => halo_dp, halo_sp
       procedure :: fetch
       !> The whole grid, on every rank.
       generic :: gather => gather_whole_dp, gather_whole_sp
       procedure :: gather_to_first
-      procedure :: read_columns
       procedure :: exchange_rows
       procedure, private :: add_reals, add_integers, halo_dp, halo_sp, gather_whole_dp, gather_whole_sp
    end type grid_slab
@@ -120,24 +120,6 @@ contains
 
       if (self%is_spread) call largest_over_ranks(values)
    end subroutine largest
-
-   !> Whether something is true on any rank at work, also if each has the whole grid.
-   logical function any_true(self, mine)
-      class(grid_slab), intent(in) :: self
-      logical, intent(in) :: mine
-
-      associate (unused => self); end associate
-      any_true = any_rank(mine)
-   end function any_true
-
-   !> Makes an error of any rank at work that of all, also if each has the whole grid.
-   subroutine share_slab_error(self, error)
-      class(grid_slab), intent(in) :: self
-      type(error_type), allocatable, intent(inout) :: error
-
-      associate (unused => self); end associate
-      call share_error(error)
-   end subroutine share_slab_error
 
    !> The largest number of a field and the first of the points that have it, over the whole grid.
    subroutine find_largest(self, field, value, point)
@@ -311,18 +293,6 @@ contains
       call gather_columns(size(own, 1)*storage_size(own)/8, self%columns_of_ranks(), own, whole, first_only=.true.)
       if (this_rank() > 0) deallocate (whole)
    end subroutine gather_to_first
-
-   !> Reads the own columns of a grid that is spread from a file, in which columns follow each other.
-   subroutine read_columns(self, path, start, number_bytes, values, failure)
-      class(grid_slab), intent(in) :: self
-      character(*), intent(in) :: path
-      integer(int64), intent(in) :: start            !! bytes of the file before the first column
-      integer, intent(in) :: number_bytes            !! of a number
-      type(*), intent(inout), target :: values(*)    !! shape (M, columns())
-      character(:), allocatable, intent(out) :: failure   !! the system's words, on the ranks that failed
-
-      call read_shared_columns(path, start, number_bytes, self%points(1), self%first, self%columns(), values, failure)
-   end subroutine read_columns
 
    !> Prepares the exchange of the own columns for own rows, of a grid that is spread. The elements may be complex
    !> numbers, and each column may have another number of them than M.

@@ -25,7 +25,7 @@ contains
       logical :: are_spread
 
       are_spread = results%sharing%kind == spread_loads
-      if (are_spread) call results%sharing%separate()
+      if (are_spread) call results%sharing%work_alone(.true.)
       associate (setting => results%scene%stress_setting)
          allocate (results%von_mises(size(setting%body), size(results%loads)))
          allocate (results%shear(size(setting%body), size(results%loads)))
@@ -42,7 +42,7 @@ contains
          end do
       end associate
       if (.not. are_spread) return
-      call results%sharing%join()
+      call results%sharing%work_alone(.false.)
       call share_stresses(results%sharing, results%von_mises)
       call share_stresses(results%sharing, results%shear)
    end subroutine find_stresses

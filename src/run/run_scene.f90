@@ -48,9 +48,9 @@ contains
       if (results%sharing%is_shared()) then
          call solve_and_write(results, tables, resume, log, status, error)
       else
-         call results%sharing%separate()
+         call results%sharing%work_alone(.true.)
          if (results%sharing%is_first()) call solve_and_write(results, tables, resume, log, status, error)
-         call results%sharing%join()
+         call results%sharing%work_alone(.false.)
          call results%sharing%share_error(error)
          status_of_all = status
          call results%sharing%add(status_of_all)
@@ -130,7 +130,7 @@ contains
          call collect(results, need_fields(tables, .not. by_all) .or. asks_for_largest(results%scene), &
                       need_surface(tables, .not. by_all), error)
          if (allocated(error)) return
-         call results%sharing%separate()
+         call results%sharing%work_alone(.true.)
       end if
       if (results%sharing%is_first() .or. .not. by_first) then
          if (asks_for_largest(results%scene)) then
@@ -140,7 +140,7 @@ contains
          end if
       end if
       if (results%sharing%is_first()) call write_tables(results, tables, .not. by_all, error)
-      if (by_first) call results%sharing%join()
+      if (by_first) call results%sharing%work_alone(.false.)
       call results%sharing%share_error(error)
    end subroutine write_results
 

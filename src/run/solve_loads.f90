@@ -41,7 +41,7 @@ contains
          order = descending(merge(-target, target, loads_by == by_mean_gap))
          length = merge(block_length, 1, results%traits%continues_last_load)
          call results%sharing%deal_loads(order, length)
-         if (are_spread) call results%sharing%separate()
+         if (are_spread) call results%sharing%work_alone(.true.)
          progress%log => log
          progress%loads = size(order)
          call solver%show_progress(progress)
@@ -64,7 +64,7 @@ contains
          call solver%show_progress(nobody)
       end associate
       if (.not. are_spread) return
-      call results%sharing%join()
+      call results%sharing%work_alone(.false.)
       call share_solutions(results)
    end subroutine solve_loads
 

@@ -3,9 +3,8 @@ module wavycon_work_sharing
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_solver, only: solver_traits
    use wavycon_grid_slab, only: grid_slab
-   use wavycon_error, only: error_type
    use wavycon_plain_text, only: integer_text
-   use wavycon_ranks, only: add_over_ranks, any_rank, rank_count, ranks_on_this_machine, share_error, this_rank, &
+   use wavycon_ranks, only: add_integers_over_ranks, any_rank, rank_count, ranks_on_this_machine, share_error, this_rank, &
       work_alone
    use wavycon_system, only: available_memory
    implicit none (type, external)
@@ -35,11 +34,14 @@ module wavycon_work_sharing
       procedure :: words
       procedure :: deal_loads
       procedure :: is_own_load
-      procedure, nopass :: separate
-      procedure, nopass :: join
-      procedure, nopass :: add => add_over_work
-      procedure, nopass :: any => any_true
-      procedure, nopass :: share_error => share_work_error
+      !> Says whether each rank works on something else from now on, without exchange.
+      procedure, nopass :: work_alone
+      !> Adds words of all ranks, one by one.
+      procedure, nopass :: add => add_integers_over_ranks
+      !> Whether something is true on any rank.
+      procedure, nopass :: any => any_rank
+      !> Makes an error of any rank that of all.
+      procedure, nopass :: share_error
    end type work_sharing
 
 contains
@@ -111,37 +113,6 @@ contains
       is_own_load = .true.
       if (allocated(self%rank_of_load)) is_own_load = self%rank_of_load(load) == self%rank
    end function is_own_load
-
-   !> From now on each rank works on something else, without exchange.
-   subroutine separate()
-      call work_alone(.true.)
-   end subroutine separate
-
-   !> From now on the ranks work together again.
-   subroutine join()
-      call work_alone(.false.)
-   end subroutine join
-
-   !> Adds words of all ranks, one by one.
-   subroutine add_over_work(values)
-      integer(int64), intent(inout), contiguous :: values(:)
-
-      call add_over_ranks(values)
-   end subroutine add_over_work
-
-   !> Whether something is true on any rank.
-   logical function any_true(mine)
-      logical, intent(in) :: mine
-
-      any_true = any_rank(mine)
-   end function any_true
-
-   !> Makes an error of any rank that of all.
-   subroutine share_work_error(error)
-      type(error_type), allocatable, intent(inout) :: error
-
-      call share_error(error)
-   end subroutine share_work_error
 
    !> The decision for the log; empty for one rank.
    function words(self)
