@@ -6,12 +6,10 @@ module wavycon_check_scene
    use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: escaped, integer_text, short_number
-   use wavycon_ranks, only: ranks_on_this_machine
    use wavycon_results, only: results_type
    use wavycon_run_log, only: run_log
    use wavycon_run_scene, only: keep_fields, start_results
    use wavycon_scene, only: scene_type
-   use wavycon_system, only: available_memory
    use wavycon_tables, only: table_item
    use wavycon_work_sharing, only: spread_grids, spread_loads
    implicit none (type, external)
@@ -80,13 +78,10 @@ contains
       words = words//' for grids of up to '//integer_text(points(1))
       if (results%solver%surface%dimension == 2) words = words//' x '//integer_text(points(2))
       words = words//' points in the part of the cell that is solved'
-      available = available_memory()
+      available = results%sharing%memory_of_each()
       if (available < 0) return
-      if (results%sharing%is_shared()) then
-         words = words//'; '//megabytes(available/ranks_on_this_machine())//' available to each'
-      else
-         words = words//'; '//megabytes(available)//' available'
-      end if
+      words = words//'; '//megabytes(available)//' available'
+      if (results%sharing%is_shared()) words = words//' to each'
    end function memory
 
    !> Bytes as a number of MB.

@@ -5,12 +5,11 @@ module wavycon_command_line
    use wavycon_nearest_name, only: nearest_name
    use wavycon_output_group, only: longest_directory
    use wavycon_plain_text, only: escaped, integer_text, is_printable
-   use wavycon_ranks, only: rank_library
    use wavycon_settings, only: read_setting, setting_type
    implicit none (type, external)
    private
 
-   public :: command_line_type, read_command_line, help_text
+   public :: command_line_type, read_command_line, help_text, usage
 
    !> The path of a deck.
    type :: path_type
@@ -57,8 +56,7 @@ contains
          i = i + 1
          word = argument(i)
          if (options_over .or. index(word, '-') /= 1) then
-            if (word == '') call fatal_error(error, exit_bad_input, 'the name of a deck is empty'//new_line('a')// &
-                                             usage())
+            if (word == '') call fatal_error(error, exit_bad_input, 'the name of a deck is empty')
             if (allocated(error)) return
             call add_deck(command_line%decks, word)
             cycle
@@ -88,7 +86,7 @@ contains
          case ('--set')
             call take_value(value)
             call read_setting(value, setting, trouble)
-            if (allocated(trouble)) call fatal_error(error, exit_bad_input, trouble//new_line('a')//usage())
+            if (allocated(trouble)) call fatal_error(error, exit_bad_input, trouble)
             if (allocated(error)) return
             call add_setting(command_line%settings, setting)
          case ('--output')
@@ -109,15 +107,15 @@ contains
             near = nearest_name(word, options)
             if (near > 0) then
                call fatal_error(error, exit_bad_input, "unknown option '"//escaped(word)//"': did you mean "// &
-                                trim(options(near))//'?'//new_line('a')//usage())
+                                trim(options(near))//'?')
             else
-               call fatal_error(error, exit_bad_input, "unknown option '"//escaped(word)//"'"//new_line('a')//usage())
+               call fatal_error(error, exit_bad_input, "unknown option '"//escaped(word)//"'")
             end if
             return
          end select
       end do
       if (size(command_line%decks) == 0 .and. .not. (command_line%version .or. command_line%help)) &
-         call fatal_error(error, exit_bad_input, 'no deck is given'//new_line('a')//usage())
+         call fatal_error(error, exit_bad_input, 'no deck is given')
 
    contains
 
@@ -151,7 +149,7 @@ contains
          read (text, *, iostat=status) threads
       if (status /= 0 .or. threads < 1 .or. threads > most_threads) &
          call fatal_error(error, exit_bad_input, "--threads needs a number from 1 to "// &
-                          integer_text(most_threads)//", got '"//escaped(text)//"'"//new_line('a')//usage())
+                          integer_text(most_threads)//", got '"//escaped(text)//"'")
    end subroutine read_threads
 
    !> Adds the path of a deck.
@@ -195,7 +193,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       if (path == '' .or. index(path, '--') == 1) then
-         call fatal_error(error, exit_bad_input, option//' needs the name of '//what//new_line('a')//usage())
+         call fatal_error(error, exit_bad_input, option//' needs the name of '//what)
       else if (len(path) > longest_directory) then
          call fatal_error(error, exit_bad_input, option//': the name of '//what//' must be at most '// &
                           integer_text(longest_directory)//' bytes long, got '//integer_text(len(path)))
@@ -206,14 +204,21 @@ contains
    end subroutine check_path
 
    !> The text of --help: the options, then the reference of all keys.
-   function help_text() result(text)
+   function help_text(is_parallel) result(text)
+      logical, intent(in) :: is_parallel   !! whether this is the parallel program
       character(:), allocatable :: text
 
       character, parameter :: newline = new_line('a')
+      character(:), allocatable :: note
 
+      note = ''
+      if (is_parallel) &
+         note = 'The RANKS processes share the work: large grids are divided among them, or else the loads.'//newline// &
+                'Each needs the memory of its part, and has N threads of its own. The results are those of'//newline// &
+                'wavycon.'//newline//newline
       text = 'wavycon: elastic contact of regular wavy surfaces, from namelist decks to tables.'//newline// &
              newline// &
-             usage()//newline// &
+             usage(is_parallel)//newline// &
              newline// &
              '   --check        validate the decks, say what a run would do, and stop'//newline// &
              '   --set GROUP.KEY=VALUE'//newline// &
@@ -234,7 +239,7 @@ contains
              '   --version      show the version and stop'//newline// &
              '   --help, -h     show this and stop'//newline// &
              newline// &
-             note_on_ranks()// &
+             note// &
              'Exit status: 0 fine, 1 bad input, 2 a load did not converge, 3 file trouble; of several'//newline// &
              'decks the worst.'//newline// &
              newline// &
@@ -254,27 +259,12 @@ contains
    end function argument
 
    !> How the program is started.
-   function usage() result(text)
+   function usage(is_parallel) result(text)
+      logical, intent(in) :: is_parallel   !! whether this is the parallel program
       character(:), allocatable :: text
 
-      if (rank_library() == '') then
-         text = 'usage: wavycon'//arguments
-      else
-         text = 'usage: mpirun -n RANKS wavycon-mpi'//arguments
-      end if
+      text = 'usage: wavycon'//arguments
+      if (is_parallel) text = 'usage: mpirun -n RANKS wavycon-mpi'//arguments
    end function usage
-
-   !> What --help says of the processes of the parallel program.
-   function note_on_ranks() result(text)
-      character(:), allocatable :: text
-
-      character, parameter :: newline = new_line('a')
-
-      text = ''
-      if (rank_library() == '') return
-      text = 'The RANKS processes share the work: large grids are divided among them, or else the loads.'//newline// &
-             'Each needs the memory of its part, and has N threads of its own. The results are those of'//newline// &
-             'wavycon.'//newline//newline
-   end function note_on_ranks
 
 end module wavycon_command_line

@@ -1,11 +1,11 @@
 !> What the program does: reads all decks, then checks or runs them one after the other.
 !>
-!> All ranks do the same; only the first one writes. Errors are those of all ranks.
+!> The processes of the parallel program all do the same; only the first one writes. Errors are those of all.
 module wavycon_run_program
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use wavycon_check_scene, only: check_scene
    use wavycon_collected_table, only: collected_table
-   use wavycon_command_line, only: command_line_type, help_text, read_command_line
+   use wavycon_command_line, only: command_line_type, help_text, read_command_line, usage
    use wavycon_deck, only: deck_type
    use wavycon_deck_keys, only: deck_key, list_keys
    use wavycon_error, only: error_type, exit_bad_input, exit_fine, fatal_error
@@ -50,14 +50,15 @@ contains
 
       call use_one_thread_for_matrices()
       call outlive_file_size_limit()
+      library = rank_library()
       call read_command_line(command_line, error)
+      if (allocated(error)) error%message = error%message//new_line('a')//usage(library /= '')
       call share_error(error)
       call stop_on(error)
       if (command_line%help) then
-         call say(help_text())
+         call say(help_text(library /= ''))
          call finish(exit_fine)
       else if (command_line%version) then
-         library = rank_library()
          if (library /= '') library = ', '//library
          call say('wavycon '//version//' ('//revision//')'//library)
          call finish(exit_fine)

@@ -3,17 +3,21 @@
 !> All ranks run the same program on the same decks. What a rank does alone, every rank does; what they share they
 !> exchange by the procedures of this module, which all ranks must call in the same order. The serial program is one
 !> rank: its procedures return at once, and nothing of it depends on MPI. The parallel program calls `use_team` first.
+!>
+!> Few modules use this one: wavycon_grid_slab, through which all that solves contacts exchanges, wavycon_work_sharing
+!> for the steps of a run, and one of each room that reads or writes files.
 module wavycon_ranks
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_error, only: error_type
-   use wavycon_kinds, only: dp, sp
+   use wavycon_kinds, only: dp
    implicit none (type, external)
    private
 
    public :: rank_team, row_exchange, use_team
    public :: this_rank, rank_count, ranks_at_work, is_first_rank, work_alone, ranks_on_this_machine, rank_library
-   public :: add_over_ranks, largest_over_ranks, any_rank, exchange_columns, gather_columns, move_columns
-   public :: new_row_exchange, share_error, share_text, read_shared_columns, write_shared_columns, end_ranks
+   public :: add_over_ranks, add_integers_over_ranks, largest_over_ranks, any_rank
+   public :: exchange_columns, gather_columns, move_columns, new_row_exchange
+   public :: share_error, share_text, write_shared_columns, end_ranks
 
    !> Exchanges a matrix whose columns are spread over the ranks for the same matrix with its rows spread, and back. In
    !> both the elements of a column follow each other. An element has one or two real numbers of one precision. Ranks have
@@ -45,8 +49,7 @@ module wavycon_ranks
       procedure(move_blocks), deferred :: move
       procedure(make_row_exchange), deferred :: new_row_exchange
       procedure(send_text), deferred :: share_text
-      procedure(transfer_columns), deferred :: read_columns
-      procedure(transfer_columns), deferred :: write_columns
+      procedure(put_columns), deferred :: write_columns
       procedure(end_run), deferred :: finish
       procedure(get_text), deferred :: library                 !! name and version
    end type rank_team
@@ -92,9 +95,9 @@ module wavycon_ranks
       end subroutine exchange_two_blocks
 
       subroutine gather_blocks(self, column_bytes, columns, own, whole, first_only)
-         import :: int64, rank_team
+         import :: rank_team
          class(rank_team), intent(in) :: self
-         integer(int64), intent(in) :: column_bytes
+         integer, intent(in) :: column_bytes
          integer, intent(in) :: columns(0:)              !! of each rank
          type(*), intent(in), target :: own(*)
          type(*), intent(inout), target :: whole(*)
@@ -102,9 +105,9 @@ module wavycon_ranks
       end subroutine gather_blocks
 
       subroutine move_blocks(self, column_bytes, have, own, want, wanted)
-         import :: int64, rank_team
+         import :: rank_team
          class(rank_team), intent(in) :: self
-         integer(int64), intent(in) :: column_bytes
+         integer, intent(in) :: column_bytes
          integer, intent(in) :: have(:, 0:), want(:, 0:)   !! first and last column of each rank, shape (2, ranks)
          type(*), intent(in), target :: own(*)
          type(*), intent(inout), target :: wanted(*)
@@ -124,7 +127,7 @@ module wavycon_ranks
          character(:), allocatable, intent(inout) :: text
       end subroutine send_text
 
-      subroutine transfer_columns(self, path, start, number_bytes, rows, first, columns, values, failure)
+      subroutine put_columns(self, path, start, number_bytes, rows, first, columns, values, failure)
          import :: int64, rank_team
          class(rank_team), intent(in) :: self
          character(*), intent(in) :: path
@@ -134,7 +137,7 @@ module wavycon_ranks
          integer, intent(in) :: first, columns     !! of this rank; columns may be 0
          type(*), intent(inout), target :: values(*)    !! shape (rows, columns)
          character(:), allocatable, intent(out) :: failure   !! the system's words on this rank; allocated if it failed
-      end subroutine transfer_columns
+      end subroutine put_columns
 
       subroutine end_run(self, status)
          import :: rank_team
@@ -154,21 +157,6 @@ module wavycon_ranks
    interface add_over_ranks
       procedure :: add_reals_over_ranks, add_integers_over_ranks
    end interface add_over_ranks
-
-   !> Sends columns to the neighbours and takes theirs: shape (M, reach).
-   interface exchange_columns
-      procedure :: exchange_dp, exchange_sp
-   end interface exchange_columns
-
-   !> Gathers the columns that the ranks have into whole matrices, on all ranks or on the first alone.
-   interface gather_columns
-      procedure :: gather_dp, gather_sp
-   end interface gather_columns
-
-   !> Moves columns of a matrix from the ranks that have them to those that want them.
-   interface move_columns
-      procedure :: move_dp, move_sp
-   end interface move_columns
 
    class(rank_team), allocatable :: team   !! not allocated: this process is the only one
    logical :: is_alone = .false.           !! whether each rank works on something else, see work_alone
@@ -257,61 +245,41 @@ contains
       any_rank = number(1) > 0
    end function any_rank
 
-   subroutine exchange_dp(low, high, to_low, to_high, from_low, from_high)
+   !> Sends columns to the neighbours and takes theirs. More than one rank.
+   subroutine exchange_columns(low, high, bytes, to_low, to_high, from_low, from_high)
       integer, intent(in) :: low, high    !! ranks that have the columns before and after the own ones; -1: none
-      real(dp), intent(in), contiguous :: to_low(:, :), to_high(:, :)          !! the own first and last columns
-      real(dp), intent(inout), contiguous :: from_low(:, :), from_high(:, :)   !! theirs; unchanged where there is none
+      integer, intent(in) :: bytes        !! of the columns for one neighbour
+      type(*), intent(in), target :: to_low(*), to_high(*)            !! the own first and last columns
+      type(*), intent(inout), target :: from_low(*), from_high(*)     !! theirs; unchanged where there is none
 
-      call team%exchange(low, high, size(to_low)*storage_size(to_low)/8, to_low, to_high, from_low, from_high)
-   end subroutine exchange_dp
+      call team%exchange(low, high, bytes, to_low, to_high, from_low, from_high)
+   end subroutine exchange_columns
 
-   !> As exchange_dp.
-   subroutine exchange_sp(low, high, to_low, to_high, from_low, from_high)
-      integer, intent(in) :: low, high
-      real(sp), intent(in), contiguous :: to_low(:, :), to_high(:, :)
-      real(sp), intent(inout), contiguous :: from_low(:, :), from_high(:, :)
+   !> Gathers the columns that the ranks have into whole matrices, on all ranks or on the first alone. More than one
+   !> rank.
+   subroutine gather_columns(column_bytes, columns, own, whole, first_only)
+      integer, intent(in) :: column_bytes                !! of a column
+      integer, intent(in) :: columns(0:)                 !! of each rank
+      type(*), intent(in), target :: own(*)              !! columns(this_rank()) columns
+      type(*), intent(inout), target :: whole(*)         !! sum(columns) columns; of any size where not needed
+      logical, intent(in) :: first_only                  !! whether the first rank alone needs it
 
-      call team%exchange(low, high, size(to_low)*storage_size(to_low)/8, to_low, to_high, from_low, from_high)
-   end subroutine exchange_sp
+      call team%gather(column_bytes, columns, own, whole, first_only)
+   end subroutine gather_columns
 
-   subroutine gather_dp(columns, own, whole, first_only)
-      integer, intent(in) :: columns(0:)                    !! of each rank
-      real(dp), intent(in), contiguous :: own(:, :)         !! shape (M, columns(this_rank()))
-      real(dp), intent(inout), contiguous :: whole(:, :)    !! shape (M, sum(columns)); of any size where not needed
-      logical, intent(in) :: first_only                     !! whether the first rank alone needs it
-
-      call team%gather(int(size(own, 1), int64)*storage_size(own)/8, columns, own, whole, first_only)
-   end subroutine gather_dp
-
-   !> As gather_dp.
-   subroutine gather_sp(columns, own, whole, first_only)
-      integer, intent(in) :: columns(0:)
-      real(sp), intent(in), contiguous :: own(:, :)
-      real(sp), intent(inout), contiguous :: whole(:, :)
-      logical, intent(in) :: first_only
-
-      call team%gather(int(size(own, 1), int64)*storage_size(own)/8, columns, own, whole, first_only)
-   end subroutine gather_sp
-
+   !> Moves columns of a matrix from the ranks that have them to those that want them. More than one rank.
+   !>
    !> N.B. Every rank knows what all others have and want: nothing but the columns is sent.
-   subroutine move_dp(have, own, want, wanted)
+   subroutine move_columns(column_bytes, have, own, want, wanted)
+      integer, intent(in) :: column_bytes                  !! of a column
       integer, intent(in) :: have(:, 0:)                   !! first and last column of each rank, shape (2, ranks);
                                                            !! last < first: none. No column is there twice
-      real(dp), intent(in), contiguous :: own(:, :)        !! the own columns, shape (M, any)
+      type(*), intent(in), target :: own(*)                !! the own columns
       integer, intent(in) :: want(:, 0:)                   !! likewise what each wants; some may be wanted by several
-      real(dp), intent(inout), contiguous :: wanted(:, :)  !! what this rank wants, shape (M, any)
+      type(*), intent(inout), target :: wanted(*)          !! what this rank wants
 
-      call team%move(int(size(own, 1), int64)*storage_size(own)/8, have, own, want, wanted)
-   end subroutine move_dp
-
-   !> As move_dp.
-   subroutine move_sp(have, own, want, wanted)
-      integer, intent(in) :: have(:, 0:), want(:, 0:)
-      real(sp), intent(in), contiguous :: own(:, :)
-      real(sp), intent(inout), contiguous :: wanted(:, :)
-
-      call team%move(int(size(own, 1), int64)*storage_size(own)/8, have, own, want, wanted)
-   end subroutine move_sp
+      call team%move(column_bytes, have, own, want, wanted)
+   end subroutine move_columns
 
    !> Prepares the exchange of columns and rows of a matrix.
    subroutine new_row_exchange(columns, rows, width, numbers, precision, exchange)
@@ -361,8 +329,9 @@ contains
       if (ranks_at_work() > 1) call team%share_text(from, text)
    end subroutine share_text
 
-   !> Reads the own columns of a matrix from a file, all ranks at a time: columns follow each other. More than one rank.
-   subroutine read_shared_columns(path, start, number_bytes, rows, first, columns, values, failure)
+   !> Writes the own columns of a matrix to a file that exists, all ranks at a time: columns follow each other. More than
+   !> one rank.
+   subroutine write_shared_columns(path, start, number_bytes, rows, first, columns, values, failure)
       character(*), intent(in) :: path
       integer(int64), intent(in) :: start            !! bytes of the file before the first column of all
       integer, intent(in) :: number_bytes            !! of a number
@@ -370,17 +339,6 @@ contains
       integer, intent(in) :: first, columns          !! the own columns; columns may be 0
       type(*), intent(inout), target :: values(*)    !! shape (rows, columns)
       character(:), allocatable, intent(out) :: failure   !! the system's words, on the ranks that failed
-
-      call team%read_columns(path, start, number_bytes, rows, first, columns, values, failure)
-   end subroutine read_shared_columns
-
-   !> Writes the own columns likewise to a file that exists.
-   subroutine write_shared_columns(path, start, number_bytes, rows, first, columns, values, failure)
-      character(*), intent(in) :: path
-      integer(int64), intent(in) :: start
-      integer, intent(in) :: number_bytes, rows, first, columns
-      type(*), intent(inout), target :: values(*)
-      character(:), allocatable, intent(out) :: failure
 
       call team%write_columns(path, start, number_bytes, rows, first, columns, values, failure)
    end subroutine write_shared_columns

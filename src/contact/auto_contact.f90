@@ -9,8 +9,8 @@ module wavycon_auto_contact
    use wavycon_fitted_contact, only: fitted_contact
    use wavycon_fitted_frame, only: find_frame, fitted_frame
    use wavycon_grid_contact, only: grid_contact
+   use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp
-   use wavycon_ranks, only: any_rank
    use wavycon_solution_record, only: by_choice
    use wavycon_surface, only: surface_type
    implicit none (type, external)
@@ -73,22 +73,27 @@ contains
    end subroutine start
 
    !> Without a good solution of the first solver the load is solved on grids, and the better of the two solutions is
-   !> returned. Ranks on different machines may have first solutions of different digits: they decide together.
+   !> returned. The digits of the first solution may differ between the machines that have slabs of the grids: one
+   !> decision is taken for all slabs.
    subroutine solve_partial_contact(self, pbar_over_pstar, solution)
       class(auto_contact), intent(inout) :: self
       real(dp), intent(in) :: pbar_over_pstar
       class(contact_solution), allocatable, intent(out) :: solution
 
       class(contact_solution), allocatable :: on_grids
+      type(grid_slab) :: slab
+      type(solver_traits) :: of_grids
 
       if (.not. allocated(self%first)) then
          call self%grid_contact%solve_partial_contact(pbar_over_pstar, solution)
          return
       end if
       call self%first%solve(pbar_over_pstar, solution)
-      if (.not. any_rank(.not. solution%is_good())) return
+      of_grids = self%grid_contact%traits()
+      call slab%start(of_grids%finest_grid)
+      if (.not. slab%any(.not. solution%is_good())) return
       call self%grid_contact%solve_partial_contact(pbar_over_pstar, on_grids)
-      if (any_rank(on_grids%status == converged .or. on_grids%largest_error() <= solution%largest_error())) &
+      if (slab%any(on_grids%status == converged .or. on_grids%largest_error() <= solution%largest_error())) &
          call move_alloc(on_grids, solution)
    end subroutine solve_partial_contact
 

@@ -2,13 +2,13 @@
 !> that: equations (C4a) to (C4c) of README.md in this directory.
 !>
 !> Each coarser grid has half the points each way: a point of it has the mean of four. It needs even numbers of points;
-!> where they become odd the sequence ends. If the grid is spread over the ranks, so are those coarser ones that are
-!> large; small ones are whole on each rank.
+!> where they become odd the sequence ends. If the grid is spread, so are those coarser ones that are large; small ones
+!> are whole.
 module wavycon_contact_extension
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_tuning, only: decay_alone, decay_growth
+   use wavycon_grid_points, only: image_of_point
    use wavycon_grid_slab, only: grid_slab, least_spread_points
-   use wavycon_grid_transform, only: image_of_point
    use wavycon_kinds, only: dp, sp
    use wavycon_threads, only: threads_for
    implicit none (type, external)
@@ -21,7 +21,7 @@ module wavycon_contact_extension
 
    type :: coarse_grid
       type(grid_slab) :: slab                  !! the columns of the arrays
-      type(grid_slab) :: part                  !! those whose means this rank takes from the finer grid: all or some
+      type(grid_slab) :: part                  !! the columns whose means are taken from the finer slab: all or some
       real(sp), allocatable :: contact(:, :)   !! part of a point's area that is in contact, 0 to 1
       real(sp), allocatable :: values(:, :)
    end type coarse_grid
@@ -71,8 +71,8 @@ contains
       end do
    end subroutine start
 
-   !> The columns of a coarser grid that a rank holds: those whose means it takes, or all of them if the grid is small
-   !> or some means of the next one would need columns of two ranks.
+   !> The own columns of a coarser grid: those whose means are taken here, or all of them if the grid is small or some
+   !> means of the next one would need columns of two slabs.
    pure type(grid_slab) function spread_or_whole(part) result(slab)
       type(grid_slab), intent(in) :: part
 
@@ -181,7 +181,7 @@ contains
       call complete(part, slab, coarse)
    end subroutine average
 
-   !> Takes the columns of the other ranks where a grid that is whole follows one that is spread.
+   !> Takes the columns of the other slabs where a grid that is whole follows one that is spread.
    subroutine complete(part, slab, coarse)
       type(grid_slab), intent(in) :: part, slab
       real(sp), intent(inout), contiguous :: coarse(:, :)

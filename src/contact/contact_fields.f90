@@ -57,8 +57,7 @@ contains
       offset = 0.0_dp
    end subroutine own_points
 
-   !> The columns of that grid, of the part of the cell that was solved, that this rank has if the grid is spread over
-   !> the ranks. Here none is.
+   !> The own columns of that grid, of the part of the cell that was solved, if it is spread. Here none is.
    pure type(grid_slab) function own_slab(self)
       class(contact_fields), intent(in) :: self
 

@@ -6,7 +6,7 @@
 !>
 !> Vectors are computed chunk by chunk: a chunk has at most `longest_chunk` numbers, so that several sums and changes of
 !> it take them from the cache, and threads share the chunks. Each strip of a slab begins a new chunk: its sums do not
-!> depend on what other ranks have.
+!> depend on what other slabs have.
 module wavycon_contact_region
    use, intrinsic :: iso_c_binding, only: c_bool
    use, intrinsic :: iso_fortran_env, only: int8

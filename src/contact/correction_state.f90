@@ -1,8 +1,8 @@
 !> Pressure, gap and contact of a correction at the points of a region: the approach (C3), the points that enter (C8)
 !> and the residual (C9), by the sums (C8c). Numbers (C..) are the equations of README.md in this directory.
 !>
-!> Vectors have the points of this rank's columns. A pass over them goes chunk by chunk (`contact_region`) and computes
-!> all its sums; one message then adds those of the ranks.
+!> Vectors have the points of the own columns. A pass over them goes chunk by chunk (`contact_region`) and computes all
+!> its sums; one message then adds those of all slabs.
 module wavycon_correction_state
    use, intrinsic :: iso_c_binding, only: c_bool
    use, intrinsic :: iso_fortran_env, only: int8

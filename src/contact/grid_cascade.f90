@@ -2,8 +2,7 @@
 !> within an accuracy.
 !>
 !> The solution on one grid is the start on the next, and the error estimates follow from the changes from grid to grid.
-!> Grids may be spread over ranks: all ranks then solve the same loads, and have the same numbers. Numbers
-!> (C..) are the equations of README.md in this directory.
+!> Numbers (C..) are the equations of README.md in this directory.
 module wavycon_grid_cascade
    use wavycon_compliance_operator, only: compliance_operator
    use wavycon_contact_measures, only: known_errors, unknown

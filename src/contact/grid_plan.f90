@@ -8,9 +8,7 @@ module wavycon_grid_plan
    use wavycon_contact_tuning, only: first_points, most_points_line, most_points_plane
    use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp
-   use wavycon_ranks, only: any_rank, ranks_on_this_machine
    use wavycon_surface, only: surface_type
-   use wavycon_system, only: has_memory_for
    implicit none (type, external)
    private
 
@@ -123,8 +121,8 @@ contains
       if (power >= number) fast_size = power
    end function fast_size
 
-   !> Whether the memory that the system has available is enough to solve on a grid: of each rank's machine for its slab
-   !> and those of the ranks on the same machine. The answer is the same on all ranks, which must all ask.
+   !> Whether the memory that the system has available is enough to solve on a grid. The answer is the same wherever it
+   !> is asked for a slab of the grid.
    logical function fits_memory(grid)
       integer, intent(in) :: grid(2)   !! points of the part of the cell that is solved
 
@@ -135,8 +133,8 @@ contains
       points = int(grid(1), int64)*slab%width
       ! Arrays of a slab have default integers as indices.
       fits_memory = points <= huge(grid)
-      if (fits_memory) fits_memory = has_memory_for(numbers_of_point*points*ranks_on_this_machine())
-      fits_memory = .not. any_rank(.not. fits_memory)
+      if (fits_memory) fits_memory = slab%has_memory(numbers_of_point)
+      fits_memory = .not. slab%any(.not. fits_memory)
    end function fits_memory
 
    !> The memory that it takes to solve on a grid [byte].

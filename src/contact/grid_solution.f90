@@ -13,7 +13,6 @@ module wavycon_grid_solution
    use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
    use wavycon_measure_tuning, only: edge_offset
-   use wavycon_ranks, only: gather_columns, is_first_rank
    use wavycon_region_numbers, only: region_numbers
    use wavycon_series_stress, only: series_stress, start_series_stress
    use wavycon_stress_fields, only: stress_fields
@@ -53,8 +52,7 @@ contains
       if (self%edge%slab%is_spread) spread_points = product(int(self%edge%slab%points, int64))
    end function spread_points
 
-   !> Gathers the fields of a solution whose grid is spread over the ranks on the first of them; the others have none
-   !> afterwards. All ranks must call it.
+   !> Gathers the fields of a solution whose grid is spread where the tables are written.
    subroutine collect_fields(self)
       class(grid_solution), intent(inout) :: self
 
@@ -64,10 +62,9 @@ contains
       if (.not. allocated(self%edge)) return
       associate (slab => self%edge%slab)
          if (.not. slab%is_spread) return
-         allocate (values(slab%points(1), merge(slab%points(2), 0, is_first_rank())))
-         call gather_columns(slab%columns_of_ranks(), self%edge%pressure_or_gap, values, first_only=.true.)
+         call slab%gather_to_first(self%edge%pressure_or_gap, values)
       end associate
-      if (is_first_rank()) then
+      if (allocated(values)) then
          allocate (whole)
          call make_grid_edge(whole, values, self%edge%even, self%edge%stiffness)
       end if
@@ -152,7 +149,7 @@ contains
       error = self%measures%peak_pressure_error
       if (all(values > 0.0_dp)) error = max(error, 1.0_dp - self%pbar_over_pstar)
       error = or_nan(error)
-      call transform%start(shape(values), self%edge%even)
+      call transform%start(shape(values), self%edge%even, whole=.true.)
       call transform%series(values, pressure)
       deallocate (values)
       if (self%turned) pressure = to_difference_angles(pressure)
@@ -170,7 +167,7 @@ contains
    end function is_kept
 
    !> The imprint, the stiffness of `edge`, the points along x and y (zeros if the fields were not kept), the width of
-   !> the slabs and the first column of this rank's, whether the cell is turned, whether the grid covers a quarter of it,
+   !> the slabs and the first of the own columns, whether the cell is turned, whether the grid covers a quarter of it,
    !> and the pressures and gaps at the own columns.
    pure subroutine pack_kept(self, values)
       class(grid_solution), intent(in) :: self
@@ -201,7 +198,7 @@ contains
       end do
    end subroutine pack_kept
 
-   !> N.B. Without exchange: another rank may not understand its numbers.
+   !> N.B. Without exchange: other slabs may have numbers that are not understood.
    pure subroutine unpack_kept(self, values, understood)
       class(grid_solution), intent(inout) :: self
       real(dp), intent(in) :: values(:)

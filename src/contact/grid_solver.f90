@@ -5,7 +5,7 @@
 !> of contact there. It then selects the points in and near the contact, and corrects the pressure at these points in
 !> single precision (`pressure_correction`). A step reduces the residual by some four digits.
 !>
-!> The grid may be spread over the ranks: fields have this rank's columns, sums and neighbours come from the slab.
+!> Fields have the own columns of the grid; sums and neighbours come from its slab.
 !>
 !> Numbers (C..) are the equations of README.md in this directory.
 module wavycon_grid_solver

@@ -5,8 +5,8 @@ module wavycon_local_stiffness
    use wavycon_constants, only: pi
    use wavycon_contact_region, only: contact_region
    use wavycon_contact_tuning, only: stencil_reach
+   use wavycon_grid_points, only: image_of_point
    use wavycon_grid_slab, only: grid_slab
-   use wavycon_grid_transform, only: image_of_point
    use wavycon_kinds, only: dp, sp
    use wavycon_surface, only: surface_type
    implicit none (type, external)

@@ -1,4 +1,4 @@
-!> The measures of a solution that another rank has computed, without its fields.
+!> The measures of a solution that another process has computed, without its fields.
 module wavycon_measured_solution
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_solution, only: contact_solution

@@ -3,7 +3,7 @@
 !>
 !> Conjugate gradients on the points in contact, whose set is updated in each iteration, after Polonsky & Keer (Wear 231
 !> (1999) 206-219), with a preconditioner and Polak & Ribiere's factor. Numbers (C..) are the equations of README.md in
-!> this directory. An iteration in which no point leaves the contact has three sums over all ranks.
+!> this directory. An iteration in which no point leaves the contact has three sums over the grid.
 module wavycon_pressure_correction
    use, intrinsic :: iso_c_binding, only: c_bool
    use wavycon_assertion, only: assert

@@ -70,7 +70,7 @@ contains
       shift = 0.0_dp
       extremes = [maxval(above), maxval(below)]
       call slab%largest(extremes)
-      ! No rank has numbers.
+      ! There are no numbers.
       if (all(extremes <= -huge(extremes))) return
       low = min(0.0_dp, -extremes(1))
       high = max(0.0_dp, extremes(2))

@@ -48,13 +48,13 @@ contains
       real(sp), intent(in), contiguous :: direction(:)
       real(sp), intent(in) :: step
 
-      integer(int64) :: ranks(1)
+      integer(int64) :: slabs(1)   ! in which a point does
 
       passes = .false.
       if (state%hardness >= huge(state%hardness)) return
-      ranks = merge(1, 0, any(state%contact > 0 .and. state%change - step*direction >= state%room))
-      call state%slab%add(ranks)
-      passes = ranks(1) > 0
+      slabs = merge(1, 0, any(state%contact > 0 .and. state%change - step*direction >= state%room))
+      call state%slab%add(slabs)
+      passes = slabs(1) > 0
    end function passes_hardness
 
    !> A step that no point ends at H. What points that leave the contact pass zero by stays in `change`; if there are

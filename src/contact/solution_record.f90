@@ -1,4 +1,4 @@
-!> The numbers of a solution as one plain record: what tables without fields, checkpoints and other ranks need of it.
+!> The numbers of a solution as one plain record: what tables without fields, checkpoints and other processes need of it.
 module wavycon_solution_record
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_measures, only: contact_measures
@@ -34,7 +34,7 @@ module wavycon_solution_record
 
 contains
 
-   !> The bits of a record, to be written to a file or sent between ranks.
+   !> The bits of a record, to be written to a file or sent to another process.
    pure function words_of_record(record) result(words)
       class(solution_record), intent(in) :: record
       integer(int64) :: words(record_words)

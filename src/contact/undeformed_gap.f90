@@ -1,8 +1,8 @@
-!> The gap before deformation at the points of a grid that may be spread over the ranks.
+!> The gap before deformation at the points of a grid.
 module wavycon_undeformed_gap
    use wavycon_grid_slab, only: grid_slab
+   use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
-   use wavycon_slab_transform, only: slab_transform
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
@@ -11,14 +11,14 @@ module wavycon_undeformed_gap
 
 contains
 
-   !> h/Delta at the points of a grid. Waves of the surface beyond the grid's highest wave number are left out. If the
-   !> grid or the surface is spread all ranks call this. The result does not depend on the number of ranks.
+   !> h/Delta at the points of a grid. Waves of the surface beyond the grid's highest wave number are left out. The
+   !> digits do not depend on how the grid and the surface are spread.
    subroutine sample_undeformed_gap(surface, slab, h)
       type(surface_type), intent(in) :: surface
       type(grid_slab), intent(in) :: slab                !! of the grid, of a quarter of the cell if the surface is even
       real(dp), intent(out), contiguous :: h(:, :)       !! shape (M, slab%columns())
 
-      type(slab_transform) :: transform
+      type(grid_transform) :: transform
 
       call transform%start(slab%points, surface%shape%is_even())
       call transform%sample(surface%shape, h)

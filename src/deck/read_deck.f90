@@ -18,7 +18,6 @@ module wavycon_read_deck
    use wavycon_plain_text, only: escaped
    use wavycon_problem_report, only: problem_report
    use wavycon_problems, only: problem_list_type
-   use wavycon_ranks, only: share_error
    use wavycon_scene_group, only: check_scene_group
    use wavycon_settings, only: add_settings, name_case, setting_type
    use wavycon_stress_group, only: check_stress_group
@@ -105,7 +104,6 @@ contains
       if (problems%number > before .or. deck%surface_values%any_bad()) return
       if (deck%scene%has('length_unit')) deck%surface_values%length_unit = deck%scene%text('length_unit')
       call make_surface(deck%surface_values, deck%surface, deck%map, error)
-      call share_error(error)
       if (allocated(error)) return
       if (allocated(deck%surface)) call check_sides(deck%surface_values, deck%surface, problems)
       if (.not. allocated(deck%map)) return

@@ -6,10 +6,9 @@ module wavycon_grid_convolution_dp
    use wavycon_constants, only: pi
    use wavycon_fftw, only: execute_real_to_waves => fftw_execute_dft_r2c, execute_waves => fftw_execute_dft, &
                            execute_waves_to_real => fftw_execute_dft_c2r
-   use wavycon_grid_slab, only: grid_slab
+   use wavycon_grid_slab, only: grid_slab, row_exchange
    use wavycon_kinds, only: dp, wp => dp
    use wavycon_line_plans, only: plan_of_line, real_to_waves, waves_backward, waves_forward, waves_to_real
-   use wavycon_ranks, only: new_row_exchange, row_exchange
    implicit none (type, external)
    private
 

@@ -1,44 +1,27 @@
-!> The columns of a grid that one rank has.
+!> The own columns of a grid that may be distributed over processes, its ranks. Code that solves contacts knows this
+!> type and not the ranks.
 !>
-!> Large grids are spread over the ranks: each has a slab of adjacent columns, all rows of them. Small grids are whole on
-!> each rank, and each computes all of it: then nothing is exchanged. In the serial program every grid is whole. Code
-!> that works on a slab and takes its sums and neighbours by the procedures here does not ask which of the two it is.
+!> Large grids are spread over the ranks: each has a slab of adjacent columns, all rows of them. Small grids are whole
+!> on each rank, and each computes all of it: then nothing is exchanged. In the serial program every grid is whole. Code
+!> that works on a slab and takes its sums, neighbours and columns by the procedures here does not ask which of the two
+!> it is. All ranks that work on a grid call them in the same order.
 !>
 !> Sums do not depend on the number of ranks to the last digit: each rank sums its columns, or strips of
 !> `strip_columns` columns, and the sums of all columns or strips are added in the order of the grid.
 module wavycon_grid_slab
    use, intrinsic :: iso_fortran_env, only: int64
-   use wavycon_grid_transform, only: image_of_point
+   use wavycon_column_layout, only: column_layout, least_spread_points, most_reach, strip_columns
+   use wavycon_grid_points, only: image_of_point
    use wavycon_kinds, only: dp, sp
-   use wavycon_ranks, only: add_over_ranks, exchange_columns, gather_columns, largest_over_ranks, ranks_at_work, &
-      this_rank
+   use wavycon_ranks, only: add_over_ranks, any_rank, exchange_columns, gather_columns, largest_over_ranks, &
+      move_columns, new_row_exchange, row_exchange, share_error, this_rank
    implicit none (type, external)
    private
 
-   public :: grid_slab
+   public :: grid_slab, least_spread_points, most_reach, row_exchange, strip_columns
 
-   !> Columns of a strip. Slabs begin with a strip, so that sums over strips are the same however a grid is spread, and
-   !> means of 2, 4, ... 32 columns have all of them on one rank.
-   integer, parameter, public :: strip_columns = 32
-
-   !> Columns that a neighbour may need, and that each rank with columns therefore has at least.
-   integer, parameter, public :: most_reach = 8
-
-   !> Grids with fewer points are whole on each rank.
-   integer(int64), parameter, public :: least_spread_points = 65536_int64
-
-   type :: grid_slab
-      integer :: points(2) = 0          !! M, N of the grid
-      logical :: is_spread = .false.    !! whether other ranks have the other columns
-      integer :: width = 0              !! columns of each rank but the last ones, a multiple of strip_columns
-      integer :: first = 1, last = 0    !! the own columns; last = first - 1: none
+   type, extends(column_layout) :: grid_slab
    contains
-      procedure :: start
-      procedure :: columns
-      procedure :: strips
-      procedure :: owner
-      procedure :: columns_of_ranks
-      procedure :: blocks
       procedure :: coarser
       procedure :: column_totals
       procedure :: strip_totals
@@ -47,86 +30,21 @@ module wavycon_grid_slab
       generic :: add => add_reals, add_integers
       procedure :: largest
       procedure :: find_largest
+      !> Whether something is true on any rank at work, also if each has the whole grid.
+      procedure, nopass :: any => any_rank
+      !> Makes an error of any rank at work that of all, also if each has the whole grid.
+      procedure, nopass :: share_error
       !> Columns beside the own ones.
       generic :: halo => halo_dp, halo_sp
+      procedure :: fetch
       !> The whole grid, on every rank.
       generic :: gather => gather_whole_dp, gather_whole_sp
+      procedure :: gather_to_first
+      procedure :: exchange_rows
       procedure, private :: add_reals, add_integers, halo_dp, halo_sp, gather_whole_dp, gather_whole_sp
    end type grid_slab
 
 contains
-
-   !> Spreads a grid over the ranks that are at work. The result depends on nothing but the arguments and the number of
-   !> these ranks.
-   subroutine start(self, points)
-      class(grid_slab), intent(out) :: self
-      integer, intent(in) :: points(2)   !! M, N >= 1
-
-      integer :: ranks, width
-
-      self%points = points
-      self%width = points(2)
-      self%last = points(2)
-      ranks = ranks_at_work()
-      if (ranks == 1 .or. product(int(points, int64)) < least_spread_points) return
-      width = strip_columns*(((points(2) - 1)/strip_columns)/ranks + 1)
-      ! The last rank with columns has enough of them for its neighbours.
-      do while (modulo(points(2) - 1, width) + 1 < most_reach)
-         width = width + strip_columns
-      end do
-      if (width >= points(2)) return
-      self%is_spread = .true.
-      self%width = width
-      self%first = min(this_rank()*self%width, points(2)) + 1
-      self%last = min((this_rank() + 1)*self%width, points(2))
-   end subroutine start
-
-   !> The number of the own columns.
-   pure integer function columns(self)
-      class(grid_slab), intent(in) :: self
-
-      columns = self%last - self%first + 1
-   end function columns
-
-   !> The number of the own strips. Strip s has the own columns (s - 1)*strip_columns + 1 to min(s*strip_columns,
-   !> columns()).
-   pure integer function strips(self)
-      class(grid_slab), intent(in) :: self
-
-      strips = (self%columns() + strip_columns - 1)/strip_columns
-   end function strips
-
-   !> The rank that has a column of a grid that is spread.
-   pure integer function owner(self, column)
-      class(grid_slab), intent(in) :: self
-      integer, intent(in) :: column   !! 1 .. N
-
-      owner = (column - 1)/self%width
-   end function owner
-
-   !> The numbers of columns of all ranks.
-   function columns_of_ranks(self) result(columns)
-      class(grid_slab), intent(in) :: self
-      integer, allocatable :: columns(:)
-
-      integer :: rank
-
-      allocate (columns(0:ranks_at_work() - 1))
-      columns = [(max(0, min(self%points(2) - rank*self%width, self%width)), rank=0, ranks_at_work() - 1)]
-   end function columns_of_ranks
-
-   !> The first and last columns of all ranks, shape (2, ranks), of a grid that is spread; last = first - 1: none.
-   function blocks(self)
-      class(grid_slab), intent(in) :: self
-      integer, allocatable :: blocks(:, :)
-
-      integer :: rank
-
-      allocate (blocks(2, 0:ranks_at_work() - 1))
-      do rank = 0, ranks_at_work() - 1
-         blocks(:, rank) = [min(rank*self%width, self%points(2)) + 1, min((rank + 1)*self%width, self%points(2))]
-      end do
-   end function blocks
 
    !> The grid of half the points each way, on the ranks as this one: each has the means of its own columns. A rank may
    !> have as little as one column for its neighbours.
@@ -245,14 +163,17 @@ contains
       reach = size(low, 2)
       if (self%columns() < 1) return
       if (self%is_spread) then
-         call find_neighbours(self, even, before, behind)
+         call self%find_neighbours(even, before, behind)
          allocate (first_columns, source=field(:, :reach))
          allocate (last_columns, source=field(:, self%columns() - reach + 1:))
-         call exchange_columns(before, behind, first_columns, last_columns, low, high)
+         call exchange_columns(before, behind, size(low)*storage_size(low)/8, first_columns, last_columns, low, high)
       end if
       do k = 1, reach
-         if (has_image(self, even, self%first - k)) low(:, reach + 1 - k) = field(:, image(self, even, self%first - k))
-         if (has_image(self, even, self%last + k)) high(:, k) = field(:, image(self, even, self%last + k))
+         associate (before => self%place_of_image(even, self%first - k), &
+                    behind => self%place_of_image(even, self%last + k))
+            if (before > 0) low(:, reach + 1 - k) = field(:, before)
+            if (behind > 0) high(:, k) = field(:, behind)
+         end associate
       end do
    end subroutine halo_dp
 
@@ -269,54 +190,77 @@ contains
       reach = size(low, 2)
       if (self%columns() < 1) return
       if (self%is_spread) then
-         call find_neighbours(self, even, before, behind)
+         call self%find_neighbours(even, before, behind)
          allocate (first_columns, source=field(:, :reach))
          allocate (last_columns, source=field(:, self%columns() - reach + 1:))
-         call exchange_columns(before, behind, first_columns, last_columns, low, high)
+         call exchange_columns(before, behind, size(low)*storage_size(low)/8, first_columns, last_columns, low, high)
       end if
       do k = 1, reach
-         if (has_image(self, even, self%first - k)) low(:, reach + 1 - k) = field(:, image(self, even, self%first - k))
-         if (has_image(self, even, self%last + k)) high(:, k) = field(:, image(self, even, self%last + k))
+         associate (before => self%place_of_image(even, self%first - k), &
+                    behind => self%place_of_image(even, self%last + k))
+            if (before > 0) low(:, reach + 1 - k) = field(:, before)
+            if (behind > 0) high(:, k) = field(:, behind)
+         end associate
       end do
    end subroutine halo_sp
 
-   !> The ranks that have the columns before and behind the own ones; -1 beyond a rim that mirrors the grid.
-   subroutine find_neighbours(slab, even, before, behind)
-      type(grid_slab), intent(in) :: slab
-      logical, intent(in) :: even
-      integer, intent(out) :: before, behind
+   !> Adjacent columns, of which other ranks may have some or all: each rank asks for those that it wants.
+   subroutine fetch(self, field, even, first, wanted)
+      class(grid_slab), intent(in) :: self
+      real(dp), intent(in), contiguous :: field(:, :)             !! shape (any, columns())
+      logical, intent(in) :: even                                 !! whether mirror images continue the grid, or periods
+      integer, intent(in) :: first                                !! of the columns, >= 0; 0: the image before column 1
+      real(dp), intent(inout), contiguous :: wanted(:, first:)    !! up to N + 1 at most, its image; may have no columns
 
-      before = this_rank() - 1
-      if (before < 0 .and. .not. even) before = slab%owner(slab%points(2))
-      behind = this_rank() + 1
-      if (slab%last == slab%points(2)) behind = merge(-1, 0, even)
-   end subroutine find_neighbours
+      integer(int64), allocatable :: every(:)
+      integer, allocatable, dimension(:, :) :: bounds, have   ! first and last columns of each rank
+      integer :: column_bytes, j, last
 
-   !> Whether a column beside the own ones is an image of one of these, and not a column of another rank.
-   pure logical function has_image(slab, even, column)
-      type(grid_slab), intent(in) :: slab
-      logical, intent(in) :: even
-      integer, intent(in) :: column   !! of the grid or its continuation
+      last = ubound(wanted, 2)
+      associate (n => self%points(2), rank => this_rank())
+         if (.not. self%is_spread) then
+            do j = first, last
+               wanted(:, j) = field(:, image_of_point(j, n, even))
+            end do
+            return
+         end if
+         have = self%blocks()
+         allocate (every(size(have)), source=0_int64)
+         every(2*rank + 1:2*rank + 2) = [first, last]
+         call add_over_ranks(every)
+         bounds = int(reshape(every, shape(have)))
+         column_bytes = size(field, 1)*storage_size(field)/8
+         call move_columns(column_bytes, have, field, images_for_ranks(0), wanted(:, first:min(last, 0)))
+         call move_columns(column_bytes, have, field, &
+                           reshape([max(bounds(1, :), 1), min(bounds(2, :), n)], shape(have), order=[2, 1]), &
+                           wanted(:, max(first, 1):min(last, n)))
+         call move_columns(column_bytes, have, field, images_for_ranks(n + 1), wanted(:, max(first, n + 1):last))
+      end associate
 
-      has_image = .not. slab%is_spread .or. (even .and. (column < 1 .or. column > slab%points(2)))
-   end function has_image
+   contains
 
-   !> The place among the own columns of that whose image a column is.
-   pure integer function image(slab, even, column)
-      type(grid_slab), intent(in) :: slab
-      logical, intent(in) :: even
-      integer, intent(in) :: column   !! has_image
+      !> First and last column of each rank that wants the image of a column of the grid: this column, or none.
+      function images_for_ranks(column) result(images)
+         integer, intent(in) :: column   !! of the continuation
+         integer :: images(2, size(bounds, 2))
 
-      image = image_of_point(column, slab%points(2), even) - slab%first + 1
-   end function image
+         integer :: i
 
+         do i = 1, size(images, 2)
+            images(:, i) = [1, 0]
+            if (bounds(1, i) <= column .and. column <= bounds(2, i)) &
+               images(:, i) = image_of_point(column, self%points(2), even)
+         end do
+      end function images_for_ranks
+
+   end subroutine fetch
    subroutine gather_whole_dp(self, own, whole)
       class(grid_slab), intent(in) :: self
       real(dp), intent(in), contiguous :: own(:, :)         !! shape (any, columns())
       real(dp), intent(inout), contiguous :: whole(:, :)    !! shape (any, N)
 
       if (self%is_spread) then
-         call gather_columns(self%columns_of_ranks(), own, whole, first_only=.false.)
+         call gather_columns(size(own, 1)*storage_size(own)/8, self%columns_of_ranks(), own, whole, first_only=.false.)
       else
          whole = own
       end if
@@ -328,10 +272,38 @@ contains
       real(sp), intent(inout), contiguous :: whole(:, :)
 
       if (self%is_spread) then
-         call gather_columns(self%columns_of_ranks(), own, whole, first_only=.false.)
+         call gather_columns(size(own, 1)*storage_size(own)/8, self%columns_of_ranks(), own, whole, first_only=.false.)
       else
          whole = own
       end if
    end subroutine gather_whole_sp
+
+   !> The whole grid on the rank that writes the log and the tables.
+   subroutine gather_to_first(self, own, whole)
+      class(grid_slab), intent(in) :: self
+      real(dp), intent(in), contiguous :: own(:, :)   !! shape (M, columns())
+      !> Shape (M, N); not allocated on the other ranks if the grid is spread.
+      real(dp), allocatable, intent(out) :: whole(:, :)
+
+      if (.not. self%is_spread) then
+         allocate (whole, source=own)
+         return
+      end if
+      allocate (whole(size(own, 1), merge(self%points(2), 0, this_rank() == 0)))
+      call gather_columns(size(own, 1)*storage_size(own)/8, self%columns_of_ranks(), own, whole, first_only=.true.)
+      if (this_rank() > 0) deallocate (whole)
+   end subroutine gather_to_first
+
+   !> Prepares the exchange of the own columns for own rows, of a grid that is spread. The elements may be complex
+   !> numbers, and each column may have another number of them than M.
+   subroutine exchange_rows(self, rows, numbers, precision, exchange)
+      class(grid_slab), intent(in) :: self
+      integer, intent(in) :: rows         !! elements of a column
+      integer, intent(in) :: numbers      !! of an element: 1 or, for complex numbers, 2
+      integer, intent(in) :: precision    !! kind of the numbers: dp or sp
+      class(row_exchange), allocatable, intent(out) :: exchange
+
+      call new_row_exchange(self%points(2), rows, self%width, numbers, precision, exchange)
+   end subroutine exchange_rows
 
 end module wavycon_grid_slab

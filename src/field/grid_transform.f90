@@ -1,222 +1,218 @@
-!> Fourier transforms of fields on the points of a grid, by FFTW.
+!> Fourier series of fields on the points of a grid that may be spread, by FFTW's transforms of its lines.
 !>
-!> An even field, f(-X, Y) = f(X, -Y) = f(X, Y), is given on a quarter of its cell: M x N points at
-!> X = pi (i - 1/2)/M, Y = pi (j - 1/2)/N, and is a sum of cosines (DCT-II and III). Any other field is given at M x N
-!> points of its whole cell, X = 2 pi (i - 1)/M, Y = 2 pi (j - 1)/N. N = 1 for a field in one dimension.
+!> The points are those of wavycon_grid_points. The values of an even field on a quarter of its cell are a sum of
+!> cosines (DCT-II and III), those of any other field a sum of waves. Columns are transformed along x, then rows of the
+!> spectrum along y. Of a grid that is spread the field has the own columns, and the series the coefficients of own wave
+!> numbers in X: a series of the shape c(first:last, 0:n), whose component `spread_waves` is the number of all wave
+!> numbers in X. The digits of the coefficients and of the values do not depend on how the grid is spread.
 module wavycon_grid_transform
-   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_double_complex, c_int, c_null_ptr, c_ptr
-   use wavycon_constants, only: pi
-   use wavycon_fftw, only: fftw_alignment_of, fftw_destroy_plan, FFTW_ESTIMATE, fftw_execute_dft_c2r, &
-                           fftw_execute_dft_r2c, fftw_execute_r2r, fftw_plan_dft_c2r_2d, fftw_plan_dft_r2c_2d, &
-                           fftw_plan_r2r_2d, FFTW_REDFT01, FFTW_REDFT10
+   use, intrinsic :: iso_c_binding, only: c_double, c_double_complex, c_ptr
+   use wavycon_assertion, only: assert
+   use wavycon_fftw, only: fftw_execute_dft, fftw_execute_dft_c2r, fftw_execute_dft_r2c, fftw_execute_r2r
    use wavycon_fourier_series, only: fourier_series
+   use wavycon_grid_points, only: point_angle
+   use wavycon_grid_slab, only: grid_slab, row_exchange
    use wavycon_kinds, only: dp
+   use wavycon_line_plans, only: cosines_to_values, plan_of_line, real_to_waves, values_to_cosines, waves_backward, &
+      waves_forward, waves_to_real
+   use wavycon_own_waves, only: slab_of_waves
+   use wavycon_wave_packing, only: allocate_series, give_cosines, give_waves, take_cosines, take_waves
    implicit none (type, external)
    private
 
-   public :: grid_transform, image_of_point, point_angle
+   public :: grid_transform
 
    type :: grid_transform
-      integer :: points(2) = 0                     !! M, N
-      logical :: even = .true.
-      real(dp) :: factor = 1.0_dp                  !! `forward` and then `backward` multiply a field by it
-      integer, allocatable :: wave_x(:), wave_y(:) !! wave numbers of the spectrum's first and second index
-      real(c_double), allocatable :: cosines(:, :)            !! spectrum of an even field, shape (M, N)
-      complex(c_double_complex), allocatable :: waves(:, :)   !! spectrum of any other, shape (M/2 + 1, N)
-      type(c_ptr), private :: forward_plan = c_null_ptr, backward_plan = c_null_ptr
+      integer :: points(2) = 0       !! M, N
+      logical :: even = .true.       !! whether the points are those of a quarter of an even field's cell
+      type(grid_slab) :: slab        !! of the points
    contains
       procedure :: start
-      procedure :: forward
-      procedure :: backward
+      procedure :: new_series
       procedure :: series
       procedure :: sample
+      procedure :: sample_waves
       procedure :: x_angle
       procedure :: y_angle
-      final :: finish
+      procedure, private :: waves_x
+      procedure, private :: numbers
    end type grid_transform
+
+   !> Rows of the spectrum that are copied at a time, so that copies fill lines of the processor's cache.
+   integer, parameter :: block_rows = 8
 
 contains
 
-   subroutine start(self, points, even)
-      class(grid_transform), intent(inout) :: self   !! not started before
-      integer, intent(in) :: points(2)               !! M, N >= 1
+   subroutine start(self, points, even, whole)
+      class(grid_transform), intent(out) :: self
+      integer, intent(in) :: points(2)         !! M, N >= 1
       logical, intent(in) :: even
-
-      integer :: i
+      logical, intent(in), optional :: whole   !! whether the grid is not spread however large it is; .false. if absent
 
       self%points = points
       self%even = even
-      associate (m => points(1), n => points(2))
-         if (even) then
-            self%factor = 4.0_dp*m*n
-            self%wave_x = [(i, i=0, m - 1)]
-            self%wave_y = [(i, i=0, n - 1)]
-            allocate (self%cosines(m, n))
-         else
-            self%factor = real(m, dp)*n
-            self%wave_x = [(i, i=0, m/2)]
-            self%wave_y = [(merge(i, i - n, 2*i <= n), i=0, n - 1)]
-            allocate (self%waves(m/2 + 1, n))
-         end if
-      end associate
+      call self%slab%start(points, whole)
    end subroutine start
 
-   !> Transforms a field to its spectrum, `cosines` or `waves`.
-   subroutine forward(self, field)
-      class(grid_transform), intent(inout) :: self
-      real(c_double), intent(inout), contiguous :: field(:, :)   !! shape (M, N); kept
+   !> The number of wave numbers in X that the points determine.
+   pure integer function waves_x(self)
+      class(grid_transform), intent(in) :: self
 
-      real(c_double), allocatable :: aligned(:, :)
+      waves_x = merge(self%points(1), self%points(1)/2 + 1, self%even)
+   end function waves_x
 
-      if (fftw_alignment_of(field) /= 0) then
-         allocate (aligned, source=field)
-         call execute(self, aligned, forwards=.true.)
-      else
-         call execute(self, field, forwards=.true.)
-      end if
-   end subroutine forward
+   !> Real numbers of an element of the spectrum.
+   pure integer function numbers(self)
+      class(grid_transform), intent(in) :: self
 
-   !> Transforms the spectrum, which is overwritten, to `factor` times its field.
-   subroutine backward(self, field)
-      class(grid_transform), intent(inout) :: self
-      real(c_double), intent(out), contiguous :: field(:, :)   !! shape (M, N)
+      numbers = merge(1, 2, self%even)
+   end function numbers
 
-      real(c_double), allocatable :: aligned(:, :)
+   !> A series of zeros with the coefficients that the points determine, of the own wave numbers.
+   subroutine new_series(self, answer)
+      class(grid_transform), intent(in) :: self
+      type(fourier_series), intent(out) :: answer    !! spread if the grid is
 
-      if (fftw_alignment_of(field) /= 0) then
-         allocate (aligned, mold=field)
-         call execute(self, aligned, forwards=.false.)
-         field = aligned
-      else
-         call execute(self, field, forwards=.false.)
-      end if
-   end subroutine backward
+      type(grid_slab) :: rows
 
-   !> Transforms by a plan, which is made when it is first needed.
-   subroutine execute(self, field, forwards)
-      type(grid_transform), intent(inout) :: self
-      real(c_double), intent(inout), contiguous :: field(:, :)   !! aligned as `allocate` does it
-      logical, intent(in) :: forwards
-
-      integer(c_int) :: columns, rows
-
-      rows = int(self%points(2), c_int)
-      columns = int(self%points(1), c_int)
-      ! FFTW_ESTIMATE plans from the sizes and the alignment of the arrays and leaves their contents as they are. The
-      ! planner is not thread-safe.
-      !$omp critical (wavycon_fftw_planner)
-      if (forwards .and. .not. c_associated(self%forward_plan)) then
-         if (self%even) then
-            self%forward_plan = fftw_plan_r2r_2d(rows, columns, field, self%cosines, FFTW_REDFT10, FFTW_REDFT10, &
-                                                 FFTW_ESTIMATE)
-         else
-            self%forward_plan = fftw_plan_dft_r2c_2d(rows, columns, field, self%waves, FFTW_ESTIMATE)
-         end if
-      else if (.not. forwards .and. .not. c_associated(self%backward_plan)) then
-         if (self%even) then
-            self%backward_plan = fftw_plan_r2r_2d(rows, columns, self%cosines, field, FFTW_REDFT01, FFTW_REDFT01, &
-                                                  FFTW_ESTIMATE)
-         else
-            self%backward_plan = fftw_plan_dft_c2r_2d(rows, columns, self%waves, field, FFTW_ESTIMATE)
-         end if
-      end if
-      !$omp end critical (wavycon_fftw_planner)
-      if (self%even .and. forwards) then
-         call fftw_execute_r2r(self%forward_plan, field, self%cosines)
-      else if (self%even) then
-         call fftw_execute_r2r(self%backward_plan, self%cosines, field)
-      else if (forwards) then
-         call fftw_execute_dft_r2c(self%forward_plan, field, self%waves)
-      else
-         call fftw_execute_dft_c2r(self%backward_plan, self%waves, field)
-      end if
-   end subroutine execute
+      if (self%slab%is_spread) answer%spread_waves = self%waves_x()
+      rows = slab_of_waves(self%waves_x(), self%slab%is_spread)
+      call allocate_series(answer, rows%first - 1, rows%last - 1, &
+                           merge(self%points(2) - 1, self%points(2)/2, self%even), self%even)
+   end subroutine new_series
 
    !> The series that interpolates a field at the points.
    subroutine series(self, field, answer)
-      class(grid_transform), intent(inout) :: self
-      real(c_double), intent(inout), contiguous :: field(:, :)   !! shape (M, N); kept
-      type(fourier_series), intent(out) :: answer
+      class(grid_transform), intent(in) :: self
+      real(dp), intent(in) :: field(:, :)            !! shape (M, slab%columns())
+      type(fourier_series), intent(out) :: answer    !! spread if the grid is
 
-      complex(dp) :: up, down
-      real(dp) :: weight
-      integer :: k, l, m, n
+      real(c_double), allocatable :: block(:, :, :), own_rows(:, :, :), spectrum(:, :, :)
+      class(row_exchange), allocatable :: exchange
+      integer :: first, j, k, last, number
 
-      call self%forward(field)
-      m = self%points(1)
-      n = self%points(2)
-      if (self%even) then
-         allocate (answer%c(0:m - 1, 0:n - 1))
-         answer%c = self%cosines/(real(m, dp)*n)
-         answer%c(0, :) = 0.5_dp*answer%c(0, :)
-         answer%c(:, 0) = 0.5_dp*answer%c(:, 0)
-         return
+      call assert(all(shape(field) == [self%points(1), self%slab%columns()]), 'the field has the columns of the slab')
+      call self%new_series(answer)
+      first = lbound(answer%c, 1)
+      last = ubound(answer%c, 1)
+      allocate (spectrum(self%numbers(), self%waves_x(), self%slab%columns()))
+      call columns_to_waves(self, field, spectrum)
+      if (self%slab%is_spread) then
+         call self%slab%exchange_rows(self%waves_x(), self%numbers(), dp, exchange)
+         allocate (own_rows(self%numbers(), last - first + 1, self%points(2)))
+         call exchange%to_rows(spectrum, own_rows)
+         call move_alloc(own_rows, spectrum)
       end if
-      allocate (answer%c(0:m/2, 0:n/2), answer%cs(0:m/2, 0:n/2), answer%sc(0:m/2, 0:n/2), answer%ss(0:m/2, 0:n/2))
-      do l = 0, n/2
-         do k = 0, m/2
-            ! Of e^(i(kX + lY)) and e^(i(kX - lY)), which are equal for l = 0, and at all points for 2l = N.
-            weight = merge(1.0_dp, 2.0_dp, k == 0 .or. 2*k == m)/(real(m, dp)*n)
-            up = weight*self%waves(k + 1, l + 1)
-            down = 0.0_dp
-            if (l > 0 .and. 2*l < n) down = weight*self%waves(k + 1, n - l + 1)
-            answer%c(k, l) = real(up + down)
-            answer%sc(k, l) = -aimag(up + down)
-            answer%cs(k, l) = 0.0_dp
-            answer%ss(k, l) = 0.0_dp
-            if (l > 0 .and. 2*l < n) then
-               answer%cs(k, l) = aimag(down - up)
-               answer%ss(k, l) = real(down - up)
-            end if
+      allocate (block(self%numbers(), self%points(2), block_rows))
+      do k = first, last, block_rows
+         number = min(block_rows, last - k + 1)
+         do j = 1, self%points(2)
+            block(:, j, :number) = spectrum(:, k - first + 1:k - first + number, j)
          end do
+         call transform_rows(self%even, block(:, :, :number), forwards=.true.)
+         if (self%even) then
+            call take_cosines(self%points, block(:, :, :number), k, answer)
+         else
+            call take_waves(self%points, block(:, :, :number), k, answer)
+         end if
       end do
    end subroutine series
 
    !> The values of a series at the points. Waves beyond the grid's highest wave number are left out.
-   subroutine sample(self, from, field)
-      class(grid_transform), intent(inout) :: self
-      type(fourier_series), intent(in) :: from                     !! even, if the points are those of a quarter
-      real(c_double), intent(out), contiguous :: field(:, :)       !! shape (M, N)
+   !>
+   !> With `power` each harmonic is first multiplied by that power of its frequency, the root of the sum of the squares
+   !> of its wave numbers times `per_wave`, and the mean becomes 0.
+   subroutine sample(self, from, field, power, per_wave)
+      class(grid_transform), intent(in) :: self
+      type(fourier_series), intent(in) :: from                !! even, if the points are those of a quarter
+      real(dp), intent(out), contiguous :: field(:, :)        !! shape (M, slab%columns())
+      integer, intent(in), optional :: power                  !! not 0
+      real(dp), intent(in), optional :: per_wave(2)           !! with power
 
-      complex(dp) :: even_part, odd_part
-      real(dp) :: weight
-      integer :: k, l, m, n, last_k, last_l
+      real(c_double), allocatable :: block(:, :, :), own_columns(:, :, :), spectrum(:, :, :)
+      real(dp), allocatable :: own_values(:, :)
+      class(row_exchange), allocatable :: exchange
+      type(grid_slab) :: computed, kept   ! columns, before the exchange and after it
+      integer :: first, j, k, last, number
 
-      m = self%points(1)
-      n = self%points(2)
-      if (self%even) then
-         last_k = min(m - 1, ubound(from%c, 1))
-         last_l = min(n - 1, ubound(from%c, 2))
-         self%cosines = 0.0_dp
-         self%cosines(:last_k + 1, :last_l + 1) = 0.25_dp*from%c(:last_k, :last_l)
-         self%cosines(1, :) = 2*self%cosines(1, :)
-         self%cosines(:, 1) = 2*self%cosines(:, 1)
-         call self%backward(field)
-         return
+      call assert(all(shape(field) == [self%points(1), self%slab%columns()]), 'the field has the columns of the slab')
+      computed = self%slab
+      kept = self%slab
+      if (from%is_spread()) then
+         call computed%start(self%points, whole=.true.)
+         if (.not. self%slab%is_spread) call kept%divide(self%points)
       end if
-      last_k = min(m/2, ubound(from%c, 1))
-      last_l = min(n/2, ubound(from%c, 2))
-      self%waves = 0.0_dp
-      do l = 0, last_l
-         do k = 0, last_k
-            weight = merge(1.0_dp, 0.5_dp, k == 0 .or. 2*k == m)
-            even_part = weight*from%c(k, l)
-            odd_part = 0.0_dp
-            if (.not. from%is_even()) then
-               if (k > 0 .and. 2*k < m) even_part = even_part - weight*from%sc(k, l)*(0.0_dp, 1.0_dp)
-               odd_part = -weight*from%cs(k, l)*(0.0_dp, 1.0_dp)
-               if (k > 0 .and. 2*k < m) odd_part = odd_part - weight*from%ss(k, l)
-            end if
-            if (l == 0 .or. 2*l == n) then
-               self%waves(k + 1, l + 1) = even_part
-            else
-               self%waves(k + 1, l + 1) = 0.5_dp*(even_part + odd_part)
-               self%waves(k + 1, n - l + 1) = 0.5_dp*(even_part - odd_part)
-            end if
+      first = lbound(from%c, 1)
+      last = min(self%waves_x() - 1, ubound(from%c, 1))
+      allocate (spectrum(self%numbers(), merge(size(from%c, 1), last + 1, from%is_spread()), computed%columns()))
+      if (from%is_spread()) spectrum(:, max(last - first + 2, 1):, :) = 0.0_dp
+      allocate (block(self%numbers(), self%points(2), block_rows))
+      do k = first, last, block_rows
+         number = min(block_rows, last - k + 1)
+         if (self%even) then
+            call give_cosines(self%points, from, k, block(:, :, :number), power, per_wave)
+         else
+            call give_waves(self%points, from, k, block(:, :, :number), power, per_wave)
+         end if
+         call transform_rows(self%even, block(:, :, :number), forwards=.false.)
+         do j = 1, computed%columns()
+            spectrum(:, k - first + 1:k - first + number, j) = block(:, computed%first - 1 + j, :number)
          end do
       end do
-      call self%backward(field)
+      if (from%is_spread()) then
+         call kept%exchange_rows(from%spread_waves, self%numbers(), dp, exchange)
+         call assert(size(from%c, 1) == exchange%own_rows, 'the series is spread over the same ranks')
+         allocate (own_columns(self%numbers(), from%spread_waves, kept%columns()))
+         call exchange%to_columns(spectrum, own_columns)
+         call move_alloc(own_columns, spectrum)
+      end if
+      if (kept%is_spread .and. .not. self%slab%is_spread) then
+         allocate (own_values(self%points(1), kept%columns()))
+         call waves_to_columns(self, spectrum, own_values)
+         call kept%gather(own_values, field)
+      else
+         call waves_to_columns(self, spectrum, field)
+      end if
    end subroutine sample
+
+   !> The values of waves at the points of a whole cell, in a grid that is not spread:
+   !> f = sum_kl w_kl e^(i(kX + lY)), k = -M/2 .. M/2, l = 0 .. N - 1, where w_-k,N-l is the conjugate of w_kl.
+   subroutine sample_waves(self, waves, field)
+      class(grid_transform), intent(in) :: self                 !! even is .false.
+      complex(c_double_complex), intent(inout) :: waves(:, :)   !! w_kl, k = 0 .. M/2, shape (M/2 + 1, N); overwritten
+      real(dp), intent(out), contiguous :: field(:, :)          !! shape (M, N)
+
+      complex(c_double_complex), allocatable :: block(:, :), column(:), row(:)
+      real(c_double), allocatable :: values(:)
+      type(c_ptr) :: plan
+      integer :: j, k, number
+
+      call assert(all(shape(field) == self%points) .and. .not. self%even, 'the field is that of a whole cell')
+      associate (m => self%points(1), n => self%points(2))
+         ! FFTW's vectors must be aligned, also if N is odd.
+         allocate (block(n + modulo(n, 2), block_rows), column(m/2 + 1), row(n), values(m))
+         plan = plan_of_line(waves_backward, n, dp)
+         do k = 1, size(waves, 1), block_rows
+            number = min(block_rows, size(waves, 1) - k + 1)
+            do j = 1, n
+               block(j, :number) = waves(k:k + number - 1, j)
+            end do
+            do j = 1, number
+               call fftw_execute_dft(plan, block(:, j), row)
+               block(:n, j) = row
+            end do
+            do j = 1, n
+               waves(k:k + number - 1, j) = block(j, :number)
+            end do
+         end do
+         plan = plan_of_line(waves_to_real, m, dp)
+         do j = 1, n
+            column = waves(:, j)
+            call fftw_execute_dft_c2r(plan, column, values)
+            field(:, j) = values
+         end do
+      end associate
+   end subroutine sample_waves
 
    !> X of the points with first index i [rad].
    elemental real(dp) function x_angle(self, i)
@@ -234,39 +230,96 @@ contains
       y_angle = point_angle(j, self%points(2), self%even)
    end function y_angle
 
-   !> The angle of a point of the grid, or of its continuation, in one direction [rad].
-   elemental real(dp) function point_angle(i, points, even)
-      integer, intent(in) :: i         !! any
-      integer, intent(in) :: points    !! M or N, >= 1
-      logical, intent(in) :: even      !! whether the points are those of a quarter of the cell
+   !> Transforms columns along x: sum_i f_i e^(-ikX_i), k = 0 .. M/2, or twice sum_i f_i cos kX_i, k = 0 .. M - 1.
+   subroutine columns_to_waves(self, field, spectrum)
+      type(grid_transform), intent(in) :: self
+      real(dp), intent(in) :: field(:, :)
+      real(c_double), intent(inout) :: spectrum(:, :, :)
 
-      point_angle = merge(pi*(i - 0.5_dp), 2*pi*(i - 1), even)/points
-   end function point_angle
+      complex(c_double_complex), allocatable :: waves(:)
+      real(c_double), allocatable :: cosines(:), values(:)
+      type(c_ptr) :: plan
+      integer :: j
 
-   !> The index of the grid's point of which a point of its continuation is the image: by mirrors at the borders of a
-   !> quarter, periodically beyond those of a whole cell.
-   elemental integer function image_of_point(i, points, even) result(image)
-      integer, intent(in) :: i         !! any
-      integer, intent(in) :: points    !! M or N, >= 1
-      logical, intent(in) :: even      !! whether the points are those of a quarter of the cell
+      associate (m => self%points(1))
+         allocate (values(m), cosines(merge(m, 0, self%even)), waves(0:merge(0, m/2, self%even)))
+         plan = plan_of_line(merge(values_to_cosines, real_to_waves, self%even), m, dp)
+         do j = 1, size(field, 2)
+            values = field(:, j)
+            if (self%even) then
+               call fftw_execute_r2r(plan, values, cosines)
+               spectrum(1, :, j) = cosines
+            else
+               call fftw_execute_dft_r2c(plan, values, waves)
+               spectrum(1, :, j) = real(waves)
+               spectrum(2, :, j) = aimag(waves)
+            end if
+         end do
+      end associate
+   end subroutine columns_to_waves
 
-      if (even) then
-         image = modulo(i - 1, 2*points)
-         image = min(image, 2*points - 1 - image) + 1
-      else
-         image = modulo(i - 1, points) + 1
-      end if
-   end function image_of_point
+   !> The inverse, times M or 2M. Wave numbers that the spectrum does not have are zero, those beyond the grid's are
+   !> left out.
+   subroutine waves_to_columns(self, spectrum, field)
+      type(grid_transform), intent(in) :: self
+      real(c_double), intent(in) :: spectrum(:, :, :)
+      real(dp), intent(out) :: field(:, :)
 
-   subroutine finish(self)
-      type(grid_transform), intent(inout) :: self
+      complex(c_double_complex), allocatable :: waves(:)
+      real(c_double), allocatable :: cosines(:), values(:)
+      type(c_ptr) :: plan
+      integer :: j, last
 
-      !$omp critical (wavycon_fftw_planner)
-      if (c_associated(self%forward_plan)) call fftw_destroy_plan(self%forward_plan)
-      if (c_associated(self%backward_plan)) call fftw_destroy_plan(self%backward_plan)
-      !$omp end critical (wavycon_fftw_planner)
-      self%forward_plan = c_null_ptr
-      self%backward_plan = c_null_ptr
-   end subroutine finish
+      last = min(self%waves_x(), size(spectrum, 2)) - 1
+      associate (m => self%points(1))
+         allocate (values(m), cosines(merge(m, 0, self%even)), waves(0:merge(0, m/2, self%even)))
+         plan = plan_of_line(merge(cosines_to_values, waves_to_real, self%even), m, dp)
+         do j = 1, size(field, 2)
+            if (self%even) then
+               cosines(:last + 1) = spectrum(1, :last + 1, j)
+               cosines(last + 2:) = 0.0_dp
+               call fftw_execute_r2r(plan, cosines, values)
+            else
+               waves(:last) = cmplx(spectrum(1, :last + 1, j), spectrum(2, :last + 1, j), dp)
+               waves(last + 1:) = 0.0_dp
+               call fftw_execute_dft_c2r(plan, waves, values)
+            end if
+            field(:, j) = values
+         end do
+      end associate
+   end subroutine waves_to_columns
+
+   !> Transforms rows along y, in place.
+   subroutine transform_rows(even, block, forwards)
+      logical, intent(in) :: even
+      real(c_double), intent(inout) :: block(:, :, :)
+      logical, intent(in) :: forwards
+
+      complex(c_double_complex), allocatable :: line(:), waves(:)
+      real(c_double), allocatable :: cosines(:), values(:)
+      type(c_ptr) :: plan
+      integer :: r
+
+      associate (n => size(block, 2))
+         if (even) then
+            plan = plan_of_line(merge(values_to_cosines, cosines_to_values, forwards), n, dp)
+            allocate (values(n), cosines(n))
+            do r = 1, size(block, 3)
+               values = block(1, :, r)
+               call fftw_execute_r2r(plan, values, cosines)
+               block(1, :, r) = cosines
+            end do
+         else
+            plan = plan_of_line(merge(waves_forward, waves_backward, forwards), n, dp)
+            allocate (line(n), waves(n))
+            do r = 1, size(block, 3)
+               line = cmplx(block(1, :, r), block(2, :, r), dp)
+               call fftw_execute_dft(plan, line, waves)
+               block(1, :, r) = real(waves)
+               block(2, :, r) = aimag(waves)
+            end do
+         end if
+      end associate
+   end subroutine transform_rows
 
 end module wavycon_grid_transform

@@ -46,7 +46,7 @@ contains
       points = points_per_wave*max(1, ubound(series%c))
       if (ubound(series%c, 2) == 0) points(2) = 1
       allocate (values(points(1), points(2)))
-      call transform%start(points, even=.false.)
+      call transform%start(points, even=.false., whole=.true.)
       call transform%sample(series, values)
       largest = maxval(abs(values))
       hidden = (most_between - 1.0_dp)*largest

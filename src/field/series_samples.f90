@@ -60,7 +60,7 @@ contains
          end do
       end do
       allocate (values(points(1), points(2)))
-      call transform%start(points, even=.true.)
+      call transform%start(points, even=.true., whole=.true.)
       call transform%sample(folded, values)
 
    contains
@@ -94,16 +94,16 @@ contains
       real(dp), intent(in) :: offset(2)                    !! of the first point, in steps
       real(dp), allocatable, intent(out) :: values(:, :)   !! shape (N_x, N_y)
 
-      complex(dp), allocatable :: turn_x(:), turn_y(:)
+      complex(dp), allocatable :: turn_x(:), turn_y(:), waves(:, :)
       complex(dp) :: wave
       type(grid_transform) :: transform
       integer :: i, j, sign_x, sign_y, k, l
 
       allocate (values(points(1), points(2)))
-      call transform%start(points, even=.false.)
+      call transform%start(points, even=.false., whole=.true.)
+      allocate (waves(points(1)/2 + 1, points(2)), source=(0.0_dp, 0.0_dp))
       allocate (turn_x, source=turns(ubound(series%c, 1), 1))
       allocate (turn_y, source=turns(ubound(series%c, 2), 2))
-      transform%waves = 0.0_dp
       ! cos iX cos jY is a quarter of the sum of e^(+-iX +-jY); each sine brings a factor of -+i.
       do sign_y = -1, 1, 2
          do sign_x = -1, 1, 2
@@ -116,13 +116,13 @@ contains
                   wave = series%c(i, j)
                   if (.not. series%is_even()) wave = wave &
                      - cmplx(sign_x*sign_y*series%ss(i, j), sign_y*series%cs(i, j) + sign_x*series%sc(i, j), dp)
-                  transform%waves(k + 1, l + 1) = transform%waves(k + 1, l + 1) &
+                  waves(k + 1, l + 1) = waves(k + 1, l + 1) &
                      + 0.25_dp*wave*turned(turn_x(i + 1), sign_x)*turned(turn_y(j + 1), sign_y)
                end do
             end do
          end do
       end do
-      call transform%backward(values)
+      call transform%sample_waves(waves, values)
 
    contains
 

@@ -1,5 +1,5 @@
 !> The coefficients of a Fourier series in the spectrum of its values on a grid: rows of cosines of an even field, rows of
-!> waves of any other. The grids are those of wavycon_grid_transform.
+!> waves of any other. The grids are those of wavycon_grid_points.
 module wavycon_wave_packing
    use wavycon_fourier_series, only: fourier_series
    use wavycon_kinds, only: dp
@@ -76,7 +76,7 @@ contains
       type(fourier_series), intent(in) :: from
       integer, intent(in) :: first                        !! wave number of the first row
       real(dp), intent(inout) :: block(:, :, :)
-      integer, intent(in), optional :: power              !! as of `slab_transform%sample`
+      integer, intent(in), optional :: power              !! as of `grid_transform%sample`
       real(dp), intent(in), optional :: per_wave(2)
 
       integer :: k, l
@@ -96,7 +96,7 @@ contains
       type(fourier_series), intent(in) :: from
       integer, intent(in) :: first                        !! wave number of the first row
       real(dp), intent(inout) :: block(:, :, :)
-      integer, intent(in), optional :: power              !! as of `slab_transform%sample`
+      integer, intent(in), optional :: power              !! as of `grid_transform%sample`
       real(dp), intent(in), optional :: per_wave(2)
 
       complex(dp) :: even_part, odd_part

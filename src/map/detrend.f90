@@ -22,8 +22,7 @@ module wavycon_detrend
 
 contains
 
-   !> Subtracts the polynomial of least squares over the points that are there. Missing points keep their zeros. All ranks
-   !> call this if the map is spread.
+   !> Subtracts the polynomial of least squares over the points that are there. Missing points keep their zeros.
    subroutine detrend_map(map, degree, rise, is_determined)
       type(measured_map), intent(inout) :: map
       integer, intent(in) :: degree             !! 0: the mean, 1: a plane, 2: a polynomial of the second degree

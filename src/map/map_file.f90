@@ -29,7 +29,8 @@ module wavycon_map_file
 
 contains
 
-   !> Reads a map. Errors: exit_file_trouble if the file cannot be read, exit_bad_input if it is not a map.
+   !> Reads a map. All ranks call this, and all get the error of any. Errors: exit_file_trouble if the file cannot be
+   !> read, exit_bad_input if it is not a map.
    subroutine read_height_map(path, format, map, error, missing_value, in_slabs)
       character(*), intent(in) :: path
       !> 'matrix', 'xyz' or 'xz' of a text, 'npy', 'gsf', or 'auto': what the file looks like.
@@ -38,8 +39,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       real(dp), intent(in), optional :: missing_value   !! a number of the file that stands for a missing height
 
-      !> Whether a large map may be spread over the ranks, if its format allows it: all of them call this, and all get the
-      !> error. .false. if absent.
+      !> Whether a large map is read in slabs, if its format allows it; .false. if absent.
       logical, intent(in), optional :: in_slabs
 
       type(binary_file) :: file
@@ -53,7 +53,7 @@ contains
          call file%open(path, error)
       end if
       if (present(in_slabs)) file%in_slabs = in_slabs
-      if (file%in_slabs) call share_error(error)
+      call share_error(error)
       if (.not. allocated(error)) then
          map%format = format
          if (format == 'auto') map%format = format_of(file)
@@ -67,10 +67,9 @@ contains
          end select
       end if
       call file%close()
-      if (file%in_slabs) call share_error(error)
-      if (allocated(error)) return
-      call mark_missing(map, missing_value)
-      if (allocated(map%x)) call resample_profile(path, map, error)
+      if (.not. allocated(error)) call mark_missing(map, missing_value)
+      if (allocated(map%x) .and. .not. allocated(error)) call resample_profile(path, map, error)
+      call share_error(error)
       if (allocated(error)) return
       slab = map%columns()
       missing = [merge(1, 0, map%has_missing_value), 0]

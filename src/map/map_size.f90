@@ -4,12 +4,10 @@ module wavycon_map_size
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_grid_slab, only: grid_slab
    use wavycon_plain_text, only: escaped, integer_text
-   use wavycon_ranks, only: ranks_on_this_machine, share_error
-   use wavycon_system, only: has_memory_for
    implicit none (type, external)
    private
 
-   public :: check_map_size, check_room, check_slab_room, laid_along_x
+   public :: check_map_size, check_room, laid_along_x
 
    !> Fewest and most points along a side.
    integer, parameter, public :: least_points = 4, most_points = 1048576
@@ -39,49 +37,28 @@ contains
       if (points(1) == 1) laid = points(2:1:-1)
    end function laid_along_x
 
-   !> Checks that there is memory for a map that is whole on each rank, and its surface. Errors: exit_file_trouble.
-   subroutine check_room(source, points, error)
+   !> Checks that there is memory for a map and its surface besides what is in use, because later allocations have no
+   !> error handling. Errors: exit_file_trouble, of this process alone.
+   subroutine check_room(source, points, error, slab)
       character(*), intent(in) :: source   !! of the map, for the message
       integer, intent(in) :: points(2)     !! along x and y
       type(error_type), allocatable, intent(out) :: error
-
-      call check_columns(source, points, points(2), error)
-   end subroutine check_room
-
-   !> The same for a map that is spread over the ranks if it is large. All of them call this, and all get the error.
-   subroutine check_slab_room(source, points, error)
-      character(*), intent(in) :: source
-      integer, intent(in) :: points(2)
-      type(error_type), allocatable, intent(out) :: error
-
-      type(grid_slab) :: slab
-
-      call slab%start(points)
-      call check_columns(source, points, slab%width, error)
-      call share_error(error)
-   end subroutine check_slab_room
-
-   !> Checks that there is memory for columns of a map on each process of this machine besides what is in use, because
-   !> later allocations have no error handling.
-   subroutine check_columns(source, points, columns, error)
-      character(*), intent(in) :: source
-      integer, intent(in) :: points(2)     !! of the map
-      integer, intent(in) :: columns       !! of each rank
-      type(error_type), allocatable, intent(out) :: error
+      type(grid_slab), intent(in), optional :: slab   !! of a map that may be spread; absent: of a whole one
 
       !> Real numbers for each height: the map, the Fourier coefficients, work space of the transforms.
-      integer(int64), parameter :: copies = 5
+      integer, parameter :: copies = 5
       character(:), allocatable :: words
-      integer(int64) :: heights
+      type(grid_slab) :: part
 
-      heights = int(points(1), int64)*columns
+      part = grid_slab(points=points, width=points(2))
+      if (present(slab)) part = slab
       words = ''
-      if (heights > huge(0)) then
+      if (int(points(1), int64)*part%width > huge(0)) then
          words = 'more than 2^31 points on a process: more processes are needed'
-      else if (.not. has_memory_for(copies*heights*ranks_on_this_machine())) then
+      else if (.not. part%has_memory(copies)) then
          words = 'there is not the memory for a map of this size'
       end if
       if (words /= '') call fatal_error(error, exit_file_trouble, escaped(source)//': '//words)
-   end subroutine check_columns
+   end subroutine check_room
 
 end module wavycon_map_size

@@ -31,8 +31,7 @@ module wavycon_map_statistics
 
 contains
 
-   !> The statistics of a map. If it is spread over the ranks all of them call this, each with its columns; the last
-   !> digit of largest_step(1) may then depend on the number of ranks.
+   !> The statistics of a map. The last digit of largest_step(1) may depend on how the map is spread.
    type(map_statistics) function statistics_of(height, format, path, points) result(statistics)
       real(dp), intent(in) :: height(:, :)   !! over the mean [length], shape (M, N) or (M, columns of the grid's slab)
       character(*), intent(in) :: format     !! as of measured_map

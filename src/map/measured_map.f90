@@ -9,7 +9,7 @@ module wavycon_measured_map
 
    type :: measured_map
       !> As in the file, 0 where it is missing, shape (M, N): along x, along y; N = 1 for a profile. Of a map that is
-      !> spread over the ranks the own columns.
+      !> spread the own columns.
       real(dp), allocatable :: height(:, :)
       logical, allocatable :: missing(:, :)        !! shape of `height`; not allocated if no height is missing
       logical :: has_missing_value = .false.       !! whether a height had the value that stands for a missing one
@@ -71,7 +71,7 @@ contains
       if (self%slab%is_spread) points = self%slab%points
    end function points
 
-   !> Spreads a map that is whole on each rank, if it is large.
+   !> Spreads a map that is whole, if it is large.
    subroutine keep_own_columns(self)
       class(measured_map), intent(inout) :: self
 

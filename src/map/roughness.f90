@@ -3,8 +3,9 @@
 module wavycon_roughness
    use wavycon_constants, only: pi
    use wavycon_fourier_series, only: fourier_series
+   use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp
-   use wavycon_ranks, only: add_over_ranks
+   use wavycon_own_waves, only: wave_slab
    implicit none (type, external)
    private
 
@@ -20,40 +21,24 @@ module wavycon_roughness
 
 contains
 
-   !> The roughness of a surface. All ranks call this if the series is spread.
+   !> The roughness of a surface.
    type(roughness_type) function roughness_of(series, amplitude, length, points) result(roughness)
       type(fourier_series), intent(in) :: series   !! of the height over `amplitude`; its mean is ignored
       real(dp), intent(in) :: amplitude            !! unit of the series, >= 0 [length]
       real(dp), intent(in) :: length(2)            !! L_x, L_y, sides of the periodic cell, > 0 [length]
       integer, intent(in) :: points(2)             !! of the grid that the series interpolates; zeros if there is none
 
-      real(dp) :: every(5, max(series%spread_waves, ubound(series%c, 1) + 1)), sums(5), unit
+      real(dp) :: sums(5), unit
+      type(grid_slab) :: rows
 
       ! Wave numbers over 2 pi/unit neither overflow nor make all squares underflow, whatever the unit of length.
       unit = minval(length)
-      every = 0.0_dp
-      every(:, lbound(series%c, 1) + 1:ubound(series%c, 1) + 1) = moments_of_rows(series, unit/length, points)
-      if (series%is_spread()) call add_moments(every)
-      sums = amplitude*sqrt(sum(every, dim=2))
+      rows = wave_slab(series)
+      sums = amplitude*sqrt(rows%column_totals(moments_of_rows(series, unit/length, points)))
       sums([2, 4]) = 2*pi/unit*sums([2, 4])
       sums([3, 5]) = (2*pi/unit)**2*sums([3, 5])
       if (ubound(series%c, 2) > 0) sums([3, 5]) = 0.5_dp*sums([3, 5])
       roughness = roughness_type(sums(1), sums(2), sums(3), sums(4), sums(5))
-
-   contains
-
-      !> Adds the rows of all ranks.
-      subroutine add_moments(values)
-         real(dp), intent(inout), target :: values(:, :)
-
-         real(dp), allocatable :: list(:)
-
-         allocate (list(size(values)))
-         list(:) = reshape(values, [size(values)])
-         call add_over_ranks(list)
-         values = reshape(list, shape(values))
-      end subroutine add_moments
-
    end function roughness_of
 
    !> The sums of (M22) to (M25) over the waves of each wave number in X, of height, slope, curvature, and slope and

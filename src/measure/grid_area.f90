@@ -4,7 +4,7 @@ module wavycon_grid_area
    use wavycon_assertion, only: assert
    use wavycon_constants, only: pi
    use wavycon_grid_edge, only: aligned_offset, aligned_part, aligned_weight, angle_steps, balance, grid_edge
-   use wavycon_grid_transform, only: point_angle
+   use wavycon_grid_points, only: point_angle
    use wavycon_kinds, only: dp
    use wavycon_line_zeros, only: length_inside
    use wavycon_measure_tuning, only: turn_area
@@ -15,8 +15,7 @@ module wavycon_grid_area
 
 contains
 
-   !> The fraction of the surface in contact: (C11) in 1-D, (C12) in 2-D. Of a grid that is spread, after
-   !> `fetch_neighbours`; all ranks must call it.
+   !> The fraction of the surface in contact: (C11) in 1-D, (C12) in 2-D. After `fetch_neighbours`.
    real(dp) function grid_contact_area(edge) result(fraction)
       type(grid_edge), intent(in) :: edge
 

@@ -1,16 +1,16 @@
 !> The edge of contact of a solution on the points of a grid, placed between the points: eqs. (C11), (C12) of
 !> src/contact/README.md.
 !>
-!> The points are those of wavycon_grid_transform: M x N on a quarter of the cell, whose mirror images fill the
-!> plane, or on the whole cell. Of a grid that is spread over ranks, each has the edge in its own columns and in those
-!> of the neighbours that `fetch_neighbours` gets. The pressure of the last point in contact and the gap of the first
+!> The points are those of wavycon_grid_points: M x N on a quarter of the cell, whose mirror images fill the
+!> plane, or on the whole cell. The edge lies in the own columns and in those of the neighbours that
+!> `fetch_neighbours` gets. The pressure of the last point in contact and the gap of the first
 !> outside are both linear in the place of the edge between them, so that their ratio gives the place.
 module wavycon_grid_edge
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_constants, only: pi
    use wavycon_contact_edge, only: contact_edge, corner_k, corner_l, edge_point
+   use wavycon_grid_points, only: image_of_point, point_angle
    use wavycon_grid_slab, only: grid_slab
-   use wavycon_grid_transform, only: image_of_point, point_angle
    use wavycon_kinds, only: dp
    use wavycon_measure_tuning, only: aligned_slope, edge_offset, gap_weight, turn_area
    use wavycon_surface, only: surface_type
@@ -98,7 +98,7 @@ contains
       joined = merge(pressure, -max(gap, 0.0_dp), pressure > 0.0_dp)
    end function joined
 
-   !> Gets the columns of the neighbours if the grid is spread; all ranks must call it.
+   !> Gets the columns of the neighbours, if the grid is spread.
    subroutine fetch_neighbours(self)
       class(grid_edge), intent(inout) :: self
 

@@ -23,7 +23,7 @@ module wavycon_grid_peak
 contains
 
    !> The maximum of the polynomial through the points about the largest pressure. At a crest on a mirror line, which
-   !> lies midway between points, the polynomial is even. All ranks must call it, after `fetch_neighbours`.
+   !> lies midway between points, the polynomial is even. After `fetch_neighbours`.
    subroutine grid_peak_pressure(edge, peak, resolved)
       type(grid_edge), intent(in) :: edge
       real(dp), intent(out) :: peak        !! in the unit of the edge's pressure
@@ -37,7 +37,7 @@ contains
       best(2) = best(2) + edge%slab%first - 1
       highest = maxval(edge%pressure_or_gap)
       call edge%slab%largest(highest)
-      ! The first in the order of the grid, of equal ones: the rank that has the least column computes the peak.
+      ! The first in the order of the grid, of equal ones: the slab that has the least column computes the peak.
       has_highest = all(best >= 1) .and. edge%slab%columns() > 0
       if (has_highest) has_highest = .not. edge%pressure_or_gap(best(1), best(2) - edge%slab%first + 1) < highest(1)
       column = -huge(column)

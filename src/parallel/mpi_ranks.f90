@@ -4,9 +4,9 @@ module wavycon_mpi_ranks
    use mpi_f08, only: mpi_abort, mpi_allgatherv, mpi_allreduce, mpi_alltoallv, mpi_bcast, mpi_byte, mpi_character, &
       mpi_comm, mpi_comm_free, mpi_comm_rank, mpi_comm_size, mpi_comm_split_type, mpi_comm_type_shared, &
       mpi_comm_world, mpi_datatype, mpi_double_precision, mpi_error_string, mpi_file, mpi_file_close, mpi_file_open, &
-      mpi_file_read_at_all, mpi_file_write_at_all, mpi_finalize, mpi_gatherv, mpi_get_count, mpi_get_library_version, &
+      mpi_file_write_at_all, mpi_finalize, mpi_gatherv, mpi_get_count, mpi_get_library_version, &
       mpi_ibarrier, mpi_in_place, mpi_info_null, mpi_init_thread, mpi_integer, mpi_integer8, mpi_irecv, mpi_isend, &
-      mpi_logical, mpi_lor, mpi_max, mpi_max_error_string, mpi_max_library_version_string, mpi_mode_rdonly, &
+      mpi_logical, mpi_lor, mpi_max, mpi_max_error_string, mpi_max_library_version_string, &
       mpi_mode_wronly, mpi_offset_kind, mpi_request, mpi_status, mpi_status_ignore, mpi_statuses_ignore, mpi_success, &
       mpi_sum, mpi_test, mpi_thread_funneled, mpi_type_commit, mpi_type_contiguous, mpi_type_free, mpi_waitall
    use wavycon_error, only: exit_bad_input, exit_file_trouble
@@ -34,7 +34,6 @@ module wavycon_mpi_ranks
       procedure :: move
       procedure :: new_row_exchange
       procedure :: share_text
-      procedure :: read_columns
       procedure :: write_columns
       procedure :: finish
       procedure :: library
@@ -135,7 +134,7 @@ contains
    !> N.B. Counts are numbers of columns: numbers of bytes may exceed the integers of MPI.
    subroutine gather(self, column_bytes, columns, own, whole, first_only)
       class(mpi_team), intent(in) :: self
-      integer(int64), intent(in) :: column_bytes
+      integer, intent(in) :: column_bytes
       integer, intent(in) :: columns(0:)
       type(*), intent(in), target :: own(*)
       type(*), intent(inout), target :: whole(*)
@@ -145,7 +144,7 @@ contains
       type(mpi_datatype) :: column
 
       places = [(sum(columns(0:i - 1)), i=0, size(columns) - 1)]
-      call mpi_type_contiguous(int(column_bytes), mpi_byte, column)
+      call mpi_type_contiguous(column_bytes, mpi_byte, column)
       call mpi_type_commit(column)
       if (first_only) then
          call mpi_gatherv(own, columns(self%this), column, whole, columns, places, column, 0, mpi_comm_world)
@@ -158,7 +157,7 @@ contains
    !> N.B. Counts are numbers of columns, as in `gather`.
    subroutine move(self, column_bytes, have, own, want, wanted)
       class(mpi_team), intent(in) :: self
-      integer(int64), intent(in) :: column_bytes
+      integer, intent(in) :: column_bytes
       integer, intent(in) :: have(:, 0:), want(:, 0:)
       type(*), intent(in), target :: own(*)
       type(*), intent(inout), target :: wanted(*)
@@ -172,7 +171,7 @@ contains
          received_at = max(have(1, :), want(1, mine)) - want(1, mine)
          received = max(0, min(have(2, :), want(2, mine)) - want(1, mine) + 1 - received_at)
       end associate
-      call mpi_type_contiguous(int(column_bytes), mpi_byte, column)
+      call mpi_type_contiguous(column_bytes, mpi_byte, column)
       call mpi_type_commit(column)
       call mpi_alltoallv(own, sent, sent_at, column, wanted, received, received_at, column, mpi_comm_world)
       call mpi_type_free(column)
@@ -202,18 +201,10 @@ contains
       call mpi_bcast(text, length, mpi_character, from, mpi_comm_world)
    end subroutine share_text
 
-   subroutine read_columns(self, path, start, number_bytes, rows, first, columns, values, failure)
-      class(mpi_team), intent(in) :: self
-      character(*), intent(in) :: path
-      integer(int64), intent(in) :: start
-      integer, intent(in) :: number_bytes, rows, first, columns
-      type(*), intent(inout), target :: values(*)
-      character(:), allocatable, intent(out) :: failure
-
-      associate (unused => self); end associate
-      call transfer_columns(path, .false., start, number_bytes, rows, first, columns, values, failure)
-   end subroutine read_columns
-
+   !> Writes the columns of all ranks at a time.
+   !>
+   !> N.B. Files report their errors by default, other procedures of MPI end the program. Counts are numbers of columns,
+   !> as in `gather`.
    subroutine write_columns(self, path, start, number_bytes, rows, first, columns, values, failure)
       class(mpi_team), intent(in) :: self
       character(*), intent(in) :: path
@@ -222,34 +213,18 @@ contains
       type(*), intent(inout), target :: values(*)
       character(:), allocatable, intent(out) :: failure
 
-      associate (unused => self); end associate
-      call transfer_columns(path, .true., start, number_bytes, rows, first, columns, values, failure)
-   end subroutine write_columns
-
-   !> Reads or writes the columns of all ranks at a time.
-   !>
-   !> N.B. Files report their errors by default, other procedures of MPI end the program. Counts are numbers of columns,
-   !> as in `gather`.
-   subroutine transfer_columns(path, is_output, start, number_bytes, rows, first, columns, values, failure)
-      character(*), intent(in) :: path
-      logical, intent(in) :: is_output
-      integer(int64), intent(in) :: start
-      integer, intent(in) :: number_bytes, rows, first, columns
-      type(*), intent(inout), target :: values(*)
-      character(:), allocatable, intent(out) :: failure
-
-      integer :: code, transferred
+      integer :: code, written
       integer(mpi_offset_kind) :: place
       logical :: is_missing
       type(mpi_datatype) :: column
       type(mpi_file) :: file
       type(mpi_status) :: status
 
-      call check_access(path, is_output, failure)
+      associate (unused => self); end associate
+      call check_access(path, failure)
       call mpi_allreduce(allocated(failure), is_missing, 1, mpi_logical, mpi_lor, mpi_comm_world)
       if (is_missing) return
-      call mpi_file_open(mpi_comm_world, path, merge(mpi_mode_wronly, mpi_mode_rdonly, is_output), mpi_info_null, &
-                         file, code)
+      call mpi_file_open(mpi_comm_world, path, mpi_mode_wronly, mpi_info_null, file, code)
       if (code /= mpi_success) then
          failure = words_of(code)
          return
@@ -257,34 +232,28 @@ contains
       call mpi_type_contiguous(rows*number_bytes, mpi_byte, column)
       call mpi_type_commit(column)
       place = start + int(first - 1, int64)*rows*number_bytes
-      if (is_output) then
-         call mpi_file_write_at_all(file, place, values, columns, column, status, code)
-      else
-         call mpi_file_read_at_all(file, place, values, columns, column, status, code)
-      end if
+      call mpi_file_write_at_all(file, place, values, columns, column, status, code)
       if (code /= mpi_success) then
          failure = words_of(code)
       else
-         call mpi_get_count(status, column, transferred)
-         if (transferred /= columns) failure = merge('the disk may be full    ', 'the file ends too early ', is_output)
+         call mpi_get_count(status, column, written)
+         if (written /= columns) failure = 'the disk may be full'
       end if
       call mpi_type_free(column)
       call mpi_file_close(file, code)
       if (code /= mpi_success .and. .not. allocated(failure)) failure = words_of(code)
-   end subroutine transfer_columns
+   end subroutine write_columns
 
-   !> Whether this rank can open a file that exists. If one rank cannot, as on a machine that does not share the disk,
+   !> Whether this rank can write to a file that exists. If one rank cannot, as on a machine that does not share the disk,
    !> Open MPI 4 opens the file on the others, and these would wait for it for ever.
-   subroutine check_access(path, is_output, failure)
+   subroutine check_access(path, failure)
       character(*), intent(in) :: path
-      logical, intent(in) :: is_output
       character(:), allocatable, intent(out) :: failure   !! the system's words; not allocated: it can
 
       character(message_length) :: words
       integer :: status, unit
 
-      open (newunit=unit, file=path, status='old', access='stream', action=merge('write', 'read ', is_output), &
-            iostat=status, iomsg=words)
+      open (newunit=unit, file=path, status='old', access='stream', action='write', iostat=status, iomsg=words)
       if (status == 0) then
          close (unit)
       else

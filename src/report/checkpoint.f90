@@ -15,7 +15,6 @@ module wavycon_checkpoint
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: escaped, excerpt, integer_text, newline, system_words
-   use wavycon_ranks, only: is_first_rank, this_rank
    use wavycon_results, only: results_type
    use wavycon_solution_record, only: record_of_words, record_words, words_of_record
    use wavycon_surface, only: surface_type
@@ -61,7 +60,7 @@ contains
       character(:), allocatable :: name
 
       name = results%scene%case//'.checkpoint'
-      if (results%sharing%is_shared()) name = name//'.'//integer_text(this_rank())
+      if (results%sharing%is_shared()) name = name//'.'//integer_text(results%sharing%rank)
    end function file_name
 
    !> The checkpoints of an interrupted run on another number of ranks begin with this one.
@@ -80,7 +79,7 @@ contains
       character(:), allocatable :: stem
       integer :: rank
 
-      if (.not. is_first_rank()) return
+      if (.not. results%sharing%is_first()) return
       stem = results%scene%directory//'/'//results%scene%case//'.checkpoint'
       rank = 0
       if (results%sharing%is_shared()) then

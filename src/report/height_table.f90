@@ -3,6 +3,7 @@ module wavycon_height_table
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_error, only: error_type
    use wavycon_grid_slab, only: grid_slab
+   use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
    use wavycon_map_table, only: map_points
    use wavycon_npy_header, only: npy_header_of_numbers
@@ -11,7 +12,6 @@ module wavycon_height_table
    use wavycon_results, only: results_type
    use wavycon_series_samples, only: sample_series
    use wavycon_shared_file, only: shared_file
-   use wavycon_slab_transform, only: slab_transform
    use wavycon_system, only: has_memory_for
    use wavycon_table, only: table_type
    implicit none (type, external)
@@ -91,7 +91,7 @@ contains
 
       type(shared_file) :: file
       type(grid_slab) :: slab
-      type(slab_transform) :: transform
+      type(grid_transform) :: transform
       real(dp), allocatable :: height(:, :)
 
       associate (surface => results%solver%surface)

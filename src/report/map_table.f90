@@ -5,8 +5,9 @@ module wavycon_map_table
    use wavycon_column_text, only: column_name
    use wavycon_contact_fields, only: contact_fields
    use wavycon_error, only: error_type
+   use wavycon_grid_points, only: image_of_point
    use wavycon_grid_slab, only: grid_slab
-   use wavycon_grid_transform, only: image_of_point
+   use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
    use wavycon_npy_header, only: npy_header
    use wavycon_output_file, only: output_file
@@ -14,7 +15,6 @@ module wavycon_map_table
    use wavycon_results, only: results_type
    use wavycon_series_samples, only: sample_series
    use wavycon_shared_file, only: shared_file
-   use wavycon_slab_transform, only: slab_transform
    use wavycon_system, only: has_memory_for
    use wavycon_table, only: table_type
    implicit none (type, external)
@@ -136,7 +136,7 @@ contains
       integer :: image, load, own(2)
       real(dp) :: offset(2)
       real(dp), allocatable :: shape(:, :)
-      type(slab_transform) :: transform
+      type(grid_transform) :: transform
 
       call results%loads(1)%solution%fields(results%solver%surface, fields)
       slab = fields%own_slab()

@@ -26,13 +26,10 @@ module wavycon_results
       class(contact_solver), allocatable :: solver
       type(solver_traits) :: traits                          !! of the solver
       character(:), allocatable :: method                    !! the solver and its discretisation in words
-      type(contact_solution_item), allocatable :: loads(:)   !! in the deck's order
+      type(contact_solution_item), allocatable :: loads(:)   !! in the deck's order; loads of other ranks: the measures
       !> The largest von Mises and shear stresses, shape (bodies, loads); not allocated unless the deck asks for them.
       type(largest_stress), allocatable :: von_mises(:, :), shear(:, :)
       type(work_sharing) :: sharing                          !! how the ranks share the work
-      !> The rank that solves each load; allocated where these are spread over the ranks. Solutions of other ranks have
-      !> measures alone.
-      integer, allocatable :: rank_of_load(:)
    contains
       procedure :: open_table
       procedure :: begin_block

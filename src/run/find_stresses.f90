@@ -2,11 +2,11 @@
 module wavycon_find_stresses
    use wavycon_largest_stress, only: find_largest_stresses
    use wavycon_plain_text, only: integer_text
-   use wavycon_ranks, only: this_rank, work_alone
    use wavycon_results, only: results_type
    use wavycon_run_log, only: run_log
    use wavycon_share_solutions, only: share_stresses
    use wavycon_stress_fields, only: stress_fields
+   use wavycon_work_sharing, only: spread_loads
    implicit none (type, external)
    private
 
@@ -14,23 +14,23 @@ module wavycon_find_stresses
 
 contains
 
-   !> Finds the largest von Mises stress and the largest shear stress of each load and body. Where the loads are spread
-   !> over the ranks each finds those of its own loads, and afterwards all have all.
+   !> Finds the largest von Mises stress and the largest shear stress of each load and body, of the own loads, and
+   !> takes those of the others.
    subroutine find_stresses(results, log)
       type(results_type), intent(inout) :: results   !! with a group &stress and all loads solved with their fields
       type(run_log), intent(inout) :: log            !! shows the progress
 
       class(stress_fields), allocatable :: fields
       integer :: body, load
+      logical :: are_spread
 
-      if (allocated(results%rank_of_load)) call work_alone(.true.)
+      are_spread = results%sharing%kind == spread_loads
+      if (are_spread) call results%sharing%work_alone(.true.)
       associate (setting => results%scene%stress_setting)
          allocate (results%von_mises(size(setting%body), size(results%loads)))
          allocate (results%shear(size(setting%body), size(results%loads)))
          do load = 1, size(results%loads)
-            if (allocated(results%rank_of_load)) then
-               if (results%rank_of_load(load) /= this_rank()) cycle
-            end if
+            if (.not. results%sharing%is_own_load(load)) cycle
             call results%loads(load)%solution%stresses(results%solver%surface, fields)
             if (results%loads(load)%solution%is_good() .and. .not. fields%exist) call log%say( &
                'note: there is not enough memory for the stresses of load '//integer_text(load))
@@ -41,10 +41,10 @@ contains
             call log%show_stress_progress(load, size(results%loads))
          end do
       end associate
-      if (.not. allocated(results%rank_of_load)) return
-      call work_alone(.false.)
-      call share_stresses(results%rank_of_load, results%von_mises)
-      call share_stresses(results%rank_of_load, results%shear)
+      if (.not. are_spread) return
+      call results%sharing%work_alone(.false.)
+      call share_stresses(results%sharing, results%von_mises)
+      call share_stresses(results%sharing, results%shear)
    end subroutine find_stresses
 
 end module wavycon_find_stresses

@@ -9,7 +9,6 @@ module wavycon_run_scene
    use wavycon_method_list, only: start_solver
    use wavycon_output_file, only: output_file
    use wavycon_plain_text, only: escaped, integer_text, short_number
-   use wavycon_ranks, only: add_over_ranks, any_rank, is_first_rank, share_error, work_alone
    use wavycon_results, only: results_type
    use wavycon_run_log, only: run_log
    use wavycon_scene, only: by_yield, scene_type
@@ -25,24 +24,23 @@ module wavycon_run_scene
 
 contains
 
-   !> Runs a scene. All ranks call it; the first one writes the log and, with few exceptions, the tables. An error of one
-   !> rank is that of all. Errors: exit_bad_input for a checkpoint that is damaged or of another deck; exit_file_trouble
+   !> Runs a scene: starts its solver, decides how the ranks share the work, solves and writes. An error of one rank is
+   !> that of all. Errors: exit_bad_input for a checkpoint that is damaged or of another deck; exit_file_trouble
    !> for a file that cannot be read or written.
    subroutine run_scene(scene, quiet, resume, results, status, error)
       type(scene_type), allocatable, intent(inout) :: scene   !! not allocated afterwards: the results own it
-      logical, intent(in) :: quiet     !! whether to write no log
+      logical, intent(in) :: quiet     !! whether to write no log, as on all ranks but the first
       logical, intent(in) :: resume    !! whether to continue from the checkpoint of an interrupted run
       type(results_type), intent(out) :: results   !! complete if there is no error, on the first rank
       integer, intent(out) :: status   !! exit_fine or exit_not_converged
       type(error_type), allocatable, intent(out) :: error
 
+      integer(int64) :: status_of_all(1)   ! those of ranks that did not work are 0
       type(run_log), target :: log
       type(table_item), allocatable :: tables(:)
-      logical :: is_first
 
       status = exit_fine
-      is_first = is_first_rank()
-      call log%start(quiet .or. .not. is_first)
+      call log%start(quiet)
       call start_results(scene, results, tables)
       call log%show_scene(results)
       call check_sharing(results, tables, error)
@@ -50,11 +48,13 @@ contains
       if (results%sharing%is_shared()) then
          call solve_and_write(results, tables, resume, log, status, error)
       else
-         call work_alone(.true.)
-         if (is_first) call solve_and_write(results, tables, resume, log, status, error)
-         call work_alone(.false.)
-         call share_error(error)
-         call share_status(status)
+         call results%sharing%work_alone(.true.)
+         if (results%sharing%is_first()) call solve_and_write(results, tables, resume, log, status, error)
+         call results%sharing%work_alone(.false.)
+         call results%sharing%share_error(error)
+         status_of_all = status
+         call results%sharing%add(status_of_all)
+         status = int(status_of_all(1))
       end if
    end subroutine run_scene
 
@@ -75,19 +75,8 @@ contains
       if (need_fields(tables, by_first) .or. asks_for_largest(results%scene)) &
          points = size(results%scene%target)*product(int(results%traits%given_grid, int64))
       call check_memory(results, points, need_surface(tables, by_first), error)
-      call share_error(error)
+      call results%sharing%share_error(error)
    end subroutine check_sharing
-
-   !> Makes the exit status of the first rank that of all.
-   subroutine share_status(status)
-      integer, intent(inout) :: status   !! 0 on the other ranks
-
-      integer(int64) :: number(1)
-
-      number = status
-      call add_over_ranks(number)
-      status = int(number(1))
-   end subroutine share_status
 
    !> Solves the loads of a scene and writes its tables. Errors: as of run_scene.
    subroutine solve_and_write(results, tables, resume, log, status, error)
@@ -104,14 +93,14 @@ contains
       allocate (results%loads(size(results%scene%target)))
       if (resume) call take_checkpoint(results, log, error)
       if (allocated(error)) return
-      if (is_first_rank()) call prepare_directory(results%scene, error)
-      call share_error(error)
+      if (results%sharing%is_first()) call prepare_directory(results%scene, error)
+      call results%sharing%share_error(error)
       if (allocated(error)) return
 
       call checkpoint%create(results)
       call solve_loads(results, checkpoint, log)
-      if (any_rank(.not. checkpoint%is_complete())) call log%say('note: not all loads could be written to '// &
-                                                                 escaped(checkpoint_name(results))//', to resume from')
+      if (results%sharing%any(.not. checkpoint%is_complete())) &
+         call log%say('note: not all loads could be written to '//escaped(checkpoint_name(results))//', to resume from')
       call log%say_timed('solved and measured')
       call log%show_loads(results)
       call write_results(results, tables, log, error)
@@ -129,10 +118,9 @@ contains
       type(run_log), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
 
-      logical :: by_all(size(tables)), by_first, is_first
+      logical :: by_all(size(tables)), by_first
       integer :: i
 
-      is_first = is_first_rank()
       by_first = results%sharing%kind == spread_grids
       by_all = .false.
       if (by_first) by_all = [(tables(i)%table%is_written_by_all(results), i=1, size(tables))]
@@ -142,18 +130,18 @@ contains
          call collect(results, need_fields(tables, .not. by_all) .or. asks_for_largest(results%scene), &
                       need_surface(tables, .not. by_all), error)
          if (allocated(error)) return
-         call work_alone(.true.)
+         call results%sharing%work_alone(.true.)
       end if
-      if (is_first .or. .not. by_first) then
+      if (results%sharing%is_first() .or. .not. by_first) then
          if (asks_for_largest(results%scene)) then
             call find_stresses(results, log)
             call log%say_timed('largest stresses found')
             call log%show_stresses(results)
          end if
       end if
-      if (is_first) call write_tables(results, tables, .not. by_all, error)
-      if (by_first) call work_alone(.false.)
-      call share_error(error)
+      if (results%sharing%is_first()) call write_tables(results, tables, .not. by_all, error)
+      if (by_first) call results%sharing%work_alone(.false.)
+      call results%sharing%share_error(error)
    end subroutine write_results
 
    !> Whether the deck asks for the largest stresses.
@@ -255,10 +243,10 @@ contains
       logical :: found, known(size(results%loads))
 
       call read_checkpoint(results, found, error)
-      call share_error(error)
+      call results%sharing%share_error(error)
       if (allocated(error)) return
       ranks_that_know = [(merge(1, 0, allocated(results%loads(load)%solution)), load=1, size(results%loads))]
-      call add_over_ranks(ranks_that_know)
+      call results%sharing%add(ranks_that_know)
       if (results%sharing%kind == spread_grids) then
          ! Of a load that was interrupted some ranks may have their columns, others not.
          known = ranks_that_know == results%sharing%ranks
@@ -269,7 +257,7 @@ contains
       else
          known = ranks_that_know > 0
       end if
-      if (any_rank(found)) then
+      if (results%sharing%any(found)) then
          call log%say('resumed   '//integer_text(count(known))//' of '//integer_text(size(results%loads))// &
                       ' loads are in '//escaped(checkpoint_name(results)))
       else
@@ -327,7 +315,7 @@ contains
       points = 0
       if (fields) points = sum([(results%loads(load)%solution%spread_points(), load=1, size(results%loads))])
       call check_memory(results, points, surface, error)
-      call share_error(error)
+      call results%sharing%share_error(error)
       if (allocated(error)) return
       if (fields) then
          do load = 1, size(results%loads)
@@ -347,7 +335,7 @@ contains
       integer, parameter :: bytes_of_number = storage_size(1.0_dp)/8
       integer(int64) :: numbers
 
-      if (.not. is_first_rank()) return
+      if (.not. results%sharing%is_first()) return
       numbers = points
       ! The series, and twice as much while it is gathered.
       if (surface .and. results%solver%surface%is_spread()) &

@@ -1,4 +1,4 @@
-!> What the ranks tell each other of the loads that each has solved, where these are spread over the ranks.
+!> What the ranks tell each other of the loads that each has solved.
 !>
 !> Numbers travel as 8-byte words: sums of words of which all but one are zero are exact, of real numbers those of NaN
 !> and of -0 are not.
@@ -7,9 +7,9 @@ module wavycon_share_solutions
    use wavycon_kinds, only: dp
    use wavycon_largest_stress, only: largest_stress
    use wavycon_measured_solution, only: measured_solution
-   use wavycon_ranks, only: add_over_ranks, this_rank
    use wavycon_results, only: results_type
    use wavycon_solution_record, only: record_of_words, record_words, words_of_record
+   use wavycon_work_sharing, only: work_sharing
    implicit none (type, external)
    private
 
@@ -22,7 +22,7 @@ contains
 
    !> Gives all ranks the measures of all loads. A rank keeps the solutions of its own loads as they are.
    subroutine share_solutions(results)
-      type(results_type), intent(inout) :: results   !! with solutions of the own loads, by rank_of_load
+      type(results_type), intent(inout) :: results   !! with solutions of the own loads
 
       integer :: load
       integer(int64), allocatable :: words(:)
@@ -30,12 +30,12 @@ contains
 
       allocate (words(record_words*size(results%loads)), source=0_int64)
       do load = 1, size(results%loads)
-         if (results%rank_of_load(load) == this_rank()) &
+         if (results%sharing%is_own_load(load)) &
             words((load - 1)*record_words + 1:load*record_words) = words_of_record(results%loads(load)%solution)
       end do
-      call add_over_ranks(words)
+      call results%sharing%add(words)
       do load = 1, size(results%loads)
-         if (results%rank_of_load(load) == this_rank()) cycle
+         if (results%sharing%is_own_load(load)) cycle
          allocate (other)
          other%solution_record = record_of_words(words((load - 1)*record_words + 1:load*record_words))
          call move_alloc(other, results%loads(load)%solution)
@@ -43,8 +43,8 @@ contains
    end subroutine share_solutions
 
    !> Gives all ranks the largest stresses of all loads.
-   subroutine share_stresses(rank_of_load, stresses)
-      integer, intent(in) :: rank_of_load(:)
+   subroutine share_stresses(sharing, stresses)
+      type(work_sharing), intent(in) :: sharing
       type(largest_stress), intent(inout) :: stresses(:, :)   !! shape (bodies, loads); of the own loads
 
       integer :: body, k, load
@@ -56,13 +56,13 @@ contains
       do load = 1, size(stresses, 2)
          do body = 1, size(stresses, 1)
             associate (stress => stresses(body, load))
-               if (rank_of_load(load) == this_rank()) &
+               if (sharing%is_own_load(load)) &
                   words(k + 1:k + stress_words) = transfer([stress%value, stress%error, stress%place], words)
             end associate
             k = k + stress_words
          end do
       end do
-      call add_over_ranks(words)
+      call sharing%add(words)
       k = 0
       do load = 1, size(stresses, 2)
          do body = 1, size(stresses, 1)

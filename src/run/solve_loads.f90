@@ -4,7 +4,6 @@ module wavycon_solve_loads
    use wavycon_checkpoint, only: checkpoint_file
    use wavycon_gsl, only: gsl_sort_index
    use wavycon_kinds, only: dp
-   use wavycon_ranks, only: this_rank, work_alone
    use wavycon_results, only: results_type
    use wavycon_run_log, only: log_progress, run_log
    use wavycon_scene, only: by_mean_gap, by_pressure
@@ -17,16 +16,15 @@ module wavycon_solve_loads
 
    public :: solve_loads
 
-   !> Loads that one rank solves one after the other, where each starts from the last one and loads are spread over the
-   !> ranks. The first of a block starts as the first load of a sweep does. The length does not depend on the number of
-   !> ranks, and so the digits do not.
+   !> Loads of a block where each starts from the last one and loads are spread. The first of a block starts as the
+   !> first load of a sweep does. The length does not depend on who solves the block, and so the digits do not.
    integer, parameter :: block_length = 8
 
 contains
 
    !> Solves and measures all loads, from the highest to the lowest so that each can start from the last one. Loads
    !> whose solutions were kept from an interrupted run are not solved again if their digits do not depend on the last
-   !> load. Where the loads are spread over the ranks each solves its own, and afterwards all have all measures.
+   !> load. Where the loads are spread, solves the own ones and takes the measures of the others.
    subroutine solve_loads(results, checkpoint, log)
       type(results_type), intent(inout) :: results       !! with the solver started; solutions read from a checkpoint
       type(checkpoint_file), intent(inout) :: checkpoint !! the solutions computed here are added to it
@@ -42,20 +40,15 @@ contains
       associate (target => results%scene%target, loads_by => results%scene%loads_by, solver => results%solver)
          order = descending(merge(-target, target, loads_by == by_mean_gap))
          length = merge(block_length, 1, results%traits%continues_last_load)
-         if (are_spread) then
-            allocate (results%rank_of_load(size(order)))
-            results%rank_of_load(order) = [(mod((i - 1)/length, results%sharing%ranks), i=1, size(order))]
-            call work_alone(.true.)
-         end if
+         call results%sharing%deal_loads(order, length)
+         if (are_spread) call results%sharing%work_alone(.true.)
          progress%log => log
          progress%loads = size(order)
          call solver%show_progress(progress)
          do i = 1, size(order)
             load = order(i)
-            if (are_spread) then
-               if (results%rank_of_load(load) /= this_rank()) cycle
-               if (mod(i - 1, length) == 0) call solver%forget_last_load()
-            end if
+            if (.not. results%sharing%is_own_load(load)) cycle
+            if (are_spread .and. mod(i - 1, length) == 0) call solver%forget_last_load()
             progress%load = i
             known = allocated(results%loads(load)%solution) .and. &
                     (loads_by == by_pressure .or. .not. results%traits%continues_last_load)
@@ -71,7 +64,7 @@ contains
          call solver%show_progress(nobody)
       end associate
       if (.not. are_spread) return
-      call work_alone(.false.)
+      call results%sharing%work_alone(.false.)
       call share_solutions(results)
    end subroutine solve_loads
 

@@ -1,10 +1,12 @@
-!> How the ranks share the work of a scene.
+!> How the ranks share the work of a scene: what each does, and what they tell each other between the steps of a run.
 module wavycon_work_sharing
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_solver, only: solver_traits
    use wavycon_grid_slab, only: grid_slab
    use wavycon_plain_text, only: integer_text
-   use wavycon_ranks, only: rank_count
+   use wavycon_ranks, only: add_integers_over_ranks, any_rank, rank_count, ranks_on_this_machine, share_error, this_rank, &
+      work_alone
+   use wavycon_system, only: available_memory
    implicit none (type, external)
    private
 
@@ -22,10 +24,24 @@ module wavycon_work_sharing
 
    type :: work_sharing
       integer :: kind = first_rank_only   !! one of the names above
-      integer :: ranks = 1
+      integer :: ranks = 1                !! their number
+      integer :: rank = 0                 !! the number of this one, from 0
+      integer, allocatable, private :: rank_of_load(:)   !! the rank that solves each load, if these are spread
    contains
       procedure :: is_shared
+      procedure :: is_first
+      procedure :: memory_of_each
       procedure :: words
+      procedure :: deal_loads
+      procedure :: is_own_load
+      !> Says whether each rank works on something else from now on, without exchange.
+      procedure, nopass :: work_alone
+      !> Adds words of all ranks, one by one.
+      procedure, nopass :: add => add_integers_over_ranks
+      !> Whether something is true on any rank.
+      procedure, nopass :: any => any_rank
+      !> Makes an error of any rank that of all.
+      procedure, nopass :: share_error
    end type work_sharing
 
 contains
@@ -41,6 +57,7 @@ contains
       type(grid_slab) :: slab
 
       sharing%ranks = rank_count()
+      sharing%rank = this_rank()
       if (sharing%ranks == 1) return
       call slab%start(max(traits%finest_grid, 1))
       can_spread_loads = loads >= sharing%ranks .and. .not. need_fields
@@ -58,6 +75,44 @@ contains
 
       is_shared = self%kind /= first_rank_only
    end function is_shared
+
+   !> Whether this rank writes log and tables.
+   pure logical function is_first(self)
+      class(work_sharing), intent(in) :: self
+
+      is_first = self%rank == 0
+   end function is_first
+
+   !> The memory that is available to each rank that works, on this machine [byte]; -1: unknown.
+   integer(int64) function memory_of_each(self) result(bytes)
+      class(work_sharing), intent(in) :: self
+
+      bytes = available_memory()
+      if (self%is_shared() .and. bytes >= 0) bytes = bytes/ranks_on_this_machine()
+   end function memory_of_each
+
+   !> Deals the loads to the ranks in blocks, if they are spread: the digits do not depend on the number of ranks where
+   !> each block is solved by itself.
+   subroutine deal_loads(self, order, block)
+      class(work_sharing), intent(inout) :: self
+      integer, intent(in) :: order(:)   !! the loads in the order in which they are solved
+      integer, intent(in) :: block      !! loads of a block, >= 1
+
+      integer :: i
+
+      if (self%kind /= spread_loads) return
+      allocate (self%rank_of_load(size(order)))
+      self%rank_of_load(order) = [(mod((i - 1)/block, self%ranks), i=1, size(order))]
+   end subroutine deal_loads
+
+   !> Whether this rank solves a load.
+   pure logical function is_own_load(self, load)
+      class(work_sharing), intent(in) :: self
+      integer, intent(in) :: load
+
+      is_own_load = .true.
+      if (allocated(self%rank_of_load)) is_own_load = self%rank_of_load(load) == self%rank
+   end function is_own_load
 
    !> The decision for the log; empty for one rank.
    function words(self)

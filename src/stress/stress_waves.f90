@@ -130,11 +130,10 @@ contains
 
       allocate (fields(points(1), points(2), number))
       allocate (waves(points(1)/2 + 1, points(2), number), source=(0.0_dp, 0.0_dp))
-      call plane%start(points, even=.false.)
+      call plane%start(points, even=.false., whole=.true.)
       call add_waves(self, points, offset, depth, body%nu, waves)
       do i = 1, number
-         plane%waves = waves(:, :, i)
-         call plane%backward(fields(:, :, i))
+         call plane%sample_waves(waves(:, :, i), fields(:, :, i))
       end do
       mean = body%stress(reshape([(0.0_dp, i=1, 12)], [6, 2]), pbar_over_pstar)
       do i = 1, 6

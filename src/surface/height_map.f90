@@ -9,7 +9,6 @@ module wavycon_height_map
    use wavycon_measured_map, only: measured_map
    use wavycon_plain_text, only: escaped, short_number
    use wavycon_prepare_map, only: map_changes, map_preparation, prepare_map
-   use wavycon_ranks, only: share_error
    use wavycon_surface, only: surface_of_points, surface_type
    implicit none (type, external)
    private
@@ -35,17 +34,17 @@ contains
       type(map_changes) :: changes
       real(dp) :: largest(1)
 
+      slab = map%columns()
       if (.not. all(ieee_is_finite(map%height))) &
          call fatal_error(error, exit_bad_input, escaped(source)//': not all heights are finite numbers')
-      call share_error(error)
+      call slab%share_error(error)
       if (allocated(error)) return
       ! Larger heights, which scale_heights refuses, would overflow here.
-      slab = map%columns()
       largest = maxval(abs(map%height))
       call slab%largest(largest)
       if (largest(1) <= largest_number) then
          call prepare_map(source, preparation, sides, map, changes, error)
-         call share_error(error)
+         call slab%share_error(error)
          if (allocated(error)) return
       end if
       call map%keep_own_columns()

@@ -4,7 +4,7 @@ module wavycon_self_affine
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp
-   use wavycon_map_size, only: check_slab_room
+   use wavycon_map_size, only: check_room
    use wavycon_map_statistics, only: map_statistics, statistics_of
    use wavycon_plain_text, only: short_number
    use wavycon_self_affine_heights, only: make_heights, self_affine_spectrum
@@ -30,9 +30,10 @@ contains
       real(dp) :: largest(1)
       logical :: is_made
 
-      call check_slab_room(source, points, error)
-      if (allocated(error)) return
       call slab%start(points)
+      call check_room(source, points, error, slab)
+      call slab%share_error(error)
+      if (allocated(error)) return
       allocate (height(points(1), slab%columns()))
       call make_heights(spectrum, height, is_made, points)
       if (.not. is_made) then

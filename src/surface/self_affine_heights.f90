@@ -3,12 +3,12 @@ module wavycon_self_affine_heights
    use, intrinsic :: iso_c_binding, only: c_associated, c_long, c_ptr
    use wavycon_constants, only: pi
    use wavycon_fourier_series, only: fourier_series
+   use wavycon_grid_slab, only: grid_slab
+   use wavycon_grid_transform, only: grid_transform
    use wavycon_gsl, only: gsl_rng_alloc, gsl_rng_free, gsl_rng_mt19937, gsl_rng_set, gsl_rng_uniform, &
       return_gsl_errors
    use wavycon_kinds, only: dp
-   use wavycon_ranks, only: add_over_ranks
-   use wavycon_slab_transform, only: slab_transform
-   use wavycon_wave_packing, only: allocate_series
+   use wavycon_own_waves, only: wave_slab
    implicit none (type, external)
    private
 
@@ -93,9 +93,8 @@ contains
       mean_square = max(1.0_dp, frequency*spectrum%rolloff)**(-spectrum%dimension - 2*spectrum%hurst)
    end function mean_square
 
-   !> Makes the heights on the points of a grid of the cell (G1). If it is spread over the ranks all of them call this,
-   !> each for its columns; each has the waves of some wave numbers along x. The heights do not depend on the number of
-   !> ranks.
+   !> Makes the heights at the own columns of a grid of the cell (G1), from the waves of own wave numbers along x. They
+   !> do not depend on how the grid is spread.
    !>
    !> N.B. The random numbers are drawn in the order of (G5), for waves beyond the cut-offs too: the phase of a wave
    !> depends on the seed and its wave numbers only, and the surface does not depend on the grid.
@@ -103,30 +102,35 @@ contains
       type(self_affine_spectrum), intent(in) :: spectrum   !! has_waves
       !> [length], shape (M, N), N = 1 in 1-D, or (M, columns of the grid's slab).
       real(dp), intent(inout), contiguous :: height(:, :)
-      logical, intent(out) :: is_made                      !! .false. if there is no memory for the generator
+      logical, intent(out) :: is_made                      !! .false. if there is no memory for a generator
       !> M, N, not below least_points_of, of a grid that may be spread; the shape of height if absent.
       integer, intent(in), optional :: points(2)
 
       type(c_ptr) :: generator
       type(fourier_series) :: waves
-      type(slab_transform) :: transform
-      real(dp), allocatable :: moments(:)   ! of the waves of each wave number along x
+      type(grid_slab) :: rows               ! the own wave numbers along x
+      type(grid_transform) :: transform
+      real(dp) :: moment(1)
+      real(dp), allocatable :: moments(:, :)   ! of the waves of each of them
       integer :: first, grid(2), highest(2), k, last, m, n
 
-      call return_gsl_errors()
-      generator = gsl_rng_alloc(gsl_rng_mt19937)
-      is_made = c_associated(generator)
-      if (.not. is_made) return
-      call gsl_rng_set(generator, int(spectrum%seed, c_long))
       grid = shape(height)
       if (present(points)) grid = points
-      highest = highest_waves(spectrum)
       call transform%start(grid, even=.false.)
-      call transform%rows_of_waves(first, last)
-      call allocate_series(waves, first, last, grid(2)/2, even=.false.)
-      if (transform%slab%is_spread) waves%spread_waves = transform%waves_x()
+      call return_gsl_errors()
+      generator = gsl_rng_alloc(gsl_rng_mt19937)
+      is_made = .not. transform%slab%any(.not. c_associated(generator))
+      if (.not. is_made) then
+         if (c_associated(generator)) call gsl_rng_free(generator)
+         return
+      end if
+      call gsl_rng_set(generator, int(spectrum%seed, c_long))
+      highest = highest_waves(spectrum)
+      call transform%new_series(waves)
+      first = lbound(waves%c, 1)
+      last = ubound(waves%c, 1)
       ! Each wave number is summed by itself: rounding then grows with the square root of the number of waves.
-      allocate (moments(0:highest(1)), source=0.0_dp)
+      allocate (moments(1, first:last), source=0.0_dp)
       do k = 1, maxval(highest)
          if (spectrum%dimension == 1) then
             call add_wave(k, 0)
@@ -141,14 +145,15 @@ contains
          end if
       end do
       call gsl_rng_free(generator)
-      if (waves%is_spread()) call add_over_ranks(moments)
+      rows = wave_slab(waves)
+      moment = rows%column_totals(moments)
       call transform%sample(waves, height)
-      height = spectrum%rms/sqrt(sum(moments))*height
+      height = spectrum%rms/sqrt(moment(1))*height
 
    contains
 
-      !> Draws a wave and, if it is within the cut-offs and one of this rank's, adds it to the series and its part to the
-      !> moments.
+      !> Draws a wave and, if it is within the cut-offs and an own one, adds it to the series and its
+      !> part to the moments.
       subroutine add_wave(m, n)
          integer, intent(in) :: m, n   !! wave numbers, m >= 0
 
@@ -163,7 +168,7 @@ contains
          if (.not. is_within(spectrum, f)) return
          square = mean_square(spectrum, f)
          if (spectrum%random_amplitudes) square = -log(uniform)*square
-         moments(m) = moments(m) + square*merge((2*pi*f)**2, 1.0_dp, spectrum%by_slope)
+         moments(1, m) = moments(1, m) + square*merge((2*pi*f)**2, 1.0_dp, spectrum%by_slope)
          ! cos(mX + nY + turn), in the sines and cosines of each angle.
          cosine = sqrt(2*square)*cos(turn)
          sine = sqrt(2*square)*sin(turn)

@@ -3,12 +3,13 @@ module wavycon_surface
    use wavycon_assertion, only: assert
    use wavycon_constants, only: pi, sqrt2
    use wavycon_fourier_series, only: fourier_series
-   use wavycon_grid_transform, only: point_angle
+   use wavycon_grid_points, only: point_angle
+   use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
+   use wavycon_own_waves, only: gather_series
    use wavycon_paper_wave, only: no_paper_wave, paper_wave_of, rounding, straight_paper_wave, turned_paper_wave
    use wavycon_roughness, only: roughness_of, roughness_type
    use wavycon_series_peak, only: find_peak
-   use wavycon_slab_transform, only: gather_series, slab_transform
    use wavycon_turned_series, only: to_sum_angles
    implicit none (type, external)
    private
@@ -22,7 +23,7 @@ module wavycon_surface
       integer :: dimension = 2
       real(dp) :: length(2) = 1.0_dp            !! L_x, L_y, sides of the periodic cell [length]
       real(dp) :: amplitude = 1.0_dp            !! Delta [length], >= 0
-      !> Of a height map whose points are spread over the ranks each rank has some of its coefficients, see is_spread.
+      !> Of a height map whose points are spread the own waves, see is_spread.
       type(fourier_series) :: shape
       integer :: points(2) = 0                  !! of the grid of a height map on the cell; zeros for a sum of waves
       !> Whether the cell consists of a height map and its mirror images. The map is then the quarter 0 <= X, Y <= pi.
@@ -82,8 +83,8 @@ contains
    end function surface_of_series
 
    !> The surface through given heights on a grid. Between the points it is their Fourier series. Crest, full-contact
-   !> pressure and curvature are the extremes over the points. If the grid is spread over the ranks all of them call this,
-   !> each with its columns, and the surface is spread; its numbers are the same on all ranks.
+   !> pressure and curvature are the extremes over the points. If the grid is spread the surface is, and its
+   !> numbers are those of the whole grid.
    !>
    !> The grid is that of the whole cell, with the first point at X = Y = 0, or that of a quarter, which mirror images
    !> continue: equation (M6) of src/map/README.md.
@@ -94,7 +95,7 @@ contains
       logical, intent(in), optional :: mirrored        !! whether mirror images continue it; .false. if absent
       integer, intent(in), optional :: points(2)       !! M, N of a grid that may be spread; the shape of height if absent
 
-      type(slab_transform) :: transform
+      type(grid_transform) :: transform
       real(dp), allocatable :: values(:, :)
       real(dp) :: extremes(2), per_wave(2)
       integer :: crest(2), grid(2)
@@ -128,9 +129,8 @@ contains
       surface%crest_curvature = extremes(1)
    end function surface_of_points
 
-   !> Makes a surface that is spread whole, for tables: on the first rank alone, or on all. It stays spread on the others.
-   !> All ranks call this; nothing happens if the first rank has it whole. The shape has 8 bytes a point, and takes twice
-   !> as much for a moment.
+   !> Makes a surface that is spread whole, where the tables are written or everywhere; elsewhere it stays spread. The
+   !> shape has 8 bytes a point, and takes twice as much for a moment.
    subroutine whole_surface(surface, first_only)
       type(surface_type), intent(inout) :: surface
       logical, intent(in) :: first_only
@@ -173,9 +173,8 @@ contains
       is_height_map = all(self%points > 0)
    end function is_height_map
 
-   !> Whether each rank has some coefficients of the shape only: those of some wave numbers in X, see
-   !> wavycon_slab_transform. The shape cannot be evaluated then but by wavycon_undeformed_gap; `whole_surface` makes it
-   !> whole. All other components are the same on all ranks.
+   !> Whether the shape has the coefficients of own wave numbers in X only, see wavycon_own_waves. It cannot be evaluated
+   !> then but by wavycon_undeformed_gap; `whole_surface` makes it whole. All other components are those of the whole.
    pure logical function is_spread(self)
       class(surface_type), intent(in) :: self
 
@@ -207,7 +206,7 @@ contains
       gap = 1.0_dp - self%shape%at(x, y)
    end function undeformed_gap_over_amplitude
 
-   !> Root mean squares of height, slope and curvature. All ranks call this if the surface is spread.
+   !> Root mean squares of height, slope and curvature.
    type(roughness_type) function roughness(self)
       class(surface_type), intent(in) :: self
 
@@ -215,7 +214,6 @@ contains
    end function roughness
 
    !> The root mean square of the slope, the size of the gradient of h: sqrt2 pi Delta/lambda for the paper's waves.
-   !> All ranks call this if the surface is spread.
    real(dp) function rms_slope(self)
       class(surface_type), intent(in) :: self
 

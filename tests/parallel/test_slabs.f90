@@ -9,13 +9,12 @@ program test_slabs
    use wavycon_contact_extension, only: contact_extension
    use wavycon_contact_region, only: contact_region
    use wavycon_grid_refinement, only: refine_pressure
+   use wavycon_grid_points, only: image_of_point
    use wavycon_grid_slab, only: grid_slab, most_reach, strip_columns
-   use wavycon_grid_transform, only: image_of_point
    use wavycon_kinds, only: dp, sp
    use wavycon_local_stiffness, only: local_stiffness
    use wavycon_mpi_ranks, only: start_mpi
-   use wavycon_ranks, only: add_over_ranks, move_columns, new_row_exchange, &
-      rank_count, row_exchange, this_rank, work_alone
+   use wavycon_ranks, only: add_over_ranks, new_row_exchange, rank_count, row_exchange, this_rank, work_alone
    use wavycon_surface, only: surface_of_points, surface_type
    use wavycon_wave_2d, only: wave_2d
    implicit none (type, external)
@@ -34,7 +33,8 @@ program test_slabs
    call test_sums()
    call test_neighbours()
    call test_gathered_grids()
-   call test_moved_columns()
+   call test_fetched_columns()
+   call test_first_rank()
    call test_row_exchange()
    call test_extension()
    call test_stencil()
@@ -45,26 +45,23 @@ contains
 
    subroutine test_layouts()
       type(grid_slab) :: coarse, slab
-      integer, allocatable :: blocks(:, :), columns(:)
-      integer :: j, k
+      integer(int64) :: columns(1)
+      integer :: k
 
       do k = 1, size(spread_grids, 2)
          call slab%start(spread_grids(:, k))
-         columns = slab%columns_of_ranks()
-         blocks = slab%blocks()
+         columns = slab%columns()
+         call slab%add(columns)
          call check(slab%is_spread .eqv. rank_count() > 1)
-         call check(sum(columns) == spread_grids(2, k))
-         call check(all(columns == 0 .or. columns >= most_reach))
-         call check(columns(this_rank() + 1) == slab%columns())
-         call check(all(blocks(:, this_rank() + 1) == [slab%first, slab%last]))
-         call check(slab%columns() == 0 .or. mod(slab%first - 1, strip_columns) == 0)
-         do j = slab%first, slab%last
-            call check(slab%owner(j) == this_rank())
-         end do
+         call check(columns(1) == spread_grids(2, k))
+         call check(slab%columns() == 0 .or. slab%columns() >= most_reach)
+         if (slab%columns() > 0) then
+            call check(slab%first == this_rank()*slab%width + 1)
+            call check(mod(slab%first - 1, strip_columns) == 0)
+         end if
          if (mod(spread_grids(2, k), 2) == 0) then
             coarse = slab%coarser()
             call check(2*coarse%first - 1 == slab%first .and. coarse%columns() == slab%columns()/2)
-            call check(all(coarse%columns_of_ranks() == columns/2))
          end if
          call work_alone(.true.)
          call slab%start(spread_grids(:, k))
@@ -180,32 +177,48 @@ contains
       call report('gathered grids')
    end subroutine test_gathered_grids
 
-   subroutine test_moved_columns()
-      ! Wanted columns overlap and some ranks want none: rank r the columns 1 + 7r to N/2 + 20r.
+   subroutine test_fetched_columns()
+      ! Wanted columns overlap and some ranks want none: rank r the columns 7r to N/2 + 20r or N + 1, the image.
       type(grid_slab) :: slab
       real(dp), allocatable :: wanted(:, :), whole(:, :)
-      real(sp), allocatable :: wanted_single(:, :)
-      integer, allocatable :: want(:, :)
-      integer :: k, rank
+      integer :: first, j, k, last, n, rank
+      logical :: even
 
-      allocate (want(2, 0:rank_count() - 1))
+      rank = this_rank()
+      first = 7*rank
+      do k = 0, 2*size(spread_grids, 2) - 1
+         even = mod(k, 2) == 0
+         associate (grid => spread_grids(:, 1 + k/2))
+            call slab%start(grid)
+            whole = numbers(grid)
+         end associate
+         n = size(whole, 2)
+         last = merge(min(n/2 + 20*rank, n + 1), first - 1, rank /= 1)
+         if (rank == rank_count() - 1 .and. rank > 1) last = n + 1
+         allocate (wanted(size(whole, 1), first:last))
+         call slab%fetch(whole(:, slab%first:slab%last), even, first, wanted)
+         do j = first, last
+            call check(same(wanted(:, j:j), whole(:, image_of_point(j, n, even):image_of_point(j, n, even))))
+         end do
+         deallocate (wanted)
+      end do
+      call report('fetched columns')
+   end subroutine test_fetched_columns
+
+   subroutine test_first_rank()
+      type(grid_slab) :: slab
+      real(dp), allocatable :: gathered(:, :), whole(:, :)
+      integer :: k
+
       do k = 1, size(spread_grids, 2)
          call slab%start(spread_grids(:, k))
          whole = numbers(spread_grids(:, k))
-         do rank = 0, rank_count() - 1
-            want(:, rank) = merge([1 + 7*rank, min(size(whole, 2)/2 + 20*rank, size(whole, 2))], [1, 0], rank /= 1)
-         end do
-         associate (first => want(1, this_rank()), last => want(2, this_rank()))
-            allocate (wanted(size(whole, 1), last - first + 1), wanted_single(size(whole, 1), last - first + 1))
-            call move_columns(slab%blocks(), whole(:, slab%first:slab%last), want, wanted)
-            call move_columns(slab%blocks(), real(whole(:, slab%first:slab%last), sp), want, wanted_single)
-            call check(same(wanted, whole(:, first:last)))
-            call check(same(wanted_single, real(whole(:, first:last), sp)))
-         end associate
-         deallocate (wanted, wanted_single)
+         call slab%gather_to_first(whole(:, slab%first:slab%last), gathered)
+         call check(allocated(gathered) .eqv. this_rank() == 0)
+         if (allocated(gathered)) call check(same(gathered, whole))
       end do
-      call report('moved columns')
-   end subroutine test_moved_columns
+      call report('grids gathered to the first rank')
+   end subroutine test_first_rank
 
    subroutine test_row_exchange()
       ! Columns and rows of the matrix; some ranks have no rows, others no columns.

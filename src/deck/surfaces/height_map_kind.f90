@@ -13,7 +13,6 @@ module wavycon_height_map_kind
    use wavycon_plain_text, only: clauses, escaped, integer_text, short_number
    use wavycon_prepare_map, only: map_preparation
    use wavycon_problems, only: problem_list_type
-   use wavycon_ranks, only: share_error
    use wavycon_surface, only: surface_type
    use wavycon_surface_keys, only: length_x_key, length_y_key
    use wavycon_surface_kind, only: surface_kind
@@ -88,13 +87,11 @@ contains
       if (values%text('edges') /= 'window') call values%leave_out('window_width')
       file = values%text('file')
       path = place_of_map(values%deck_path, file)
+      call read_map(values, path, heights, error)
       if (path_kind(path) == path_absent .and. file(1:1) /= '/') then
-         call fatal_error(error, exit_file_trouble, escaped(file)// &
-                          ': there is no such file beside the deck, nor where the program was started')
+         if (allocated(error)) error%message = escaped(file)// &
+            ': there is no such file beside the deck, nor where the program was started'
       end if
-      call share_error(error)
-      if (.not. allocated(error)) call read_map(values, path, heights, error)
-      call share_error(error)
       if (.not. allocated(error)) call take_sides(values, path, heights, length, assumed_sides, error)
       if (.not. allocated(error)) call surface_of_map(path, preparation_of(values), values%real('height_scale'), &
                                                       length, heights, surface, map, error)

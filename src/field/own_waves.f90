@@ -1,0 +1,71 @@
+!> The own waves of a Fourier series: all of them or, of a series that is spread, those of some wave numbers in X.
+module wavycon_own_waves
+   use wavycon_fourier_series, only: fourier_series
+   use wavycon_grid_slab, only: grid_slab
+   use wavycon_kinds, only: dp
+   implicit none (type, external)
+   private
+
+   public :: gather_series, slab_of_waves, wave_slab
+
+contains
+
+   !> The own wave numbers in X of a series, as columns of a grid: wave number k is column k + 1.
+   type(grid_slab) function wave_slab(series)
+      type(fourier_series), intent(in) :: series
+
+      wave_slab = slab_of_waves(merge(series%spread_waves, size(series%c, 1), series%is_spread()), series%is_spread())
+   end function wave_slab
+
+   type(grid_slab) function slab_of_waves(number, is_spread) result(slab)
+      integer, intent(in) :: number       !! of wave numbers
+      logical, intent(in) :: is_spread
+
+      if (is_spread) then
+         call slab%divide([1, number])
+      else
+         call slab%start([1, number], whole=.true.)
+      end if
+   end function slab_of_waves
+
+   !> Makes a series that is spread whole, where tables are written or everywhere; elsewhere it stays as it is.
+   subroutine gather_series(series, first_only)
+      type(fourier_series), intent(inout) :: series
+      logical, intent(in) :: first_only   !! whether only where tables are written
+
+      logical :: is_whole
+      type(grid_slab) :: rows
+
+      rows = wave_slab(series)
+      if (.not. rows%any(rows%is_spread .and. rows%first == 1)) return
+      call gather_array(series%c)
+      if (.not. series%is_even()) then
+         call gather_array(series%cs)
+         call gather_array(series%sc)
+         call gather_array(series%ss)
+      end if
+      if (is_whole) series%spread_waves = 0
+
+   contains
+
+      subroutine gather_array(values)
+         real(dp), allocatable, intent(inout) :: values(:, :)
+
+         real(dp), allocatable :: own(:, :), whole(:, :)
+
+         allocate (own, source=transpose(values))
+         if (first_only) then
+            call rows%gather_to_first(own, whole)
+         else
+            allocate (whole(size(values, 2), rows%points(2)))
+            call rows%gather(own, whole)
+         end if
+         is_whole = allocated(whole)
+         if (.not. is_whole) return
+         deallocate (values)
+         allocate (values(0:size(whole, 2) - 1, 0:size(whole, 1) - 1), source=transpose(whole))
+      end subroutine gather_array
+
+   end subroutine gather_series
+
+end module wavycon_own_waves
