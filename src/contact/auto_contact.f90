@@ -77,9 +77,9 @@ contains
    subroutine solve_partial_contact(self, pbar_over_pstar, solution)
       class(auto_contact), intent(inout) :: self
       real(dp), intent(in) :: pbar_over_pstar
-      class(contact_solution), allocatable, intent(out) :: solution
+      type(contact_solution), intent(out) :: solution
 
-      class(contact_solution), allocatable :: on_grids
+      type(contact_solution) :: on_grids
 
       if (.not. allocated(self%first)) then
          call self%grid_contact%solve_partial_contact(pbar_over_pstar, solution)
@@ -89,7 +89,7 @@ contains
       if (.not. any_rank(.not. solution%is_good())) return
       call self%grid_contact%solve_partial_contact(pbar_over_pstar, on_grids)
       if (any_rank(on_grids%status == converged .or. on_grids%largest_error() <= solution%largest_error())) &
-         call move_alloc(on_grids, solution)
+         call on_grids%move_to(solution)
    end subroutine solve_partial_contact
 
    !> Those of the first solver, and the finest grid of both.
@@ -119,7 +119,7 @@ contains
       class(auto_contact), intent(inout) :: self
       real(dp), intent(in) :: pbar_over_pstar
 
-      class(contact_solution), allocatable :: unused
+      type(contact_solution) :: unused
 
       if (allocated(self%first)) call self%first%solve(pbar_over_pstar, unused)
    end subroutine skip_load

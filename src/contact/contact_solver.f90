@@ -3,10 +3,10 @@
 module wavycon_contact_solver
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_contact_measures, only: full_contact_measures
-   use wavycon_contact_solution, only: contact_solution, no_solution, solution_without_contact_edge
+   use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_status, only: above_hardness, full_contact, no_load, not_finite, not_found
    use wavycon_kinds, only: dp
-   use wavycon_solution_record, only: no_solver
+   use wavycon_solution_record, only: no_solution, no_solver
    use wavycon_solver_progress, only: solver_progress
    use wavycon_surface, only: surface_type
    implicit none (type, external)
@@ -45,7 +45,6 @@ module wavycon_contact_solver
       procedure :: use_level
       procedure :: forget_last_load
       procedure :: skip_load
-      procedure :: new_kept_solution
    end type contact_solver
 
    abstract interface
@@ -55,7 +54,7 @@ module wavycon_contact_solver
          import :: contact_solution, contact_solver, dp
          class(contact_solver), intent(inout) :: self
          real(dp), intent(in) :: pbar_over_pstar     !! 0 < P < 1, or 0 < P < H
-         class(contact_solution), allocatable, intent(out) :: solution   !! always allocated, with a status
+         type(contact_solution), intent(out) :: solution   !! with a status
       end subroutine solve_load
 
       !> `traits`: what is known without a load.
@@ -73,7 +72,7 @@ contains
    subroutine solve(self, pbar_over_pstar, solution)
       class(contact_solver), intent(inout) :: self
       real(dp), intent(in) :: pbar_over_pstar        !! P; the status of the solution is not_finite if it is no number
-      class(contact_solution), allocatable, intent(out) :: solution   !! always allocated, with a status
+      type(contact_solution), intent(out) :: solution   !! with a status
 
       logical :: is_number, is_partial
       type(solver_traits) :: traits
@@ -82,14 +81,14 @@ contains
       is_number = .not. ieee_is_nan(pbar_over_pstar)
       if (.not. self%is_started) then
          traits = self%traits()
-         call no_solution(pbar_over_pstar, traits%solver, not_found, solution)
+         solution%solution_record = no_solution(pbar_over_pstar, traits%solver, not_found)
          return
       end if
       if (is_number) then
          is_partial = pbar_over_pstar > 0.0_dp .and. pbar_over_pstar < 1.0_dp
          if (self%surface%has_hardness()) then
             if (pbar_over_pstar >= self%surface%hardness) then
-               call no_solution(pbar_over_pstar, no_solver, above_hardness, solution)
+               solution%solution_record = no_solution(pbar_over_pstar, no_solver, above_hardness)
                return
             end if
             is_partial = pbar_over_pstar > 0.0_dp .and. &
@@ -100,7 +99,6 @@ contains
             return
          end if
       end if
-      allocate (solution_without_contact_edge :: solution)
       solution%pbar_over_pstar = pbar_over_pstar
       if (.not. is_number) then
          solution%status = not_finite
@@ -143,15 +141,5 @@ contains
 
       associate (unused => self, unused_too => pbar_over_pstar); end associate
    end subroutine skip_load
-
-   !> Allocates an empty solution of the type whose `is_kept` is true, for `unpack_kept`. Not allocated if the
-   !> solutions of this solver are not written to checkpoints.
-   subroutine new_kept_solution(self, solution)
-      class(contact_solver), intent(in) :: self
-      class(contact_solution), allocatable, intent(out) :: solution
-
-      associate (unused => self); end associate
-      if (allocated(solution)) return
-   end subroutine new_kept_solution
 
 end module wavycon_contact_solver

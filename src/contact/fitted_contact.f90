@@ -2,14 +2,14 @@
 !> by a grid.
 module wavycon_fitted_contact
    use wavycon_contact_measures, only: contact_measures, known_errors
-   use wavycon_contact_solution, only: contact_solution, no_solution
+   use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_contact_status, only: converged, not_accurate, not_found
    use wavycon_fitted_frame, only: find_frame, fitted_frame, make_lattice
-   use wavycon_fitted_solution, only: fitted_solution
+   use wavycon_fitted_source, only: fitted_source
    use wavycon_fitted_solver, only: fitted_answer, fitted_less_exact, fitted_solved, solve_fitted
    use wavycon_kinds, only: dp
-   use wavycon_solution_record, only: by_expansions
+   use wavycon_solution_record, only: by_expansions, no_solution
    use wavycon_surface, only: surface_type
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
@@ -54,11 +54,11 @@ contains
    subroutine solve_partial_contact(self, pbar_over_pstar, solution)
       class(fitted_contact), intent(inout) :: self
       real(dp), intent(in) :: pbar_over_pstar
-      class(contact_solution), allocatable, intent(out) :: solution
+      type(contact_solution), intent(out) :: solution
 
       real(dp) :: errors(3)
       type(fitted_answer) :: answer
-      type(fitted_solution), allocatable :: own
+      type(fitted_source), allocatable :: source
 
       if (self%frame%is_found()) then
          ! solve_fitted takes a relative accuracy. The largest of the three values, the peak pressure, is less than
@@ -67,33 +67,32 @@ contains
                            self%accuracy/(1.0_dp + self%surface%full_contact_peak), answer, self%last, self%keep_fields)
       end if
       if (answer%status /= fitted_solved .and. answer%status /= fitted_less_exact) then
-         call no_solution(pbar_over_pstar, by_expansions, not_found, solution)
+         solution%solution_record = no_solution(pbar_over_pstar, by_expansions, not_found)
          return
       end if
       self%last = answer
-      allocate (own)
       errors = known_errors([answer%mean_gap_error, answer%area_error, answer%peak_error*self%frame%pressure_unit], &
                             self%surface%full_contact_peak)
-      own%pbar_over_pstar = pbar_over_pstar
-      own%solver = by_expansions
-      own%measures = contact_measures(mean_gap_over_amplitude=answer%mean_gap, &
-                                      approach_over_amplitude=1.0_dp - answer%mean_gap, &
-                                      contact_area_fraction=answer%area_fraction, &
-                                      peak_pressure_over_pstar=answer%peak_pressure*self%frame%pressure_unit, &
-                                      min_pressure_over_pstar=0.0_dp, &
-                                      mean_gap_error=errors(1), contact_area_error=errors(2), &
-                                      peak_pressure_error=errors(3))
-      own%iterations = answer%iterations
-      own%residual = answer%residual
-      own%status = not_accurate
-      if (own%largest_error() <= self%accuracy) own%status = converged
-      if (self%keep_fields) then
-         own%frame = self%frame
-         own%lattice = self%lattice
-         own%answer = answer
-         own%accuracy = self%accuracy
-      end if
-      call move_alloc(own, solution)
+      solution%pbar_over_pstar = pbar_over_pstar
+      solution%solver = by_expansions
+      solution%measures = contact_measures( &
+                          mean_gap_over_amplitude=answer%mean_gap, &
+                          approach_over_amplitude=1.0_dp - answer%mean_gap, &
+                          contact_area_fraction=answer%area_fraction, &
+                          peak_pressure_over_pstar=answer%peak_pressure*self%frame%pressure_unit, &
+                          min_pressure_over_pstar=0.0_dp, &
+                          mean_gap_error=errors(1), contact_area_error=errors(2), peak_pressure_error=errors(3))
+      solution%iterations = answer%iterations
+      solution%residual = answer%residual
+      solution%status = not_accurate
+      if (solution%largest_error() <= self%accuracy) solution%status = converged
+      if (.not. self%keep_fields) return
+      allocate (source)
+      source%frame = self%frame
+      source%lattice = self%lattice
+      source%answer = answer
+      source%accuracy = self%accuracy
+      call move_alloc(source, solution%source)
    end subroutine solve_partial_contact
 
    type(solver_traits) function traits(self)

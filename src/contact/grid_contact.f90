@@ -6,17 +6,17 @@
 module wavycon_grid_contact
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_measures, only: contact_measures, unknown
-   use wavycon_contact_solution, only: contact_solution, no_solution
+   use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_contact_status, only: converged, iteration_limit, no_memory, not_accurate, unresolved
    use wavycon_contact_tuning, only: largest_spot, least_search_points, worst_search_accuracy
    use wavycon_grid_cascade, only: cascade_answer, solve_by_cascade
    use wavycon_grid_edge, only: grid_edge
    use wavycon_grid_plan, only: grid_plan, plan_grids
-   use wavycon_grid_solution, only: grid_solution
+   use wavycon_grid_source, only: grid_source
    use wavycon_kinds, only: dp
    use wavycon_load_concentration, only: load_concentration
-   use wavycon_solution_record, only: by_grids
+   use wavycon_solution_record, only: by_grids, no_solution
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
@@ -36,7 +36,6 @@ module wavycon_grid_contact
       procedure :: solve_partial_contact
       procedure :: traits
       procedure :: use_level
-      procedure :: new_kept_solution
    end type grid_contact
 
 contains
@@ -109,10 +108,10 @@ contains
    subroutine solve_partial_contact(self, pbar_over_pstar, solution)
       class(grid_contact), intent(inout) :: self
       real(dp), intent(in) :: pbar_over_pstar
-      class(contact_solution), allocatable, intent(out) :: solution
+      type(contact_solution), intent(out) :: solution
 
       type(cascade_answer) :: answer
-      type(grid_solution), allocatable :: own
+      type(grid_source), allocatable :: source
 
       if (allocated(self%smaller)) then
          call solve_cell(self, self%smaller, pbar_over_pstar, answer)
@@ -120,52 +119,54 @@ contains
          call solve_cell(self, self%surface, pbar_over_pstar, answer)
       end if
       if (.not. allocated(answer%edge)) then
-         call no_solution(pbar_over_pstar, by_grids, no_memory, solution)
+         solution%solution_record = no_solution(pbar_over_pstar, by_grids, no_memory)
          return
       end if
-      allocate (own)
-      own%pbar_over_pstar = pbar_over_pstar
-      own%solver = by_grids
-      own%turned = allocated(self%smaller)
-      own%measures = contact_measures(mean_gap_over_amplitude=answer%values(1), &
-                                      approach_over_amplitude=1.0_dp - answer%state%mean_gap, &
-                                      contact_area_fraction=answer%values(2), &
-                                      peak_pressure_over_pstar=answer%values(3), &
-                                      min_pressure_over_pstar=least_pressure(answer%edge), &
-                                      mean_gap_error=answer%errors(1), contact_area_error=answer%errors(2), &
-                                      peak_pressure_error=answer%errors(3), &
-                                      area_at_hardness_fraction=answer%area_at_hardness, &
-                                      area_at_hardness_error=answer%area_at_hardness_error, &
-                                      contact_area_counted_fraction=answer%counted_area, &
-                                      contact_area_corrected_fraction=answer%corrected_area)
+      solution%pbar_over_pstar = pbar_over_pstar
+      solution%solver = by_grids
+      solution%measures = contact_measures( &
+                          mean_gap_over_amplitude=answer%values(1), &
+                          approach_over_amplitude=1.0_dp - answer%state%mean_gap, &
+                          contact_area_fraction=answer%values(2), &
+                          peak_pressure_over_pstar=answer%values(3), &
+                          min_pressure_over_pstar=least_pressure(answer%edge), &
+                          mean_gap_error=answer%errors(1), contact_area_error=answer%errors(2), &
+                          peak_pressure_error=answer%errors(3), &
+                          area_at_hardness_fraction=answer%area_at_hardness, &
+                          area_at_hardness_error=answer%area_at_hardness_error, &
+                          contact_area_counted_fraction=answer%counted_area, &
+                          contact_area_corrected_fraction=answer%corrected_area)
       if (self%surface%has_hardness()) then
          associate (load_of_area => self%surface%hardness/pbar_over_pstar)
-            own%measures%load_at_hardness_fraction = answer%area_at_hardness*load_of_area
-            own%measures%load_at_hardness_error = answer%area_at_hardness_error*load_of_area
+            solution%measures%load_at_hardness_fraction = answer%area_at_hardness*load_of_area
+            solution%measures%load_at_hardness_error = answer%area_at_hardness_error*load_of_area
          end associate
-         if (.not. own%measures%load_at_hardness_error < 1.0_dp) own%measures%load_at_hardness_error = unknown
+         if (.not. solution%measures%load_at_hardness_error < 1.0_dp) solution%measures%load_at_hardness_error = unknown
       end if
       if (all(self%surface%points > 0) .and. answer%values(2) <= largest_spot) &
-         own%measures%load_concentration = load_concentration(answer%edge)
-      own%imprint = answer%state%imprint
-      own%active_constraints = bound_points(answer%edge, self%surface%hardness)
-      own%iterations = answer%iterations
-      own%residual = answer%state%residual
+         solution%measures%load_concentration = load_concentration(answer%edge)
+      solution%active_constraints = bound_points(answer%edge, self%surface%hardness)
+      solution%iterations = answer%iterations
+      solution%residual = answer%state%residual
       if (.not. answer%state%converged) then
-         own%status = iteration_limit
+         solution%status = iteration_limit
       else if (answer%accurate) then
-         own%status = converged
+         solution%status = converged
       else if (answer%out_of_memory) then
-         own%status = no_memory
+         solution%status = no_memory
       else if (any(self%points == 0)) then
-         own%status = not_accurate
-      else if (all(own%measures%are_resolved())) then
-         own%status = converged
+         solution%status = not_accurate
+      else if (all(solution%measures%are_resolved())) then
+         solution%status = converged
       else
-         own%status = unresolved
+         solution%status = unresolved
       end if
-      if (self%keep_fields) call move_alloc(answer%edge, own%edge)
-      call move_alloc(own, solution)
+      if (.not. self%keep_fields) return
+      allocate (source)
+      source%turned = allocated(self%smaller)
+      source%imprint = answer%state%imprint
+      call source%take_edge(answer%edge)
+      call move_alloc(source, solution%source)
    end subroutine solve_partial_contact
 
    !> Solves a load on the surface or its smaller cell.
@@ -206,13 +207,5 @@ contains
       call edge%slab%add(total)
       number = total(1)
    end function bound_points
-
-   subroutine new_kept_solution(self, solution)
-      class(grid_contact), intent(in) :: self
-      class(contact_solution), allocatable, intent(out) :: solution
-
-      associate (unused => self); end associate
-      allocate (grid_solution :: solution)
-   end subroutine new_kept_solution
 
 end module wavycon_grid_contact

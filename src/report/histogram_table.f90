@@ -84,7 +84,7 @@ contains
       integer :: bin, bins, points(2)
       logical :: linear
 
-      associate (scene => results%scene, surface => results%solver%surface, solution => results%loads(load)%solution)
+      associate (scene => results%scene, surface => results%solver%surface, solution => results%loads(load))
          call solution%fields(surface, fields)
          call fields%own_points(points, offset)
          linear = any(points == 0) .and. surface%dimension == 2

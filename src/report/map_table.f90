@@ -81,11 +81,11 @@ contains
          is_written_by_all = all(points == grid .or. points == 2*grid)
          return
       end if
-      number = results%loads(1)%solution%spread_points()
+      number = results%loads(1)%spread_points()
       is_written_by_all = number > 0 .and. &
-         all([(results%loads(load)%solution%spread_points() == number, load=1, size(results%loads))])
+         all([(results%loads(load)%spread_points() == number, load=1, size(results%loads))])
       if (.not. is_written_by_all) return
-      call results%loads(1)%solution%fields(results%solver%surface, fields)
+      call results%loads(1)%fields(results%solver%surface, fields)
       call fields%own_points(grid, offset)
       is_written_by_all = all(points == grid)
    end function is_written_by_all
@@ -101,7 +101,7 @@ contains
       real(dp) :: offset(2)
 
       points = map_points(results)
-      if (results%loads(1)%solution%spread_points() > 0) then
+      if (results%loads(1)%spread_points() > 0) then
          call write_by_all(results, points, error)
          return
       end if
@@ -138,7 +138,7 @@ contains
       real(dp), allocatable :: shape(:, :)
       type(slab_transform) :: transform
 
-      call results%loads(1)%solution%fields(results%solver%surface, fields)
+      call results%loads(1)%fields(results%solver%surface, fields)
       slab = fields%own_slab()
       call fields%own_points(own, offset)
       allocate (shape(slab%points(1), slab%columns()))
@@ -149,7 +149,7 @@ contains
       call file%open(results%scene%directory, results%scene%case//'.map.npy', &
                      npy_header(column_name(columns(2:)), [size(results%loads), points(2), points(1)]))
       do load = 1, size(results%loads)
-         if (load > 1) call results%loads(load)%solution%fields(results%solver%surface, fields)
+         if (load > 1) call results%loads(load)%fields(results%solver%surface, fields)
          ! The mirror images of the columns follow those of a quarter of the cell.
          do image = 1, points(2)/slab%points(2)
             call put_columns(results, load, points, offset, slab, fields, shape, image == 2, file)
@@ -236,7 +236,7 @@ contains
       integer :: load, own(2)
 
       do load = 1, size(results%loads)
-         call results%loads(load)%solution%fields(results%solver%surface, fields)
+         call results%loads(load)%fields(results%solver%surface, fields)
          call fields%own_points(own, offset)
          if (all(own == points)) return
       end do
@@ -260,7 +260,7 @@ contains
 
       allocate (rows(size(columns) - 1, points(1)))
       associate (surface => results%solver%surface, p_star => results%scene%p_star)
-         call results%loads(load)%solution%fields(surface, fields)
+         call results%loads(load)%fields(surface, fields)
          call fields%on_grid(points, offset, p, u, gap)
          call sample_series(surface%shape, points, offset, shape, surface%parts())
          side = surface%sides()

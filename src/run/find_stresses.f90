@@ -31,8 +31,8 @@ contains
             if (allocated(results%rank_of_load)) then
                if (results%rank_of_load(load) /= this_rank()) cycle
             end if
-            call results%loads(load)%solution%stresses(results%solver%surface, fields)
-            if (results%loads(load)%solution%is_good() .and. .not. fields%exist) call log%say( &
+            call results%loads(load)%stresses(results%solver%surface, fields)
+            if (results%loads(load)%is_good() .and. .not. fields%exist) call log%say( &
                'note: there is not enough memory for the stresses of load '//integer_text(load))
             do body = 1, size(setting%body)
                call find_largest_stresses(fields, setting%body(body), results%von_mises(body, load), &

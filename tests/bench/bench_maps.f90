@@ -52,7 +52,7 @@ contains
       real(dp), intent(in) :: accuracy
 
       class(contact_fields), allocatable :: fields
-      class(contact_solution), allocatable :: solution
+      type(contact_solution) :: solution
       type(sample_set) :: times
       real(dp), allocatable, dimension(:, :) :: displacement, gap, pressure
       real(dp) :: solve, spent, start

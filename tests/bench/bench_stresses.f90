@@ -61,7 +61,7 @@ contains
       real(dp), intent(in) :: accuracy
       integer, intent(in) :: points(2)                 !! of the plane
 
-      class(contact_solution), allocatable :: solution
+      type(contact_solution) :: solution
       class(stress_fields), allocatable :: fields
       type(sample_set) :: times(3)
       real(dp) :: solve, spent, start

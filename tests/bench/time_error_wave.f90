@@ -143,7 +143,7 @@ contains
       real(dp), intent(in) :: end_time   !! [ms]
 
       type(beale_contact) :: fresh, contact
-      class(contact_solution), allocatable :: solution
+      type(contact_solution) :: solution
       type(sample_set) :: times
       real(dp) :: start
       integer :: k
