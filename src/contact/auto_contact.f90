@@ -6,9 +6,9 @@ module wavycon_auto_contact
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_contact_status, only: converged
-   use wavycon_fitted_contact, only: fitted_contact
+   use wavycon_fitted_contact, only: fitted_contact, fitted_options
    use wavycon_fitted_frame, only: find_frame, fitted_frame
-   use wavycon_grid_contact, only: grid_contact
+   use wavycon_grid_contact, only: grid_contact, grid_options
    use wavycon_kinds, only: dp
    use wavycon_ranks, only: any_rank
    use wavycon_solution_record, only: by_choice
@@ -36,39 +36,35 @@ module wavycon_auto_contact
 
 contains
 
-   !> Selects and starts the solvers.
-   subroutine start(self, surface, accuracy, keep_fields, points, residual)
+   !> Selects and starts the solvers. Expansions have the accuracy of the grids.
+   subroutine start(self, surface, options, keep_fields)
       class(auto_contact), intent(out) :: self
       type(surface_type), intent(in) :: surface
-      real(dp), intent(in) :: accuracy                 !! of mean gap [Delta], contact area fraction, peak pressure [p*]
+      type(grid_options), intent(in) :: options
       logical, intent(in) :: keep_fields               !! whether solutions keep their fields and edges
-      integer, intent(in), optional :: points(2)       !! of the one grid to solve; absent or zeros: to the accuracy
-      real(dp), intent(in), optional :: residual       !! of that grid (C9), as for grid_contact
 
       type(closed_form_contact), allocatable :: closed_form
       type(fitted_contact), allocatable :: fitted
       type(fitted_frame) :: frame
-      logical :: by_accuracy
 
-      call self%grid_contact%start(surface, accuracy, keep_fields, points, residual)
-      by_accuracy = .true.
-      if (present(points)) by_accuracy = all(points == 0)
+      call self%grid_contact%start(surface, options, keep_fields)
       call find_frame(surface, frame)
-      if (closed_form_exists(surface) .and. by_accuracy .and. .not. surface%has_hardness()) then
+      if (any(options%points > 0)) then
+         self%choice = merge(points_are_of_the_map, points_are_given, all(options%points == surface%points))
+      else if (surface%has_hardness()) then
+         self%choice = has_a_hardness
+      else if (closed_form_exists(surface)) then
+         self%choice = has_closed_form
          allocate (closed_form)
          call closed_form%start(surface)
          call move_alloc(closed_form, self%first)
-         self%choice = has_closed_form
-      else if (frame%is_found() .and. by_accuracy .and. .not. surface%has_hardness()) then
-         allocate (fitted)
-         call fitted%start(surface, accuracy, keep_fields)
-         call move_alloc(fitted, self%first)
+      else if (frame%is_found()) then
          self%choice = has_expansions
+         allocate (fitted)
+         call fitted%start(surface, fitted_options(options%accuracy), keep_fields)
+         call move_alloc(fitted, self%first)
       else
          self%choice = has_neither
-         if (surface%has_hardness()) self%choice = has_a_hardness
-         if (.not. by_accuracy) &
-            self%choice = merge(points_are_of_the_map, points_are_given, all(points == surface%points))
       end if
    end subroutine start
 

@@ -2,6 +2,7 @@
 !> whose coefficients minimise the complementary energy, a quadratic programme. Its minimum is found by Goldfarb &
 !> Idnani's dual method or, as in the paper, by Beale's.
 module wavycon_beale_contact
+   use wavycon_assertion, only: assert
    use wavycon_beale, only: beale_solver
    use wavycon_complementary_energy, only: bounds_at, energy_problem
    use wavycon_contact_measures, only: measure_series
@@ -10,19 +11,30 @@ module wavycon_beale_contact
    use wavycon_contact_status, only: status_of_programme
    use wavycon_contact_tuning, only: lightest_start
    use wavycon_dual_solver, only: dual_solver
-   use wavycon_fourier_terms, only: choose_terms
+   use wavycon_fourier_terms, only: choose_terms, symmetry_full
    use wavycon_kinds, only: dp
    use wavycon_qp_problem, only: qp_problem, qp_solution
-   use wavycon_series_source, only: series_setup, series_source
+   use wavycon_series_source, only: series_source
    use wavycon_solution_record, only: by_series
    use wavycon_surface, only: surface_type, turned_paper_wave
    implicit none (type, external)
    private
 
-   public :: beale_contact
+   public :: beale_contact, paper_constraint_points, paper_harmonics, qp_options
+
+   !> Harmonics of the paper's series, for 1-D and 2-D waves.
+   integer, parameter :: paper_harmonics(2) = [10, 9]
+
+   type :: qp_options
+      integer :: harmonics = paper_harmonics(2)    !! n >= 1
+      integer :: constraint_points = 27            !! on [0, pi] in each direction, >= 2
+      integer :: symmetry = symmetry_full          !! one of the names of wavycon_fourier_terms
+      real(dp) :: edge_level = 0.1_dp              !! isobar taken as the edge of contact [p*], > 0
+      logical :: by_beale = .false.                !! by Beale's method in place of the dual method
+   end type qp_options
 
    type, extends(contact_solver) :: beale_contact
-      type(series_setup) :: setup
+      type(series_source) :: series                    !! without amplitudes
       type(qp_problem) :: problem                      !! at zero load
       logical :: by_beale = .false.                    !! whether Beale's method solves each load
       class(dual_solver), allocatable, private :: solver   !! after the first load
@@ -36,23 +48,33 @@ module wavycon_beale_contact
 
 contains
 
-   !> Chooses the terms of the series and the points of the constraints.
-   subroutine start(self, surface, harmonics, constraint_points, symmetry, edge_level, by_beale)
+   !> As many points to a harmonic as the paper has: 27 for 9 harmonics of the 2-D wave, 26 (25 intervals) for 10 of the
+   !> 1-D wave. Always more than harmonics.
+   pure integer function paper_constraint_points(dimension, harmonics) result(points)
+      integer, intent(in) :: dimension   !! 1 or 2
+      integer, intent(in) :: harmonics   !! >= 1
+
+      points = 3*harmonics
+      if (dimension == 1) points = (5*harmonics + 1)/2 + 1
+   end function paper_constraint_points
+
+   !> Chooses the terms of the series and the points of the constraints. Solutions always keep their fields.
+   subroutine start(self, surface, options)
       class(beale_contact), intent(out) :: self
       type(surface_type), intent(in) :: surface  !! a wave of the paper
-      integer, intent(in) :: harmonics           !! n >= 1
-      integer, intent(in) :: constraint_points   !! on [0, pi] in each direction, >= 2
-      integer, intent(in) :: symmetry            !! one of the names of wavycon_fourier_terms
-      real(dp), intent(in), optional :: edge_level   !! isobar taken as the edge of contact [p*]; 0.1 if absent
-      logical, intent(in), optional :: by_beale  !! by Beale's method; if absent by the dual method
+      type(qp_options), intent(in) :: options
 
-      if (present(edge_level)) self%setup%edge_level = edge_level
-      if (present(by_beale)) self%by_beale = by_beale
+      call assert(options%harmonics >= 1, 'harmonics >= 1')
+      call assert(options%constraint_points >= 2, 'constraint_points >= 2')
+      call assert(options%edge_level > 0.0_dp, 'edge_level > 0')
       self%surface = surface
       self%is_started = surface%is_paper_wave()
-      self%setup%turned = surface%paper_wave() == turned_paper_wave
-      self%setup%terms = choose_terms(surface%dimension, harmonics, symmetry)
-      self%problem = energy_problem(self%setup%terms, constraint_points, symmetry, surface%has_hardness())
+      self%by_beale = options%by_beale
+      self%series%edge_level = options%edge_level
+      self%series%turned = surface%paper_wave() == turned_paper_wave
+      self%series%terms = choose_terms(surface%dimension, options%harmonics, options%symmetry)
+      self%problem = energy_problem(self%series%terms, options%constraint_points, options%symmetry, &
+                                    surface%has_hardness())
    end subroutine start
 
    subroutine solve_partial_contact(self, pbar_over_pstar, solution)
@@ -83,13 +105,13 @@ contains
             end associate
          end if
       else
-         allocate (programme%x(self%setup%terms%count()), source=0.0_dp)
+         allocate (programme%x(self%series%terms%count()), source=0.0_dp)
       end if
       allocate (source)
-      source%setup = self%setup
+      source = self%series
       call move_alloc(programme%x, source%x)
       ! Without an imprint no point is at H, although a peak between the points may come close.
-      call measure_series(source%pressure(pbar_over_pstar), source%displacement(), self%setup%edge_level, &
+      call measure_series(source%pressure(pbar_over_pstar), source%displacement(), self%series%edge_level, &
                           solution%measures, merge(self%surface%hardness, huge(1.0_dp), imprint > 0.0_dp))
       ! The crest, from which the approach follows otherwise, is then not in elastic contact.
       if (imprint > 0.0_dp) then
@@ -100,8 +122,8 @@ contains
    end subroutine solve_partial_contact
 
    !> Solves the quadratic programme (17), (18) or (26), (27) of the paper, with p <= H where the surface has a
-   !> hardness. Its pivots are those since the last load; its x are the amplitudes of the Fourier terms of (p - pbar)/p*,
-   !> not allocated if no minimum was found.
+   !> hardness. Its pivots are those since the last load; its x are the amplitudes of the Fourier terms of
+   !> (p - pbar)/p*, not allocated if no minimum was found.
    subroutine solve_programme(self, pbar_over_pstar, programme)
       class(beale_contact), intent(inout) :: self
       real(dp), intent(in) :: pbar_over_pstar       !! 0 < P < 1 or H

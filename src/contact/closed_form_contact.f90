@@ -94,7 +94,7 @@ contains
       class(contact_fields), allocatable, intent(out) :: answer
 
       associate (unused => self, unused_too => surface); end associate
-      allocate (answer, source=closed_form_fields(record%pbar_over_pstar))
+      allocate (answer, source=closed_form_fields(pbar_over_pstar=record%pbar_over_pstar))
    end subroutine fields
 
    !> Eqs. (4) and (5) of the paper. Its psi is half of X.

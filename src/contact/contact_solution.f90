@@ -26,8 +26,8 @@ module wavycon_contact_solution
    real(dp), parameter :: rounding = 1e-14_dp
 
    type, extends(solution_record) :: contact_solution
-      !> Of a partial contact. Not allocated if the solver was started without keep_fields, if another rank has solved the
-      !> load or has the collected fields, or if there is no solution. Full contact and no load need none.
+      !> Of a partial contact. Not allocated if the solver was started without keep_fields, if another rank has solved
+      !> the load or has the collected fields, or if there is no solution. Full contact and no load need none.
       class(field_source), allocatable :: source
    contains
       procedure :: move_to
@@ -140,8 +140,8 @@ contains
       call self%edge_curves(surface, curves, loads)
       is_full = self%measures%contact_area_fraction > 0.5_dp
       if (size(curves) > 0) then
-         call find_spots(curves, self%measures%contact_area_fraction, surface%dimension, surface%length, loads, answer, &
-                         surface%mirrored)
+         call find_spots(curves, self%measures%contact_area_fraction, surface%dimension, surface%length, loads, &
+                         answer, surface%mirrored)
       else if (self%is_good() .or. is_full) then
          call one_region(is_full, surface%dimension, answer)
       else

@@ -67,7 +67,7 @@ contains
       search%logit_p = logit_t(search, search%target)
       traits = solver%traits()
       do level = traits%coarser_levels, 0, -1
-         call solver%use_level(level)
+         solver%level = level
          call find_root(solver, search, solution)
          if (solution%status == not_found) search%logit_p = logit_t(search, search%target)
       end do

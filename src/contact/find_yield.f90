@@ -43,7 +43,7 @@ contains
       log_p = first_log_p()
       traits = solver%traits()
       do level = traits%coarser_levels, 0, -1
-         call solver%use_level(level)
+         solver%level = level
          call find_root(solver, setting, log(target), log_p, solution)
          if (solution%status == not_found) log_p = first_log_p()
       end do

@@ -176,7 +176,8 @@ contains
          curves(k)%turns = merge(-1, 1, self%answer%island)
          curves(k)%spot = merge(1, k, self%answer%island)
          curves(k)%pool = merge(k, 1, self%answer%island)
-         curves(k)%area = (2*pi)**2*(record%measures%contact_area_fraction - merge(1, 0, self%answer%island))/size(curves)
+         curves(k)%area = (2*pi)**2/size(curves)* &
+                          (record%measures%contact_area_fraction - merge(1, 0, self%answer%island))
          curves(k)%length = self%answer%perimeter*self%frame%side
       end do
       associate (count => merge(1, size(curves), self%answer%island))

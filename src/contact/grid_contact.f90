@@ -5,9 +5,10 @@
 !> the number of points, which refers to the user's cell, is given.
 module wavycon_grid_contact
    use, intrinsic :: iso_fortran_env, only: int64
+   use wavycon_assertion, only: assert
    use wavycon_contact_measures, only: contact_measures, unknown
    use wavycon_contact_solution, only: contact_solution
-   use wavycon_contact_solver, only: contact_solver, solver_traits
+   use wavycon_contact_solver, only: contact_solver, default_accuracy, solver_traits
    use wavycon_contact_status, only: converged, iteration_limit, no_memory, not_accurate, unresolved
    use wavycon_contact_tuning, only: largest_spot, least_search_points, worst_search_accuracy
    use wavycon_grid_cascade, only: cascade_answer, solve_by_cascade
@@ -21,13 +22,20 @@ module wavycon_grid_contact
    implicit none (type, external)
    private
 
-   public :: grid_contact
+   public :: grid_contact, grid_options
+
+   type :: grid_options
+      !> Largest error of mean gap [Delta], contact area fraction and peak pressure [p*], > 0; ignored with points.
+      real(dp) :: accuracy = default_accuracy
+      !> Points of the whole cell along x and y of the one grid to solve, in place of the accuracy: > 0, even numbers
+      !> for an even surface; the second is ignored in 1-D. Zeros: solve to the accuracy.
+      integer :: points(2) = 0
+      !> Largest residual (C9) on these points, >= 0; 0: that of (C10).
+      real(dp) :: residual = 0.0_dp
+   end type grid_options
 
    type, extends(contact_solver) :: grid_contact
-      real(dp), private :: accuracy = 0.0_dp                 !! requested
-      integer, private :: points(2) = 0                      !! requested
-      real(dp), private :: residual = 0.0_dp                 !! requested on these points
-      integer, private :: level = 0                          !! of `use_level`
+      type(grid_options), private :: options
       logical, private :: keep_fields = .true.
       !> The surface on its smaller cell, if that is solved: turned by 45 degrees.
       type(surface_type), allocatable, private :: smaller
@@ -35,31 +43,31 @@ module wavycon_grid_contact
       procedure :: start
       procedure :: solve_partial_contact
       procedure :: traits
-      procedure :: use_level
    end type grid_contact
 
 contains
 
    !> Starts the solver.
-   subroutine start(self, surface, accuracy, keep_fields, points, residual)
+   subroutine start(self, surface, options, keep_fields)
       class(grid_contact), intent(out) :: self
       type(surface_type), intent(in) :: surface
-      real(dp), intent(in) :: accuracy      !! of mean gap [Delta], contact area fraction and peak pressure [p*]
+      type(grid_options), intent(in) :: options
       logical, intent(in) :: keep_fields    !! whether solutions keep their fields and edges
-      !> Points of the whole cell along x and y of the one grid to solve, in place of the accuracy; absent or zeros:
-      !> solve to the accuracy. Even numbers for an even surface; the second is ignored in 1-D.
-      integer, intent(in), optional :: points(2)
-      !> Largest residual (C9) on the given points; absent or 0: that of (C10).
-      real(dp), intent(in), optional :: residual
 
+      self%options = options
+      if (surface%dimension == 1) self%options%points(2) = min(options%points(2), 1)
+      if (any(options%points > 0)) self%options%accuracy = 0.0_dp
+      associate (points => self%options%points)
+         call assert(all(points > 0) .or. all(points == 0), 'points > 0')
+         call assert(all(points > 0) .or. options%accuracy > 0.0_dp, 'accuracy > 0')
+         call assert(all(mod(points(:surface%dimension), 2) == 0) .or. .not. surface%shape%is_even(), &
+                     'even points of an even surface')
+         call assert(options%residual >= 0.0_dp, 'residual >= 0')
+      end associate
       self%surface = surface
       self%is_started = allocated(surface%shape%c)
-      if (present(residual)) self%residual = residual
-      self%accuracy = accuracy
       self%keep_fields = keep_fields
-      if (present(points)) self%points = points
-      if (surface%dimension == 1) self%points(2) = min(self%points(2), 1)
-      if (any(self%points > 0) .or. .not. surface%has_smaller_cell()) return
+      if (any(self%options%points > 0) .or. .not. surface%has_smaller_cell()) return
       allocate (self%smaller)
       self%smaller = surface%smaller_cell()
    end subroutine start
@@ -69,13 +77,13 @@ contains
       class(grid_contact), intent(in) :: self
 
       levels = 0
-      if (all(self%points > 0)) then
-         do while (all(mod(self%points, 2**(levels + 2)) == 0 .or. self%points == 1) .and. &
-                   maxval(self%points)/2**(levels + 1) >= least_search_points)
+      if (all(self%options%points > 0)) then
+         do while (all(mod(self%options%points, 2**(levels + 2)) == 0 .or. self%options%points == 1) .and. &
+                   maxval(self%options%points)/2**(levels + 1) >= least_search_points)
             levels = levels + 1
          end do
-      else if (self%accuracy > 0.0_dp) then
-         do while (self%accuracy*10.0_dp**levels < worst_search_accuracy)
+      else if (self%options%accuracy > 0.0_dp) then
+         do while (self%options%accuracy*10.0_dp**levels < worst_search_accuracy)
             levels = levels + 1
          end do
       end if
@@ -89,20 +97,13 @@ contains
       traits = solver_traits(solver=by_grids, coarser_levels=coarser_levels(self))
       if (.not. self%is_started) return
       if (allocated(self%smaller)) then
-         plan = plan_grids(self%smaller, self%points)
+         plan = plan_grids(self%smaller, self%options%points)
       else
-         plan = plan_grids(self%surface, self%points)
+         plan = plan_grids(self%surface, self%options%points)
       end if
       traits%finest_grid = plan%last
-      if (all(self%points > 0)) traits%given_grid = plan%last
+      if (all(self%options%points > 0)) traits%given_grid = plan%last
    end function traits
-
-   subroutine use_level(self, level)
-      class(grid_contact), intent(inout) :: self
-      integer, intent(in) :: level
-
-      self%level = level
-   end subroutine use_level
 
    !> Solves one load by solve_by_cascade.
    subroutine solve_partial_contact(self, pbar_over_pstar, solution)
@@ -154,7 +155,7 @@ contains
          solution%status = converged
       else if (answer%out_of_memory) then
          solution%status = no_memory
-      else if (any(self%points == 0)) then
+      else if (any(self%options%points == 0)) then
          solution%status = not_accurate
       else if (all(solution%measures%are_resolved())) then
          solution%status = converged
@@ -176,11 +177,12 @@ contains
       real(dp), intent(in) :: pbar_over_pstar
       type(cascade_answer), intent(out) :: answer
 
-      associate (accuracy => self%accuracy*10.0_dp**self%level, points => self%points/2**self%level)
+      associate (accuracy => self%options%accuracy*10.0_dp**self%level, points => self%options%points/2**self%level, &
+                 residual => self%options%residual)
          if (associated(self%progress)) then
-            call solve_by_cascade(surface, pbar_over_pstar, accuracy, points, answer, self%progress, self%residual)
+            call solve_by_cascade(surface, pbar_over_pstar, accuracy, points, answer, self%progress, residual)
          else
-            call solve_by_cascade(surface, pbar_over_pstar, accuracy, points, answer, residual=self%residual)
+            call solve_by_cascade(surface, pbar_over_pstar, accuracy, points, answer, residual=residual)
          end if
       end associate
    end subroutine solve_cell

@@ -83,7 +83,8 @@ contains
       type(grid_fields), allocatable :: own
 
       allocate (own)
-      call start_grid_fields(own, surface, self%edge, record%measures%mean_gap_over_amplitude - self%imprint, self%turned)
+      call start_grid_fields(own, surface, self%edge, record%measures%mean_gap_over_amplitude - self%imprint, &
+                             self%turned)
       call move_alloc(own, answer)
    end subroutine fields
 
@@ -159,8 +160,8 @@ contains
       call move_alloc(own, answer)
    end subroutine stresses
 
-   !> What a checkpoint keeps: the imprint, the stiffness of `edge`, the points along x and y, the width of the slabs and
-   !> the first column of this rank's, whether the cell is turned, whether the grid covers a quarter of it, and the
+   !> What a checkpoint keeps: the imprint, the stiffness of `edge`, the points along x and y, the width of the slabs
+   !> and the first column of this rank's, whether the cell is turned, whether the grid covers a quarter of it, and the
    !> pressures and gaps at the own columns.
    pure subroutine pack_source(self, values)
       class(grid_source), intent(in) :: self

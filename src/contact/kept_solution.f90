@@ -13,8 +13,8 @@ module wavycon_kept_solution
 
 contains
 
-   !> Whether a solution is written to checkpoints: those on grids may take minutes, those of other solvers take seconds.
-   !> A load that lacked memory is solved again.
+   !> Whether a solution is written to checkpoints: those on grids may take minutes, those of other solvers take
+   !> seconds. A load that lacked memory is solved again.
    pure logical function is_kept(solution)
       type(contact_solution), intent(in) :: solution
 

@@ -19,18 +19,13 @@ module wavycon_series_source
    implicit none (type, external)
    private
 
-   public :: series_setup, series_source
-
-   !> What the solver and its solutions share.
-   type :: series_setup
-      type(fourier_terms) :: terms
-      logical :: turned = .false.                      !! phi and theta are the cell's angles turned by 45 degrees
-      real(dp) :: edge_level = 0.1_dp                  !! isobar taken as the edge of contact [p*]
-   end type series_setup
+   public :: series_source
 
    type, extends(field_source) :: series_source
-      type(series_setup) :: setup
-      real(dp), allocatable :: x(:)                    !! amplitudes of the Fourier terms of (p - pbar)/p*
+      type(fourier_terms) :: terms
+      logical :: turned = .false.          !! phi and theta are the cell's angles turned by 45 degrees
+      real(dp) :: edge_level = 0.0_dp      !! isobar taken as the edge of contact [p*]
+      real(dp), allocatable :: x(:)        !! amplitudes of the terms of (p - pbar)/p*
    contains
       procedure :: pressure
       procedure :: displacement
@@ -47,7 +42,7 @@ contains
       class(series_source), intent(in) :: self
       real(dp), intent(in) :: pbar_over_pstar    !! P
 
-      call self%setup%terms%coefficients(self%x, series%c)
+      call self%terms%coefficients(self%x, series%c)
       series%c(0, 0) = pbar_over_pstar
    end function pressure
 
@@ -57,9 +52,7 @@ contains
 
       integer :: k
 
-      associate (terms => self%setup%terms)
-         call terms%coefficients([(terms%compliance(k)*self%x(k), k=1, terms%count())], series%c)
-      end associate
+      call self%terms%coefficients([(self%terms%compliance(k)*self%x(k), k=1, self%terms%count())], series%c)
    end function displacement
 
    subroutine fields(self, record, surface, answer)
@@ -101,7 +94,7 @@ contains
       type(fourier_series), intent(out) :: series
 
       series = self%pressure(record%pbar_over_pstar)
-      if (self%setup%turned) series = to_sum_angles(series)
+      if (self%turned) series = to_sum_angles(series)
    end subroutine coefficients
 
    !> The isobar p = edge_level p*.
@@ -117,10 +110,10 @@ contains
       real(dp), allocatable :: zeros(:)
 
       series = self%pressure(record%pbar_over_pstar)
-      associate (level => self%setup%edge_level, harmonics => self%setup%terms%harmonics)
+      associate (level => self%edge_level, harmonics => self%terms%harmonics)
          if (surface%dimension == 2) then
             call start_isobar_grid(grid, series, level, measuring_intervals(harmonics))
-            if (self%setup%turned) then
+            if (self%turned) then
                ! A period of phi and theta is two cells.
                call trace_edges(grid, curves, cell=grid%period/[1, 2], skew=grid%period(1)/2)
                call turn_curves(curves, factor=1.0_dp)

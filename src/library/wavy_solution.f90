@@ -231,7 +231,9 @@ contains
       points = 0
       offset = 0.0_dp
       call self%prepare_fields(error)
-      if (.not. allocated(error)) call self%fields%own_points(points, offset)
+      if (allocated(error)) return
+      points = self%fields%own_points
+      offset = self%fields%own_offset
    end subroutine own_points
 
    !> Fields at one point. Errors: as of `map`, and for places that are not finite.

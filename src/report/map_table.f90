@@ -70,7 +70,6 @@ contains
       class(contact_fields), allocatable :: fields
       integer :: grid(2), load, points(2)
       integer(int64) :: number
-      real(dp) :: offset(2)
 
       associate (unused => self); end associate
       points = map_points(results)
@@ -86,8 +85,7 @@ contains
          all([(results%loads(load)%spread_points() == number, load=1, size(results%loads))])
       if (.not. is_written_by_all) return
       call results%loads(1)%fields(results%solver%surface, fields)
-      call fields%own_points(grid, offset)
-      is_written_by_all = all(points == grid)
+      is_written_by_all = all(points == fields%own_points)
    end function is_written_by_all
 
    !> Errors: exit_file_trouble.
@@ -133,14 +131,12 @@ contains
       class(contact_fields), allocatable :: fields
       type(grid_slab) :: slab
       type(shared_file) :: file
-      integer :: image, load, own(2)
-      real(dp) :: offset(2)
+      integer :: image, load
       real(dp), allocatable :: shape(:, :)
       type(slab_transform) :: transform
 
       call results%loads(1)%fields(results%solver%surface, fields)
-      slab = fields%own_slab()
-      call fields%own_points(own, offset)
+      slab = fields%own_slab
       allocate (shape(slab%points(1), slab%columns()))
       associate (series => results%solver%surface%shape)
          call transform%start(slab%points, series%is_even())
@@ -152,18 +148,17 @@ contains
          if (load > 1) call results%loads(load)%fields(results%solver%surface, fields)
          ! The mirror images of the columns follow those of a quarter of the cell.
          do image = 1, points(2)/slab%points(2)
-            call put_columns(results, load, points, offset, slab, fields, shape, image == 2, file)
+            call put_columns(results, load, points, slab, fields, shape, image == 2, file)
          end do
       end do
       call file%finish(error)
    end subroutine write_by_all
 
    !> Writes the own columns of a load or their mirror images, some at a time.
-   subroutine put_columns(results, load, points, offset, slab, fields, shape, is_image, file)
+   subroutine put_columns(results, load, points, slab, fields, shape, is_image, file)
       type(results_type), intent(in) :: results
       integer, intent(in) :: load
       integer, intent(in) :: points(2)
-      real(dp), intent(in) :: offset(2)       !! of the first point, in steps
       type(grid_slab), intent(in) :: slab
       class(contact_fields), intent(in) :: fields
       real(dp), intent(in) :: shape(:, :)     !! 1 - h/Delta, shape (M, slab%columns())
@@ -194,7 +189,7 @@ contains
                   c = merge(last - l, l - first, is_image)
                   do k = 1, points(1)
                      associate (row => image_of_point(k, slab%points(1), points(1) > slab%points(1)))
-                        rows(:, k, c + 1) = [side*([k, place + c] - 1 + offset)/points, p_star*p(row), &
+                        rows(:, k, c + 1) = [side*([k, place + c] - 1 + fields%own_offset)/points, p_star*p(row), &
                                              surface%amplitude*[gap(row), u(row), 1.0_dp - own(row)]]
                      end associate
                   end do
@@ -233,12 +228,12 @@ contains
       real(dp) :: offset(2)
 
       class(contact_fields), allocatable :: fields
-      integer :: load, own(2)
+      integer :: load
 
       do load = 1, size(results%loads)
          call results%loads(load)%fields(results%solver%surface, fields)
-         call fields%own_points(own, offset)
-         if (all(own == points)) return
+         offset = fields%own_offset
+         if (all(points == fields%own_points)) return
       end do
       ! Of a mirrored map the points are in the middle of their steps, so that none lies on a border.
       offset = merge(0.5_dp, 0.0_dp, results%solver%surface%parts() > 1)

@@ -10,7 +10,6 @@ module wavycon_solve_loads
    use wavycon_scene, only: by_mean_gap
    use wavycon_share_solutions, only: share_solutions
    use wavycon_solve_target, only: solve_target
-   use wavycon_solver_progress, only: solver_progress
    use wavycon_work_sharing, only: spread_loads
    implicit none (type, external)
    private
@@ -35,9 +34,7 @@ contains
       integer :: i, length, load, order(size(results%loads))
       logical :: are_spread
       type(log_progress), target :: progress
-      class(solver_progress), pointer :: nobody
 
-      nobody => null()
       are_spread = results%sharing%kind == spread_loads
       associate (target => results%scene%target, loads_by => results%scene%loads_by, solver => results%solver)
          order = descending(merge(-target, target, loads_by == by_mean_gap))
@@ -49,7 +46,7 @@ contains
          end if
          progress%log => log
          progress%loads = size(order)
-         call solver%show_progress(progress)
+         solver%progress => progress
          do i = 1, size(order)
             load = order(i)
             if (are_spread) then
@@ -66,7 +63,7 @@ contains
             end if
             call log%show_progress(i, size(order))
          end do
-         call solver%show_progress(nobody)
+         solver%progress => null()
       end associate
       if (.not. are_spread) return
       call work_alone(.false.)

@@ -8,7 +8,7 @@
 program bench_paper_method
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use samples, only: clock_ms, sample_set
-   use wavycon_beale_contact, only: beale_contact
+   use wavycon_beale_contact, only: beale_contact, qp_options
    use wavycon_contact_status, only: status_name, status_of_programme
    use wavycon_fourier_series, only: fourier_series
    use wavycon_fourier_terms, only: symmetry_diagonal, symmetry_full
@@ -104,7 +104,7 @@ contains
       real(dp) :: before, start
       integer :: i
 
-      call fresh%start(wave_2d(1.0_dp, 1.0_dp, 1.0_dp), 9, 27, symmetry_full)
+      call fresh%start(wave_2d(1.0_dp, 1.0_dp, 1.0_dp), qp_options())
       start = clock_ms()
       do while (clock_ms() - start < budget .or. sweeps%count < least_rounds)
          contact = fresh
@@ -140,7 +140,7 @@ contains
       real(dp) :: start
       integer :: i
 
-      call contact%start(wave_2d(1.0_dp, 1.0_dp, 1.0_dp), 60, 121, symmetry_full)
+      call contact%start(wave_2d(1.0_dp, 1.0_dp, 1.0_dp), qp_options(60, 121))
       start = clock_ms()
       do i = 1, size(swept)
          call contact%solve_programme(swept(i), programme)
@@ -179,7 +179,8 @@ contains
       new%points = points
       new%symmetry = symmetry
       if (present(straight)) new%straight = straight
-      call new%fresh%start(wave_2d(1.0_dp, 1.0_dp, 1.0_dp), harmonics, points, symmetry, by_beale=new%straight)
+      call new%fresh%start(wave_2d(1.0_dp, 1.0_dp, 1.0_dp), &
+                           qp_options(harmonics, points, symmetry, by_beale=new%straight))
    end function new_contender
 
    !> Solves for one load by every method in turn until the time is over.
@@ -238,7 +239,7 @@ contains
 
       own_gap = 1.0_dp
       if (allocated(self%programme%x)) then
-         source%setup = self%fresh%setup
+         source = self%fresh%series
          source%x = self%programme%x
          displacement = source%displacement()
          own_gap = 1.0_dp - displacement%at(0.0_dp, 0.0_dp)   ! eq. (28)

@@ -10,8 +10,7 @@ program bench_single_solves
    use, intrinsic :: iso_fortran_env, only: error_unit, input_unit, output_unit
    use samples, only: clock_ms
    use wavycon_contact_status, only: status_name, status_of_programme
-   use wavycon_beale_contact, only: beale_contact
-   use wavycon_fourier_terms, only: symmetry_full
+   use wavycon_beale_contact, only: beale_contact, qp_options
    use wavycon_kinds, only: dp
    use wavycon_qp_problem, only: qp_solution
    use wavycon_wave_2d, only: wave_2d
@@ -24,7 +23,7 @@ program bench_single_solves
    real(dp) :: load, before
    integer :: i, count, ios
 
-   call fresh%start(wave_2d(1.0_dp, 1.0_dp, 1.0_dp), argument(1), argument(2), symmetry_full)
+   call fresh%start(wave_2d(1.0_dp, 1.0_dp, 1.0_dp), qp_options(argument(1), argument(2)))
    write (output_unit, '(i0,1x,i0)') shape(fresh%problem%normals)
    do i = 1, size(fresh%problem%linear)
       write (output_unit, numbers) fresh%problem%hessian(:, i)

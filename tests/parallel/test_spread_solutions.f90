@@ -10,7 +10,7 @@ program test_spread_solutions
    use wavycon_counted_area, only: corrected_area_fraction, counted_area_fraction, edge_crossings
    use wavycon_find_load, only: solve_for_contact_area, solve_for_mean_gap
    use wavycon_grid_area, only: grid_contact_area
-   use wavycon_grid_contact, only: grid_contact
+   use wavycon_grid_contact, only: grid_contact, grid_options
    use wavycon_grid_edge, only: grid_edge, start_grid_edge
    use wavycon_grid_error, only: unresolved_errors
    use wavycon_grid_peak, only: grid_peak_pressure
@@ -180,7 +180,7 @@ contains
       type(grid_contact) :: solver
       type(contact_solution) :: spread_solution, whole_solution
 
-      call solver%start(tilted_waves(), 0.0_dp, keep_fields=.false., points=[256, 320])
+      call solver%start(tilted_waves(), grid_options(points=[256, 320]), keep_fields=.false.)
       call work_alone(.true.)
       call solve_for_contact_area(solver, 0.3_dp, whole_solution)
       call work_alone(.false.)
@@ -243,11 +243,12 @@ contains
       integer(int64), allocatable :: packed(:)
       logical :: understood
 
-      call solver%start(surface, accuracy, keep_fields=.true., points=points)
+      call solver%start(surface, grid_options(accuracy, points), keep_fields=.true.)
       call work_alone(.true.)
       call solver%solve(load, whole_solution)
       call work_alone(.false.)
-      if (present(spread_surface)) call solver%start(spread_surface, accuracy, keep_fields=.true., points=points)
+      if (present(spread_surface)) call solver%start(spread_surface, grid_options(accuracy, points), &
+                                                     keep_fields=.true.)
       call solver%solve(load, spread_solution)
       call check(whole_solution%is_good() .or. accuracy > 0.0_dp)
       call check(whole_solution%status == spread_solution%status)
