@@ -6,9 +6,9 @@ module wavycon_auto_contact
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_contact_status, only: converged
-   use wavycon_fitted_contact, only: fitted_contact
+   use wavycon_fitted_contact, only: fitted_contact, fitted_options
    use wavycon_fitted_frame, only: find_frame, fitted_frame
-   use wavycon_grid_contact, only: grid_contact
+   use wavycon_grid_contact, only: grid_contact, grid_options
    use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp
    use wavycon_solution_record, only: by_choice
@@ -36,39 +36,35 @@ module wavycon_auto_contact
 
 contains
 
-   !> Selects and starts the solvers.
-   subroutine start(self, surface, accuracy, keep_fields, points, residual)
+   !> Selects and starts the solvers. Expansions have the accuracy of the grids.
+   subroutine start(self, surface, options, keep_fields)
       class(auto_contact), intent(out) :: self
       type(surface_type), intent(in) :: surface
-      real(dp), intent(in) :: accuracy                 !! of mean gap [Delta], contact area fraction, peak pressure [p*]
+      type(grid_options), intent(in) :: options
       logical, intent(in) :: keep_fields               !! whether solutions keep their fields and edges
-      integer, intent(in), optional :: points(2)       !! of the one grid to solve; absent or zeros: to the accuracy
-      real(dp), intent(in), optional :: residual       !! of that grid (C9), as for grid_contact
 
       type(closed_form_contact), allocatable :: closed_form
       type(fitted_contact), allocatable :: fitted
       type(fitted_frame) :: frame
-      logical :: by_accuracy
 
-      call self%grid_contact%start(surface, accuracy, keep_fields, points, residual)
-      by_accuracy = .true.
-      if (present(points)) by_accuracy = all(points == 0)
+      call self%grid_contact%start(surface, options, keep_fields)
       call find_frame(surface, frame)
-      if (closed_form_exists(surface) .and. by_accuracy .and. .not. surface%has_hardness()) then
+      if (any(options%points > 0)) then
+         self%choice = merge(points_are_of_the_map, points_are_given, all(options%points == surface%points))
+      else if (surface%has_hardness()) then
+         self%choice = has_a_hardness
+      else if (closed_form_exists(surface)) then
+         self%choice = has_closed_form
          allocate (closed_form)
          call closed_form%start(surface)
          call move_alloc(closed_form, self%first)
-         self%choice = has_closed_form
-      else if (frame%is_found() .and. by_accuracy .and. .not. surface%has_hardness()) then
-         allocate (fitted)
-         call fitted%start(surface, accuracy, keep_fields)
-         call move_alloc(fitted, self%first)
+      else if (frame%is_found()) then
          self%choice = has_expansions
+         allocate (fitted)
+         call fitted%start(surface, fitted_options(options%accuracy), keep_fields)
+         call move_alloc(fitted, self%first)
       else
          self%choice = has_neither
-         if (surface%has_hardness()) self%choice = has_a_hardness
-         if (.not. by_accuracy) &
-            self%choice = merge(points_are_of_the_map, points_are_given, all(points == surface%points))
       end if
    end subroutine start
 
@@ -78,9 +74,9 @@ contains
    subroutine solve_partial_contact(self, pbar_over_pstar, solution)
       class(auto_contact), intent(inout) :: self
       real(dp), intent(in) :: pbar_over_pstar
-      class(contact_solution), allocatable, intent(out) :: solution
+      type(contact_solution), intent(out) :: solution
 
-      class(contact_solution), allocatable :: on_grids
+      type(contact_solution) :: on_grids
       type(grid_slab) :: slab
       type(solver_traits) :: of_grids
 
@@ -94,7 +90,7 @@ contains
       if (.not. slab%any(.not. solution%is_good())) return
       call self%grid_contact%solve_partial_contact(pbar_over_pstar, on_grids)
       if (slab%any(on_grids%status == converged .or. on_grids%largest_error() <= solution%largest_error())) &
-         call move_alloc(on_grids, solution)
+         call on_grids%move_to(solution)
    end subroutine solve_partial_contact
 
    !> Those of the first solver, and the finest grid of both.
@@ -124,7 +120,7 @@ contains
       class(auto_contact), intent(inout) :: self
       real(dp), intent(in) :: pbar_over_pstar
 
-      class(contact_solution), allocatable :: unused
+      type(contact_solution) :: unused
 
       if (allocated(self%first)) call self%first%solve(pbar_over_pstar, unused)
    end subroutine skip_load

@@ -8,9 +8,10 @@ module wavycon_closed_form_contact
    use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_contact_status, only: closed_form
    use wavycon_edge_curves, only: edge_curve, strip_ends
+   use wavycon_field_source, only: field_source
    use wavycon_kinds, only: dp
    use wavycon_kuznetsov, only: kuznetsov_mean_gap_over_amplitude
-   use wavycon_solution_record, only: by_closed_form
+   use wavycon_solution_record, only: by_closed_form, solution_record
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type
    use wavycon_westergaard, only: westergaard_contact_area_fraction, westergaard_displacement_over_amplitude, &
@@ -28,12 +29,12 @@ module wavycon_closed_form_contact
       procedure :: traits
    end type closed_form_contact
 
-   type, extends(contact_solution) :: closed_form_solution
+   type, extends(field_source) :: closed_form_source
    contains
       procedure :: fields
       procedure :: edge_curves
       procedure :: stresses
-   end type closed_form_solution
+   end type closed_form_source
 
    type, extends(contact_fields) :: closed_form_fields
       real(dp) :: pbar_over_pstar = 0.0_dp    !! P
@@ -71,10 +72,10 @@ contains
    subroutine solve_partial_contact(self, pbar_over_pstar, solution)
       class(closed_form_contact), intent(inout) :: self
       real(dp), intent(in) :: pbar_over_pstar
-      class(contact_solution), allocatable, intent(out) :: solution
+      type(contact_solution), intent(out) :: solution
 
       associate (unused => self, gap => kuznetsov_mean_gap_over_amplitude(pbar_over_pstar))
-         allocate (closed_form_solution :: solution)
+         allocate (closed_form_source :: solution%source)
          solution%pbar_over_pstar = pbar_over_pstar
          solution%status = closed_form
          solution%solver = by_closed_form
@@ -86,13 +87,14 @@ contains
       end associate
    end subroutine solve_partial_contact
 
-   subroutine fields(self, surface, answer)
-      class(closed_form_solution), intent(in) :: self
+   subroutine fields(self, record, surface, answer)
+      class(closed_form_source), intent(in) :: self
+      type(solution_record), intent(in) :: record
       type(surface_type), intent(in) :: surface
       class(contact_fields), allocatable, intent(out) :: answer
 
-      associate (unused => surface); end associate
-      allocate (answer, source=closed_form_fields(self%pbar_over_pstar))
+      associate (unused => self, unused_too => surface); end associate
+      allocate (answer, source=closed_form_fields(pbar_over_pstar=record%pbar_over_pstar))
    end subroutine fields
 
    !> Eqs. (4) and (5) of the paper. Its psi is half of X.
@@ -125,25 +127,27 @@ contains
       gap = spread(gap(:, 1), 2, points(2))
    end subroutine on_grid
 
-   subroutine edge_curves(self, surface, curves, loads)
-      class(closed_form_solution), intent(in) :: self
+   subroutine edge_curves(self, record, surface, curves, loads)
+      class(closed_form_source), intent(in) :: self
+      type(solution_record), intent(in) :: record
       type(surface_type), intent(in) :: surface
       type(edge_curve), allocatable, intent(out) :: curves(:)
-      real(dp), allocatable, intent(out), optional :: loads(:)
+      real(dp), allocatable, intent(out) :: loads(:)
 
-      associate (unused => surface); end associate
-      call strip_ends([pi*self%measures%contact_area_fraction], .true., curves)
-      if (present(loads)) loads = [1.0_dp]
+      associate (unused => self, unused_too => surface); end associate
+      call strip_ends([pi*record%measures%contact_area_fraction], .true., curves)
+      loads = [1.0_dp]
    end subroutine edge_curves
 
-   subroutine stresses(self, surface, answer)
-      class(closed_form_solution), intent(in) :: self
+   subroutine stresses(self, record, surface, answer)
+      class(closed_form_source), intent(in) :: self
+      type(solution_record), intent(in) :: record
       type(surface_type), intent(in) :: surface
       class(stress_fields), allocatable, intent(out) :: answer
 
-      associate (unused => surface); end associate
+      associate (unused => self, unused_too => surface); end associate
       allocate (closed_form_stress :: answer)
-      answer%pbar_over_pstar = self%pbar_over_pstar
+      answer%pbar_over_pstar = record%pbar_over_pstar
       answer%dimension = 1
    end subroutine stresses
 

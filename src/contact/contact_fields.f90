@@ -13,11 +13,15 @@ module wavycon_contact_fields
    public :: contact_fields
 
    type, abstract :: contact_fields
+      !> The grid that the solution was computed on, where its numbers are exact, as points and offset of on_grid; zeros
+      !> if there is none.
+      integer :: own_points(2) = 0
+      real(dp) :: own_offset(2) = 0.0_dp
+      !> The columns of that grid, of the part of the cell that was solved, that this rank has.
+      type(grid_slab) :: own_slab = grid_slab()
    contains
       procedure(fields_at_point), deferred :: at
       procedure(fields_on_grid), deferred :: on_grid
-      procedure :: own_points
-      procedure :: own_slab
       procedure :: at_own_column
    end type contact_fields
 
@@ -46,26 +50,7 @@ module wavycon_contact_fields
 
 contains
 
-   !> The grid that the solution was computed on, where its numbers are exact. Zeros here: there is none.
-   pure subroutine own_points(self, points, offset)
-      class(contact_fields), intent(in) :: self
-      integer, intent(out) :: points(2)     !! N_x, N_y as of on_grid
-      real(dp), intent(out) :: offset(2)    !! as of on_grid
-
-      associate (unused => self); end associate
-      points = 0
-      offset = 0.0_dp
-   end subroutine own_points
-
-   !> The own columns of that grid, of the part of the cell that was solved, if it is spread. Here none is.
-   pure type(grid_slab) function own_slab(self)
-      class(contact_fields), intent(in) :: self
-
-      associate (unused => self); end associate
-      own_slab%is_spread = .false.
-   end function own_slab
-
-   !> The fields at the points of one of these columns; NaN here, where there are none.
+   !> The fields at the points of one of the columns of own_slab; NaN here, where there are none.
    subroutine at_own_column(self, column, shape, pressure, displacement, gap)
       class(contact_fields), intent(in) :: self
       integer, intent(in) :: column                  !! of own_slab, first .. last

@@ -3,16 +3,19 @@
 module wavycon_contact_solver
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_contact_measures, only: full_contact_measures
-   use wavycon_contact_solution, only: contact_solution, no_solution, solution_without_contact_edge
+   use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_status, only: above_hardness, full_contact, no_load, not_finite, not_found
    use wavycon_kinds, only: dp
-   use wavycon_solution_record, only: no_solver
+   use wavycon_solution_record, only: no_solution, no_solver, solution_record
    use wavycon_solver_progress, only: solver_progress
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
 
    public :: contact_solver, solver_traits
+
+   !> Accuracy of the solvers that have one, unless another is asked for.
+   real(dp), parameter, public :: default_accuracy = 1e-3_dp
 
    !> What is known of a solver and its solutions without a load. Of a solver that was not started grids and levels are
    !> zero.
@@ -36,16 +39,15 @@ module wavycon_contact_solver
    type, abstract :: contact_solver
       type(surface_type) :: surface
       logical :: is_started = .false.   !! on a surface that it can solve
+      !> At which the next loads are solved: 0, the accuracy requested, to traits%coarser_levels, the coarsest.
+      integer :: level = 0
       class(solver_progress), pointer :: progress => null()   !! called within each load, if associated
    contains
       procedure :: solve
       procedure(solve_load), deferred :: solve_partial_contact
       procedure(traits_of_solver), deferred :: traits
-      procedure :: show_progress
-      procedure :: use_level
       procedure :: forget_last_load
       procedure :: skip_load
-      procedure :: new_kept_solution
    end type contact_solver
 
    abstract interface
@@ -55,7 +57,7 @@ module wavycon_contact_solver
          import :: contact_solution, contact_solver, dp
          class(contact_solver), intent(inout) :: self
          real(dp), intent(in) :: pbar_over_pstar     !! 0 < P < 1, or 0 < P < H
-         class(contact_solution), allocatable, intent(out) :: solution   !! always allocated, with a status
+         type(contact_solution), intent(out) :: solution   !! with a status
       end subroutine solve_load
 
       !> `traits`: what is known without a load.
@@ -68,65 +70,50 @@ module wavycon_contact_solver
 
 contains
 
-   !> Solves one load and measures the solution. No load and full contact need no solver. The status is not_found if the
-   !> solver was not started on a surface that it can solve, and above_hardness if P >= H.
+   !> Solves one load and measures the solution. Some loads need no solver. The status is not_found
+   !> if the solver was not started on a surface that it can solve.
    subroutine solve(self, pbar_over_pstar, solution)
       class(contact_solver), intent(inout) :: self
-      real(dp), intent(in) :: pbar_over_pstar        !! P; the status of the solution is not_finite if it is no number
-      class(contact_solution), allocatable, intent(out) :: solution   !! always allocated, with a status
+      real(dp), intent(in) :: pbar_over_pstar             !! P; the status is not_finite if it is no number
+      type(contact_solution), intent(out) :: solution     !! with a status
 
-      logical :: is_number, is_partial
+      logical :: is_trivial
       type(solver_traits) :: traits
 
-      ! Comparisons with a NaN raise an exception, which Debug builds trap.
-      is_number = .not. ieee_is_nan(pbar_over_pstar)
       if (.not. self%is_started) then
          traits = self%traits()
-         call no_solution(pbar_over_pstar, traits%solver, not_found, solution)
+         solution%solution_record = no_solution(pbar_over_pstar, traits%solver, not_found)
          return
       end if
-      if (is_number) then
-         is_partial = pbar_over_pstar > 0.0_dp .and. pbar_over_pstar < 1.0_dp
-         if (self%surface%has_hardness()) then
-            if (pbar_over_pstar >= self%surface%hardness) then
-               call no_solution(pbar_over_pstar, no_solver, above_hardness, solution)
-               return
-            end if
-            is_partial = pbar_over_pstar > 0.0_dp .and. &
-                         (is_partial .or. pbar_over_pstar + self%surface%full_contact_peak > self%surface%hardness)
-         end if
-         if (is_partial) then
-            call self%solve_partial_contact(pbar_over_pstar, solution)
-            return
-         end if
-      end if
-      allocate (solution_without_contact_edge :: solution)
-      solution%pbar_over_pstar = pbar_over_pstar
-      if (.not. is_number) then
-         solution%status = not_finite
-      else if (pbar_over_pstar >= 1.0_dp) then
-         solution%status = full_contact
-         solution%measures = full_contact_measures(pbar_over_pstar, self%surface%full_contact_peak)
-      else
-         solution%status = no_load
-      end if
+      call solve_trivial_load(self%surface, pbar_over_pstar, solution%solution_record, is_trivial)
+      if (.not. is_trivial) call self%solve_partial_contact(pbar_over_pstar, solution)
    end subroutine solve
 
-   !> Sets the object that is called with the progress within each load.
-   subroutine show_progress(self, progress)
-      class(contact_solver), intent(inout) :: self
-      class(solver_progress), intent(in), pointer :: progress   !! null: none is called
+   !> Solves a load that needs no solver: there is no load for P <= 0; contact is full for P >= 1 unless the largest
+   !> pressure, P + full_contact_peak, exceeds the hardness H; there is no solution for P >= H and for NaN.
+   subroutine solve_trivial_load(surface, pbar_over_pstar, record, is_trivial)
+      type(surface_type), intent(in) :: surface
+      real(dp), intent(in) :: pbar_over_pstar        !! P; NaN is allowed
+      type(solution_record), intent(out) :: record   !! to be used only if is_trivial
+      logical, intent(out) :: is_trivial             !! otherwise the contact is partial: 0 < P < H
 
-      self%progress => progress
-   end subroutine show_progress
-
-   !> Selects the level at which the next loads are solved.
-   subroutine use_level(self, level)
-      class(contact_solver), intent(inout) :: self
-      integer, intent(in) :: level   !! 0, the accuracy requested, to traits%coarser_levels, the coarsest
-
-      associate (unused => self, unused_too => level); end associate
-   end subroutine use_level
+      is_trivial = .true.
+      record%pbar_over_pstar = pbar_over_pstar
+      ! Comparisons with a NaN raise an exception, which Debug builds trap.
+      if (ieee_is_nan(pbar_over_pstar)) then
+         record%status = not_finite
+      else if (pbar_over_pstar <= 0.0_dp) then
+         record%status = no_load
+      else if (surface%has_hardness() .and. pbar_over_pstar >= surface%hardness) then
+         record = no_solution(pbar_over_pstar, no_solver, above_hardness)
+      else if (pbar_over_pstar >= 1.0_dp .and. &
+               (.not. surface%has_hardness() .or. pbar_over_pstar + surface%full_contact_peak <= surface%hardness)) then
+         record%status = full_contact
+         record%measures = full_contact_measures(pbar_over_pstar, surface%full_contact_peak)
+      else
+         is_trivial = .false.
+      end if
+   end subroutine solve_trivial_load
 
    !> Makes the next load start as the first one does.
    subroutine forget_last_load(self)
@@ -143,15 +130,5 @@ contains
 
       associate (unused => self, unused_too => pbar_over_pstar); end associate
    end subroutine skip_load
-
-   !> Allocates an empty solution of the type whose `is_kept` is true, for `unpack_kept`. Not allocated if the
-   !> solutions of this solver are not written to checkpoints.
-   subroutine new_kept_solution(self, solution)
-      class(contact_solver), intent(in) :: self
-      class(contact_solution), allocatable, intent(out) :: solution
-
-      associate (unused => self); end associate
-      if (allocated(solution)) return
-   end subroutine new_kept_solution
 
 end module wavycon_contact_solver

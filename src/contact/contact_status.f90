@@ -27,6 +27,14 @@ module wavycon_contact_status
    integer, parameter, public :: other_failure = 20
    integer, parameter, public :: iteration_limit = other_failure + qp_iteration_limit
 
+   !> All of them, and their names in tables.
+   integer, parameter :: statuses(*) = [converged, closed_form, full_contact, no_load, unresolved, not_accurate, &
+      not_found, no_memory, not_finite, above_hardness, &
+      other_failure + [qp_iteration_limit, qp_infeasible, qp_infeasible_start, qp_not_convex, qp_inaccurate]]
+   character(16), parameter :: names(*) = [character(16) :: 'converged', 'closed_form', 'full_contact', 'no_load', &
+      'unresolved', 'not_accurate', 'not_found', 'no_memory', 'not_finite', 'above_hardness', 'iteration_limit', &
+      'infeasible', 'infeasible_start', 'not_convex', 'inaccurate']
+
 contains
 
    !> Whether a solution with this status is what was requested.
@@ -61,40 +69,11 @@ contains
    elemental character(16) function status_name(status) result(name)
       integer, intent(in) :: status
 
-      select case (status)
-      case (converged)
-         name = 'converged'
-      case (closed_form)
-         name = 'closed_form'
-      case (full_contact)
-         name = 'full_contact'
-      case (no_load)
-         name = 'no_load'
-      case (unresolved)
-         name = 'unresolved'
-      case (not_accurate)
-         name = 'not_accurate'
-      case (not_found)
-         name = 'not_found'
-      case (no_memory)
-         name = 'no_memory'
-      case (not_finite)
-         name = 'not_finite'
-      case (above_hardness)
-         name = 'above_hardness'
-      case (iteration_limit)
-         name = 'iteration_limit'
-      case (other_failure + qp_infeasible)
-         name = 'infeasible'
-      case (other_failure + qp_infeasible_start)
-         name = 'infeasible_start'
-      case (other_failure + qp_not_convex)
-         name = 'not_convex'
-      case (other_failure + qp_inaccurate)
-         name = 'inaccurate'
-      case default
-         name = 'unknown'
-      end select
+      integer :: i
+
+      i = findloc(statuses, status, dim=1)
+      name = 'unknown'
+      if (i > 0) name = names(i)
    end function status_name
 
 end module wavycon_contact_status

@@ -34,7 +34,7 @@ contains
    subroutine solve_for_contact_area(solver, contact_area_fraction, solution)
       class(contact_solver), intent(inout) :: solver        !! started
       real(dp), intent(in) :: contact_area_fraction         !! 0 .. 1: no load at 0, P = 1 at 1
-      class(contact_solution), allocatable, intent(out) :: solution   !! of the load found
+      type(contact_solution), intent(out) :: solution   !! of the load found
 
       call solve_for(solver, root_search(target=contact_area_fraction, of_gap=.false.), solution)
    end subroutine solve_for_contact_area
@@ -43,7 +43,7 @@ contains
    subroutine solve_for_mean_gap(solver, mean_gap_over_amplitude, solution)
       class(contact_solver), intent(inout) :: solver        !! started
       real(dp), intent(in) :: mean_gap_over_amplitude       !! G, 0 .. 1: P = 1 at 0, no load at 1
-      class(contact_solution), allocatable, intent(out) :: solution   !! of the load found
+      type(contact_solution), intent(out) :: solution   !! of the load found
 
       call solve_for(solver, root_search(target=mean_gap_over_amplitude, of_gap=.true.), solution)
    end subroutine solve_for_mean_gap
@@ -52,7 +52,7 @@ contains
    subroutine solve_for(solver, search_for, solution)
       class(contact_solver), intent(inout) :: solver
       type(root_search), intent(in) :: search_for
-      class(contact_solution), allocatable, intent(out) :: solution
+      type(contact_solution), intent(out) :: solution
 
       type(root_search) :: search
       type(solver_traits) :: traits
@@ -67,7 +67,7 @@ contains
       search%logit_p = logit_t(search, search%target)
       traits = solver%traits()
       do level = traits%coarser_levels, 0, -1
-         call solver%use_level(level)
+         solver%level = level
          call find_root(solver, search, solution)
          if (solution%status == not_found) search%logit_p = logit_t(search, search%target)
       end do
@@ -79,7 +79,7 @@ contains
    subroutine find_root(solver, search, solution)
       class(contact_solver), intent(inout) :: solver
       type(root_search), intent(inout) :: search   !! on entry with a first estimate of logit P and slope
-      class(contact_solution), allocatable, intent(out) :: solution
+      type(contact_solution), intent(out) :: solution
 
       !> Relative steps of logit P below this are rounding.
       real(dp), parameter :: shortest_step = 1e-13_dp

@@ -6,12 +6,13 @@
 module wavycon_find_yield
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use wavycon_contact_measures, only: unknown
-   use wavycon_contact_solution, only: contact_solution, no_solution
+   use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_contact_status, only: not_accurate, not_found
    use wavycon_contact_tuning, only: fraction_of_error, largest_fraction, largest_stress_error, least_fraction, &
       longest_rise, most_solves
    use wavycon_kinds, only: dp
+   use wavycon_solution_record, only: no_solution
    use wavycon_stress_fields, only: stress_fields
    use wavycon_stress_setting, only: stress_setting
    implicit none (type, external)
@@ -33,7 +34,7 @@ contains
       class(contact_solver), intent(inout) :: solver        !! started with keep_fields
       type(stress_setting), intent(in) :: setting           !! with yield stresses
       real(dp), intent(in) :: target                        !! r > 0, stress over yield stress; 1: first yield
-      class(contact_solution), allocatable, intent(out) :: solution   !! of the load found
+      type(contact_solution), intent(out) :: solution   !! of the load found
 
       real(dp) :: log_p
       type(solver_traits) :: traits
@@ -42,7 +43,7 @@ contains
       log_p = first_log_p()
       traits = solver%traits()
       do level = traits%coarser_levels, 0, -1
-         call solver%use_level(level)
+         solver%level = level
          call find_root(solver, setting, log(target), log_p, solution)
          if (solution%status == not_found) log_p = first_log_p()
       end do
@@ -62,7 +63,7 @@ contains
       type(stress_setting), intent(in) :: setting
       real(dp), intent(in) :: log_target
       real(dp), intent(inout) :: log_p               !! ln P of the first load; on return of the last one
-      class(contact_solution), allocatable, intent(out) :: solution
+      type(contact_solution), intent(out) :: solution
 
       type(solver_traits) :: traits
       real(dp) :: at_hardness, at_largest, error, high, largest, last_log_p, last_miss, light_slope, low, &
@@ -114,7 +115,8 @@ contains
          log_p = next
       end do
       traits = solver%traits()
-      call no_solution(exp(at_largest), traits%solver, not_found, solution)
+      if (allocated(solution%source)) deallocate (solution%source)
+      solution%solution_record = no_solution(exp(at_largest), traits%solver, not_found)
    end subroutine find_root
 
    !> ln of the largest stress over the target, and its error estimate. NaN if the load has no solution.
@@ -122,7 +124,7 @@ contains
       class(contact_solver), intent(in) :: solver
       type(stress_setting), intent(in) :: setting
       real(dp), intent(in) :: log_target
-      class(contact_solution), intent(in) :: solution
+      type(contact_solution), intent(in) :: solution
       real(dp), intent(out) :: miss, error
 
       class(stress_fields), allocatable :: fields

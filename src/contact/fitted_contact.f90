@@ -1,26 +1,32 @@
 !> Contact by expansions fitted to the edge of contact. Their accuracy is limited by rounding, not
 !> by a grid.
 module wavycon_fitted_contact
+   use wavycon_assertion, only: assert
    use wavycon_contact_measures, only: contact_measures, known_errors
-   use wavycon_contact_solution, only: contact_solution, no_solution
-   use wavycon_contact_solver, only: contact_solver, solver_traits
+   use wavycon_contact_solution, only: contact_solution
+   use wavycon_contact_solver, only: contact_solver, default_accuracy, solver_traits
    use wavycon_contact_status, only: converged, not_accurate, not_found
    use wavycon_fitted_frame, only: find_frame, fitted_frame, make_lattice
-   use wavycon_fitted_solution, only: fitted_solution
+   use wavycon_fitted_source, only: fitted_source
    use wavycon_fitted_solver, only: fitted_answer, fitted_less_exact, fitted_solved, solve_fitted
    use wavycon_kinds, only: dp
-   use wavycon_solution_record, only: by_expansions
+   use wavycon_solution_record, only: by_expansions, no_solution
    use wavycon_surface, only: surface_type
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
    private
 
-   public :: fitted_contact
+   public :: fitted_contact, fitted_options
+
+   type :: fitted_options
+      !> Largest error of mean gap [Delta], contact area fraction and peak pressure [p*], > 0.
+      real(dp) :: accuracy = default_accuracy
+   end type fitted_options
 
    type, extends(contact_solver) :: fitted_contact
       type(fitted_frame), private :: frame
       type(wave_lattice), allocatable, private :: lattice
-      real(dp), private :: accuracy = 1e-3_dp
+      type(fitted_options), private :: options
       logical, private :: keep_fields = .true.
       type(fitted_answer), private :: last         !! of the last load solved, from which the next one starts
    contains
@@ -33,14 +39,15 @@ module wavycon_fitted_contact
 contains
 
    !> Starts the solver.
-   subroutine start(self, surface, accuracy, keep_fields)
+   subroutine start(self, surface, options, keep_fields)
       class(fitted_contact), intent(out) :: self
       type(surface_type), intent(in) :: surface   !! if it has no frame all solutions have the status not_found
-      real(dp), intent(in) :: accuracy            !! of mean gap [Delta], contact area fraction, peak pressure [p*]
+      type(fitted_options), intent(in) :: options
       logical, intent(in) :: keep_fields          !! whether fields or details of the solutions will be needed
 
+      call assert(options%accuracy > 0.0_dp, 'accuracy > 0')
       self%surface = surface
-      self%accuracy = accuracy
+      self%options = options
       self%keep_fields = keep_fields
       call find_frame(surface, self%frame)
       ! A flat surface is in full contact at every load: no expansion is needed.
@@ -54,46 +61,46 @@ contains
    subroutine solve_partial_contact(self, pbar_over_pstar, solution)
       class(fitted_contact), intent(inout) :: self
       real(dp), intent(in) :: pbar_over_pstar
-      class(contact_solution), allocatable, intent(out) :: solution
+      type(contact_solution), intent(out) :: solution
 
       real(dp) :: errors(3)
       type(fitted_answer) :: answer
-      type(fitted_solution), allocatable :: own
+      type(fitted_source), allocatable :: source
 
       if (self%frame%is_found()) then
          ! solve_fitted takes a relative accuracy. The largest of the three values, the peak pressure, is less than
          ! that of full contact at P = 1.
          call solve_fitted(self%lattice, pbar_over_pstar/self%frame%pressure_unit, &
-                           self%accuracy/(1.0_dp + self%surface%full_contact_peak), answer, self%last, self%keep_fields)
+                           self%options%accuracy/(1.0_dp + self%surface%full_contact_peak), answer, self%last, &
+                           self%keep_fields)
       end if
       if (answer%status /= fitted_solved .and. answer%status /= fitted_less_exact) then
-         call no_solution(pbar_over_pstar, by_expansions, not_found, solution)
+         solution%solution_record = no_solution(pbar_over_pstar, by_expansions, not_found)
          return
       end if
       self%last = answer
-      allocate (own)
       errors = known_errors([answer%mean_gap_error, answer%area_error, answer%peak_error*self%frame%pressure_unit], &
                             self%surface%full_contact_peak)
-      own%pbar_over_pstar = pbar_over_pstar
-      own%solver = by_expansions
-      own%measures = contact_measures(mean_gap_over_amplitude=answer%mean_gap, &
-                                      approach_over_amplitude=1.0_dp - answer%mean_gap, &
-                                      contact_area_fraction=answer%area_fraction, &
-                                      peak_pressure_over_pstar=answer%peak_pressure*self%frame%pressure_unit, &
-                                      min_pressure_over_pstar=0.0_dp, &
-                                      mean_gap_error=errors(1), contact_area_error=errors(2), &
-                                      peak_pressure_error=errors(3))
-      own%iterations = answer%iterations
-      own%residual = answer%residual
-      own%status = not_accurate
-      if (own%largest_error() <= self%accuracy) own%status = converged
-      if (self%keep_fields) then
-         own%frame = self%frame
-         own%lattice = self%lattice
-         own%answer = answer
-         own%accuracy = self%accuracy
-      end if
-      call move_alloc(own, solution)
+      solution%pbar_over_pstar = pbar_over_pstar
+      solution%solver = by_expansions
+      solution%measures = contact_measures( &
+                          mean_gap_over_amplitude=answer%mean_gap, &
+                          approach_over_amplitude=1.0_dp - answer%mean_gap, &
+                          contact_area_fraction=answer%area_fraction, &
+                          peak_pressure_over_pstar=answer%peak_pressure*self%frame%pressure_unit, &
+                          min_pressure_over_pstar=0.0_dp, &
+                          mean_gap_error=errors(1), contact_area_error=errors(2), peak_pressure_error=errors(3))
+      solution%iterations = answer%iterations
+      solution%residual = answer%residual
+      solution%status = not_accurate
+      if (solution%largest_error() <= self%options%accuracy) solution%status = converged
+      if (.not. self%keep_fields) return
+      allocate (source)
+      source%frame = self%frame
+      source%lattice = self%lattice
+      source%answer = answer
+      source%accuracy = self%options%accuracy
+      call move_alloc(source, solution%source)
    end subroutine solve_partial_contact
 
    type(solver_traits) function traits(self)

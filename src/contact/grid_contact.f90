@@ -5,29 +5,37 @@
 !> the number of points, which refers to the user's cell, is given.
 module wavycon_grid_contact
    use, intrinsic :: iso_fortran_env, only: int64
+   use wavycon_assertion, only: assert
    use wavycon_contact_measures, only: contact_measures, unknown
-   use wavycon_contact_solution, only: contact_solution, no_solution
-   use wavycon_contact_solver, only: contact_solver, solver_traits
+   use wavycon_contact_solution, only: contact_solution
+   use wavycon_contact_solver, only: contact_solver, default_accuracy, solver_traits
    use wavycon_contact_status, only: converged, iteration_limit, no_memory, not_accurate, unresolved
    use wavycon_contact_tuning, only: largest_spot, least_search_points, worst_search_accuracy
    use wavycon_grid_cascade, only: cascade_answer, solve_by_cascade
    use wavycon_grid_edge, only: grid_edge
    use wavycon_grid_plan, only: grid_plan, plan_grids
-   use wavycon_grid_solution, only: grid_solution
+   use wavycon_grid_source, only: grid_source
    use wavycon_kinds, only: dp
    use wavycon_load_concentration, only: load_concentration
-   use wavycon_solution_record, only: by_grids
+   use wavycon_solution_record, only: by_grids, no_solution
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
 
-   public :: grid_contact
+   public :: grid_contact, grid_options
+
+   type :: grid_options
+      !> Largest error of mean gap [Delta], contact area fraction and peak pressure [p*], > 0; ignored with points.
+      real(dp) :: accuracy = default_accuracy
+      !> Points of the whole cell along x and y of the one grid to solve, in place of the accuracy: > 0, even numbers
+      !> for an even surface; the second is ignored in 1-D. Zeros: solve to the accuracy.
+      integer :: points(2) = 0
+      !> Largest residual (C9) on these points, >= 0; 0: that of (C10).
+      real(dp) :: residual = 0.0_dp
+   end type grid_options
 
    type, extends(contact_solver) :: grid_contact
-      real(dp), private :: accuracy = 0.0_dp                 !! requested
-      integer, private :: points(2) = 0                      !! requested
-      real(dp), private :: residual = 0.0_dp                 !! requested on these points
-      integer, private :: level = 0                          !! of `use_level`
+      type(grid_options), private :: options
       logical, private :: keep_fields = .true.
       !> The surface on its smaller cell, if that is solved: turned by 45 degrees.
       type(surface_type), allocatable, private :: smaller
@@ -35,32 +43,31 @@ module wavycon_grid_contact
       procedure :: start
       procedure :: solve_partial_contact
       procedure :: traits
-      procedure :: use_level
-      procedure :: new_kept_solution
    end type grid_contact
 
 contains
 
    !> Starts the solver.
-   subroutine start(self, surface, accuracy, keep_fields, points, residual)
+   subroutine start(self, surface, options, keep_fields)
       class(grid_contact), intent(out) :: self
       type(surface_type), intent(in) :: surface
-      real(dp), intent(in) :: accuracy      !! of mean gap [Delta], contact area fraction and peak pressure [p*]
+      type(grid_options), intent(in) :: options
       logical, intent(in) :: keep_fields    !! whether solutions keep their fields and edges
-      !> Points of the whole cell along x and y of the one grid to solve, in place of the accuracy; absent or zeros:
-      !> solve to the accuracy. Even numbers for an even surface; the second is ignored in 1-D.
-      integer, intent(in), optional :: points(2)
-      !> Largest residual (C9) on the given points; absent or 0: that of (C10).
-      real(dp), intent(in), optional :: residual
 
+      self%options = options
+      if (surface%dimension == 1) self%options%points(2) = min(options%points(2), 1)
+      if (any(options%points > 0)) self%options%accuracy = 0.0_dp
+      associate (points => self%options%points)
+         call assert(all(points > 0) .or. all(points == 0), 'points > 0')
+         call assert(all(points > 0) .or. options%accuracy > 0.0_dp, 'accuracy > 0')
+         call assert(all(mod(points(:surface%dimension), 2) == 0) .or. .not. surface%shape%is_even(), &
+                     'even points of an even surface')
+         call assert(options%residual >= 0.0_dp, 'residual >= 0')
+      end associate
       self%surface = surface
       self%is_started = allocated(surface%shape%c)
-      if (present(residual)) self%residual = residual
-      self%accuracy = accuracy
       self%keep_fields = keep_fields
-      if (present(points)) self%points = points
-      if (surface%dimension == 1) self%points(2) = min(self%points(2), 1)
-      if (any(self%points > 0) .or. .not. surface%has_smaller_cell()) return
+      if (any(self%options%points > 0) .or. .not. surface%has_smaller_cell()) return
       allocate (self%smaller)
       self%smaller = surface%smaller_cell()
    end subroutine start
@@ -70,13 +77,13 @@ contains
       class(grid_contact), intent(in) :: self
 
       levels = 0
-      if (all(self%points > 0)) then
-         do while (all(mod(self%points, 2**(levels + 2)) == 0 .or. self%points == 1) .and. &
-                   maxval(self%points)/2**(levels + 1) >= least_search_points)
+      if (all(self%options%points > 0)) then
+         do while (all(mod(self%options%points, 2**(levels + 2)) == 0 .or. self%options%points == 1) .and. &
+                   maxval(self%options%points)/2**(levels + 1) >= least_search_points)
             levels = levels + 1
          end do
-      else if (self%accuracy > 0.0_dp) then
-         do while (self%accuracy*10.0_dp**levels < worst_search_accuracy)
+      else if (self%options%accuracy > 0.0_dp) then
+         do while (self%options%accuracy*10.0_dp**levels < worst_search_accuracy)
             levels = levels + 1
          end do
       end if
@@ -90,29 +97,22 @@ contains
       traits = solver_traits(solver=by_grids, coarser_levels=coarser_levels(self))
       if (.not. self%is_started) return
       if (allocated(self%smaller)) then
-         plan = plan_grids(self%smaller, self%points)
+         plan = plan_grids(self%smaller, self%options%points)
       else
-         plan = plan_grids(self%surface, self%points)
+         plan = plan_grids(self%surface, self%options%points)
       end if
       traits%finest_grid = plan%last
-      if (all(self%points > 0)) traits%given_grid = plan%last
+      if (all(self%options%points > 0)) traits%given_grid = plan%last
    end function traits
-
-   subroutine use_level(self, level)
-      class(grid_contact), intent(inout) :: self
-      integer, intent(in) :: level
-
-      self%level = level
-   end subroutine use_level
 
    !> Solves one load by solve_by_cascade.
    subroutine solve_partial_contact(self, pbar_over_pstar, solution)
       class(grid_contact), intent(inout) :: self
       real(dp), intent(in) :: pbar_over_pstar
-      class(contact_solution), allocatable, intent(out) :: solution
+      type(contact_solution), intent(out) :: solution
 
       type(cascade_answer) :: answer
-      type(grid_solution), allocatable :: own
+      type(grid_source), allocatable :: source
 
       if (allocated(self%smaller)) then
          call solve_cell(self, self%smaller, pbar_over_pstar, answer)
@@ -120,52 +120,54 @@ contains
          call solve_cell(self, self%surface, pbar_over_pstar, answer)
       end if
       if (.not. allocated(answer%edge)) then
-         call no_solution(pbar_over_pstar, by_grids, no_memory, solution)
+         solution%solution_record = no_solution(pbar_over_pstar, by_grids, no_memory)
          return
       end if
-      allocate (own)
-      own%pbar_over_pstar = pbar_over_pstar
-      own%solver = by_grids
-      own%turned = allocated(self%smaller)
-      own%measures = contact_measures(mean_gap_over_amplitude=answer%values(1), &
-                                      approach_over_amplitude=1.0_dp - answer%state%mean_gap, &
-                                      contact_area_fraction=answer%values(2), &
-                                      peak_pressure_over_pstar=answer%values(3), &
-                                      min_pressure_over_pstar=least_pressure(answer%edge), &
-                                      mean_gap_error=answer%errors(1), contact_area_error=answer%errors(2), &
-                                      peak_pressure_error=answer%errors(3), &
-                                      area_at_hardness_fraction=answer%area_at_hardness, &
-                                      area_at_hardness_error=answer%area_at_hardness_error, &
-                                      contact_area_counted_fraction=answer%counted_area, &
-                                      contact_area_corrected_fraction=answer%corrected_area)
+      solution%pbar_over_pstar = pbar_over_pstar
+      solution%solver = by_grids
+      solution%measures = contact_measures( &
+                          mean_gap_over_amplitude=answer%values(1), &
+                          approach_over_amplitude=1.0_dp - answer%state%mean_gap, &
+                          contact_area_fraction=answer%values(2), &
+                          peak_pressure_over_pstar=answer%values(3), &
+                          min_pressure_over_pstar=least_pressure(answer%edge), &
+                          mean_gap_error=answer%errors(1), contact_area_error=answer%errors(2), &
+                          peak_pressure_error=answer%errors(3), &
+                          area_at_hardness_fraction=answer%area_at_hardness, &
+                          area_at_hardness_error=answer%area_at_hardness_error, &
+                          contact_area_counted_fraction=answer%counted_area, &
+                          contact_area_corrected_fraction=answer%corrected_area)
       if (self%surface%has_hardness()) then
          associate (load_of_area => self%surface%hardness/pbar_over_pstar)
-            own%measures%load_at_hardness_fraction = answer%area_at_hardness*load_of_area
-            own%measures%load_at_hardness_error = answer%area_at_hardness_error*load_of_area
+            solution%measures%load_at_hardness_fraction = answer%area_at_hardness*load_of_area
+            solution%measures%load_at_hardness_error = answer%area_at_hardness_error*load_of_area
          end associate
-         if (.not. own%measures%load_at_hardness_error < 1.0_dp) own%measures%load_at_hardness_error = unknown
+         if (.not. solution%measures%load_at_hardness_error < 1.0_dp) solution%measures%load_at_hardness_error = unknown
       end if
       if (all(self%surface%points > 0) .and. answer%values(2) <= largest_spot) &
-         own%measures%load_concentration = load_concentration(answer%edge)
-      own%imprint = answer%state%imprint
-      own%active_constraints = bound_points(answer%edge, self%surface%hardness)
-      own%iterations = answer%iterations
-      own%residual = answer%state%residual
+         solution%measures%load_concentration = load_concentration(answer%edge)
+      solution%active_constraints = bound_points(answer%edge, self%surface%hardness)
+      solution%iterations = answer%iterations
+      solution%residual = answer%state%residual
       if (.not. answer%state%converged) then
-         own%status = iteration_limit
+         solution%status = iteration_limit
       else if (answer%accurate) then
-         own%status = converged
+         solution%status = converged
       else if (answer%out_of_memory) then
-         own%status = no_memory
-      else if (any(self%points == 0)) then
-         own%status = not_accurate
-      else if (all(own%measures%are_resolved())) then
-         own%status = converged
+         solution%status = no_memory
+      else if (any(self%options%points == 0)) then
+         solution%status = not_accurate
+      else if (all(solution%measures%are_resolved())) then
+         solution%status = converged
       else
-         own%status = unresolved
+         solution%status = unresolved
       end if
-      if (self%keep_fields) call move_alloc(answer%edge, own%edge)
-      call move_alloc(own, solution)
+      if (.not. self%keep_fields) return
+      allocate (source)
+      source%turned = allocated(self%smaller)
+      source%imprint = answer%state%imprint
+      call source%take_edge(answer%edge)
+      call move_alloc(source, solution%source)
    end subroutine solve_partial_contact
 
    !> Solves a load on the surface or its smaller cell.
@@ -175,11 +177,12 @@ contains
       real(dp), intent(in) :: pbar_over_pstar
       type(cascade_answer), intent(out) :: answer
 
-      associate (accuracy => self%accuracy*10.0_dp**self%level, points => self%points/2**self%level)
+      associate (accuracy => self%options%accuracy*10.0_dp**self%level, points => self%options%points/2**self%level, &
+                 residual => self%options%residual)
          if (associated(self%progress)) then
-            call solve_by_cascade(surface, pbar_over_pstar, accuracy, points, answer, self%progress, self%residual)
+            call solve_by_cascade(surface, pbar_over_pstar, accuracy, points, answer, self%progress, residual)
          else
-            call solve_by_cascade(surface, pbar_over_pstar, accuracy, points, answer, residual=self%residual)
+            call solve_by_cascade(surface, pbar_over_pstar, accuracy, points, answer, residual=residual)
          end if
       end associate
    end subroutine solve_cell
@@ -206,13 +209,5 @@ contains
       call edge%slab%add(total)
       number = total(1)
    end function bound_points
-
-   subroutine new_kept_solution(self, solution)
-      class(grid_contact), intent(in) :: self
-      class(contact_solution), allocatable, intent(out) :: solution
-
-      associate (unused => self); end associate
-      allocate (grid_solution :: solution)
-   end subroutine new_kept_solution
 
 end module wavycon_grid_contact

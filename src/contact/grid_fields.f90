@@ -8,7 +8,6 @@ module wavycon_grid_fields
    use wavycon_contact_fields, only: contact_fields
    use wavycon_fourier_series, only: fourier_series
    use wavycon_grid_edge, only: grid_edge
-   use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp
    use wavycon_series_samples, only: sample_series
    use wavycon_surface, only: surface_type
@@ -32,8 +31,6 @@ module wavycon_grid_fields
    contains
       procedure :: at
       procedure :: on_grid
-      procedure :: own_points
-      procedure :: own_slab
       procedure :: at_own_column
    end type grid_fields
 
@@ -55,30 +52,16 @@ contains
       fields%hardness = surface%hardness
       fields%turned = turned
       fields%parts = surface%parts()
-   end subroutine start_grid_fields
-
-   !> None of a turned grid, whose points are only every other one of any grid of the cell.
-   pure subroutine own_points(self, points, offset)
-      class(grid_fields), intent(in) :: self
-      integer, intent(out) :: points(2)
-      real(dp), intent(out) :: offset(2)
-
-      points = 0
-      offset = 0.0_dp
-      if (self%turned) return
-      associate (numbers => self%edge%slab%points)
-         points = numbers
-         if (.not. self%edge%even) return
-         points = merge(2*numbers, 1, numbers > 1)/self%parts
-         offset = merge(0.5_dp, 0.0_dp, numbers > 1)
+      fields%own_slab = edge%slab
+      ! The points of a turned grid are only every other one of any grid of the cell.
+      if (turned) return
+      fields%own_points = edge%slab%points
+      if (.not. edge%even) return
+      associate (are_halved => edge%slab%points > 1)
+         fields%own_points = merge(2*edge%slab%points, 1, are_halved)/fields%parts
+         fields%own_offset = merge(0.5_dp, 0.0_dp, are_halved)
       end associate
-   end subroutine own_points
-
-   pure type(grid_slab) function own_slab(self)
-      class(grid_fields), intent(in) :: self
-
-      own_slab = self%edge%slab
-   end function own_slab
+   end subroutine start_grid_fields
 
    subroutine at_own_column(self, column, shape, pressure, displacement, gap)
       class(grid_fields), intent(in) :: self
@@ -109,13 +92,12 @@ contains
       real(dp), intent(in) :: offset(2)
       real(dp), allocatable, intent(out) :: pressure(:, :), displacement(:, :), gap(:, :)
 
-      integer :: k, l, own(2)
-      real(dp) :: own_offset(2), place(2), value
+      integer :: k, l
+      real(dp) :: place(2), value
       logical :: at_own
 
       allocate (pressure(points(1), points(2)), gap(points(1), points(2)))
-      call self%own_points(own, own_offset)
-      at_own = all(points == own) .and. all(abs(offset - own_offset) <= rounding)
+      at_own = all(points == self%own_points) .and. all(abs(offset - self%own_offset) <= rounding)
       if (.not. at_own .and. .not. allocated(self%psi)) call find_psi(self)
       do l = 1, points(2)
          do k = 1, points(1)

@@ -1,13 +1,13 @@
 !> The numbers of a solution as one plain record: what tables without fields, checkpoints and other processes need of it.
 module wavycon_solution_record
    use, intrinsic :: iso_fortran_env, only: int64
-   use wavycon_contact_measures, only: contact_measures
+   use wavycon_contact_measures, only: contact_measures, unmeasured
    use wavycon_contact_status, only: not_found
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
 
-   public :: solution_record, record_of_words, words_of_record
+   public :: solution_record, no_solution, record_of_words, words_of_record
 
    !> The solver of a solution. None is needed for no load and for full contact.
    integer, parameter, public :: no_solver = 0, by_series = 1, by_grids = 2, by_expansions = 3, by_closed_form = 4, &
@@ -33,6 +33,18 @@ module wavycon_solution_record
    integer, parameter, public :: record_words = measures_words + 6
 
 contains
+
+   !> The record that stands for a failure, with unknown measures and errors.
+   pure type(solution_record) function no_solution(pbar_over_pstar, solver, status) result(record)
+      real(dp), intent(in) :: pbar_over_pstar        !! P
+      integer, intent(in) :: solver                  !! that failed, one of the names above
+      integer, intent(in) :: status                  !! why: a name of wavycon_contact_status
+
+      record%pbar_over_pstar = pbar_over_pstar
+      record%measures = unmeasured()
+      record%solver = solver
+      record%status = status
+   end function no_solution
 
    !> The bits of a record, to be written to a file or sent to another process.
    pure function words_of_record(record) result(words)

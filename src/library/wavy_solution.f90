@@ -8,7 +8,7 @@ module wavycon_wavy_solution
    use wavycon_contact_details, only: contact_details
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_measures, only: or_nan
-   use wavycon_contact_solution, only: contact_solution, solution_without_contact_edge
+   use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_status, only: not_found, status_code, status_name
    use wavycon_edge_curves, only: edge_curve, keep_curves_of_quarter
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, exit_fine, exit_not_converged, fatal_error
@@ -69,7 +69,7 @@ module wavycon_wavy_solution
    !> The solution of one load, made by a wavy_solver. Before that its status is not_found.
    type :: wavy_solution
       private
-      class(contact_solution), allocatable :: solution
+      type(contact_solution), allocatable :: solution
       type(surface_type), allocatable :: surface          !! allocated if the fields were kept
       class(contact_fields), allocatable :: fields        !! allocated at their first use
       type(solution_stress), allocatable :: stresses      !! allocated at their first use
@@ -100,7 +100,7 @@ contains
 
    !> Takes a solution of a solver. Errors: exit_file_trouble if there is not the memory to keep its fields.
    subroutine start_solution(from, surface, p_star, mean_pressure, keep_fields, has_errors, solution, error)
-      class(contact_solution), allocatable, intent(inout) :: from   !! not allocated afterwards
+      type(contact_solution), allocatable, intent(inout) :: from   !! not allocated afterwards
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: p_star           !! [pressure]
       real(dp), intent(in) :: mean_pressure    !! [pressure]
@@ -231,7 +231,9 @@ contains
       points = 0
       offset = 0.0_dp
       call self%prepare_fields(error)
-      if (.not. allocated(error)) call self%fields%own_points(points, offset)
+      if (allocated(error)) return
+      points = self%fields%own_points
+      offset = self%fields%own_offset
    end subroutine own_points
 
    !> Fields at one point. Errors: as of `map`, and for places that are not finite.
@@ -427,13 +429,9 @@ contains
 
    !> Whether a solution stands for a failure and has no numbers.
    pure logical function is_failure(solution)
-      class(contact_solution), intent(in) :: solution
+      type(contact_solution), intent(in) :: solution
 
-      is_failure = .false.
-      select type (solution)
-      class is (solution_without_contact_edge)
-         is_failure = .not. solution%is_good()
-      end select
+      is_failure = .not. (solution%is_good() .or. allocated(solution%source))
    end function is_failure
 
    !> Checks the points of a map. Errors: exit_bad_input, and exit_file_trouble without memory.

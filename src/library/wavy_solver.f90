@@ -298,11 +298,12 @@ contains
       type(wavy_solution), intent(out) :: solution
       type(error_type), allocatable, intent(out) :: error
 
-      class(contact_solution), allocatable :: found
+      type(contact_solution), allocatable :: found
       real(dp) :: pressure
 
       if (loads_by == by_yield) call check_yield(self, error)
       if (allocated(error)) return
+      allocate (found)
       call begin_solve(self%is_solving)
       call solve_target(self%solver, loads_by, target, found, self%scene%stress_setting)
       call end_solve(self%is_solving)

@@ -1,9 +1,9 @@
 !> <case>.checkpoint: the loads solved so far, for --resume. It is removed when the tables are written.
 !>
-!> Only solutions that a resumed run may keep are written (contact_solution%is_kept); the others are fast to solve
-!> again. The file holds a mark and a line feed, then records: the number of 8-byte words, the words and their
-!> checksum. The first record identifies the run, the second is a text that describes what is solved, each further one
-!> is a solution. A last record that was cut short by an interruption is ignored.
+!> Only solutions that take long are written (wavycon_kept_solution); the others are fast to solve again. The file holds
+!> a mark and a line feed, then records: the number of 8-byte words, the words and their checksum. The first record
+!> identifies the run, the second is a text that describes what is solved, each further one is a solution. A last record
+!> that was cut short by an interruption is ignored.
 !>
 !> Two runs of the same case do not mix: each writes to a file of its own, which a later run replaces as a whole.
 !>
@@ -14,9 +14,9 @@ module wavycon_checkpoint
    use wavycon_contact_solution, only: contact_solution
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_kinds, only: dp
+   use wavycon_kept_solution, only: is_kept, pack_solution, unpack_solution
    use wavycon_plain_text, only: escaped, excerpt, integer_text, newline, system_words
    use wavycon_results, only: results_type
-   use wavycon_solution_record, only: record_of_words, record_words, words_of_record
    use wavycon_surface, only: surface_type
    use wavycon_system, only: file_size, path_absent, path_file, path_kind, process_id, remove_file, &
       remove_when_interrupted, rename_file
@@ -26,7 +26,7 @@ module wavycon_checkpoint
 
    public :: checkpoint_file, checkpoint_name, read_checkpoint
 
-   character(*), parameter :: mark = 'wavycon checkpoint 5'//newline
+   character(*), parameter :: mark = 'wavycon checkpoint 6'//newline
    integer, parameter :: bytes_of_word = 8
    !> End of all messages about a checkpoint that cannot be used.
    character(*), parameter :: way_out = '. Without --resume all loads are solved, and the checkpoint is replaced.'
@@ -94,9 +94,10 @@ contains
 
    !> Creates the checkpoint of a run with the solutions that are known already; it replaces that of an earlier run. A
    !> checkpoint that cannot be written does not stop the run: see is_complete.
-   subroutine create(self, results)
+   subroutine create(self, results, known)
       class(checkpoint_file), intent(out) :: self
-      type(results_type), intent(in) :: results   !! its directory exists; solutions that are known are allocated
+      type(results_type), intent(in) :: results   !! its directory exists
+      logical, intent(in) :: known(:)             !! of each load: whether its solution is known
 
       character(:), allocatable :: failure
       integer :: clock(8), load, status
@@ -115,7 +116,7 @@ contains
       call put(self, self%run)
       call put(self, words_of(description(results)))
       do load = 1, size(results%loads)
-         if (allocated(results%loads(load)%solution)) call self%add(load, results%loads(load)%solution)
+         if (known(load)) call self%add(load, results%loads(load))
       end do
       if (self%opened) then
          call rename_file(self%name_now, self%name, failure)
@@ -132,18 +133,18 @@ contains
       is_complete = self%opened
    end function is_complete
 
-   !> Adds a solution, if its `is_kept` is true.
+   !> Adds a solution, if it is worth keeping.
    subroutine add(self, load, solution)
       class(checkpoint_file), intent(inout) :: self
       integer, intent(in) :: load             !! its number in the deck's order
-      class(contact_solution), intent(in) :: solution
+      type(contact_solution), intent(in) :: solution
 
-      real(dp), allocatable :: values(:)
+      integer(int64), allocatable :: words(:)
 
-      if (.not. self%opened .or. .not. solution%is_kept()) return
-      call solution%pack_kept(values)
-      if (allocated(values)) then
-         call put(self, [int(load, int64), words_of_record(solution), transfer(values, [0_int64])])
+      if (.not. self%opened .or. .not. is_kept(solution)) return
+      call pack_solution(solution, words)
+      if (allocated(words)) then
+         call put(self, [int(load, int64), words])
       else
          call close_file(self)
       end if
@@ -223,8 +224,9 @@ contains
 
    !> Reads the solutions of an interrupted run. Errors: exit_bad_input for a damaged checkpoint and for one of
    !> another run, exit_file_trouble.
-   subroutine read_checkpoint(results, found, error)
-      type(results_type), intent(inout) :: results   !! the loads found are allocated
+   subroutine read_checkpoint(results, known, found, error)
+      type(results_type), intent(inout) :: results   !! with room for all loads
+      logical, intent(out) :: known(:)               !! of each load: whether its solution was in the checkpoint
       logical, intent(out) :: found                  !! whether there is a checkpoint
       type(error_type), allocatable, intent(out) :: error
 
@@ -236,6 +238,7 @@ contains
       integer :: status, unit
       logical :: understood, whole
 
+      known = .false.
       name = checkpoint_name(results)
       found = path_kind(name) /= path_absent
       if (.not. found) then
@@ -263,7 +266,7 @@ contains
          do while (understood .and. .not. allocated(error))
             call next()
             if (.not. whole) exit
-            call take_solution(words, results, understood)
+            call take_solution(words, results%loads, known, understood)
          end do
          if (.not. understood) &
             call fatal_error(error, exit_bad_input, escaped(name)//': the checkpoint is damaged'//way_out)
@@ -281,23 +284,21 @@ contains
    end subroutine read_checkpoint
 
    !> Restores the solution of a record.
-   subroutine take_solution(words, results, understood)
-      integer(int64), intent(in) :: words(:)    !! number of the load; solution record; array of pack_kept
-      type(results_type), intent(inout) :: results
+   subroutine take_solution(words, loads, known, understood)
+      integer(int64), intent(in) :: words(:)    !! number of the load; words of pack_solution
+      type(contact_solution), intent(inout) :: loads(:)
+      logical, intent(inout) :: known(:)        !! of each load
       logical, intent(out) :: understood        !! .false.: the record is no solution of a load of this deck
 
-      class(contact_solution), allocatable :: solution
       integer :: load
 
       understood = .false.
-      if (size(words) < 1 + record_words) return
-      if (words(1) < 1 .or. words(1) > size(results%loads)) return
+      if (size(words) == 0) return
+      if (words(1) < 1 .or. words(1) > size(loads)) return
       load = int(words(1))
-      call results%solver%new_kept_solution(solution)
-      if (.not. allocated(solution) .or. allocated(results%loads(load)%solution)) return
-      solution%solution_record = record_of_words(words(2:1 + record_words))
-      call solution%unpack_kept(transfer(words(2 + record_words:), [0.0_dp]), understood)
-      if (understood) call move_alloc(solution, results%loads(load)%solution)
+      if (known(load)) return
+      call unpack_solution(words(2:), loads(load), understood)
+      known(load) = understood
    end subroutine take_solution
 
    !> A text that identifies what is solved: version, number of ranks that share the work, surface, and the resolved

@@ -33,13 +33,13 @@ contains
       bad = 0
       without_area = 0
       do i = 1, size(results%loads)
-         associate (solution => results%loads(i)%solution)
+         associate (solution => results%loads(i))
             if (.not. solution%is_good()) bad = bad + 1
             if (solution%status == converged .and. solution%measures%contact_area_fraction <= 0.0_dp) &
                without_area = without_area + 1
          end associate
       end do
-      unreached = count([(results%loads(i)%solution%status == not_found, i=1, size(results%loads))])
+      unreached = count([(results%loads(i)%status == not_found, i=1, size(results%loads))])
       loads = integer_text(size(results%loads))
       associate (scene => results%scene)
          call note_unresolved(results, log)
@@ -84,10 +84,10 @@ contains
          spots = 0
          largest = 0.0_dp
          do i = 1, size(results%loads)
-            associate (measures => results%loads(i)%solution%measures)
+            associate (measures => results%loads(i)%measures)
                if (measures%load_concentration < least_concentration) cycle
                spots = spots + 1
-               pressure = scene%p_star*results%loads(i)%solution%pbar_over_pstar
+               pressure = scene%p_star*results%loads(i)%pbar_over_pstar
                largest = max(largest, abs(factor*pressure*sqrt(product(side))/scene%e_star)/ &
                                       (surface%amplitude*measures%approach_over_amplitude))
             end associate
@@ -109,7 +109,7 @@ contains
 
       unreached = 0
       do i = 1, size(results%loads)
-         associate (solution => results%loads(i)%solution, measures => results%loads(i)%solution%measures)
+         associate (solution => results%loads(i), measures => results%loads(i)%measures)
             if (solution%status /= not_found .or. solution%pbar_over_pstar > 0.0_dp) cycle
             unreached = unreached + 1
             limit = ' mean gaps are above the largest that the grid shows, '// &
@@ -135,7 +135,7 @@ contains
       coarse = 0
       unknown = 0
       do i = 1, size(results%loads)
-         associate (solution => results%loads(i)%solution)
+         associate (solution => results%loads(i))
             if (solution%status /= unresolved) cycle
             if (any(is_known(solution%measures%errors()))) then
                coarse = coarse + merge(0, 1, solution%measures%are_resolved())

@@ -65,7 +65,7 @@ contains
       call results%open_table('coefficients', columns, file, in_blocks=.true.)
       do load = 1, size(results%loads)
          call results%begin_block(file, load)
-         call results%loads(load)%solution%coefficients(results%solver%surface, pressure)
+         call results%loads(load)%coefficients(results%solver%surface, pressure)
          if (.not. allocated(pressure%c)) cycle
          do i = 0, ubound(pressure%c, 1)
             do j = 0, ubound(pressure%c, 2)

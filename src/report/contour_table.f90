@@ -59,7 +59,7 @@ contains
       call results%open_table('contour', columns, file, in_blocks=.true.)
       any_curve = .false.
       do load = 1, size(results%loads)
-         call results%loads(load)%solution%edge_curves(results%solver%surface, curves)
+         call results%loads(load)%edge_curves(results%solver%surface, curves)
          if (results%solver%surface%mirrored) call keep_curves_of_quarter(curves)
          if (size(curves) == 0) cycle
          any_curve = .true.

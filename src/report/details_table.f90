@@ -89,7 +89,7 @@ contains
 
       call results%open_table('details', columns, file, in_blocks=.false.)
       do load = 1, size(results%loads)
-         associate (solution => results%loads(load)%solution)
+         associate (solution => results%loads(load))
             call solution%details(details, found)
             numbers = not_a_number()
             if (found) numbers = [details%trough_gap, details%trough_gap_error, &

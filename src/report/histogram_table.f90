@@ -84,9 +84,10 @@ contains
       integer :: bin, bins, points(2)
       logical :: linear
 
-      associate (scene => results%scene, surface => results%solver%surface, solution => results%loads(load)%solution)
+      associate (scene => results%scene, surface => results%solver%surface, solution => results%loads(load))
          call solution%fields(surface, fields)
-         call fields%own_points(points, offset)
+         points = fields%own_points
+         offset = fields%own_offset
          linear = any(points == 0) .and. surface%dimension == 2
          if (any(points == 0)) then
             points = merge(plane_samples, [line_samples, 1], surface%dimension == 2)

@@ -66,7 +66,7 @@ contains
       do load = 1, size(results%loads)
          do body = 1, number_of_bodies(results)
             associate (scene => results%scene, setting => results%scene%stress_setting, &
-                       solution => results%loads(load)%solution, yielding => results%von_mises(body, load), &
+                       solution => results%loads(load), yielding => results%von_mises(body, load), &
                        shear => results%shear(body, load))
                ratio = not_a_number()
                if (allocated(setting%yield_stress)) &

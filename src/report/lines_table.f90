@@ -58,7 +58,7 @@ contains
       call results%open_table('lines', columns, file, in_blocks=.true.)
       do load = 1, size(results%loads)
          call results%begin_block(file, load)
-         call results%loads(load)%solution%fields(results%solver%surface, fields)
+         call results%loads(load)%fields(results%solver%surface, fields)
          do line = 1, results%solver%surface%dimension
             if (line > 1) call file%put('')
             call put_line(results, file, load, line, fields)
@@ -79,7 +79,7 @@ contains
       integer :: k
 
       call start_surface_line(line, results, number)
-      associate (surface => results%solver%surface, solution => results%loads(load)%solution, &
+      associate (surface => results%solver%surface, solution => results%loads(load), &
                  p_star => results%scene%p_star)
          do k = 0, ubound(line%distance, 1)
             associate (x => line%angle(1, k), y => line%angle(2, k))

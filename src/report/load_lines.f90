@@ -47,7 +47,7 @@ contains
       integer, intent(in) :: load                 !! number in the deck's order
       character(:), allocatable :: line
 
-      associate (solution => results%loads(load)%solution, measures => results%loads(load)%solution%measures)
+      associate (solution => results%loads(load), measures => results%loads(load)%measures)
          line = cell(solution%pbar_over_pstar, load_width)
          if (results%scene%gives_modulus) line = line//cell(results%mean_pressure(load), width)
          line = line//cell(measures%mean_gap_over_amplitude, width)//error(measures%mean_gap_error)// &
@@ -79,7 +79,7 @@ contains
 
       solver_width = len('solver')
       do i = 1, size(results%loads)
-         solver_width = max(solver_width, len_trim(solver_names(results%loads(i)%solution%solver)))
+         solver_width = max(solver_width, len_trim(solver_names(results%loads(i)%solver)))
       end do
    end function solver_width
 

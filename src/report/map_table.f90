@@ -70,7 +70,6 @@ contains
       class(contact_fields), allocatable :: fields
       integer :: grid(2), load, points(2)
       integer(int64) :: number
-      real(dp) :: offset(2)
 
       associate (unused => self); end associate
       points = map_points(results)
@@ -81,13 +80,12 @@ contains
          is_written_by_all = all(points == grid .or. points == 2*grid)
          return
       end if
-      number = results%loads(1)%solution%spread_points()
+      number = results%loads(1)%spread_points()
       is_written_by_all = number > 0 .and. &
-         all([(results%loads(load)%solution%spread_points() == number, load=1, size(results%loads))])
+         all([(results%loads(load)%spread_points() == number, load=1, size(results%loads))])
       if (.not. is_written_by_all) return
-      call results%loads(1)%solution%fields(results%solver%surface, fields)
-      call fields%own_points(grid, offset)
-      is_written_by_all = all(points == grid)
+      call results%loads(1)%fields(results%solver%surface, fields)
+      is_written_by_all = all(points == fields%own_points)
    end function is_written_by_all
 
    !> Errors: exit_file_trouble.
@@ -101,7 +99,7 @@ contains
       real(dp) :: offset(2)
 
       points = map_points(results)
-      if (results%loads(1)%solution%spread_points() > 0) then
+      if (results%loads(1)%spread_points() > 0) then
          call write_by_all(results, points, error)
          return
       end if
@@ -133,14 +131,12 @@ contains
       class(contact_fields), allocatable :: fields
       type(grid_slab) :: slab
       type(shared_file) :: file
-      integer :: image, load, own(2)
-      real(dp) :: offset(2)
+      integer :: image, load
       real(dp), allocatable :: shape(:, :)
       type(grid_transform) :: transform
 
-      call results%loads(1)%solution%fields(results%solver%surface, fields)
-      slab = fields%own_slab()
-      call fields%own_points(own, offset)
+      call results%loads(1)%fields(results%solver%surface, fields)
+      slab = fields%own_slab
       allocate (shape(slab%points(1), slab%columns()))
       associate (series => results%solver%surface%shape)
          call transform%start(slab%points, series%is_even())
@@ -149,21 +145,20 @@ contains
       call file%open(results%scene%directory, results%scene%case//'.map.npy', &
                      npy_header(column_name(columns(2:)), [size(results%loads), points(2), points(1)]))
       do load = 1, size(results%loads)
-         if (load > 1) call results%loads(load)%solution%fields(results%solver%surface, fields)
+         if (load > 1) call results%loads(load)%fields(results%solver%surface, fields)
          ! The mirror images of the columns follow those of a quarter of the cell.
          do image = 1, points(2)/slab%points(2)
-            call put_columns(results, load, points, offset, slab, fields, shape, image == 2, file)
+            call put_columns(results, load, points, slab, fields, shape, image == 2, file)
          end do
       end do
       call file%finish(error)
    end subroutine write_by_all
 
    !> Writes the own columns of a load or their mirror images, some at a time.
-   subroutine put_columns(results, load, points, offset, slab, fields, shape, is_image, file)
+   subroutine put_columns(results, load, points, slab, fields, shape, is_image, file)
       type(results_type), intent(in) :: results
       integer, intent(in) :: load
       integer, intent(in) :: points(2)
-      real(dp), intent(in) :: offset(2)       !! of the first point, in steps
       type(grid_slab), intent(in) :: slab
       class(contact_fields), intent(in) :: fields
       real(dp), intent(in) :: shape(:, :)     !! 1 - h/Delta, shape (M, slab%columns())
@@ -194,7 +189,7 @@ contains
                   c = merge(last - l, l - first, is_image)
                   do k = 1, points(1)
                      associate (row => image_of_point(k, slab%points(1), points(1) > slab%points(1)))
-                        rows(:, k, c + 1) = [side*([k, place + c] - 1 + offset)/points, p_star*p(row), &
+                        rows(:, k, c + 1) = [side*([k, place + c] - 1 + fields%own_offset)/points, p_star*p(row), &
                                              surface%amplitude*[gap(row), u(row), 1.0_dp - own(row)]]
                      end associate
                   end do
@@ -233,12 +228,12 @@ contains
       real(dp) :: offset(2)
 
       class(contact_fields), allocatable :: fields
-      integer :: load, own(2)
+      integer :: load
 
       do load = 1, size(results%loads)
-         call results%loads(load)%solution%fields(results%solver%surface, fields)
-         call fields%own_points(own, offset)
-         if (all(own == points)) return
+         call results%loads(load)%fields(results%solver%surface, fields)
+         offset = fields%own_offset
+         if (all(points == fields%own_points)) return
       end do
       ! Of a mirrored map the points are in the middle of their steps, so that none lies on a border.
       offset = merge(0.5_dp, 0.0_dp, results%solver%surface%parts() > 1)
@@ -260,7 +255,7 @@ contains
 
       allocate (rows(size(columns) - 1, points(1)))
       associate (surface => results%solver%surface, p_star => results%scene%p_star)
-         call results%loads(load)%solution%fields(surface, fields)
+         call results%loads(load)%fields(surface, fields)
          call fields%on_grid(points, offset, p, u, gap)
          call sample_series(surface%shape, points, offset, shape, surface%parts())
          side = surface%sides()

@@ -2,7 +2,7 @@
 module wavycon_results
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use wavycon_column_text, only: column_name, column_unit
-   use wavycon_contact_solution, only: contact_solution_item
+   use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_contact_status, only: status_name
    use wavycon_kinds, only: dp
@@ -26,7 +26,7 @@ module wavycon_results
       class(contact_solver), allocatable :: solver
       type(solver_traits) :: traits                          !! of the solver
       character(:), allocatable :: method                    !! the solver and its discretisation in words
-      type(contact_solution_item), allocatable :: loads(:)   !! in the deck's order; loads of other ranks: the measures
+      type(contact_solution), allocatable :: loads(:)        !! in the deck's order; loads of other ranks: the measures
       !> The largest von Mises and shear stresses, shape (bodies, loads); not allocated unless the deck asks for them.
       type(largest_stress), allocatable :: von_mises(:, :), shear(:, :)
       type(work_sharing) :: sharing                          !! how the ranks share the work
@@ -149,7 +149,7 @@ contains
       type(output_file), intent(inout) :: file
       integer, intent(in) :: load    !! number in the deck's order
 
-      associate (solution => self%loads(load)%solution)
+      associate (solution => self%loads(load))
          call file%begin_block('load '//integer_text(load)//': pbar/p* = '//exact_number(solution%pbar_over_pstar)// &
                                ', '//trim(status_name(solution%status)))
       end associate
@@ -163,7 +163,7 @@ contains
       if (allocated(self%scene%mean_pressure)) then
          mean_pressure = self%scene%mean_pressure(load)
       else
-         mean_pressure = self%scene%p_star*self%loads(load)%solution%pbar_over_pstar
+         mean_pressure = self%scene%p_star*self%loads(load)%pbar_over_pstar
       end if
    end function mean_pressure
 
@@ -173,7 +173,7 @@ contains
       integer, intent(in) :: load
 
       if (self%scene%p_star > 0.0_dp) then
-         peak_pressure = self%scene%p_star*self%loads(load)%solution%measures%peak_pressure_over_pstar
+         peak_pressure = self%scene%p_star*self%loads(load)%measures%peak_pressure_over_pstar
       else
          peak_pressure = self%mean_pressure(load)
       end if

@@ -72,7 +72,7 @@ contains
       call results%open_table('spot_sizes', columns, file, in_blocks=.true.)
       any_block = .false.
       do load = 1, size(results%loads)
-         call results%loads(load)%solution%spots(results%solver%surface, regions)
+         call results%loads(load)%spots(results%solver%surface, regions)
          if (.not. regions%known) cycle
          any_block = .true.
          call results%begin_block(file, load)

@@ -60,7 +60,7 @@ contains
 
       call results%open_table('spots', columns, file, in_blocks=.false.)
       do load = 1, size(results%loads)
-         associate (solution => results%loads(load)%solution)
+         associate (solution => results%loads(load))
             call solution%spots(results%solver%surface, regions)
             call file%add(load)
             call file%add([solution%pbar_over_pstar, solution%measures%contact_area_fraction])

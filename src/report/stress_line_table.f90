@@ -53,7 +53,7 @@ contains
          allocate (parts(6, 2, size(depths)), errors(size(depths)), rows(size(columns) - 2, size(depths)))
          call results%open_table('stress_line', columns, file, in_blocks=.true.)
          do load = 1, size(results%loads)
-            call results%loads(load)%solution%stresses(surface, fields)
+            call results%loads(load)%stresses(surface, fields)
             do i = 1, size(depths)
                call fields%at(surface%crest(1), surface%crest(2), angle_of_depth(surface, depths(i)), &
                               parts(:, :, i), errors(i))

@@ -38,7 +38,7 @@ contains
       character(:), allocatable :: line
 
       associate (yielding => results%von_mises(body, load), shear => results%shear(body, load), scene => results%scene)
-         line = cell(results%loads(load)%solution%pbar_over_pstar, load_width)
+         line = cell(results%loads(load)%pbar_over_pstar, load_width)
          if (scene%gives_modulus) line = line//cell(results%mean_pressure(load), width)
          line = line//at_right(achar(iachar('0') + body), body_width)// &
                 cell(yielding%value, width)//error_cell(yielding%error)// &

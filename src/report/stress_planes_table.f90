@@ -75,7 +75,7 @@ contains
       if (file%is_open()) offset = map_offset(results, points)
       do load = 1, size(results%loads)
          if (.not. file%is_open()) exit
-         call results%loads(load)%solution%stresses(results%solver%surface, fields)
+         call results%loads(load)%stresses(results%solver%surface, fields)
          do body = 1, number_of_bodies(results)
             do i = 1, size(depths)
                if (as_text) call results%begin_block(file, load)

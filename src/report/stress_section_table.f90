@@ -68,7 +68,7 @@ contains
       allocate (parts(6, 2, size(t), size(depths)), errors(size(t), size(depths)))
       call results%open_table('stress_section', columns, file, in_blocks=.true.)
       do load = 1, size(results%loads)
-         call results%loads(load)%solution%stresses(results%solver%surface, fields)
+         call results%loads(load)%stresses(results%solver%surface, fields)
          do i = 1, size(depths)
             call fields%on_line(line%angle(:, 0), line%direction, t, &
                                 angle_of_depth(results%solver%surface, depths(i)), parts(:, :, :, i), errors(:, i))

@@ -93,8 +93,8 @@ contains
 
       real(dp) :: at_hardness(4), errors(3)
 
-      associate (scene => results%scene, surface => results%solver%surface, solution => results%loads(load)%solution, &
-                 measures => results%loads(load)%solution%measures)
+      associate (scene => results%scene, surface => results%solver%surface, solution => results%loads(load), &
+                 measures => results%loads(load)%measures)
          errors = not_a_number()
          if (results%traits%has_errors) errors = or_nan(measures%errors())
          at_hardness = not_a_number()

@@ -91,7 +91,7 @@ contains
       real(dp) :: dundurs(series_terms(results)), phi, theta, values(sum(closed_forms)), load_p
       integer :: k
 
-      load_p = results%loads(load)%solution%pbar_over_pstar
+      load_p = results%loads(load)%pbar_over_pstar
       call start_surface_line(line, results, number)
       if (results%solver%surface%dimension == 1) dundurs = dundurs_coefficients(load_p, size(dundurs))
       values = not_a_number()

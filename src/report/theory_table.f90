@@ -85,7 +85,7 @@ contains
 
       call results%open_table('theory', columns, file, in_blocks=.false.)
       do load = 1, size(results%loads)
-         associate (p => results%loads(load)%solution%pbar_over_pstar, &
+         associate (p => results%loads(load)%pbar_over_pstar, &
                     wavelength => results%solver%surface%paper_wavelength())
             call file%add(load)
             call file%add(p)

@@ -31,8 +31,8 @@ contains
          allocate (results%shear(size(setting%body), size(results%loads)))
          do load = 1, size(results%loads)
             if (.not. results%sharing%is_own_load(load)) cycle
-            call results%loads(load)%solution%stresses(results%solver%surface, fields)
-            if (results%loads(load)%solution%is_good() .and. .not. fields%exist) call log%say( &
+            call results%loads(load)%stresses(results%solver%surface, fields)
+            if (results%loads(load)%is_good() .and. .not. fields%exist) call log%say( &
                'note: there is not enough memory for the stresses of load '//integer_text(load))
             do body = 1, size(setting%body)
                call find_largest_stresses(fields, setting%body(body), results%von_mises(body, load), &

@@ -11,7 +11,7 @@ module wavycon_run_scene
    use wavycon_plain_text, only: escaped, integer_text, short_number
    use wavycon_results, only: results_type
    use wavycon_run_log, only: run_log
-   use wavycon_scene, only: by_yield, scene_type
+   use wavycon_scene, only: by_pressure, by_yield, scene_type
    use wavycon_solve_loads, only: solve_loads
    use wavycon_surface, only: whole_surface
    use wavycon_system, only: has_memory_for, make_directories
@@ -88,17 +88,19 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(checkpoint_file) :: checkpoint
+      logical :: known(size(results%scene%target))   !! loads whose solutions are in the checkpoint
 
       status = exit_fine
-      allocate (results%loads(size(results%scene%target)))
-      if (resume) call take_checkpoint(results, log, error)
+      allocate (results%loads(size(known)))
+      known = .false.
+      if (resume) call take_checkpoint(results, known, log, error)
       if (allocated(error)) return
       if (results%sharing%is_first()) call prepare_directory(results%scene, error)
       call results%sharing%share_error(error)
       if (allocated(error)) return
 
-      call checkpoint%create(results)
-      call solve_loads(results, checkpoint, log)
+      call checkpoint%create(results, known)
+      call solve_loads(results, known, checkpoint, log)
       if (results%sharing%any(.not. checkpoint%is_complete())) &
          call log%say('note: not all loads could be written to '//escaped(checkpoint_name(results))//', to resume from')
       call log%say_timed('solved and measured')
@@ -233,37 +235,34 @@ contains
    end function keep_fields
 
    !> Reads the solutions in the checkpoint, if there is one. Errors: exit_bad_input, exit_file_trouble.
-   subroutine take_checkpoint(results, log, error)
+   subroutine take_checkpoint(results, known, log, error)
       type(results_type), intent(inout) :: results
+      logical, intent(out) :: known(:)               !! of each load: whether it need not be solved again
       type(run_log), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
 
-      integer :: load
-      integer(int64) :: ranks_that_know(size(results%loads))
-      logical :: found, known(size(results%loads))
+      integer(int64) :: ranks_that_know(size(known))
+      logical :: found
 
-      call read_checkpoint(results, found, error)
+      call read_checkpoint(results, known, found, error)
       call results%sharing%share_error(error)
       if (allocated(error)) return
-      ranks_that_know = [(merge(1, 0, allocated(results%loads(load)%solution)), load=1, size(results%loads))]
+      ranks_that_know = merge(1, 0, known)
       call results%sharing%add(ranks_that_know)
+      ! Of a load that was interrupted some ranks may have their columns, others not.
       if (results%sharing%kind == spread_grids) then
-         ! Of a load that was interrupted some ranks may have their columns, others not.
-         known = ranks_that_know == results%sharing%ranks
-         do load = 1, size(results%loads)
-            if (.not. known(load) .and. allocated(results%loads(load)%solution)) &
-               deallocate (results%loads(load)%solution)
-         end do
-      else
+         ranks_that_know = ranks_that_know/results%sharing%ranks
          known = ranks_that_know > 0
       end if
       if (results%sharing%any(found)) then
-         call log%say('resumed   '//integer_text(count(known))//' of '//integer_text(size(results%loads))// &
+         call log%say('resumed   '//integer_text(count(ranks_that_know > 0))//' of '//integer_text(size(known))// &
                       ' loads are in '//escaped(checkpoint_name(results)))
       else
          call log%say('note: there is no '//escaped(checkpoint_name(results))// &
                       ' to resume from: all loads are solved')
       end if
+      ! The digits of these loads depend on the load solved before.
+      if (results%scene%loads_by /= by_pressure .and. results%traits%continues_last_load) known = .false.
    end subroutine take_checkpoint
 
    !> Makes the output directory and writes the resolved deck into it, so that a directory that cannot be written to is
@@ -313,13 +312,13 @@ contains
       integer :: load
 
       points = 0
-      if (fields) points = sum([(results%loads(load)%solution%spread_points(), load=1, size(results%loads))])
+      if (fields) points = sum([(results%loads(load)%spread_points(), load=1, size(results%loads))])
       call check_memory(results, points, surface, error)
       call results%sharing%share_error(error)
       if (allocated(error)) return
       if (fields) then
          do load = 1, size(results%loads)
-            call results%loads(load)%solution%collect_fields()
+            call results%loads(load)%collect_fields()
          end do
       end if
       if (surface) call whole_surface(results%solver%surface, first_only=.true.)

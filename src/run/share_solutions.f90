@@ -6,7 +6,6 @@ module wavycon_share_solutions
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_kinds, only: dp
    use wavycon_largest_stress, only: largest_stress
-   use wavycon_measured_solution, only: measured_solution
    use wavycon_results, only: results_type
    use wavycon_solution_record, only: record_of_words, record_words, words_of_record
    use wavycon_work_sharing, only: work_sharing
@@ -26,19 +25,16 @@ contains
 
       integer :: load
       integer(int64), allocatable :: words(:)
-      type(measured_solution), allocatable :: other
 
       allocate (words(record_words*size(results%loads)), source=0_int64)
       do load = 1, size(results%loads)
          if (results%sharing%is_own_load(load)) &
-            words((load - 1)*record_words + 1:load*record_words) = words_of_record(results%loads(load)%solution)
+            words((load - 1)*record_words + 1:load*record_words) = words_of_record(results%loads(load))
       end do
       call results%sharing%add(words)
       do load = 1, size(results%loads)
-         if (results%sharing%is_own_load(load)) cycle
-         allocate (other)
-         other%solution_record = record_of_words(words((load - 1)*record_words + 1:load*record_words))
-         call move_alloc(other, results%loads(load)%solution)
+         if (.not. results%sharing%is_own_load(load)) &
+            results%loads(load)%solution_record = record_of_words(words((load - 1)*record_words + 1:load*record_words))
       end do
    end subroutine share_solutions
 

@@ -6,10 +6,9 @@ module wavycon_solve_loads
    use wavycon_kinds, only: dp
    use wavycon_results, only: results_type
    use wavycon_run_log, only: log_progress, run_log
-   use wavycon_scene, only: by_mean_gap, by_pressure
+   use wavycon_scene, only: by_mean_gap
    use wavycon_share_solutions, only: share_solutions
    use wavycon_solve_target, only: solve_target
-   use wavycon_solver_progress, only: solver_progress
    use wavycon_work_sharing, only: spread_loads
    implicit none (type, external)
    private
@@ -22,20 +21,18 @@ module wavycon_solve_loads
 
 contains
 
-   !> Solves and measures all loads, from the highest to the lowest so that each can start from the last one. Loads
-   !> whose solutions were kept from an interrupted run are not solved again if their digits do not depend on the last
-   !> load. Where the loads are spread, solves the own ones and takes the measures of the others.
-   subroutine solve_loads(results, checkpoint, log)
-      type(results_type), intent(inout) :: results       !! with the solver started; solutions read from a checkpoint
+   !> Solves and measures all loads that are not known, from the highest to the lowest so that each can start from the
+   !> last one. Where the loads are spread, solves the own ones and takes the measures of the others.
+   subroutine solve_loads(results, known, checkpoint, log)
+      type(results_type), intent(inout) :: results       !! with the solver started
+      logical, intent(in) :: known(:)                    !! of each load: whether the results have its solution
       type(checkpoint_file), intent(inout) :: checkpoint !! the solutions computed here are added to it
       type(run_log), intent(inout), target :: log        !! shows the progress
 
       integer :: i, length, load, order(size(results%loads))
-      logical :: are_spread, known
+      logical :: are_spread
       type(log_progress), target :: progress
-      class(solver_progress), pointer :: nobody
 
-      nobody => null()
       are_spread = results%sharing%kind == spread_loads
       associate (target => results%scene%target, loads_by => results%scene%loads_by, solver => results%solver)
          order = descending(merge(-target, target, loads_by == by_mean_gap))
@@ -44,24 +41,22 @@ contains
          if (are_spread) call results%sharing%work_alone(.true.)
          progress%log => log
          progress%loads = size(order)
-         call solver%show_progress(progress)
+         solver%progress => progress
          do i = 1, size(order)
             load = order(i)
             if (.not. results%sharing%is_own_load(load)) cycle
             if (are_spread .and. mod(i - 1, length) == 0) call solver%forget_last_load()
             progress%load = i
-            known = allocated(results%loads(load)%solution) .and. &
-                    (loads_by == by_pressure .or. .not. results%traits%continues_last_load)
-            if (known) then
+            if (known(load)) then
                call solver%skip_load(target(load))
             else
-               call solve_target(solver, loads_by, target(load), results%loads(load)%solution, &
+               call solve_target(solver, loads_by, target(load), results%loads(load), &
                                  results%scene%stress_setting)
-               call checkpoint%add(load, results%loads(load)%solution)
+               call checkpoint%add(load, results%loads(load))
             end if
             call log%show_progress(i, size(order))
          end do
-         call solver%show_progress(nobody)
+         solver%progress => null()
       end associate
       if (.not. are_spread) return
       call results%sharing%work_alone(.false.)

@@ -19,7 +19,7 @@ contains
       class(contact_solver), intent(inout) :: solver
       integer, intent(in) :: loads_by     !! a name of wavycon_scene
       real(dp), intent(in) :: target      !! as of scene_type
-      class(contact_solution), allocatable, intent(inout) :: solution
+      type(contact_solution), intent(out) :: solution
       type(stress_setting), intent(in), optional :: setting   !! needed by_yield, with yield stresses
 
       select case (loads_by)

@@ -7,8 +7,8 @@ program bench_maps
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver
-   use wavycon_fitted_contact, only: fitted_contact
-   use wavycon_grid_contact, only: grid_contact
+   use wavycon_fitted_contact, only: fitted_contact, fitted_options
+   use wavycon_grid_contact, only: grid_contact, grid_options
    use wavycon_hexagonal, only: hexagonal
    use wavycon_kinds, only: dp
    use wavycon_surface, only: surface_type
@@ -30,7 +30,7 @@ program bench_maps
    write (output_unit, '(a)') '# solver      surface   accuracy      P  solve[ms] points    map[ms]      least'
    call measure_fitted(1e-4_dp)
    call measure_fitted(1e-10_dp)
-   call grid%start(wave_2d(1.0_dp, 1.0_dp, 1.0_dp), 1e-3_dp, keep_fields=.true.)
+   call grid%start(wave_2d(1.0_dp, 1.0_dp, 1.0_dp), grid_options(), keep_fields=.true.)
    call measure(grid, 'grid', 'wave_2d', 1e-3_dp)
    call closed%start(wave_1d(1.0_dp, 1.0_dp))
    call measure(closed, 'closed_form', 'wave_1d', epsilon(1.0_dp))
@@ -40,9 +40,9 @@ contains
    subroutine measure_fitted(accuracy)
       real(dp), intent(in) :: accuracy
 
-      call fitted%start(wave_2d(1.0_dp, 1.0_dp, 1.0_dp), accuracy, keep_fields=.true.)
+      call fitted%start(wave_2d(1.0_dp, 1.0_dp, 1.0_dp), fitted_options(accuracy), keep_fields=.true.)
       call measure(fitted, 'fitted', 'wave_2d', accuracy)
-      call fitted%start(hexagonal(1.0_dp, 1.0_dp), accuracy, keep_fields=.true.)
+      call fitted%start(hexagonal(1.0_dp, 1.0_dp), fitted_options(accuracy), keep_fields=.true.)
       call measure(fitted, 'fitted', 'hexagonal', accuracy)
    end subroutine measure_fitted
 
@@ -52,7 +52,7 @@ contains
       real(dp), intent(in) :: accuracy
 
       class(contact_fields), allocatable :: fields
-      class(contact_solution), allocatable :: solution
+      type(contact_solution) :: solution
       type(sample_set) :: times
       real(dp), allocatable, dimension(:, :) :: displacement, gap, pressure
       real(dp) :: solve, spent, start

@@ -8,10 +8,13 @@
 program bench_paper_method
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use samples, only: clock_ms, sample_set
-   use wavycon_beale_contact, only: beale_contact, beale_solution
+   use wavycon_beale_contact, only: beale_contact, qp_options
+   use wavycon_contact_status, only: status_name, status_of_programme
    use wavycon_fourier_series, only: fourier_series
    use wavycon_fourier_terms, only: symmetry_diagonal, symmetry_full
    use wavycon_kinds, only: dp
+   use wavycon_qp_problem, only: qp_converged, qp_solution
+   use wavycon_series_source, only: series_source
    use wavycon_wave_2d, only: wave_2d
    implicit none (type, external)
 
@@ -21,7 +24,7 @@ program bench_paper_method
       logical :: straight = .false.      !! by Beale's method from x = 0 at the load itself
       type(beale_contact) :: fresh     !! that has solved nothing yet
       type(sample_set) :: times
-      type(beale_solution) :: solution
+      type(qp_solution) :: programme
    end type contender
 
    !> Least number of rounds of a comparison, however long they take.
@@ -71,7 +74,7 @@ contains
             medians(i, j) = contenders(j)%times%median()
             leasts(i, j) = contenders(j)%times%least()
             call write_row(contenders(j), loads(i), gaps(i))
-            if (contenders(j)%straight .and. .not. contenders(j)%solution%is_good()) unsolved = unsolved + 1
+            if (contenders(j)%straight .and. contenders(j)%programme%status /= qp_converged) unsolved = unsolved + 1
          end do
       end do
       if (unsolved > 0) then
@@ -96,25 +99,25 @@ contains
    !> All loads from the highest to the lowest, each from the one before, against each load on its own.
    subroutine compare_sweep()
       type(beale_contact) :: fresh, contact
-      type(beale_solution) :: solution
+      type(qp_solution) :: programme
       type(sample_set) :: sweeps, singles
       real(dp) :: before, start
       integer :: i
 
-      call fresh%start(wave_2d(1.0_dp, 1.0_dp, 1.0_dp), 9, 27, symmetry_full)
+      call fresh%start(wave_2d(1.0_dp, 1.0_dp, 1.0_dp), qp_options())
       start = clock_ms()
       do while (clock_ms() - start < budget .or. sweeps%count < least_rounds)
          contact = fresh
          before = clock_ms()
          do i = size(loads), 1, -1
-            call contact%solve_series(loads(i), solution)
+            call contact%solve_programme(loads(i), programme)
          end do
          call sweeps%add(clock_ms() - before)
 
          before = clock_ms()
          do i = size(loads), 1, -1
             contact = fresh
-            call contact%solve_series(loads(i), solution)
+            call contact%solve_programme(loads(i), programme)
          end do
          call singles%add(clock_ms() - before)
       end do
@@ -133,15 +136,15 @@ contains
    subroutine time_large_series()
       real(dp), parameter :: swept(*) = [0.8_dp, 0.6_dp, 0.4_dp, 0.2_dp]
       type(beale_contact) :: contact
-      type(beale_solution) :: solution
+      type(qp_solution) :: programme
       real(dp) :: start
       integer :: i
 
-      call contact%start(wave_2d(1.0_dp, 1.0_dp, 1.0_dp), 60, 121, symmetry_full)
+      call contact%start(wave_2d(1.0_dp, 1.0_dp, 1.0_dp), qp_options(60, 121))
       start = clock_ms()
       do i = 1, size(swept)
-         call contact%solve_series(swept(i), solution)
-         all_good = all_good .and. solution%is_good()
+         call contact%solve_programme(swept(i), programme)
+         all_good = all_good .and. programme%status == qp_converged
       end do
       call write_head('960/3721, mean of four loads from 0.8 to 0.2 [ms]')
       associate (mean => (clock_ms() - start)/size(swept))
@@ -176,7 +179,8 @@ contains
       new%points = points
       new%symmetry = symmetry
       if (present(straight)) new%straight = straight
-      call new%fresh%start(wave_2d(1.0_dp, 1.0_dp, 1.0_dp), harmonics, points, symmetry, by_beale=new%straight)
+      call new%fresh%start(wave_2d(1.0_dp, 1.0_dp, 1.0_dp), &
+                           qp_options(harmonics, points, symmetry, by_beale=new%straight))
    end function new_contender
 
    !> Solves for one load by every method in turn until the time is over.
@@ -211,7 +215,7 @@ contains
 
       contact = self%fresh
       before = clock_ms()
-      call contact%solve_series(load, self%solution)
+      call contact%solve_programme(load, self%programme)
       call self%times%add(clock_ms() - before)
    end subroutine run
 
@@ -229,19 +233,24 @@ contains
       real(dp), intent(in) :: load
       real(dp), intent(in) :: gap   !! G that the answer is compared with
 
-      type(fourier_series) :: displacement, pressure
+      type(fourier_series) :: displacement
+      type(series_source) :: source
       real(dp) :: own_gap
 
-      call self%solution%coefficients(self%fresh%surface, pressure)
-      displacement = self%fresh%surface%displacement_of(pressure)
-      own_gap = 1.0_dp - displacement%at(0.0_dp, 0.0_dp)   ! eq. (28)
+      own_gap = 1.0_dp
+      if (allocated(self%programme%x)) then
+         source = self%fresh%series
+         source%x = self%programme%x
+         displacement = source%displacement()
+         own_gap = 1.0_dp - displacement%at(0.0_dp, 0.0_dp)   ! eq. (28)
+      end if
       write (output_unit, '(i5,i7,a10,a6,i9,i12,f7.2,2i7,3f10.4,f14.9,es14.3,1x,a)') &
          self%harmonics, self%points, merge('full    ', 'diagonal', self%symmetry == symmetry_full), &
-         merge('beale', 'dual ', self%straight), shape(self%fresh%problem%normals), load, self%solution%iterations, &
+         merge('beale', 'dual ', self%straight), shape(self%fresh%problem%normals), load, self%programme%pivots, &
          self%times%count, self%times%median(), self%times%least(), self%times%largest(), own_gap, &
-         own_gap - gap, trim(self%solution%status)
+         own_gap - gap, trim(status_name(status_of_programme(self%programme%status)))
       flush (output_unit)
-      all_good = all_good .and. (self%straight .or. self%solution%is_good())
+      all_good = all_good .and. (self%straight .or. self%programme%status == qp_converged)
    end subroutine write_row
 
    subroutine write_head(title)

@@ -9,21 +9,21 @@
 program bench_single_solves
    use, intrinsic :: iso_fortran_env, only: error_unit, input_unit, output_unit
    use samples, only: clock_ms
-   use wavycon_contact_status, only: status_name
-   use wavycon_beale_contact, only: beale_contact, beale_solution
-   use wavycon_fourier_terms, only: symmetry_full
+   use wavycon_contact_status, only: status_name, status_of_programme
+   use wavycon_beale_contact, only: beale_contact, qp_options
    use wavycon_kinds, only: dp
+   use wavycon_qp_problem, only: qp_solution
    use wavycon_wave_2d, only: wave_2d
    implicit none (type, external)
 
    character(*), parameter :: numbers = '(*(es26.17e3))'
    type(beale_contact) :: fresh, contact
-   type(beale_solution) :: solution
+   type(qp_solution) :: programme
    real(dp), allocatable :: times(:)
    real(dp) :: load, before
    integer :: i, count, ios
 
-   call fresh%start(wave_2d(1.0_dp, 1.0_dp, 1.0_dp), argument(1), argument(2), symmetry_full)
+   call fresh%start(wave_2d(1.0_dp, 1.0_dp, 1.0_dp), qp_options(argument(1), argument(2)))
    write (output_unit, '(i0,1x,i0)') shape(fresh%problem%normals)
    do i = 1, size(fresh%problem%linear)
       write (output_unit, numbers) fresh%problem%hessian(:, i)
@@ -41,12 +41,12 @@ program bench_single_solves
       do i = 1, count
          contact = fresh
          before = clock_ms()
-         call contact%solve_series(load, solution)
+         call contact%solve_programme(load, programme)
          times(i) = clock_ms() - before
       end do
-      write (output_unit, '(a,1x,i0)') trim(status_name(solution%status)), solution%iterations
+      write (output_unit, '(a,1x,i0)') trim(status_name(status_of_programme(programme%status))), programme%pivots
       write (output_unit, numbers) times
-      write (output_unit, numbers) solution%x
+      write (output_unit, numbers) programme%x
       flush (output_unit)
       deallocate (times)
    end do

@@ -8,8 +8,8 @@ program bench_stresses
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver
    use wavycon_elastic_body, only: elastic_body
-   use wavycon_fitted_contact, only: fitted_contact
-   use wavycon_grid_contact, only: grid_contact
+   use wavycon_fitted_contact, only: fitted_contact, fitted_options
+   use wavycon_grid_contact, only: grid_contact, grid_options
    use wavycon_hexagonal, only: hexagonal
    use wavycon_kinds, only: dp
    use wavycon_largest_stress, only: find_largest_stresses, largest_stress
@@ -40,16 +40,16 @@ program bench_stresses
    write (output_unit, '(a)') '# solver      surface    accuracy       P      solve    section     search      plane'
    call closed%start(wave_1d(1.0_dp, 1.0_dp))
    call measure(closed, 'closed_form', 'wave_1d', epsilon(1.0_dp), [128, 1])
-   call fitted%start(wave_2d(1.0_dp, 1.0_dp, 1.0_dp), 1e-4_dp, keep_fields=.true.)
+   call fitted%start(wave_2d(1.0_dp, 1.0_dp, 1.0_dp), fitted_options(1e-4_dp), keep_fields=.true.)
    call measure(fitted, 'fitted', 'wave_2d', 1e-4_dp, [128, 128])
-   call fitted%start(wave_2d(1.0_dp, 1.0_dp, 1.0_dp), 1e-10_dp, keep_fields=.true.)
+   call fitted%start(wave_2d(1.0_dp, 1.0_dp, 1.0_dp), fitted_options(1e-10_dp), keep_fields=.true.)
    call measure(fitted, 'fitted', 'wave_2d', 1e-10_dp, [128, 128])
-   call fitted%start(hexagonal(1.0_dp, 1.0_dp), 1e-10_dp, keep_fields=.true.)
+   call fitted%start(hexagonal(1.0_dp, 1.0_dp), fitted_options(1e-10_dp), keep_fields=.true.)
    call measure(fitted, 'fitted', 'hexagonal', 1e-10_dp, [128, 128])
-   call grid%start(wave_2d(1.0_dp, 1.0_dp, 1.0_dp), 1e-3_dp, keep_fields=.true.)
+   call grid%start(wave_2d(1.0_dp, 1.0_dp, 1.0_dp), grid_options(), keep_fields=.true.)
    call measure(grid, 'grid', 'wave_2d', 1e-3_dp, [128, 128])
    do i = 1, size(map_sides)
-      call grid%start(rough_surface(map_sides(i)), 1e-3_dp, keep_fields=.true., points=[1, 1]*map_sides(i))
+      call grid%start(rough_surface(map_sides(i)), grid_options(points=[1, 1]*map_sides(i)), keep_fields=.true.)
       call measure(grid, 'grid', 'rough'//merge('_256 ', '_1024', map_sides(i) == 256), 1e-3_dp, [1, 1]*map_sides(i))
    end do
 
@@ -61,7 +61,7 @@ contains
       real(dp), intent(in) :: accuracy
       integer, intent(in) :: points(2)                 !! of the plane
 
-      class(contact_solution), allocatable :: solution
+      type(contact_solution) :: solution
       class(stress_fields), allocatable :: fields
       type(sample_set) :: times(3)
       real(dp) :: solve, spent, start

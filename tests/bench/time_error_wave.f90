@@ -11,10 +11,9 @@
 program time_error_wave
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use samples, only: clock_ms, sample_set
-   use wavycon_beale_contact, only: beale_contact
+   use wavycon_beale_contact, only: beale_contact, qp_options
    use wavycon_contact_solution, only: contact_solution
    use wavycon_fitted_solver, only: fitted_answer, solve_fitted, square_lattice, wave_lattice
-   use wavycon_fourier_terms, only: symmetry_full
    use wavycon_grid_cascade, only: cascade_answer, solve_by_cascade
    use wavycon_kinds, only: dp
    use wavycon_surface, only: surface_type
@@ -143,13 +142,13 @@ contains
       real(dp), intent(in) :: end_time   !! [ms]
 
       type(beale_contact) :: fresh, contact
-      class(contact_solution), allocatable :: solution
+      type(contact_solution) :: solution
       type(sample_set) :: times
       real(dp) :: start
       integer :: k
 
       do k = 1, size(harmonics)
-         call fresh%start(whole, harmonics(k), harmonics(k) + 1, symmetry_full)
+         call fresh%start(whole, qp_options(harmonics(k), harmonics(k) + 1))
          times = sample_set()
          do while (again(times))
             contact = fresh

@@ -99,8 +99,10 @@ def statuses_of_sources():
     text = read("src/contact/contact_status.f90")
     codes = {name: int(code) for line in re.findall(r"integer, parameter, public :: (.*)", text)
              for name, code in re.findall(r"(\w+) = (\d+)", line)}
+    statuses = re.search(r"statuses\(\*\) = \[(.*?)\]\n", text, re.DOTALL)[1].replace("other_failure +", "")
+    names = re.search(r"names\(\*\) = \[(.*?)\]\n", text, re.DOTALL)[1]
     return {name: codes.get(constant, codes["other_failure"])
-            for constant, name in re.findall(r"case \((.+)\)\s+name = '(\w+)'", text)}
+            for constant, name in zip(re.findall(r"[a-z_]+", statuses), re.findall(r"'(\w+)'", names), strict=True)}
 
 
 def named_keys(text):

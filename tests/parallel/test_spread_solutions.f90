@@ -10,13 +10,14 @@ program test_spread_solutions
    use wavycon_counted_area, only: corrected_area_fraction, counted_area_fraction, edge_crossings
    use wavycon_find_load, only: solve_for_contact_area, solve_for_mean_gap
    use wavycon_grid_area, only: grid_contact_area
-   use wavycon_grid_contact, only: grid_contact
+   use wavycon_grid_contact, only: grid_contact, grid_options
    use wavycon_grid_edge, only: grid_edge, start_grid_edge
    use wavycon_grid_error, only: unresolved_errors
    use wavycon_grid_peak, only: grid_peak_pressure
    use wavycon_grid_plan, only: fits_memory
    use wavycon_grid_slab, only: grid_slab, least_spread_points
-   use wavycon_grid_solution, only: grid_solution
+   use wavycon_grid_source, only: grid_source
+   use wavycon_kept_solution, only: pack_solution, unpack_solution
    use wavycon_kinds, only: dp
    use wavycon_mpi_ranks, only: start_mpi
    use wavycon_ranks, only: is_first_rank, rank_count, work_alone
@@ -177,9 +178,9 @@ contains
 
    subroutine test_loads_of_area_and_gap()
       type(grid_contact) :: solver
-      class(contact_solution), allocatable :: spread_solution, whole_solution
+      type(contact_solution) :: spread_solution, whole_solution
 
-      call solver%start(tilted_waves(), 0.0_dp, keep_fields=.false., points=[256, 320])
+      call solver%start(tilted_waves(), grid_options(points=[256, 320]), keep_fields=.false.)
       call work_alone(.true.)
       call solve_for_contact_area(solver, 0.3_dp, whole_solution)
       call work_alone(.false.)
@@ -237,47 +238,67 @@ contains
       type(surface_type), intent(in), optional :: spread_surface   !! the same surface, if it is spread too
 
       type(grid_contact) :: solver
-      type(grid_solution) :: again
-      class(contact_solution), allocatable :: spread_solution, whole_solution
-      real(dp), allocatable :: packed(:)
+      type(contact_solution) :: again
+      type(contact_solution) :: spread_solution, whole_solution
+      integer(int64), allocatable :: packed(:)
       logical :: understood
 
-      call solver%start(surface, accuracy, keep_fields=.true., points=points)
+      call solver%start(surface, grid_options(accuracy, points), keep_fields=.true.)
       call work_alone(.true.)
       call solver%solve(load, whole_solution)
       call work_alone(.false.)
-      if (present(spread_surface)) call solver%start(spread_surface, accuracy, keep_fields=.true., points=points)
+      if (present(spread_surface)) call solver%start(spread_surface, grid_options(accuracy, points), &
+                                                     keep_fields=.true.)
       call solver%solve(load, spread_solution)
       call check(whole_solution%is_good() .or. accuracy > 0.0_dp)
       call check(whole_solution%status == spread_solution%status)
       call check(same(numbers(whole_solution), numbers(spread_solution)))
-      select type (whole_solution)
-      type is (grid_solution)
-         select type (spread_solution)
-         type is (grid_solution)
-            associate (slab => spread_solution%edge%slab)
-               call check(slab%is_spread .eqv. (rank_count() > 1 .and. product(slab%points) >= least_spread_points))
-               call check(same_fields(spread_solution%edge%pressure_or_gap, &
-                                      whole_solution%edge%pressure_or_gap(:, slab%first:slab%last)))
-            end associate
-            call spread_solution%pack_kept(packed)
-            call again%unpack_kept(packed, understood)
-            call check(understood)
-            call check(same_fields(again%edge%pressure_or_gap, spread_solution%edge%pressure_or_gap))
-            call again%collect_fields()
-            if (is_first_rank() .or. .not. spread_solution%edge%slab%is_spread) then
-               call check(same_fields(again%edge%pressure_or_gap, whole_solution%edge%pressure_or_gap))
-               call check(.not. again%edge%slab%is_spread)
-            else
-               call check(.not. allocated(again%edge))
-            end if
-         end select
-      end select
+      call pack_solution(spread_solution, packed)
+      call unpack_solution(packed, again, understood)
+      call check(understood)
+      call check_spread(spread_solution, whole_solution)
+      call check_spread(again, whole_solution)
+      call again%collect_fields()
+      call check(again%spread_points() == 0)
+      if (is_first_rank() .or. spread_solution%spread_points() == 0) then
+         call check(same_fields(field_of(again), field_of(whole_solution)))
+      else
+         call check(.not. allocated(again%source))
+      end if
    end subroutine compare
+
+   !> Checks the columns that this rank has of a grid that is spread, if it is large enough to be.
+   subroutine check_spread(solution, whole_solution)
+      type(contact_solution), intent(in) :: solution, whole_solution
+
+      real(dp), allocatable :: whole(:, :)
+
+      whole = field_of(whole_solution)
+      call check((solution%spread_points() > 0) .eqv. &
+                 (rank_count() > 1 .and. size(whole, kind=int64) >= least_spread_points))
+      select type (source => solution%source)
+      type is (grid_source)
+         associate (slab => source%edge%slab)
+            call check(same_fields(source%edge%pressure_or_gap, whole(:, slab%first:slab%last)))
+         end associate
+      end select
+   end subroutine check_spread
+
+   !> Pressure, or minus the gap, at the points that this rank has.
+   function field_of(solution) result(field)
+      type(contact_solution), intent(in) :: solution
+      real(dp), allocatable :: field(:, :)
+
+      allocate (field(0, 0))
+      select type (source => solution%source)
+      type is (grid_source)
+         field = source%edge%pressure_or_gap
+      end select
+   end function field_of
 
    !> The numbers of a solution that tables show.
    function numbers(solution) result(values)
-      class(contact_solution), intent(in) :: solution
+      type(contact_solution), intent(in) :: solution
       real(dp), allocatable :: values(:)
 
       associate (m => solution%measures)

@@ -6,8 +6,9 @@
 module stress_kkt_of_grid
    use, intrinsic :: iso_fortran_env, only: real128
    use wavycon_grid_edge, only: grid_edge
-   use wavycon_grid_solution, only: grid_solution
+   use wavycon_grid_source, only: grid_source
    use wavycon_kinds, only: dp
+   use wavycon_solution_record, only: solution_record
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
@@ -34,41 +35,41 @@ module stress_kkt_of_grid
 contains
 
    !> Checks a solution between no load and full contact on a grid of the whole cell.
-   type(grid_kkt) function check_grid(surface, solution) result(kkt)
+   type(grid_kkt) function check_grid(surface, record, source) result(kkt)
       type(surface_type), intent(in) :: surface
-      type(grid_solution), intent(in) :: solution   !! with its edge, of a grid that carries all waves of the surface
+      type(solution_record), intent(in) :: record
+      type(grid_source), intent(in) :: source   !! of a grid that carries all waves of the surface
 
       real(qp), allocatable :: pressure(:, :), gap(:, :)
       logical, allocatable :: beside(:, :), contact(:, :), free(:, :)
       real(qp) :: told, undeformed
       integer :: i, j, m, n
 
-      if (.not. allocated(solution%edge)) return
-      associate (field => solution%edge%pressure_or_gap)
+      associate (field => source%edge%pressure_or_gap)
          kkt%well_formed = all(abs(field) <= huge(1.0_dp)) .and. any(field > 0.0_dp) .and. &
                            all(field <= surface%hardness)
          if (.not. kkt%well_formed) return
          m = size(field, 1)
          n = size(field, 2)
-         if (solution%edge%even) m = 2*m
-         if (solution%edge%even .and. n > 1) n = 2*n
+         if (source%edge%even) m = 2*m
+         if (source%edge%even .and. n > 1) n = 2*n
          allocate (pressure(m, n), gap(m, n))
          do j = 1, n
             do i = 1, m
-               pressure(i, j) = max(field(solution%edge%place(i, 1), solution%edge%place(j, 2)), 0.0_dp)
+               pressure(i, j) = max(field(source%edge%place(i, 1), source%edge%place(j, 2)), 0.0_dp)
             end do
          end do
          contact = pressure > 0.0_qp
          free = contact .and. pressure < surface%hardness
-         kkt%load = relative(sum(pressure)/size(pressure), solution%pbar_over_pstar)
+         kkt%load = relative(sum(pressure)/size(pressure), record%pbar_over_pstar)
 
          call displace(surface, pressure, gap)
          kkt%depth = 0.0_dp
          do j = 1, n
             do i = 1, m
-               undeformed = undeformed_gap(surface, solution%edge, i, j)
+               undeformed = undeformed_gap(surface, source%edge, i, j)
                kkt%depth = max(kkt%depth, real(abs(undeformed), dp))
-               gap(i, j) = gap(i, j) + undeformed - solution%measures%approach_over_amplitude
+               gap(i, j) = gap(i, j) + undeformed - record%measures%approach_over_amplitude
             end do
          end do
          kkt%residual = real(sqrt((sum(merge(gap, min(gap, 0.0_qp), contact)**2, free .or. .not. contact) &
@@ -81,7 +82,7 @@ contains
          do j = 1, n
             do i = 1, m
                if (contact(i, j)) cycle
-               told = -field(solution%edge%place(i, 1), solution%edge%place(j, 2))
+               told = -field(source%edge%place(i, 1), source%edge%place(j, 2))
                kkt%gap = max(kkt%gap, real(abs(told - max(gap(i, j), 0.0_qp)), dp))
             end do
          end do

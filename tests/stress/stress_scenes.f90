@@ -13,8 +13,8 @@ program stress_scenes
    use wavycon_contact_solution, only: contact_solution
    use wavycon_deck, only: deck_type
    use wavycon_error, only: error_type
-   use wavycon_fitted_solution, only: fitted_solution
-   use wavycon_grid_solution, only: grid_solution
+   use wavycon_fitted_source, only: fitted_source
+   use wavycon_grid_source, only: grid_source
    use wavycon_kinds, only: dp
    use wavycon_read_deck, only: read_deck
    use wavycon_make_scene, only: make_scene
@@ -23,7 +23,7 @@ program stress_scenes
    implicit none (type, external)
 
    type(random_stream) :: stream
-   class(contact_solution), allocatable :: solution
+   type(contact_solution) :: solution
    type(deck_type) :: deck
    type(error_type), allocatable :: error
    type(expansion_kkt) :: of_expansion
@@ -47,25 +47,27 @@ program stress_scenes
          call start_solver(scene%surface, scene%method, .true., solver)
       end if
       call solver%solve(scene%target(i), solution)
-      select type (solution)
-      type is (fitted_solution)
+      if (.not. allocated(solution%source)) then
+         write (*, '(a, "|", es24.16, "|", a)') 'none', scene%target(i), trim(status_name(solution%status))
+         cycle
+      end if
+      select type (source => solution%source)
+      type is (fitted_source)
          call stream%start(number(2), i)
-         of_expansion = check_expansion(solution%lattice, solution%answer, stream, number(3))
+         of_expansion = check_expansion(source%lattice, source%answer, stream, number(3))
          associate (measures => solution%measures)
             write (*, '(a, "|", es24.16, "|", a, 9("|", es10.2e3))') 'expansion', scene%target(i), &
                trim(status_name(solution%status)), of_expansion%contact, of_expansion%noise, of_expansion%tension, &
                of_expansion%overlap, of_expansion%balance, solution%residual, &
                measures%mean_gap_error, measures%contact_area_error, measures%peak_pressure_error
          end associate
-      type is (grid_solution)
-         of_grid = check_grid(scene%surface, solution)
+      type is (grid_source)
+         of_grid = check_grid(scene%surface, solution%solution_record, source)
          write (*, '(a, "|", es24.16, "|", a, 8("|", es23.15e3), "|", i0)') 'grid', scene%target(i), &
             trim(status_name(solution%status)), of_grid%load, of_grid%residual, of_grid%complementarity, of_grid%gap, &
             solution%residual, &
-            solution%measures%mean_gap_over_amplitude + solution%imprint, of_grid%edge_gap, of_grid%depth, &
+            solution%measures%mean_gap_over_amplitude + source%imprint, of_grid%edge_gap, of_grid%depth, &
             solution%iterations
-      class default
-         write (*, '(a, "|", es24.16, "|", a)') 'none', scene%target(i), trim(status_name(solution%status))
       end select
    end do
 

@@ -5,8 +5,8 @@ module wavycon_auto_method
    use wavycon_closed_form_method, only: describe_closed_form
    use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_fitted_method, only: describe_fitted
-   use wavycon_grid_keys, only: accuracy_key, check_grid_points, describe_grid, grid_points_key, points_of_grid, &
-      residual_key, set_grid_defaults
+   use wavycon_grid_keys, only: accuracy_key, check_grid_points, describe_grid, grid_points_key, residual_key, &
+      set_grid_defaults, start_on_grids
    use wavycon_group_values, only: group_values
    use wavycon_solver_method, only: solver_method
    use wavycon_surface, only: surface_type
@@ -40,8 +40,7 @@ contains
       type(auto_contact), allocatable :: own
 
       allocate (own)
-      call own%start(surface, values%real('accuracy'), keep_fields, points_of_grid(values, surface), &
-                     values%real('residual'))
+      call start_on_grids(values, surface, keep_fields, own)
       call move_alloc(own, solver)
    end subroutine make
 

@@ -1,6 +1,6 @@
 !> solver = 'beale': the paper's truncated Fourier series.
 module wavycon_beale_method
-   use wavycon_beale_contact, only: beale_contact
+   use wavycon_beale_contact, only: beale_contact, paper_constraint_points, paper_harmonics, qp_options
    use wavycon_constraint_points, only: choose_points
    use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_fourier_terms, only: choose_terms, fourier_terms, symmetry_diagonal, symmetry_full, symmetry_none
@@ -17,8 +17,6 @@ module wavycon_beale_method
 
    public :: beale_method
 
-   !> The paper's numbers, for 1-D and 2-D waves.
-   integer, parameter :: default_harmonics(2) = [10, 9]
    !> Largest values accepted from a deck, for 1-D and 2-D waves, so that a mistyped number does not run for hours.
    integer, parameter :: most_harmonics = 60, most_constraint_points(2) = [6001, 601]
    !> Most elements of the constraints' matrix. A few copies of it exist at a time, each of 160 MB.
@@ -28,6 +26,7 @@ contains
 
    type(solver_method) function beale_method() result(method)
       type(beale_contact) :: solver
+      type(qp_options) :: default
 
       method%name = 'beale'
       method%meaning = "the paper's truncated series by Beale's method, for its waves; their default"
@@ -48,7 +47,7 @@ contains
                   "method, "// &
                "from the load before; 'beale': Beale's method as in the paper, each load from an even pressure.", &
                ['dual ', 'beale']), &
-            real_key('edge_level', '0.1', 'p*', 'the isobar that is taken as the edge of contact.', &
+            real_key('edge_level', short_number(default%edge_level), 'p*', 'the isobar that is taken as the edge of contact.', &
                above=0.0_dp, below=1.0_dp)])
       method%traits = solver%traits()
       method%no_accuracy = ': its series has no error estimate'
@@ -84,21 +83,11 @@ contains
       type(group_values), intent(inout) :: values
       type(surface_type), intent(in) :: surface
 
-      call values%set_default('harmonics', default_harmonics(surface%dimension))
-      call values%set_default('constraint_points', default_constraint_points(surface%dimension, &
-                                                                             values%integer('harmonics')))
+      call values%set_default('harmonics', paper_harmonics(surface%dimension))
+      call values%set_default('constraint_points', paper_constraint_points(surface%dimension, &
+                                                                           values%integer('harmonics')))
       if (surface%dimension == 1) call values%leave_out('symmetry')
    end subroutine set_defaults
-
-   !> As many points to a harmonic as the paper has: 27 for 9 harmonics of the 2-D wave, 26 (25 intervals) for 10 of the
-   !> 1-D wave. Always more than harmonics.
-   pure integer function default_constraint_points(dimension, harmonics) result(points)
-      integer, intent(in) :: dimension   !! 1 or 2
-      integer, intent(in) :: harmonics   !! >= 1
-
-      points = 3*harmonics
-      if (dimension == 1) points = (5*harmonics + 1)/2 + 1
-   end function default_constraint_points
 
    subroutine check(values, surface, problems)
       type(group_values), intent(in) :: values
@@ -156,8 +145,9 @@ contains
 
       associate (fields_are_always_kept => keep_fields); end associate
       allocate (own)
-      call own%start(surface, values%integer('harmonics'), values%integer('constraint_points'), symmetry_of(values), &
-                     values%real('edge_level'), values%text('minimiser') == 'beale')
+      call own%start(surface, qp_options(values%integer('harmonics'), values%integer('constraint_points'), &
+                                         symmetry_of(values), values%real('edge_level'), &
+                                         values%text('minimiser') == 'beale'))
       call move_alloc(own, solver)
    end subroutine make
 

@@ -2,7 +2,7 @@
 module wavycon_fitted_method
    use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_contact_tuning, only: largest_aspect_ratio, largest_curvature_ratio
-   use wavycon_fitted_contact, only: fitted_contact
+   use wavycon_fitted_contact, only: fitted_contact, fitted_options
    use wavycon_fitted_frame, only: find_frame, fitted_frame
    use wavycon_grid_keys, only: accuracy_key
    use wavycon_group_values, only: group_values
@@ -61,7 +61,7 @@ contains
       type(fitted_contact), allocatable :: own
 
       allocate (own)
-      call own%start(surface, values%real('accuracy'), keep_fields)
+      call own%start(surface, fitted_options(values%real('accuracy')), keep_fields)
       call move_alloc(own, solver)
    end subroutine make
 

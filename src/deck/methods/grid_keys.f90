@@ -1,6 +1,7 @@
 !> Keys of &method that several solvers read.
 module wavycon_grid_keys
-   use wavycon_contact_solver, only: solver_traits
+   use wavycon_contact_solver, only: default_accuracy, solver_traits
+   use wavycon_grid_contact, only: grid_contact, grid_options
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: integer_key, key_type, real_key
    use wavycon_kinds, only: dp
@@ -11,12 +12,12 @@ module wavycon_grid_keys
    private
 
    public :: accuracy_key, check_grid_points, describe_grid, grid_points_key, is_another_way, points_of_grid, &
-      residual_key, set_grid_defaults
+      residual_key, set_grid_defaults, start_on_grids
 
 contains
 
    pure type(key_type) function accuracy_key() result(key)
-      key = real_key('accuracy', '1e-3', '-', &
+      key = real_key('accuracy', short_number(default_accuracy), '-', &
          'largest error allowed of mean gap [amplitude], contact area fraction and peak pressure [p*]; of '// &
          'expansions with lines, map, contours, spots, histograms or details also of the gap at a trough. A load '// &
          'that misses it has the status not_accurate.', least=1.0e-12_dp, most=0.1_dp)
@@ -52,6 +53,17 @@ contains
       end associate
       if (all(points == 0) .and. .not. values%real('accuracy') > 0.0_dp) points = surface%points
    end function points_of_grid
+
+   !> Starts a solver on grids, or one that extends it, with the values of &method.
+   subroutine start_on_grids(values, surface, keep_fields, solver)
+      type(group_values), intent(in) :: values     !! of &method
+      type(surface_type), intent(in) :: surface
+      logical, intent(in) :: keep_fields
+      class(grid_contact), intent(inout) :: solver
+
+      call solver%start(surface, grid_options(values%real('accuracy'), points_of_grid(values, surface), &
+                                              values%real('residual')), keep_fields)
+   end subroutine start_on_grids
 
    !> Removes the default of `accuracy` if the deck gives grid_points or the surface is a height map: these are then
    !> solved on one given grid. Writes grid_points in full to the resolved deck.

@@ -2,8 +2,8 @@
 module wavycon_grid_method
    use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_grid_contact, only: grid_contact
-   use wavycon_grid_keys, only: accuracy_key, check_grid_points, describe_grid, grid_points_key, points_of_grid, &
-      residual_key, set_grid_defaults
+   use wavycon_grid_keys, only: accuracy_key, check_grid_points, describe_grid, grid_points_key, residual_key, &
+      set_grid_defaults, start_on_grids
    use wavycon_group_values, only: group_values
    use wavycon_solver_method, only: solver_method
    use wavycon_surface, only: surface_type
@@ -36,8 +36,7 @@ contains
       type(grid_contact), allocatable :: own
 
       allocate (own)
-      call own%start(surface, values%real('accuracy'), keep_fields, points_of_grid(values, surface), &
-                     values%real('residual'))
+      call start_on_grids(values, surface, keep_fields, own)
       call move_alloc(own, solver)
    end subroutine make
 

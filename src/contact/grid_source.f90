@@ -1,10 +1,10 @@
-!> The solution of a load on a grid: its fields, edge curves and stresses, and what a checkpoint keeps of it.
-module wavycon_grid_solution
+!> The source of fields, edge curves and stresses of a load that was solved on a grid: pressures and gaps at its points.
+module wavycon_grid_source
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_measures, only: or_nan
-   use wavycon_contact_solution, only: contact_solution
    use wavycon_edge_curves, only: edge_curve, shift_curve, strip_ends, trace_edges, turn_curves, whole_strips
+   use wavycon_field_source, only: field_source
    use wavycon_fourier_series, only: fourier_series
    use wavycon_grid_area, only: grid_strip_edges
    use wavycon_grid_edge, only: grid_edge, make_grid_edge
@@ -15,6 +15,7 @@ module wavycon_grid_solution
    use wavycon_measure_tuning, only: edge_offset
    use wavycon_region_numbers, only: region_numbers
    use wavycon_series_stress, only: series_stress, start_series_stress
+   use wavycon_solution_record, only: solution_record
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type
    use wavycon_system, only: has_memory_for
@@ -22,83 +23,83 @@ module wavycon_grid_solution
    implicit none (type, external)
    private
 
-   public :: grid_solution
+   public :: grid_source
 
-   type, extends(contact_solution) :: grid_solution
-      type(grid_edge), allocatable :: edge    !! pressure and gap at the grid points; not allocated if not kept
-      logical :: turned = .false.    !! the grid's cell is the smaller one, turned by 45 degrees
+   type, extends(field_source) :: grid_source
+      type(grid_edge), allocatable :: edge    !! pressure and gap at the grid points; always allocated
+      logical :: turned = .false.             !! the grid's cell is the smaller one, turned by 45 degrees
       real(dp) :: imprint = 0.0_dp            !! mean overlap where p = H [Delta] (C22)
    contains
+      procedure :: take_edge
       procedure :: fields
       procedure :: edge_curves
       procedure :: stresses
-      procedure :: spread_points
-      procedure :: collect_fields
-      procedure :: is_kept
-      procedure :: pack_kept
-      procedure :: unpack_kept
-   end type grid_solution
+      procedure :: collect
+      procedure :: pack => pack_source
+      procedure :: unpack => unpack_source
+   end type grid_source
 
-   !> Numbers in the array of pack_kept before the field.
+   !> Numbers in the array of pack_source before the field.
    integer, parameter :: own_values = 9
 
 contains
 
-   pure integer(int64) function spread_points(self)
-      class(grid_solution), intent(in) :: self
+   !> Sets the pressures and gaps.
+   pure subroutine take_edge(self, edge)
+      class(grid_source), intent(inout) :: self
+      type(grid_edge), allocatable, intent(inout) :: edge   !! not allocated afterwards
 
-      spread_points = 0
-      if (.not. allocated(self%edge)) return
-      if (self%edge%slab%is_spread) spread_points = product(int(self%edge%slab%points, int64))
-   end function spread_points
+      call move_alloc(edge, self%edge)
+      self%spread_points = merge(product(int(self%edge%slab%points, int64)), 0_int64, self%edge%slab%is_spread)
+   end subroutine take_edge
 
-   !> Gathers the fields of a solution whose grid is spread where the tables are written.
-   subroutine collect_fields(self)
-      class(grid_solution), intent(inout) :: self
+   !> Gathers the pressures and gaps of a grid that is spread where the tables are written.
+   subroutine collect(self, is_here)
+      class(grid_source), intent(inout) :: self
+      logical, intent(out) :: is_here
 
       type(grid_edge), allocatable :: whole
       real(dp), allocatable :: values(:, :)
 
-      if (.not. allocated(self%edge)) return
+      is_here = .true.
+      if (self%spread_points == 0) return
       associate (slab => self%edge%slab)
-         if (.not. slab%is_spread) return
          call slab%gather_to_first(self%edge%pressure_or_gap, values)
       end associate
-      if (allocated(values)) then
-         allocate (whole)
-         call make_grid_edge(whole, values, self%edge%even, self%edge%stiffness)
-      end if
-      deallocate (self%edge)
-      if (allocated(whole)) call move_alloc(whole, self%edge)
-   end subroutine collect_fields
+      is_here = allocated(values)
+      if (.not. is_here) return
+      allocate (whole)
+      call make_grid_edge(whole, values, self%edge%even, self%edge%stiffness)
+      call self%take_edge(whole)
+   end subroutine collect
 
-   subroutine fields(self, surface, answer)
-      class(grid_solution), intent(in) :: self
+   subroutine fields(self, record, surface, answer)
+      class(grid_source), intent(in) :: self
+      type(solution_record), intent(in) :: record
       type(surface_type), intent(in) :: surface
       class(contact_fields), allocatable, intent(out) :: answer
 
       type(grid_fields), allocatable :: own
 
-      if (.not. allocated(self%edge)) return
       allocate (own)
-      call start_grid_fields(own, surface, self%edge, self%measures%mean_gap_over_amplitude - self%imprint, self%turned)
+      call start_grid_fields(own, surface, self%edge, record%measures%mean_gap_over_amplitude - self%imprint, &
+                             self%turned)
       call move_alloc(own, answer)
    end subroutine fields
 
-   subroutine edge_curves(self, surface, curves, loads)
-      class(grid_solution), intent(in) :: self
+   subroutine edge_curves(self, record, surface, curves, loads)
+      class(grid_source), intent(in) :: self
+      type(solution_record), intent(in) :: record
       type(surface_type), intent(in) :: surface
       type(edge_curve), allocatable, intent(out) :: curves(:)
-      real(dp), allocatable, intent(out), optional :: loads(:)
+      real(dp), allocatable, intent(out) :: loads(:)
 
       type(region_numbers) :: numbers
       real(dp), allocatable :: edges(:)
       integer :: i
 
-      if (.not. allocated(self%edge)) then
-         allocate (curves(0))
-         if (present(loads)) allocate (loads(0))
-      else if (surface%dimension == 2) then
+      associate (unused => record); end associate
+      if (surface%dimension == 2) then
          if (self%turned) then
             ! The surface's cell is two of the grid's.
             call trace_edges(self%edge, curves, self%edge%period*[2, 1], self%edge%period(1), numbers)
@@ -109,7 +110,7 @@ contains
             call shift_curve(curves(i), self%edge%period, edge_offset)
          end do
          if (self%turned) call turn_curves(curves, factor=0.5_dp)
-         if (present(loads)) call spot_loads(self%edge, numbers, loads)
+         call spot_loads(self%edge, numbers, loads)
       else
          call grid_strip_edges(self%edge, edges)
          if (self%edge%even) then
@@ -117,15 +118,16 @@ contains
          else
             call whole_strips(edges, self%edge%in_contact(1, 1), curves)
          end if
-         if (present(loads)) call strip_loads(self%edge, size(curves), loads)
+         call strip_loads(self%edge, size(curves), loads)
       end if
    end subroutine edge_curves
 
    !> Of the series that interpolates the pressures at the points. Its error is that of the peak pressure and the part
    !> of the series' last octave, or unknown as that of the peak is. Without the memory for the series there are no
    !> stresses.
-   subroutine stresses(self, surface, answer)
-      class(grid_solution), intent(in) :: self
+   subroutine stresses(self, record, surface, answer)
+      class(grid_source), intent(in) :: self
+      type(solution_record), intent(in) :: record
       type(surface_type), intent(in) :: surface
       class(stress_fields), allocatable, intent(out) :: answer
 
@@ -137,7 +139,6 @@ contains
       real(dp) :: error
       real(dp), allocatable :: values(:, :)
 
-      if (.not. allocated(self%edge)) return
       allocate (own)
       if (.not. has_memory_for(numbers_a_point*product(int(self%edge%period, int64)))) then
          own%exist = .false.
@@ -146,67 +147,50 @@ contains
       end if
       values = max(self%edge%pressure_or_gap, 0.0_dp)
       ! If all points are in contact below full contact, they miss a gap; with it closed the pressure there is P - 1.
-      error = self%measures%peak_pressure_error
-      if (all(values > 0.0_dp)) error = max(error, 1.0_dp - self%pbar_over_pstar)
+      error = record%measures%peak_pressure_error
+      if (all(values > 0.0_dp)) error = max(error, 1.0_dp - record%pbar_over_pstar)
       error = or_nan(error)
       call transform%start(shape(values), self%edge%even, whole=.true.)
       call transform%series(values, pressure)
       deallocate (values)
       if (self%turned) pressure = to_difference_angles(pressure)
-      call start_series_stress(own, surface, pressure, self%pbar_over_pstar, &
+      call start_series_stress(own, surface, pressure, record%pbar_over_pstar, &
                                pressure_error=error, is_sampled=.true.)
       call move_alloc(own, answer)
    end subroutine stresses
 
-   !> Solutions on grids are written to checkpoints: they may take minutes, those of other solvers take seconds.
-   pure logical function is_kept(self)
-      class(grid_solution), intent(in) :: self
+   !> What a checkpoint keeps: the imprint, the stiffness of `edge`, the points along x and y, the width of the slabs
+   !> and the first column of this rank's, whether the cell is turned, whether the grid covers a quarter of it, and the
+   !> pressures and gaps at the own columns.
+   pure subroutine pack_source(self, values)
+      class(grid_source), intent(in) :: self
+      real(dp), allocatable, intent(out) :: values(:)   !! not allocated if there is not enough memory
 
-      associate (unused => self); end associate
-      is_kept = .true.
-   end function is_kept
-
-   !> The imprint, the stiffness of `edge`, the points along x and y (zeros if the fields were not kept), the width of
-   !> the slabs and the first of the own columns, whether the cell is turned, whether the grid covers a quarter of it,
-   !> and the pressures and gaps at the own columns.
-   pure subroutine pack_kept(self, values)
-      class(grid_solution), intent(in) :: self
-      real(dp), allocatable, intent(out) :: values(:)
-
-      real(dp) :: own(own_values)
       integer :: j, status
-      integer(int64) :: numbers, rows
+      integer(int64) :: rows
 
-      own = 0.0_dp
-      own(:3) = [self%imprint, 1.0_dp, 1.0_dp]
-      if (self%turned) own(8) = 1.0_dp
-      numbers = 0
-      if (allocated(self%edge)) then
-         associate (edge => self%edge, slab => self%edge%slab)
-            own(2:7) = [edge%stiffness, real([slab%points, slab%width, slab%first], dp)]
-            if (edge%even) own(9) = 1.0_dp
-            numbers = size(edge%pressure_or_gap, kind=int64)
-         end associate
-      end if
-      allocate (values(own_values + numbers), stat=status)
-      if (status /= 0) return
-      values(:own_values) = own
-      if (numbers == 0) return
-      rows = size(self%edge%pressure_or_gap, 1)
-      do j = 1, size(self%edge%pressure_or_gap, 2)
-         values(own_values + (j - 1)*rows + 1:own_values + j*rows) = self%edge%pressure_or_gap(:, j)
-      end do
-   end subroutine pack_kept
+      associate (edge => self%edge, slab => self%edge%slab)
+         rows = size(edge%pressure_or_gap, 1)
+         allocate (values(own_values + size(edge%pressure_or_gap, kind=int64)), stat=status)
+         if (status /= 0) return
+         values(:own_values) = [self%imprint, edge%stiffness, real([slab%points, slab%width, slab%first], dp), &
+                                merge(1.0_dp, 0.0_dp, [self%turned, edge%even])]
+         do j = 1, size(edge%pressure_or_gap, 2)
+            values(own_values + (j - 1)*rows + 1:own_values + j*rows) = edge%pressure_or_gap(:, j)
+         end do
+      end associate
+   end subroutine pack_source
 
-   !> N.B. Without exchange: other slabs may have numbers that are not understood.
-   pure subroutine unpack_kept(self, values, understood)
-      class(grid_solution), intent(inout) :: self
+   !> Restores what pack_source made. N.B. Without exchange: other slabs may have numbers that are not understood.
+   pure subroutine unpack_source(self, values, understood)
+      class(grid_source), intent(inout) :: self
       real(dp), intent(in) :: values(:)
-      logical, intent(out) :: understood
+      logical, intent(out) :: understood                !! .false. if these are not the numbers of a grid
 
       integer :: columns, j, layout(4)
       integer(int64) :: rows
       real(dp), allocatable :: field(:, :)
+      type(grid_edge), allocatable :: edge
       type(grid_slab) :: slab
 
       understood = size(values) >= own_values
@@ -217,19 +201,18 @@ contains
       slab%last = min(slab%first - 1 + slab%width, slab%points(2))
       columns = slab%columns()
       rows = slab%points(1)
-      if (all(layout == 0)) columns = 0
-      understood = columns >= 0 .and. rows*columns == size(values, kind=int64) - own_values
+      understood = columns >= 0 .and. rows > 0 .and. rows*columns == size(values, kind=int64) - own_values
       if (.not. understood) return
       self%imprint = values(1)
       self%turned = values(8) > 0.0_dp
-      if (rows == 0) return
       allocate (field(rows, columns))
       do j = 1, columns
          field(:, j) = values(own_values + (j - 1)*rows + 1:own_values + j*rows)
       end do
-      allocate (self%edge)
-      call make_grid_edge(self%edge, field, values(9) > 0.0_dp, values(2:3), slab)
-   end subroutine unpack_kept
+      allocate (edge)
+      call make_grid_edge(edge, field, values(9) > 0.0_dp, values(2:3), slab)
+      call self%take_edge(edge)
+   end subroutine unpack_source
 
    !> What each spot carries of the load: the pressures at its points.
    pure subroutine spot_loads(edge, numbers, loads)
@@ -269,4 +252,4 @@ contains
       loads = loads/sum(loads)
    end subroutine strip_loads
 
-end module wavycon_grid_solution
+end module wavycon_grid_source

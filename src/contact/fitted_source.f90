@@ -1,11 +1,11 @@
-!> The solution of solver = 'fitted' at one load: fields, edge and details.
-module wavycon_fitted_solution
+!> The source of fields, edge, stresses and details of a load that was solved by fitted expansions.
+module wavycon_fitted_source
    use wavycon_constants, only: pi
    use wavycon_contact_details, only: contact_details
    use wavycon_contact_fields, only: contact_fields
-   use wavycon_contact_solution, only: contact_solution
    use wavycon_edge_curves, only: edge_curve
    use wavycon_equivalent_points, only: equivalent_points, point_image
+   use wavycon_field_source, only: field_source
    use wavycon_fitted_answer, only: fitted_answer
    use wavycon_fitted_details, only: find_fitted_details, fitted_details
    use wavycon_fitted_fields, only: fitted_fields, start_fitted_fields
@@ -13,17 +13,18 @@ module wavycon_fitted_solution
    use wavycon_fitted_map, only: fitted_map, start_fitted_map
    use wavycon_fitted_stress_fields, only: fitted_stress_fields, start_fitted_stress_fields
    use wavycon_kinds, only: dp
+   use wavycon_solution_record, only: solution_record
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
    private
 
-   public :: fitted_solution
+   public :: fitted_source
 
-   type, extends(contact_solution) :: fitted_solution
+   type, extends(field_source) :: fitted_source
       type(fitted_frame) :: frame
-      type(wave_lattice), allocatable :: lattice   !! not allocated, and the rest unset, if the fields were not kept
+      type(wave_lattice), allocatable :: lattice   !! always allocated
       type(fitted_answer) :: answer     !! in the units of src/fitted
       real(dp) :: accuracy = 0.0_dp     !! that it was asked for, as of wavycon_fitted_map
    contains
@@ -31,9 +32,9 @@ module wavycon_fitted_solution
       procedure :: edge_curves
       procedure :: stresses
       procedure :: details
-   end type fitted_solution
+   end type fitted_source
 
-   type, extends(contact_fields) :: fitted_solution_fields
+   type, extends(contact_fields) :: fitted_contact_fields
       real(dp) :: length(2) = 1.0_dp    !! sides of the surface's cell [length]
       logical :: is_square = .false.    !! whether x and y are equivalent
       type(fitted_frame) :: frame
@@ -42,21 +43,22 @@ module wavycon_fitted_solution
    contains
       procedure :: at
       procedure :: on_grid
-   end type fitted_solution_fields
+   end type fitted_contact_fields
 
    !> Points of each edge curve.
    integer, parameter :: edge_points = 256
 
 contains
 
-   subroutine fields(self, surface, answer)
-      class(fitted_solution), intent(in) :: self
+   subroutine fields(self, record, surface, answer)
+      class(fitted_source), intent(in) :: self
+      type(solution_record), intent(in) :: record
       type(surface_type), intent(in) :: surface
       class(contact_fields), allocatable, intent(out) :: answer
 
-      type(fitted_solution_fields), allocatable :: own
+      type(fitted_contact_fields), allocatable :: own
 
-      if (.not. allocated(self%lattice)) return
+      associate (unused => record); end associate
       allocate (own)
       own%length = surface%length
       own%is_square = self%lattice%square
@@ -67,22 +69,22 @@ contains
       call move_alloc(own, answer)
    end subroutine fields
 
-   subroutine stresses(self, surface, answer)
-      class(fitted_solution), intent(in) :: self
+   subroutine stresses(self, record, surface, answer)
+      class(fitted_source), intent(in) :: self
+      type(solution_record), intent(in) :: record
       type(surface_type), intent(in) :: surface
       class(stress_fields), allocatable, intent(out) :: answer
 
       type(fitted_stress_fields), allocatable :: own
 
-      if (.not. allocated(self%lattice)) return
       allocate (own)
       call start_fitted_stress_fields(own, surface, self%frame, self%lattice, self%answer, self%accuracy, &
-                                      self%pbar_over_pstar)
+                                      record%pbar_over_pstar)
       call move_alloc(own, answer)
    end subroutine stresses
 
    subroutine at(self, x, y, pressure, displacement, gap)
-      class(fitted_solution_fields), intent(inout) :: self
+      class(fitted_contact_fields), intent(inout) :: self
       real(dp), intent(in) :: x, y
       real(dp), intent(out) :: pressure, displacement, gap
 
@@ -92,7 +94,7 @@ contains
 
    !> The point X, Y on the lattice.
    pure complex(dp) function on_lattice(self, x, y)
-      class(fitted_solution_fields), intent(in) :: self
+      class(fitted_contact_fields), intent(in) :: self
       real(dp), intent(in) :: x, y
 
       on_lattice = self%frame%place(self%length(1)*x/(2*pi), self%length(2)*y/(2*pi))
@@ -100,7 +102,7 @@ contains
 
    !> To p*, and without what errors next to the edge may leave below 0.
    elemental subroutine convert(self, pressure, gap)
-      class(fitted_solution_fields), intent(in) :: self
+      class(fitted_contact_fields), intent(in) :: self
       real(dp), intent(inout) :: pressure, gap
 
       pressure = max(pressure*self%frame%pressure_unit, 0.0_dp)
@@ -110,7 +112,7 @@ contains
    !> Points that are equivalent by mirror symmetry, by the diagonals of a square cell or by the second crest are
    !> evaluated once.
    subroutine on_grid(self, points, offset, pressure, displacement, gap)
-      class(fitted_solution_fields), intent(inout) :: self
+      class(fitted_contact_fields), intent(inout) :: self
       integer, intent(in) :: points(2)
       real(dp), intent(in) :: offset(2)
       real(dp), allocatable, intent(out) :: pressure(:, :), displacement(:, :), gap(:, :)
@@ -143,21 +145,17 @@ contains
    end subroutine on_grid
 
    !> A closed curve about each crest or, once the spots have merged, about each trough.
-   subroutine edge_curves(self, surface, curves, loads)
-      class(fitted_solution), intent(in) :: self
+   subroutine edge_curves(self, record, surface, curves, loads)
+      class(fitted_source), intent(in) :: self
+      type(solution_record), intent(in) :: record
       type(surface_type), intent(in) :: surface
       type(edge_curve), allocatable, intent(out) :: curves(:)
-      real(dp), allocatable, intent(out), optional :: loads(:)
+      real(dp), allocatable, intent(out) :: loads(:)
 
       complex(dp) :: centre, edge(edge_points), to_surface
       type(fitted_fields) :: fields
       integer :: i, k, turned
 
-      if (.not. allocated(self%lattice)) then
-         allocate (curves(0))
-         if (present(loads)) allocate (loads(0))
-         return
-      end if
       call start_fitted_fields(fields, self%lattice, self%answer)
       to_surface = self%frame%side/self%frame%turn
       edge = (fields%edge(edge_points) - fields%centre)*to_surface
@@ -178,14 +176,13 @@ contains
          curves(k)%turns = merge(-1, 1, self%answer%island)
          curves(k)%spot = merge(1, k, self%answer%island)
          curves(k)%pool = merge(k, 1, self%answer%island)
-         curves(k)%area = (2*pi)**2*(self%measures%contact_area_fraction - merge(1, 0, self%answer%island))/size(curves)
+         curves(k)%area = (2*pi)**2/size(curves)* &
+                          (record%measures%contact_area_fraction - merge(1, 0, self%answer%island))
          curves(k)%length = self%answer%perimeter*self%frame%side
       end do
-      if (present(loads)) then
-         associate (count => merge(1, size(curves), self%answer%island))
-            allocate (loads(count), source=1.0_dp/count)
-         end associate
-      end if
+      associate (count => merge(1, size(curves), self%answer%island))
+         allocate (loads(count), source=1.0_dp/count)
+      end associate
 
    contains
 
@@ -202,15 +199,14 @@ contains
    end subroutine edge_curves
 
    subroutine details(self, answer, found)
-      class(fitted_solution), intent(in) :: self
+      class(fitted_source), intent(in) :: self
       type(contact_details), intent(out) :: answer
       logical, intent(out) :: found
 
       type(fitted_details) :: own
       real(dp) :: energy_unit
 
-      found = allocated(self%lattice)
-      if (.not. found) return
+      found = .true.
       call find_fitted_details(self%lattice, self%answer, own)
       energy_unit = self%frame%pressure_unit/self%lattice%area
       answer = contact_details( &
@@ -223,4 +219,4 @@ contains
                perimeter_error=self%answer%perimeter_error*self%frame%side, degree=self%answer%degree)
    end subroutine details
 
-end module wavycon_fitted_solution
+end module wavycon_fitted_source

@@ -1,0 +1,133 @@
+!> The source of fields, edge and stresses of a pressure that is a truncated Fourier series.
+module wavycon_series_source
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use wavycon_contact_fields, only: contact_fields
+   use wavycon_contact_measures, only: measuring_intervals
+   use wavycon_edge_curves, only: edge_curve, strip_ends, trace_edges, turn_curves
+   use wavycon_field_source, only: field_source
+   use wavycon_fourier_series, only: fourier_series
+   use wavycon_fourier_terms, only: fourier_terms
+   use wavycon_isobar_grid, only: isobar_grid, start_isobar_grid
+   use wavycon_kinds, only: dp
+   use wavycon_line_zeros, only: line_zeros
+   use wavycon_series_fields, only: series_fields
+   use wavycon_series_stress, only: series_stress, start_series_stress
+   use wavycon_solution_record, only: solution_record
+   use wavycon_stress_fields, only: stress_fields
+   use wavycon_surface, only: surface_type
+   use wavycon_turned_series, only: to_sum_angles
+   implicit none (type, external)
+   private
+
+   public :: series_source
+
+   type, extends(field_source) :: series_source
+      type(fourier_terms) :: terms
+      logical :: turned = .false.          !! phi and theta are the cell's angles turned by 45 degrees
+      real(dp) :: edge_level = 0.0_dp      !! isobar taken as the edge of contact [p*]
+      real(dp), allocatable :: x(:)        !! amplitudes of the terms of (p - pbar)/p*
+   contains
+      procedure :: pressure
+      procedure :: displacement
+      procedure :: fields
+      procedure :: edge_curves
+      procedure :: stresses
+      procedure :: coefficients
+   end type series_source
+
+contains
+
+   !> p/p* as a series in phi and theta.
+   type(fourier_series) function pressure(self, pbar_over_pstar) result(series)
+      class(series_source), intent(in) :: self
+      real(dp), intent(in) :: pbar_over_pstar    !! P
+
+      call self%terms%coefficients(self%x, series%c)
+      series%c(0, 0) = pbar_over_pstar
+   end function pressure
+
+   !> (u - ubar)/Delta as a series in phi and theta: eqs. (13), (A10).
+   type(fourier_series) function displacement(self) result(series)
+      class(series_source), intent(in) :: self
+
+      integer :: k
+
+      call self%terms%coefficients([(self%terms%compliance(k)*self%x(k), k=1, self%terms%count())], series%c)
+   end function displacement
+
+   subroutine fields(self, record, surface, answer)
+      class(series_source), intent(in) :: self
+      type(solution_record), intent(in) :: record
+      type(surface_type), intent(in) :: surface
+      class(contact_fields), allocatable, intent(out) :: answer
+
+      type(series_fields), allocatable :: own
+
+      allocate (own)
+      call self%coefficients(record, own%pressure)
+      own%displacement = surface%displacement_of(own%pressure)
+      own%shape = surface%shape
+      own%mean_gap = 1.0_dp - record%measures%approach_over_amplitude
+      call move_alloc(own, answer)
+   end subroutine fields
+
+   !> The error of a truncated series is not estimated.
+   subroutine stresses(self, record, surface, answer)
+      class(series_source), intent(in) :: self
+      type(solution_record), intent(in) :: record
+      type(surface_type), intent(in) :: surface
+      class(stress_fields), allocatable, intent(out) :: answer
+
+      type(fourier_series) :: series
+      type(series_stress), allocatable :: own
+
+      call self%coefficients(record, series)
+      allocate (own)
+      call start_series_stress(own, surface, series, record%pbar_over_pstar, &
+                               pressure_error=ieee_value(1.0_dp, ieee_quiet_nan), is_sampled=.false.)
+      call move_alloc(own, answer)
+   end subroutine stresses
+
+   subroutine coefficients(self, record, series)
+      class(series_source), intent(in) :: self
+      type(solution_record), intent(in) :: record
+      type(fourier_series), intent(out) :: series
+
+      series = self%pressure(record%pbar_over_pstar)
+      if (self%turned) series = to_sum_angles(series)
+   end subroutine coefficients
+
+   !> The isobar p = edge_level p*.
+   subroutine edge_curves(self, record, surface, curves, loads)
+      class(series_source), intent(in) :: self
+      type(solution_record), intent(in) :: record
+      type(surface_type), intent(in) :: surface
+      type(edge_curve), allocatable, intent(out) :: curves(:)
+      real(dp), allocatable, intent(out) :: loads(:)
+
+      type(fourier_series) :: series
+      type(isobar_grid) :: grid
+      real(dp), allocatable :: zeros(:)
+
+      series = self%pressure(record%pbar_over_pstar)
+      associate (level => self%edge_level, harmonics => self%terms%harmonics)
+         if (surface%dimension == 2) then
+            call start_isobar_grid(grid, series, level, measuring_intervals(harmonics))
+            if (self%turned) then
+               ! A period of phi and theta is two cells.
+               call trace_edges(grid, curves, cell=grid%period/[1, 2], skew=grid%period(1)/2)
+               call turn_curves(curves, factor=1.0_dp)
+            else
+               call trace_edges(grid, curves)
+            end if
+         else
+            series%c(0, 0) = series%c(0, 0) - level
+            call line_zeros(series%c(:, 0), measuring_intervals(harmonics), zeros)
+            call strip_ends(zeros, sum(series%c) >= 0.0_dp, curves)
+         end if
+         ! The part outside the isobar is not known.
+         allocate (loads(0))
+      end associate
+   end subroutine edge_curves
+
+end module wavycon_series_source
