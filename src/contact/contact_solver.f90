@@ -4,7 +4,7 @@ module wavycon_contact_solver
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_contact_measures, only: full_contact_measures
    use wavycon_contact_solution, only: contact_solution, no_solution, solution_without_contact_edge
-   use wavycon_contact_status, only: above_hardness, full_contact, no_load, not_finite, not_found
+   use wavycon_contact_status, only: above_hardness, full_contact, interrupted, no_load, not_finite, not_found
    use wavycon_kinds, only: dp
    use wavycon_solution_record, only: no_solver
    use wavycon_solver_progress, only: solver_progress
@@ -69,7 +69,8 @@ module wavycon_contact_solver
 contains
 
    !> Solves one load and measures the solution. No load and full contact need no solver. The status is not_found if the
-   !> solver was not started on a surface that it can solve, and above_hardness if P >= H.
+   !> solver was not started on a surface that it can solve, above_hardness if P >= H, and interrupted if self%progress
+   !> says that it shall stop.
    subroutine solve(self, pbar_over_pstar, solution)
       class(contact_solver), intent(inout) :: self
       real(dp), intent(in) :: pbar_over_pstar        !! P; the status of the solution is not_finite if it is no number
@@ -96,7 +97,12 @@ contains
                          (is_partial .or. pbar_over_pstar + self%surface%full_contact_peak > self%surface%hardness)
          end if
          if (is_partial) then
-            call self%solve_partial_contact(pbar_over_pstar, solution)
+            if (shall_stop(self)) then
+               traits = self%traits()
+               call no_solution(pbar_over_pstar, traits%solver, interrupted, solution)
+            else
+               call self%solve_partial_contact(pbar_over_pstar, solution)
+            end if
             return
          end if
       end if
@@ -111,6 +117,13 @@ contains
          solution%status = no_load
       end if
    end subroutine solve
+
+   logical function shall_stop(self)
+      class(contact_solver), intent(in) :: self
+
+      shall_stop = .false.
+      if (associated(self%progress)) shall_stop = self%progress%shall_stop(0, 1.0_dp)
+   end function shall_stop
 
    !> Sets the object that is called with the progress within each load.
    subroutine show_progress(self, progress)

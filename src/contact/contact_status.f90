@@ -23,6 +23,8 @@ module wavycon_contact_status
    integer, parameter, public :: not_finite = 13
    !> The mean pressure is not below the hardness: no pressure up to the hardness carries it.
    integer, parameter, public :: above_hardness = 14
+   !> The caller ended the solver before it had a solution (`solver_progress%shall_stop`).
+   integer, parameter, public :: interrupted = 15
    !> The iteration or the quadratic programme failed: from this number on by its status of wavycon_qp_problem.
    integer, parameter, public :: other_failure = 20
    integer, parameter, public :: iteration_limit = other_failure + qp_iteration_limit
@@ -82,6 +84,8 @@ contains
          name = 'not_finite'
       case (above_hardness)
          name = 'above_hardness'
+      case (interrupted)
+         name = 'interrupted'
       case (iteration_limit)
          name = 'iteration_limit'
       case (other_failure + qp_infeasible)
