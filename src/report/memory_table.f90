@@ -12,10 +12,10 @@ module wavycon_memory_table
    !> What the values of a column are.
    integer, parameter, public :: of_reals = 1, of_integers = 2, of_words = 3
 
-   integer, parameter :: longest_word = 32, first_room = 64
+   integer, parameter :: longest_name = 48, longest_word = 32, first_room = 64
 
    type :: memory_table
-      character(:), allocatable :: names(:), units(:)       !! of the columns
+      character(longest_name), allocatable :: names(:), units(:)   !! of the columns
       integer, allocatable :: kinds(:)                      !! of the columns, names above
       integer :: rows = 0
       real(dp), allocatable :: values(:, :)                 !! shape (columns, rows or more)
@@ -38,16 +38,11 @@ contains
       character(*), intent(in) :: names(:)
       character(*), intent(in) :: units(:)   !! as many
 
-      integer :: i
-
-      allocate (character(len(names)) :: self%names(size(names)))
-      allocate (character(len(units)) :: self%units(size(units)))
+      allocate (self%names(size(names)), self%units(size(names)))
+      self%names = names
+      self%units = units
       allocate (self%kinds(size(names)), source=of_reals)
       allocate (self%values(size(names), first_room), self%words(0))
-      do i = 1, size(names)
-         self%names(i) = names(i)
-         self%units(i) = units(i)
-      end do
    end subroutine start
 
    !> Adds rows of numbers.
