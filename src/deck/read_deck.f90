@@ -50,7 +50,7 @@ contains
    end subroutine read_deck
 
    !> Reads a deck from its text. Errors: as of `read_deck`, and exit_bad_input for heights of a kind that has no file.
-   subroutine parse_deck(deck_text, deck, error, settings, heights, loads_required)
+   subroutine parse_deck(deck_text, deck, error, settings, heights, in_memory)
       type(deck_text_type), intent(in) :: deck_text
       type(deck_type), intent(out) :: deck  !! to be used only if there is no error
       type(error_type), allocatable, intent(out) :: error
@@ -59,14 +59,18 @@ contains
       !> Heights of the surface in place of those of its file: upwards to the other body, NaN where they are missing, x
       !> first, one column of a profile.
       real(dp), intent(in), optional :: heights(:, :)
-      logical, intent(in), optional :: loads_required   !! whether the deck must have a group &load; absent: it must
+      !> Whether the deck is no file: it may have no group &load, and its name need not serve as that of a case.
+      logical, intent(in), optional :: in_memory
 
       type(group_values) :: groups(number_of_groups)
       type(key_group_type) :: tables(number_of_groups)
       type(problem_list_type) :: problems
       type(scan_type) :: scan
       type(deck_text_type) :: text
+      logical :: is_file
 
+      is_file = .true.
+      if (present(in_memory)) is_file = .not. in_memory
       text = deck_text
       call scan_deck(text, scan, problems)
       if (size(scan%tokens) == 0) then
@@ -74,7 +78,7 @@ contains
          return
       end if
       tables = deck_tables()
-      if (present(loads_required)) tables(load_number)%required = loads_required
+      tables(load_number)%required = is_file
       if (present(settings)) call add_settings(settings, tables, text, scan, problems)
       call take_groups(text, scan, tables, groups, problems)
       deck%path = text%path
@@ -86,7 +90,11 @@ contains
       deck%method = groups(method_number)
       deck%output = groups(output_number)
 
-      call check_scene_group(deck%scene, problems)
+      if (is_file) then
+         call check_scene_group(deck%scene, problems)
+      else
+         call check_scene_group(deck%scene, problems, 'deck')
+      end if
       if (present(settings)) call name_case(deck%scene, settings, problems)
       call read_surface(deck, problems, error, heights)
       call check_material_and_loads(deck, problems)

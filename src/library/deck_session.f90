@@ -95,7 +95,7 @@ contains
       type(scene_type), allocatable :: scene
       type(table_item), allocatable :: tables(:)
 
-      call parse_deck(deck_text_type(path, text), deck, error, heights=heights, loads_required=.false.)
+      call parse_deck(deck_text_type(path, text), deck, error, heights=heights, in_memory=.true.)
       if (allocated(error)) return
       allocate (scene)
       call make_scene(deck, scene)

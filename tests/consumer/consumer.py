@@ -24,12 +24,14 @@ pointer, texts = c_void_p, [c_char_p, c_void_p, c_size_t]
 for function, result, arguments in (
         ("new_error", pointer, []), ("get_message", c_size_t, [pointer, c_void_p, c_size_t]),
         ("new_scene", pointer, [pointer, c_char_p, c_char_p, c_int, c_int, c_int, pointer]),
-        ("solve", pointer, [pointer, pointer, c_char_p, c_double]), ("get", c_int, [pointer, pointer, c_char_p, pointer]),
+        ("solve", pointer, [pointer, pointer, c_char_p, c_double]),
+        ("get", c_int, [pointer, pointer, c_char_p, pointer]),
         ("get_text", c_size_t, [pointer, pointer] + texts), ("new_table", pointer, [pointer, pointer, c_char_p]),
         ("get_column", c_int, [pointer, pointer, c_char_p, c_int, pointer]),
         ("get_grid", c_int, [pointer, pointer, c_int, c_int] + [pointer]*4),
         ("get_stresses", c_int, [pointer, pointer, c_int] + [pointer]*3 + [c_double, c_char_p] + [pointer]*2),
-        ("get_stress_plane", c_int, [pointer, pointer, c_int, c_int, pointer, c_double, c_double, c_char_p] + [pointer]*2),
+        ("get_stress_plane", c_int,
+         [pointer, pointer, c_int, c_int, pointer, c_double, c_double, c_char_p, pointer, pointer]),
         ("get_invariants", c_int, [pointer, c_int] + [pointer]*4)):
     getattr(lib, "wavycon_" + function).restype = result
     getattr(lib, "wavycon_" + function).argtypes = arguments

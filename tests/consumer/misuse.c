@@ -56,7 +56,8 @@ static void decks(void)
         "&surface kind = 'wave_2d' / &method solver = 'none' /",
         "&surface kind = 'wave_2d' / &method solver = 'closed_form' /",
         "&surface kind = 'wave_2d' / &method solver = 'grid', grid_points = 7 /",
-        "&surface kind = 'wave_2d' / &material e_star = 0 /", "&surface kind = 'wave_2d' / &material hardness = 1e300 /",
+        "&surface kind = 'wave_2d' / &material e_star = 0 /",
+        "&surface kind = 'wave_2d' / &material hardness = 1e300 /",
         "&surface kind = 'wave_2d' / &method solver = 'fitted' / &material hardness = 1 /",
         "&surface kind = 'wave_2d' / &stress nu = 0.6 /", "&surface kind = 'wave_2d' / &load yield = 1 /"};
     for (size_t i = 0; i < COUNT(bad); i++)
