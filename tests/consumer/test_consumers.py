@@ -8,7 +8,6 @@ PYTHON: one that may have numpy, if the one that runs this has not. The long tes
 named.
 """
 import argparse
-import ctypes
 import json
 import math
 import os
@@ -19,6 +18,8 @@ import subprocess
 import sys
 import tempfile
 import unittest
+
+from by_ctypes import Library
 
 HERE = pathlib.Path(__file__).resolve().parent
 WAVE = """&surface kind = 'wave_2d', amplitude = 1e-6, wavelength = 1e-3 /
@@ -34,6 +35,11 @@ MEASURED_DECK = """&surface kind = 'file', file = 'measured.dat', length_x = 4e-
 &material e_star = 1e9 /
 &method residual = 1e-10 /
 &load pbar_over_pstar = 0.2 /
+"""
+TABLES_DECK = WAVE.replace("auto", "fitted") + """&load pbar_over_pstar = 0.2 /
+&stress line = .true., planes = .true., section = 'x', depths = 1e-4, 3e-4 /
+&output lines = .true., map = .true., contours = .true., spots = .true., histograms = .true., theory = .true.,
+   details = .true., spectrum = .true., map_points = 24, line_points = 24 /
 """
 YIELD_DECK = WAVE + """&load yield = 1 /
 &stress yield_stress = 1e9 /
@@ -102,7 +108,8 @@ class Consumers(unittest.TestCase):
         heights = [[((7*i*i + 3*j*j + i*j) % 11 + 0.25*i)/1048576 for i in range(16)] for j in range(12)]
         heights[2][5] = math.nan
         (cls.folder / "measured.dat").write_text("".join(" ".join(map(repr, row)) + "\n" for row in heights))
-        for name, deck in (("deck", DECK), ("yield", YIELD_DECK), ("measured", MEASURED_DECK)):
+        for name, deck in (("deck", DECK), ("yield", YIELD_DECK), ("measured", MEASURED_DECK),
+                           ("tables", TABLES_DECK)):
             (cls.folder / f"{name}.nml").write_text(deck)
             run(cls.prefix / "bin" / "wavycon", f"{name}.nml", "--output", ".", "--quiet", cwd=cls.folder)
         cls.expected = numbers(run(cls.folder / "project" / "consumer_fortran"))
@@ -223,7 +230,8 @@ class Consumers(unittest.TestCase):
                 continue
             suffix, compiler, text = {
                 "fortran": (".f90", self.options.fortran, f"program page\n{block}end program page\n"),
-                "c": (".c", self.options.c, f"#include <stdio.h>\n#include <wavycon.h>\nint main(void)\n{{\n{block}}}\n"),
+                "c": (".c", self.options.c,
+                      f"#include <stdio.h>\n#include <wavycon.h>\nint main(void)\n{{\n{block}}}\n"),
             }[language]
             source.with_suffix(suffix).write_text(text)
             run(compiler, *shlex.split(self.options.flags), source.with_suffix(suffix), "-o", source,
@@ -238,12 +246,7 @@ class Consumers(unittest.TestCase):
     def test_keys(self):
         if self.is_sanitized:
             self.skipTest("Python cannot load a library with a sanitizer")
-        lib = ctypes.CDLL(str(self.library))
-        lib.wavycon_get_text.restype = ctypes.c_size_t
-        lib.wavycon_get_text.argtypes = [ctypes.c_void_p]*2 + [ctypes.c_char_p, ctypes.c_void_p, ctypes.c_size_t]
-        text = ctypes.create_string_buffer(lib.wavycon_get_text(None, None, b"keys", None, 0))
-        lib.wavycon_get_text(None, None, b"keys", text, len(text))
-        groups = {group["name"]: group for group in json.loads(text.value)}
+        groups = {group["name"]: group for group in json.loads(Library(self.library).text(None, "keys"))}
         self.assertEqual(["scene", "material", "surface", "load", "stress", "method", "output"], list(groups))
         keys = {name: {key["name"]: key for key in group["keys"]} for name, group in groups.items()}
         # The program's --help is made from the same tables.
@@ -256,6 +259,12 @@ class Consumers(unittest.TestCase):
             "least", "above", "most", "unit", "required")))
         self.assertIn("self_affine", keys["surface"]["kind"]["choices"])
         self.assertTrue(keys["surface"]["kind"]["required"])
+
+    def test_tables(self):
+        if self.is_sanitized:
+            self.skipTest("Python cannot load a library with a sanitizer")
+        names = run(sys.executable, HERE / "tables.py", self.library, self.folder / "tables.nml").split()
+        self.assertEqual(15, len(names))
 
     def test_a_load_is_stopped(self):
         if self.is_sanitized:

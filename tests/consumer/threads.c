@@ -28,12 +28,12 @@ static void *work(void *answer)
     wavycon_error error = wavycon_new_error();
     for (int i = 0; i < repeats; i++) {
         char wave[300];
-        snprintf(wave, sizeof wave, "&surface kind = 'wave_2d', wavelength_y = %g / &stress nu = 0.3, lateral = 'free' / "
-                 "&method solver = 'fitted', accuracy = 1e-6 /", 1 + 0.5*i);
+        snprintf(wave, sizeof wave, "&surface kind = 'wave_2d', wavelength_y = %g / "
+                 "&stress nu = 0.3, lateral = 'free' / &method solver = 'fitted', accuracy = 1e-6 /", 1 + 0.5*i);
         wavycon_scene fitted = wavycon_new_scene(error, wave, "wave", 1, 0, 0, NULL);
         wavycon_scene grid = wavycon_new_scene(
-            error, "&surface kind = 'file', file = 'h' / &stress nu = 0.3 / &method solver = 'grid' /", "rough", 1, points,
-            points, &heights[0][0]);
+            error, "&surface kind = 'file', file = 'h' / &stress nu = 0.3 / &method solver = 'grid' /", "rough", 1,
+            points, points, &heights[0][0]);
         wavycon_solution one = wavycon_solve(error, fitted, "contact_area_fraction", 0.2);
         wavycon_solution other = wavycon_solve(error, grid, "pbar_over_pstar", 0.1);
         r->failures += wavycon_get(error, one, "pbar_over_pstar", &r->numbers[2*i]) != 0;
