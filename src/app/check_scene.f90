@@ -111,9 +111,7 @@ contains
       words = 'summary'
       do i = 1, size(tables)
          if (tables(i)%table%key() == '') cycle
-         words = words//', '
-         if (tables(i)%table%group() == 'stress') words = words//'stress_'
-         words = words//tables(i)%table%key()
+         words = words//', '//tables(i)%table%name()
       end do
    end function names_of
 

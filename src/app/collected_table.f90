@@ -3,11 +3,12 @@ module wavycon_collected_table
    use wavycon_column_text, only: column_name, column_unit
    use wavycon_deck_keys, only: deck_key, longest_key_name
    use wavycon_error, only: error_type, exit_file_trouble, fatal_error
-   use wavycon_output_file, only: narrowest, output_file
+   use wavycon_memory_table, only: memory_table
+   use wavycon_output_file, only: output_file
    use wavycon_plain_text, only: escaped
    use wavycon_results, only: results_type
    use wavycon_settings, only: setting_type
-   use wavycon_summary_table, only: summary_columns, summary_row
+   use wavycon_summary_table, only: put_summary_row, summary_columns
    use wavycon_system, only: make_directories, path_directory, path_kind
    use wavycon_version, only: revision, version
    implicit none (type, external)
@@ -22,7 +23,7 @@ module wavycon_collected_table
       character(:), allocatable :: deck, case
       type(deck_key), allocatable :: keys(:)
       character(longest_unit) :: units(size(summary_columns)) = ''
-      character(narrowest), allocatable :: words(:, :)   !! column, load
+      type(memory_table) :: summary
    end type deck_rows
 
    type :: collected_table
@@ -67,10 +68,11 @@ contains
 
    !> Adds the loads of a deck.
    subroutine add(self, results, keys)
-      class(collected_table), intent(inout) :: self
+      class(collected_table), intent(inout), target :: self
       type(results_type), intent(in) :: results   !! with a solution for each load
       type(deck_key), intent(in) :: keys(:)       !! of the deck
 
+      type(output_file) :: file
       integer :: i
 
       self%number = self%number + 1
@@ -81,11 +83,12 @@ contains
          do i = 1, size(summary_columns)
             rows%units(i) = results%unit_in_words(trim(column_unit(summary_columns(i))))
          end do
-         allocate (rows%words(size(summary_columns), size(results%loads)))
-         do i = 1, size(results%loads)
-            rows%words(:, i) = summary_row(results, i)
-         end do
       end associate
+      call file%open_in_memory(self%decks(self%number)%summary)
+      call file%put_columns(column_name(summary_columns), column_unit(summary_columns))
+      do i = 1, size(results%loads)
+         call put_summary_row(results, i, file)
+      end do
    end subroutine add
 
    !> Notes a deck that was not run to its end, for the head of the table.
@@ -117,15 +120,13 @@ contains
       call file%put_names()
       do d = 1, self%number
          associate (rows => self%decks(d))
-            do i = 1, size(rows%words, 2)
+            do i = 1, rows%summary%rows
                call file%add(rows%deck)
                call file%add(rows%case)
                do k = 1, size(columns)
                   call file%add(word_in(rows, columns(k)))
                end do
-               do k = 1, size(rows%words, 1)
-                  call file%add(trim(rows%words(k, i)))
-               end do
+               call file%add_row_of(rows%summary, i)
                call file%end_row()
             end do
          end associate

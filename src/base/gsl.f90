@@ -189,9 +189,14 @@ contains
    !> Makes the library return statuses and null pointers on errors; its default handler ends the program.
    !> To be called before any procedure that can fail; further calls change nothing.
    subroutine return_gsl_errors()
+      logical, save :: is_off = .false.
       type(c_funptr) :: previous_handler
 
-      previous_handler = gsl_set_error_handler_off()
+      ! Threads may be here at the same time: the handler is a global variable of GSL.
+      !$omp critical (wavycon_gsl_handler)
+      if (.not. is_off) previous_handler = gsl_set_error_handler_off()
+      is_off = .true.
+      !$omp end critical (wavycon_gsl_handler)
    end subroutine return_gsl_errors
 
 end module wavycon_gsl

@@ -5,7 +5,7 @@ module wavycon_auto_contact
    use wavycon_closed_form_contact, only: closed_form_contact, closed_form_exists
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, solver_traits
-   use wavycon_contact_status, only: converged
+   use wavycon_contact_status, only: converged, interrupted
    use wavycon_fitted_contact, only: fitted_contact, fitted_options
    use wavycon_fitted_frame, only: find_frame, fitted_frame
    use wavycon_grid_contact, only: grid_contact, grid_options
@@ -89,8 +89,8 @@ contains
       call slab%start(of_grids%finest_grid)
       if (.not. slab%any(.not. solution%is_good())) return
       call self%grid_contact%solve_partial_contact(pbar_over_pstar, on_grids)
-      if (slab%any(on_grids%status == converged .or. on_grids%largest_error() <= solution%largest_error())) &
-         call on_grids%move_to(solution)
+      if (slab%any(on_grids%status == converged .or. on_grids%status == interrupted .or. &
+                   on_grids%largest_error() <= solution%largest_error())) call on_grids%move_to(solution)
    end subroutine solve_partial_contact
 
    !> Those of the first solver, and the finest grid of both.

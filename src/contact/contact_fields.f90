@@ -17,7 +17,7 @@ module wavycon_contact_fields
       !> if there is none.
       integer :: own_points(2) = 0
       real(dp) :: own_offset(2) = 0.0_dp
-      !> The columns of that grid, of the part of the cell that was solved, that this rank has.
+      !> The columns of that grid, of the part of the cell that was solved, that are here.
       type(grid_slab) :: own_slab = grid_slab()
    contains
       procedure(fields_at_point), deferred :: at

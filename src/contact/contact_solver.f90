@@ -4,7 +4,7 @@ module wavycon_contact_solver
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_contact_measures, only: full_contact_measures
    use wavycon_contact_solution, only: contact_solution
-   use wavycon_contact_status, only: above_hardness, full_contact, no_load, not_finite, not_found
+   use wavycon_contact_status, only: above_hardness, full_contact, interrupted, no_load, not_finite, not_found
    use wavycon_kinds, only: dp
    use wavycon_solution_record, only: no_solution, no_solver, solution_record
    use wavycon_solver_progress, only: solver_progress
@@ -70,8 +70,8 @@ module wavycon_contact_solver
 
 contains
 
-   !> Solves one load and measures the solution. Some loads need no solver. The status is not_found
-   !> if the solver was not started on a surface that it can solve.
+   !> Solves one load and measures the solution. Some loads need no solver. The status is not_found if the solver was not
+   !> started on a surface that it can solve, and interrupted if self%progress says that it shall stop.
    subroutine solve(self, pbar_over_pstar, solution)
       class(contact_solver), intent(inout) :: self
       real(dp), intent(in) :: pbar_over_pstar             !! P; the status is not_finite if it is no number
@@ -86,8 +86,21 @@ contains
          return
       end if
       call solve_trivial_load(self%surface, pbar_over_pstar, solution%solution_record, is_trivial)
-      if (.not. is_trivial) call self%solve_partial_contact(pbar_over_pstar, solution)
+      if (is_trivial) return
+      if (shall_stop(self)) then
+         traits = self%traits()
+         solution%solution_record = no_solution(pbar_over_pstar, traits%solver, interrupted)
+      else
+         call self%solve_partial_contact(pbar_over_pstar, solution)
+      end if
    end subroutine solve
+
+   logical function shall_stop(self)
+      class(contact_solver), intent(in) :: self
+
+      shall_stop = .false.
+      if (associated(self%progress)) shall_stop = self%progress%shall_stop(0, 1.0_dp)
+   end function shall_stop
 
    !> Solves a load that needs no solver: there is no load for P <= 0; contact is full for P >= 1 unless the largest
    !> pressure, P + full_contact_peak, exceeds the hardness H; there is no solution for P >= H and for NaN.

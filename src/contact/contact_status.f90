@@ -23,17 +23,19 @@ module wavycon_contact_status
    integer, parameter, public :: not_finite = 13
    !> The mean pressure is not below the hardness: no pressure up to the hardness carries it.
    integer, parameter, public :: above_hardness = 14
+   !> The caller ended the solver before it had a solution (`solver_progress%shall_stop`).
+   integer, parameter, public :: interrupted = 15
    !> The iteration or the quadratic programme failed: from this number on by its status of wavycon_qp_problem.
    integer, parameter, public :: other_failure = 20
    integer, parameter, public :: iteration_limit = other_failure + qp_iteration_limit
 
    !> All of them, and their names in tables.
    integer, parameter :: statuses(*) = [converged, closed_form, full_contact, no_load, unresolved, not_accurate, &
-      not_found, no_memory, not_finite, above_hardness, &
+      not_found, no_memory, not_finite, above_hardness, interrupted, &
       other_failure + [qp_iteration_limit, qp_infeasible, qp_infeasible_start, qp_not_convex, qp_inaccurate]]
    character(16), parameter :: names(*) = [character(16) :: 'converged', 'closed_form', 'full_contact', 'no_load', &
-      'unresolved', 'not_accurate', 'not_found', 'no_memory', 'not_finite', 'above_hardness', 'iteration_limit', &
-      'infeasible', 'infeasible_start', 'not_convex', 'inaccurate']
+      'unresolved', 'not_accurate', 'not_found', 'no_memory', 'not_finite', 'above_hardness', 'interrupted', &
+      'iteration_limit', 'infeasible', 'infeasible_start', 'not_convex', 'inaccurate']
 
 contains
 

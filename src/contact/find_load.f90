@@ -7,7 +7,7 @@ module wavycon_find_load
    use wavycon_contact_measures, only: is_known
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, solver_traits
-   use wavycon_contact_status, only: not_accurate, not_found
+   use wavycon_contact_status, only: interrupted, not_accurate, not_found
    use wavycon_contact_tuning, only: flattest, fraction_of_error, largest_fraction, least_fraction, lightest_load, &
       longest_step, most_solves, steepest, value_roundings
    use wavycon_kinds, only: dp
@@ -69,8 +69,10 @@ contains
       do level = traits%coarser_levels, 0, -1
          solver%level = level
          call find_root(solver, search, solution)
+         if (solution%status == interrupted) exit
          if (solution%status == not_found) search%logit_p = logit_t(search, search%target)
       end do
+      solver%level = 0
    end subroutine solve_for
 
    !> The secant method. A step that would leave the bracket of the root is replaced by bisection. Towards light loads
@@ -93,6 +95,7 @@ contains
       last_miss = 0.0_dp
       do i = 1, most_solves
          call solver%solve(search%most/(1.0_dp + exp(-search%logit_p)), solution)
+         if (solution%status == interrupted) return
          met = solution%measures%contact_area_fraction
          error = solution%measures%contact_area_error
          if (search%of_gap) then

@@ -8,7 +8,7 @@ module wavycon_find_yield
    use wavycon_contact_measures, only: unknown
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, solver_traits
-   use wavycon_contact_status, only: not_accurate, not_found
+   use wavycon_contact_status, only: interrupted, not_accurate, not_found
    use wavycon_contact_tuning, only: fraction_of_error, largest_fraction, largest_stress_error, least_fraction, &
       longest_rise, most_solves
    use wavycon_kinds, only: dp
@@ -45,8 +45,10 @@ contains
       do level = traits%coarser_levels, 0, -1
          solver%level = level
          call find_root(solver, setting, log(target), log_p, solution)
+         if (solution%status == interrupted) exit
          if (solution%status == not_found) log_p = first_log_p()
       end do
+      solver%level = 0
 
    contains
 
@@ -84,6 +86,7 @@ contains
       at_largest = log_p
       do i = 1, most_solves
          call solver%solve(exp(log_p), solution)
+         if (solution%status == interrupted) return
          call find_miss(solver, setting, log_target, solution, miss, error)
          if (.not. ieee_is_finite(miss)) exit
          if (miss > largest + rounding) then

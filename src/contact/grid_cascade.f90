@@ -29,7 +29,8 @@ module wavycon_grid_cascade
 
    type :: cascade_answer
       type(grid_state) :: state            !! on the finest grid, without the gap
-      type(grid_edge), allocatable :: edge !! on the finest grid; not allocated if the first did not fit into memory
+      !> On the finest grid; not allocated if the first did not fit into memory, or if `progress` stopped the solver.
+      type(grid_edge), allocatable :: edge
       real(dp) :: values(3) = 0.0_dp       !! mean gap [Delta], contact area fraction, peak pressure [p*]
       real(dp) :: errors(3) = unknown      !! their error estimates, in the same units, or `unknown`
       !> The area by the number of points in contact, and in 2-D corrected by (C26), otherwise `unknown`.
@@ -46,14 +47,16 @@ module wavycon_grid_cascade
 contains
 
    !> Solves one load, to an accuracy or up to a given grid. The sequence ends early if a grid does not fit into memory
-   !> (`out_of_memory`) or the iteration on it does not converge (`state%converged` is false).
+   !> (`out_of_memory`), the iteration on it does not converge (`state%converged` is false), or `progress` says that it
+   !> shall stop (`state%interrupted`): then there is no edge.
    subroutine solve_by_cascade(surface, mean_pressure, accuracy, points, answer, progress, residual)
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: mean_pressure           !! P in (0, 1), or in (0, H) if the surface has a hardness
       real(dp), intent(in) :: accuracy                !! largest error estimate allowed of the three values, >= 0
       integer, intent(in) :: points(2)                !! of the last grid, on the whole cell; zeros: to the accuracy
       type(cascade_answer), intent(out) :: answer
-      class(solver_progress), intent(in), optional :: progress   !! is called after each grid
+      !> Is called after each grid, and asked in its iterations whether to stop.
+      class(solver_progress), intent(in), optional :: progress
       !> Residual (C9) of the last grid that `points` gives; absent or 0: as its edge needs it (C10).
       real(dp), intent(in), optional :: residual
 
@@ -77,7 +80,8 @@ contains
       answer%state%hardness = surface%hardness
       do
          last = all(grid == plan%last)
-         call solve_level(surface, mean_pressure, merge(last_residual, 0.0_dp, last), answer)
+         call solve_level(surface, mean_pressure, merge(last_residual, 0.0_dp, last), answer, progress)
+         if (answer%state%interrupted) return
          if (surface%has_hardness()) then
             call find_edge_at_hardness(surface, answer%state, edge_at_hardness)
             call measure_level(surface, mean_pressure, history, answer)
@@ -111,10 +115,11 @@ contains
    end subroutine solve_by_cascade
 
    !> Solves on one grid, that of answer%state%pressure, and starts from that pressure.
-   subroutine solve_level(surface, mean_pressure, residual, answer)
+   subroutine solve_level(surface, mean_pressure, residual, answer, progress)
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: mean_pressure, residual
       type(cascade_answer), intent(inout) :: answer
+      class(solver_progress), intent(in), optional :: progress
 
       type(compliance_operator) :: half_space
       type(local_stiffness) :: stencil
@@ -135,7 +140,7 @@ contains
          call stencil%start(surface, slab%points)
       end associate
       call solve_on_grid(half_space, stencil, h, residual, most_iterations(surface, answer%state%slab%points), &
-                         answer%state)
+                         answer%state, progress)
       answer%grids = answer%grids + 1
       answer%iterations = answer%iterations + answer%state%iterations
       answer%transform_pairs = answer%transform_pairs/2**surface%dimension &

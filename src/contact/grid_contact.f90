@@ -9,7 +9,7 @@ module wavycon_grid_contact
    use wavycon_contact_measures, only: contact_measures, unknown
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, default_accuracy, solver_traits
-   use wavycon_contact_status, only: converged, iteration_limit, no_memory, not_accurate, unresolved
+   use wavycon_contact_status, only: converged, interrupted, iteration_limit, no_memory, not_accurate, unresolved
    use wavycon_contact_tuning, only: largest_spot, least_search_points, worst_search_accuracy
    use wavycon_grid_cascade, only: cascade_answer, solve_by_cascade
    use wavycon_grid_edge, only: grid_edge
@@ -120,7 +120,8 @@ contains
          call solve_cell(self, self%surface, pbar_over_pstar, answer)
       end if
       if (.not. allocated(answer%edge)) then
-         solution%solution_record = no_solution(pbar_over_pstar, by_grids, no_memory)
+         solution%solution_record = no_solution(pbar_over_pstar, by_grids, &
+                                                merge(interrupted, no_memory, answer%state%interrupted))
          return
       end if
       solution%pbar_over_pstar = pbar_over_pstar

@@ -16,6 +16,7 @@ module wavycon_grid_solver
    use wavycon_kinds, only: dp, sp
    use wavycon_local_stiffness, only: local_stiffness
    use wavycon_pressure_correction, only: pressure_correction
+   use wavycon_solver_progress, only: solver_progress
    use wavycon_threads, only: threads_for
    implicit none (type, external)
    private
@@ -40,6 +41,7 @@ module wavycon_grid_solver
       integer :: local_iterations = 0           !! those of them preconditioned by the stencil
       integer :: plain_iterations = 0           !! those without extension of the gap
       logical :: converged = .false.
+      logical :: interrupted = .false.          !! by `progress`: the gap is not allocated
       logical, private :: is_open = .true.      !! whether any point has no pressure; only with a hardness
    contains
       procedure :: open_gap
@@ -48,7 +50,7 @@ module wavycon_grid_solver
 contains
 
    !> Solves (C1) on a grid. If it does not converge in most_iterations, state%converged is false.
-   subroutine solve_on_grid(half_space, stencil, undeformed_gap, residual, most_iterations, state)
+   subroutine solve_on_grid(half_space, stencil, undeformed_gap, residual, most_iterations, state, progress)
       type(compliance_operator), intent(inout) :: half_space   !! S, started on the grid
       type(local_stiffness), intent(in) :: stencil   !! likewise
       real(dp), intent(in) :: undeformed_gap(:, :)   !! h/Delta, shape (M, state%slab%columns())
@@ -56,6 +58,7 @@ contains
       integer, intent(in) :: most_iterations
       !> On entry `slab` and `hardness` are set and `pressure` is the start, 0 <= p <= H; its mean P in (0, H) stays.
       type(grid_state), intent(inout) :: state
+      class(solver_progress), intent(in), optional :: progress   !! is asked before each iteration
 
       logical :: touched(size(undeformed_gap, 2))
       real(dp) :: allowed, last_residual
@@ -76,18 +79,20 @@ contains
          last_residual = state%residual
          if (state%converged .or. state%iterations >= most_iterations) exit
          call correct_pressure(half_space, stencil, max(correction_part, correction_margin*allowed/state%residual), &
-                               min(correction_limit, most_iterations - state%iterations), state)
+                               min(correction_limit, most_iterations - state%iterations), state, progress)
+         if (state%interrupted) return
       end do
       state%residual = state%residual/max(size_of_gaps(state), rounding)
    end subroutine solve_on_grid
 
    !> Corrects the pressure until the residual is a part of what it is.
-   subroutine correct_pressure(half_space, stencil, part, most_iterations, state)
+   subroutine correct_pressure(half_space, stencil, part, most_iterations, state, progress)
       type(compliance_operator), intent(inout) :: half_space
       type(local_stiffness), intent(in) :: stencil
       real(dp), intent(in) :: part
       integer, intent(in) :: most_iterations
       type(grid_state), intent(inout) :: state   !! `gap` is not allocated afterwards
+      class(solver_progress), intent(in), optional :: progress
 
       type(pressure_correction) :: correction
       logical(c_bool), allocatable :: inside(:, :)
@@ -96,7 +101,8 @@ contains
       call correction%start(state%slab, inside, stencil, state%pressure, state%gap, state%residual, state%hardness)
       ! The correction needs their memory; the next step computes the gap anew.
       deallocate (inside, state%gap)
-      call correction%improve(half_space, part, most_iterations)
+      call correction%improve(half_space, part, most_iterations, progress)
+      state%interrupted = correction%is_interrupted
       call correction%add_to(state%pressure)
       state%corrections = state%corrections + 1
       ! A correction without iterations corrects the approach alone. It counts, so that the number of steps is limited.

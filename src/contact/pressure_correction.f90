@@ -18,6 +18,7 @@ module wavycon_pressure_correction
    use wavycon_local_stiffness, only: local_stiffness
    use wavycon_pressure_load, only: set_load, sum_of_field
    use wavycon_pressure_step, only: take_step
+   use wavycon_solver_progress, only: solver_progress
    implicit none (type, external)
    private
 
@@ -25,6 +26,7 @@ module wavycon_pressure_correction
 
    type :: pressure_correction
       integer :: iterations = 0
+      logical :: is_interrupted = .false.     !! whether `progress` ended the last call of `improve`
       type(correction_preconditioner) :: preconditioner
       type(correction_state), private :: state
    contains
@@ -48,11 +50,12 @@ contains
 
    !> Iterates by (C3) to (C8) until the residual is below a part of its start, or for a number of iterations. One field
    !> of the grid holds z, d, Sd, and what (C7) changes besides the step, one after another.
-   subroutine improve(self, half_space, part, most_iterations)
+   subroutine improve(self, half_space, part, most_iterations, progress)
       class(pressure_correction), intent(inout) :: self
       type(compliance_operator), intent(inout) :: half_space
       real(dp), intent(in) :: part             !! of the residual at the start, in (0, 1)
       integer, intent(in) :: most_iterations   !! > 0
+      class(solver_progress), intent(in), optional :: progress   !! is asked before each iteration
 
       real(dp) :: descent, last_residual, sums(gap_sums)
       real(sp), allocatable :: r(:), d(:)      !! residual and direction of the last iteration, shape (region%points)
@@ -74,6 +77,8 @@ contains
             call self%preconditioner%select(state, last_residual, restarts)
             if (restarts) descent = 0.0_dp
             if (state%residual <= part*state%scale .or. self%iterations >= most_iterations) exit
+            if (present(progress)) self%is_interrupted = progress%shall_stop(self%iterations, state%residual)
+            if (self%is_interrupted) exit
             last_residual = state%residual
             self%iterations = self%iterations + 1
             call self%preconditioner%apply(half_space, state, field)                 ! (C4): field = z

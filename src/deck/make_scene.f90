@@ -29,8 +29,12 @@ contains
       scene%gives_modulus = deck%material%has('e_star') .or. deck%material%has('e1')
       scene%has_units = scene%gives_modulus .or. deck%scene%has('pressure_unit') .or. deck%scene%has('length_unit')
       if (allocated(scene%map)) scene%has_units = scene%has_units .or. allocated(scene%map%length_unit)
-      call take_loads(deck%load, scene%surface%amplitude, scene%p_star, scene%loads_by, scene%target, &
-                      scene%mean_pressure)
+      if (deck%load%place > 0) then
+         call take_loads(deck%load, scene%surface%amplitude, scene%p_star, scene%loads_by, scene%target, &
+                         scene%mean_pressure)
+      else
+         allocate (scene%target(0), scene%mean_pressure(0))
+      end if
       call make_stress_setting(deck%stress, deck%material, scene%p_star, scene%stress_setting)
       scene%stress = deck%stress
       scene%deck_path = deck%path

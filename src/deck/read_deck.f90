@@ -11,6 +11,8 @@ module wavycon_read_deck
    use wavycon_deck_text, only: deck_text_type, read_deck_text
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_group_values, only: group_values
+   use wavycon_key_table, only: key_group_type
+   use wavycon_kinds, only: dp
    use wavycon_load_group, only: check_load_group, check_loads_of_surface
    use wavycon_material_group, only: check_material_group
    use wavycon_method_group, only: check_method_group
@@ -46,26 +48,38 @@ contains
       call parse_deck(text, deck, error, settings)
    end subroutine read_deck
 
-   !> Reads a deck from its text. Errors: as of `read_deck`.
-   subroutine parse_deck(deck_text, deck, error, settings)
+   !> Reads a deck from its text. Errors: as of `read_deck`, and exit_bad_input for heights of a kind that has no file.
+   subroutine parse_deck(deck_text, deck, error, settings, heights, in_memory)
       type(deck_text_type), intent(in) :: deck_text
       type(deck_type), intent(out) :: deck  !! to be used only if there is no error
       type(error_type), allocatable, intent(out) :: error
       type(setting_type), intent(in), optional :: settings(:)   !! keys set in place of those of the deck
 
+      !> Heights of the surface in place of those of its file: upwards to the other body, NaN where they are missing, x
+      !> first, one column of a profile.
+      real(dp), intent(in), optional :: heights(:, :)
+      !> Whether the deck is no file: it may have no group &load, and its name need not serve as that of a case.
+      logical, intent(in), optional :: in_memory
+
       type(group_values) :: groups(number_of_groups)
+      type(key_group_type) :: tables(number_of_groups)
       type(problem_list_type) :: problems
       type(scan_type) :: scan
       type(deck_text_type) :: text
+      logical :: is_file
 
+      is_file = .true.
+      if (present(in_memory)) is_file = .not. in_memory
       text = deck_text
       call scan_deck(text, scan, problems)
       if (size(scan%tokens) == 0) then
          call fatal_error(error, exit_bad_input, escaped(text%path)//': the deck is empty')
          return
       end if
-      if (present(settings)) call add_settings(settings, deck_tables(), text, scan, problems)
-      call take_groups(text, scan, deck_tables(), groups, problems)
+      tables = deck_tables()
+      tables(load_number)%required = is_file
+      if (present(settings)) call add_settings(settings, tables, text, scan, problems)
+      call take_groups(text, scan, tables, groups, problems)
       deck%path = text%path
       deck%scene = groups(scene_number)
       deck%material = groups(material_number)
@@ -75,9 +89,13 @@ contains
       deck%method = groups(method_number)
       deck%output = groups(output_number)
 
-      call check_scene_group(deck%scene, problems)
+      if (is_file) then
+         call check_scene_group(deck%scene, problems)
+      else
+         call check_scene_group(deck%scene, problems, 'deck')
+      end if
       if (present(settings)) call name_case(deck%scene, settings, problems)
-      call read_surface(deck, problems, error)
+      call read_surface(deck, problems, error, heights)
       call check_material_and_loads(deck, problems)
       call check_stress_group(deck%stress, deck%material, deck%load, problems, deck%surface)
       call check_method_group(deck%method, deck%surface_values%text('kind'), deck%surface, problems)
@@ -92,10 +110,11 @@ contains
 
    !> Checks &surface and, if it has no problems, makes the surface. A unit that its file names becomes the deck's label
    !> if the deck gives none. Errors: as of `make_surface`.
-   subroutine read_surface(deck, problems, error)
+   subroutine read_surface(deck, problems, error, heights)
       type(deck_type), intent(inout) :: deck
       type(problem_list_type), intent(inout) :: problems
       type(error_type), allocatable, intent(out) :: error
+      real(dp), intent(in), optional :: heights(:, :)   !! as of parse_deck
 
       integer :: before
 
@@ -103,7 +122,7 @@ contains
       call check_surface_group(deck%surface_values, problems)
       if (problems%number > before .or. deck%surface_values%any_bad()) return
       if (deck%scene%has('length_unit')) deck%surface_values%length_unit = deck%scene%text('length_unit')
-      call make_surface(deck%surface_values, deck%surface, deck%map, error)
+      call make_surface(deck%surface_values, deck%surface, deck%map, error, heights)
       if (allocated(error)) return
       if (allocated(deck%surface)) call check_sides(deck%surface_values, deck%surface, problems)
       if (.not. allocated(deck%map)) return

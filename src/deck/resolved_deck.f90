@@ -20,8 +20,8 @@ contains
       character(:), allocatable :: text
 
       text = '! '//escaped(deck%path)//' with the value in effect of every key that applies.'
-      text = text//group_text(deck%scene)//group_text(deck%material)//group_text(deck%surface_values)// &
-         group_text(deck%load)
+      text = text//group_text(deck%scene)//group_text(deck%material)//group_text(deck%surface_values)
+      if (deck%load%place > 0) text = text//group_text(deck%load)
       ! The group itself asks for stresses.
       if (deck%stress%place > 0) text = text//group_text(deck%stress)
       text = text//group_text(deck%method)//group_text(deck%output)

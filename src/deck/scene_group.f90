@@ -34,19 +34,24 @@ contains
    end function scene_table
 
    !> Checks the labels of units and the name of the case, whose default is the name of the deck's file without '.nml'.
-   subroutine check_scene_group(values, problems)
+   subroutine check_scene_group(values, problems, usual_case)
       type(group_values), intent(inout) :: values
       type(problem_list_type), intent(inout) :: problems
+      character(*), intent(in), optional :: usual_case   !! the default in place of the name of the file
 
+      character(:), allocatable :: usual
+
+      usual = stem(values%deck_path)
+      if (present(usual_case)) usual = usual_case
       call check_unit(values, 'pressure_unit', "'MPa' or 'N/mm^2'", problems)
       call check_unit(values, 'length_unit', "'mm'", problems)
       if (values%is_bad('case')) return
-      if (.not. values%has('case') .and. .not. is_plain_name(stem(values%deck_path))) then
+      if (.not. values%has('case') .and. .not. is_plain_name(usual)) then
          call problems%add(values%place, "the deck's file name cannot serve as the name of the case ("// &
             plain_in_words//"): give case in &scene")
          return
       end if
-      call values%set_default('case', stem(values%deck_path))
+      call values%set_default('case', usual)
       if (.not. is_plain_name(values%text('case'))) call values%complain(problems, 'case', &
          'case must be a plain file name of '//plain_in_words)
    end subroutine check_scene_group

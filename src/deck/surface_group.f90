@@ -2,6 +2,7 @@
 module wavycon_surface_group
    use wavycon_error, only: error_type
    use wavycon_group_values, only: group_values
+   use wavycon_height_map_kind, only: surface_of_heights
    use wavycon_key_alternatives, only: is_misplaced, leave_out_other_keys, merged_keys, names_reading, &
       report_missing_keys, selector_key
    use wavycon_key_table, only: key_group, key_group_type, key_index, key_type
@@ -103,13 +104,15 @@ contains
          short_number(largest_ratio)//' times is allowed. Are '//keys//' in one unit?')
    end subroutine check_sides
 
-   !> Makes the surface. Errors: exit_file_trouble for a height map that cannot be read, exit_bad_input for a bad one.
-   subroutine make_surface(values, surface, map, error)
+   !> Makes the surface. Errors: exit_file_trouble for a height map that cannot be read, exit_bad_input for a bad one and
+   !> for heights of a kind that has no file.
+   subroutine make_surface(values, surface, map, error, heights)
       !> Without problems. Keys that have no effect beside what a file says are left out of the resolved deck.
       type(group_values), intent(inout) :: values
       type(surface_type), allocatable, intent(out) :: surface   !! not allocated in case of an error
       type(map_statistics), allocatable, intent(out) :: map     !! allocated for a height map
       type(error_type), allocatable, intent(out) :: error
+      real(dp), intent(in), optional :: heights(:, :)   !! in place of those of the file, as of surface_of_heights
 
       type(surface_kind) :: kinds(number_of_kinds)
       integer :: chosen
@@ -118,7 +121,11 @@ contains
       chosen = findloc(kinds%name == values%text('kind'), .true., dim=1)
       if (chosen == 0) return
       allocate (surface)
-      call kinds(chosen)%make(values, surface, map, error)
+      if (present(heights)) then
+         call surface_of_heights(values, heights, surface, map, error)
+      else
+         call kinds(chosen)%make(values, surface, map, error)
+      end if
       if (allocated(error)) deallocate (surface)
    end subroutine make_surface
 

@@ -1,11 +1,13 @@
 /* The lock that lets one thread at a time into the library: gfortran 12 keeps the lengths of texts that functions return
    in static memory. The solvers have no such functions, so other threads come in while a load is solved, but not with the
-   same solver. A Fortran program that calls the module has no lock. */
+   same scene. A Fortran program that calls the module has no lock. */
 #include <pthread.h>
 
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static pthread_cond_t load_solved = PTHREAD_COND_INITIALIZER;
 static _Thread_local int has_lock = 0;
+/* Solves that this thread is in: a callback may call the library, which solves another load. */
+static _Thread_local int solves = 0;
 
 void wavycon_lock(void)
 {
@@ -19,7 +21,7 @@ void wavycon_unlock(void)
     pthread_mutex_unlock(&lock);
 }
 
-/* Waits until no other thread solves with the solver to which `is_solving` belongs, then lets other threads in. */
+/* Waits until no other thread solves with the scene to which `is_solving` belongs, then lets other threads in. */
 void wavycon_begin_solve(int *is_solving)
 {
     if (!has_lock)
@@ -27,15 +29,17 @@ void wavycon_begin_solve(int *is_solving)
     while (*is_solving)
         pthread_cond_wait(&load_solved, &lock);
     *is_solving = 1;
-    pthread_mutex_unlock(&lock);
+    solves++;
+    wavycon_unlock();
 }
 
 /* Waits until no other thread is in the library. */
 void wavycon_end_solve(int *is_solving)
 {
-    if (!has_lock)
+    if (solves == 0)
         return;
-    pthread_mutex_lock(&lock);
+    wavycon_lock();
+    solves--;
     *is_solving = 0;
     pthread_cond_broadcast(&load_solved);
 }

@@ -1,37 +1,54 @@
-!> The public interface of the library. All other modules are internal and may change in any release.
+!> The public interface of the library: the core's surfaces, solvers and solutions, decks, and the closed forms. All
+!> other modules are internal and may change in any release. README.md in this directory has examples.
 !>
-!> A program makes a surface, makes a solver for it, and solves loads:
-!>
-!>     call make_wave_2d(amplitude, wavelength, surface=surface, error=error)
-!>     call make_solver(surface, e_star, "solver = 'auto', accuracy = 1e-4", .true., solver, error)
-!>     call solver%solve('mean_pressure', mean_pressure, solution, error)
-!>
-!> Errors are of bad arguments; a load that cannot be solved as requested has a status. README.md in this directory
-!> explains both, units, and how to link.
+!> The core is in p*, Delta and angles of the cell; `scale_of` gives what its numbers are multiplied with. A
+!> `deck_session` takes and gives the deck's units.
 module wavycon
+   use wavycon_auto_contact, only: auto_contact
+   use wavycon_beale_contact, only: beale_contact
+   use wavycon_closed_form_contact, only: closed_form_contact
    use wavycon_contact_details, only: contact_details
-   use wavycon_contact_status, only: above_hardness, closed_form, converged, full_contact, is_good_status, no_load, &
-      no_memory, not_accurate, not_finite, not_found, status_code, status_name, unresolved
+   use wavycon_contact_fields, only: contact_fields
+   use wavycon_contact_measures, only: contact_measures
+   use wavycon_contact_solution, only: contact_solution
+   use wavycon_contact_solver, only: contact_solver, solver_traits
+   use wavycon_contact_spots, only: contact_region, contact_spots
+   use wavycon_contact_status
+   use wavycon_crossed_1d, only: crossed_1d
    use wavycon_deck_run, only: run_deck
+   use wavycon_deck_session, only: deck_session, solved_load
    use wavycon_dundurs, only: dundurs_coefficients, dundurs_pressure_over_pstar
+   use wavycon_edge_curves, only: edge_curve
+   use wavycon_elastic_body, only: elastic_body, hydrostatic, laterally_constrained, laterally_free
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, exit_fine, exit_not_converged
+   use wavycon_find_load, only: solve_for_contact_area, solve_for_mean_gap
+   use wavycon_fitted_contact, only: fitted_contact
+   use wavycon_fourier_series, only: fourier_series
+   use wavycon_fourier_terms, only: symmetry_diagonal, symmetry_full, symmetry_none
+   use wavycon_grid_contact, only: grid_contact
    use wavycon_hertz_line
    use wavycon_hertz_point
+   use wavycon_hexagonal, only: hexagonal
+   use wavycon_key_json, only: key_json
    use wavycon_kinds, only: dp
    use wavycon_kuznetsov
+   use wavycon_largest_stress, only: find_largest_stresses, largest_stress
    use wavycon_light_load
    use wavycon_line_crack
+   use wavycon_memory_table, only: memory_table, of_integers, of_reals, of_words
    use wavycon_near_closure
    use wavycon_penny_crack
-   use wavycon_solution_stress, only: wavy_largest_stress
+   use wavycon_session_fields, only: fields_at, fields_on_grid, own_points, stresses_at, stresses_on_plane
+   use wavycon_solver_progress, only: solver_progress
+   use wavycon_stress_fields, only: stress_fields
    use wavycon_stress_tensor, only: largest_shear, principal_stresses, von_mises
+   use wavycon_surface, only: surface_of_points, surface_of_series, surface_type
    use wavycon_threads, only: set_threads
+   use wavycon_unit_scale, only: scale_of, unit_scale
    use wavycon_version, only: revision, version
-   use wavycon_wavy_solution, only: wavy_edge, wavy_measures, wavy_solution
-   use wavycon_wavy_solver, only: make_solver, make_solver_of_deck, make_solver_of_material, wavy_scales, &
-                                  wavy_solver
-   use wavycon_wavy_surface, only: make_crossed_1d, make_heights, make_hexagonal, make_surface_of_keys, make_wave_1d, &
-      make_wave_2d, make_wave_sum, wavy_surface
+   use wavycon_wave_1d, only: wave_1d
+   use wavycon_wave_2d, only: wave_2d
+   use wavycon_wave_sum, only: wave_sum
    use wavycon_westergaard
    implicit none (type, external)
    public

@@ -22,6 +22,9 @@ module wavycon_height_table
    !> Numbers for each point: the height and its spectrum.
    integer(int64), parameter :: numbers_a_point = 2
 
+   !> Of the table in memory.
+   character(16), parameter :: columns(*) = [character(16) :: 'x[length]', 'y[length]', 'height[length]']
+
    type, extends(table_type) :: height_table
    contains
       procedure, nopass :: key
@@ -54,7 +57,7 @@ contains
    end function is_written_by_all
 
    !> Writes rows of heights along x, over their mean [length]: of a map at its own points, of waves at those of maps.
-   !> Errors: exit_file_trouble.
+   !> A table in memory has their places too. Errors: exit_file_trouble.
    subroutine write_height_table(results, error)
       type(results_type), intent(in) :: results
       type(error_type), allocatable, intent(out) :: error
@@ -70,19 +73,43 @@ contains
       associate (surface => results%solver%surface)
          points = surface%points/surface%parts()
          if (all(points == 0)) points = map_points(results)
-         call file%open(results%scene%directory, results%scene%case//'.height.npy', binary=.true.)
-         call file%put_raw(npy_header_of_numbers([points(2), points(1)]))
+         if (associated(results%memory)) then
+            call results%open_table('height', columns, file, in_blocks=.false.)
+         else
+            call file%open(results%scene%directory, results%scene%case//'.height.npy', binary=.true.)
+            call file%put_raw(npy_header_of_numbers([points(2), points(1)]))
+         end if
          if (.not. has_memory_for(numbers_a_point*product(int(points, int64)))) call file%note_trouble( &
             'there is not enough memory for '//integer_text(points(1))//' x '//integer_text(points(2))//' points')
          if (file%is_open()) then
             call sample_series(surface%shape, points, spread(merge(0.5_dp, 0.0_dp, surface%mirrored), 1, 2), height, &
                                surface%parts())
             height = surface%amplitude*height
-            call file%put_raw(height)
+            if (associated(results%memory)) then
+               call put_places(height, surface%sides(), surface%mirrored, file)
+            else
+               call file%put_raw(height)
+            end if
          end if
       end associate
       call file%finish(error)
    end subroutine write_height_table
+
+   !> Writes a row of the table in memory for each point.
+   subroutine put_places(height, sides, mirrored, file)
+      real(dp), intent(in) :: height(:, :), sides(2)   !! [length]
+      logical, intent(in) :: mirrored                  !! whether the points are in the middle of their steps
+      type(output_file), intent(inout) :: file
+
+      integer :: k, l
+
+      do l = 1, size(height, 2)
+         do k = 1, size(height, 1)
+            call file%add([sides*([k, l] - 1 + merge(0.5_dp, 0.0_dp, mirrored))/shape(height), height(k, l)])
+            call file%end_row()
+         end do
+      end do
+   end subroutine put_places
 
    !> Writes the heights at the points of a map that is spread over the ranks. Errors: exit_file_trouble.
    subroutine write_by_all(results, error)

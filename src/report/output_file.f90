@@ -1,4 +1,5 @@
-!> Result files. A file is written under a temporary name and renamed when it is complete.
+!> Result files. A file is written under a temporary name and renamed when it is complete. A table may be written to
+!> memory in place of a file: `open_in_memory`.
 !>
 !> A table has header lines that start with '#', the last of them with the units of the columns, then one line with
 !> their names, then rows. gnuplot, numpy and pandas find columns by these names.
@@ -6,17 +7,18 @@ module wavycon_output_file
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_error, only: error_type, exit_file_trouble, fatal_error
    use wavycon_kinds, only: dp
+   use wavycon_memory_table, only: memory_table, of_integers, of_words
    use wavycon_plain_text, only: escaped, integer_text, system_words
    use wavycon_system, only: process_id, remove_file, remove_when_interrupted, rename_file
    implicit none (type, external)
    private
 
-   public :: output_file, number_words
+   public :: output_file
 
    !> A real number: 16 digits and a three-digit exponent.
    character(*), parameter :: real_digits = '.15e3', real_format = '(es24'//real_digits//')'
    !> The narrowest column: such a number with a blank before it.
-   integer, parameter, public :: narrowest = 25
+   integer, parameter :: narrowest = 25
 
    type :: output_file
       private
@@ -30,8 +32,11 @@ module wavycon_output_file
       integer, allocatable :: column_end(:)       !! position in a row at which each column ends
       character(:), allocatable :: row            !! the row being filled
       integer :: columns_filled = 0               !! of that row
+      type(memory_table), pointer :: memory => null()   !! in place of the file
+      real(dp), allocatable :: numbers(:)         !! the row being filled of a table in memory
    contains
       procedure :: open => open_file
+      procedure :: open_in_memory
       procedure :: is_open
       procedure :: put
       procedure, private :: put_bytes
@@ -43,8 +48,10 @@ module wavycon_output_file
       procedure :: add_real
       procedure :: add_reals
       procedure :: add_integer
+      procedure :: add_long_integer
       procedure :: add_word
-      generic :: add => add_real, add_reals, add_integer, add_word
+      generic :: add => add_real, add_reals, add_integer, add_long_integer, add_word
+      procedure :: add_row_of
       procedure :: end_row
       procedure :: put_rows
       procedure :: note_trouble
@@ -80,6 +87,14 @@ contains
       if (.not. self%opened) call self%note_trouble(message)
    end subroutine open_file
 
+   !> Opens a table in memory in place of a file. It gets columns and rows; lines by `put` are left out.
+   subroutine open_in_memory(self, memory)
+      class(output_file), intent(out) :: self
+      type(memory_table), intent(inout), target :: memory   !! exists until `finish`
+
+      self%memory => memory
+   end subroutine open_in_memory
+
    !> Whether the file is open and no error has occurred.
    pure logical function is_open(self)
       class(output_file), intent(in) :: self
@@ -95,7 +110,7 @@ contains
       character(200) :: message
       integer :: status
 
-      if (allocated(self%trouble)) return
+      if (allocated(self%trouble) .or. associated(self%memory)) return
       write (self%unit, '(a)', iostat=status, iomsg=message) line
       if (status /= 0) call self%note_trouble(message)
    end subroutine put
@@ -135,6 +150,11 @@ contains
 
       integer :: i, last, width
 
+      if (associated(self%memory)) then
+         call self%memory%start(names, units)
+         allocate (self%numbers(size(names)))
+         return
+      end if
       self%names = names
       allocate (self%column_end(size(names)))
       last = 0
@@ -158,6 +178,7 @@ contains
 
       integer :: i
 
+      if (associated(self%memory)) return
       do i = 1, size(self%names)
          call self%add(trim(self%names(i)))
       end do
@@ -184,16 +205,16 @@ contains
       class(output_file), intent(inout) :: self
       real(dp), intent(in) :: value
 
-      call self%add(trim(number_words(value)))
-   end subroutine add_real
+      character(narrowest) :: words
 
-   !> A number as tables show it.
-   elemental character(narrowest) function number_words(value) result(words)
-      real(dp), intent(in) :: value
-
+      if (associated(self%memory)) then
+         self%columns_filled = self%columns_filled + 1
+         self%numbers(self%columns_filled) = value
+         return
+      end if
       write (words, real_format) value
-      words = adjustl(words)
-   end function number_words
+      call self%add(trim(adjustl(words)))
+   end subroutine add_real
 
    subroutine add_reals(self, values)
       class(output_file), intent(inout) :: self
@@ -210,11 +231,23 @@ contains
       class(output_file), intent(inout) :: self
       integer, intent(in) :: value
 
+      call self%add(int(value, int64))
+   end subroutine add_integer
+
+   subroutine add_long_integer(self, value)
+      class(output_file), intent(inout) :: self
+      integer(int64), intent(in) :: value
+
       character(narrowest) :: text
 
+      if (associated(self%memory)) then
+         call self%add(real(value, dp))
+         self%memory%kinds(self%columns_filled) = of_integers
+         return
+      end if
       write (text, '(i0)') value
       call self%add(trim(text))
-   end subroutine add_integer
+   end subroutine add_long_integer
 
    subroutine add_word(self, word)
       class(output_file), intent(inout) :: self
@@ -222,17 +255,46 @@ contains
 
       integer :: last
 
+      if (associated(self%memory)) then
+         call self%add(real(self%memory%number_of_word(word), dp))
+         self%memory%kinds(self%columns_filled) = of_words
+         return
+      end if
       self%columns_filled = self%columns_filled + 1
       last = self%column_end(self%columns_filled)
       self%row(last - len(word) + 1:last) = word
    end subroutine add_word
 
+   !> Fills the next columns of a row with a row of a table in memory.
+   subroutine add_row_of(self, table, row)
+      class(output_file), intent(inout) :: self
+      type(memory_table), intent(in) :: table
+      integer, intent(in) :: row
+
+      integer :: k
+
+      do k = 1, size(table%kinds)
+         select case (table%kinds(k))
+         case (of_words)
+            call self%add(trim(table%words(nint(table%values(k, row)))))
+         case (of_integers)
+            call self%add(nint(table%values(k, row), int64))
+         case default
+            call self%add(table%values(k, row))
+         end select
+      end do
+   end subroutine add_row_of
+
    !> Writes the row that was filled.
    subroutine end_row(self)
       class(output_file), intent(inout) :: self
 
-      call self%put(self%row)
-      self%row(:) = ' '
+      if (associated(self%memory)) then
+         call self%memory%add_rows(reshape(self%numbers, [size(self%numbers), 1]))
+      else
+         call self%put(self%row)
+         self%row(:) = ' '
+      end if
       self%columns_filled = 0
    end subroutine end_row
 
@@ -247,6 +309,10 @@ contains
       integer :: i, status
 
       if (allocated(self%trouble)) return
+      if (associated(self%memory)) then
+         call self%memory%add_rows(values, integers)
+         return
+      end if
       row_format = '(i'//integer_text(self%column_end(1))
       do i = 2, size(self%column_end)
          width = integer_text(self%column_end(i) - self%column_end(i - 1))
@@ -298,6 +364,11 @@ contains
       character(:), allocatable :: failure
       integer(int64) :: further
 
+      if (associated(self%memory)) then
+         if (self%memory%is_full) call self%note_trouble('there is not the memory for all rows')
+         if (allocated(self%trouble)) call fatal_error(error, exit_file_trouble, 'table in memory: '//self%trouble)
+         return
+      end if
       further = 0
       if (present(bytes_of_others)) further = bytes_of_others
       if (self%opened) call close_file(self, further)

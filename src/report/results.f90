@@ -7,6 +7,7 @@ module wavycon_results
    use wavycon_contact_status, only: status_name
    use wavycon_kinds, only: dp
    use wavycon_largest_stress, only: largest_stress
+   use wavycon_memory_table, only: memory_table
    use wavycon_output_file, only: output_file
    use wavycon_plain_text, only: escaped, exact_number, integer_text
    use wavycon_preparation_words, only: preparation_words
@@ -30,6 +31,7 @@ module wavycon_results
       !> The largest von Mises and shear stresses, shape (bodies, loads); not allocated unless the deck asks for them.
       type(largest_stress), allocatable :: von_mises(:, :), shear(:, :)
       type(work_sharing) :: sharing                          !! how the ranks share the work
+      type(memory_table), pointer :: memory => null()        !! tables are written to it in place of files
    contains
       procedure :: open_table
       procedure :: begin_block
@@ -42,6 +44,7 @@ contains
 
    !> Opens a table <case>.<kind>.dat, writes the header lines that all tables have and sets the columns. A table
    !> without blocks has the names of its columns here, any other at the head of each block. Errors show in file%finish.
+   !> Or opens the table in memory, if there is one, and sets its columns.
    subroutine open_table(self, kind, columns, file, in_blocks)
       class(results_type), intent(in) :: self
       character(*), intent(in) :: kind         !! name of the table, such as 'summary'
@@ -52,6 +55,14 @@ contains
       character(longest_unit) :: units(size(columns))
       integer :: i
 
+      do i = 1, size(columns)
+         units(i) = self%unit_in_words(trim(column_unit(columns(i))))
+      end do
+      if (associated(self%memory)) then
+         call file%open_in_memory(self%memory)
+         call file%put_columns(column_name(columns), units)
+         return
+      end if
       call file%open(self%scene%directory, self%scene%case//'.'//kind//'.dat')
       call file%put('# wavycon '//version//' ('//revision//')')
       call file%put('# deck: '//escaped(self%scene%deck_path))
@@ -64,9 +75,6 @@ contains
                        ', p*['//pressure//'] = '//exact_number(self%scene%p_star))
          call file%put('# method: '//self%method)
       end associate
-      do i = 1, size(columns)
-         units(i) = self%unit_in_words(trim(column_unit(columns(i))))
-      end do
       call file%put_columns(column_name(columns), units)
       if (.not. in_blocks) call file%put_names()
 

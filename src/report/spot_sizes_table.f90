@@ -24,6 +24,7 @@ module wavycon_spot_sizes_table
    contains
       procedure, nopass :: key
       procedure, nopass :: meaning
+      procedure :: name
       procedure :: is_requested
       procedure :: needs_fields
       procedure, nopass :: write => write_spot_sizes_table
@@ -37,6 +38,14 @@ contains
 
       words = ''
    end function key
+
+   function name(self) result(words)
+      class(spot_sizes_table), intent(in) :: self
+      character(:), allocatable :: words
+
+      associate (unused => self); end associate
+      words = 'spot_sizes'
+   end function name
 
    pure function meaning() result(words)
       character(:), allocatable :: words

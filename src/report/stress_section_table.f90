@@ -61,7 +61,9 @@ contains
       type(surface_line) :: line
       integer :: i, k
 
-      number = findloc(['x       ', 'diagonal', 'y       '] == results%scene%stress%text('section'), .true., dim=1)
+      ! A table in memory may be asked for although the deck has section = 'none': it is that along x.
+      number = max(1, findloc(['x       ', 'diagonal', 'y       '] == results%scene%stress%text('section'), .true., &
+                              dim=1))
       call start_surface_line(line, results, number)
       call stress_depths(results%scene%stress, results%solver%surface, .false., depths)
       allocate (t, source=[(maxval(line%angle(:, k) - line%angle(:, 0)), k=0, ubound(line%angle, 2))])

@@ -5,15 +5,14 @@ module wavycon_summary_table
    use wavycon_error, only: error_type
    use wavycon_kinds, only: dp
    use wavycon_linear_area, only: linear_area_fraction
-   use wavycon_output_file, only: narrowest, number_words, output_file
-   use wavycon_plain_text, only: integer_text
+   use wavycon_output_file, only: output_file
    use wavycon_results, only: not_a_number, results_type
    use wavycon_solution_record, only: solver_names
    use wavycon_table, only: table_type
    implicit none (type, external)
    private
 
-   public :: summary_table, summary_row
+   public :: summary_table, put_summary_row
 
    !> The errors are estimates, NaN if unknown or if the solver has none. NaN too: what is at the hardness without a
    !> hardness, areas by points without a grid, the linear law if the surface is no map.
@@ -32,6 +31,7 @@ module wavycon_summary_table
    contains
       procedure, nopass :: key
       procedure, nopass :: meaning
+      procedure :: name
       procedure :: needs_surface
       procedure :: is_for_flat_surfaces
       procedure, nopass :: write => write_summary_table
@@ -44,6 +44,14 @@ contains
 
       words = ''
    end function key
+
+   function name(self) result(words)
+      class(summary_table), intent(in) :: self
+      character(:), allocatable :: words
+
+      associate (unused => self); end associate
+      words = 'summary'
+   end function name
 
    pure function meaning() result(words)
       character(:), allocatable :: words
@@ -71,25 +79,20 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(output_file) :: file
-      character(narrowest) :: words(size(summary_columns))
-      integer :: i, k
+      integer :: i
 
       call results%open_table('summary', summary_columns, file, in_blocks=.false.)
       do i = 1, size(results%loads)
-         words = summary_row(results, i)
-         do k = 1, size(words)
-            call file%add(trim(words(k)))
-         end do
-         call file%end_row()
+         call put_summary_row(results, i, file)
       end do
       call file%finish(error)
    end subroutine write_summary_table
 
-   !> The row of a load.
-   function summary_row(results, load) result(words)
+   !> Writes the row of a load.
+   subroutine put_summary_row(results, load, file)
       type(results_type), intent(in) :: results
       integer, intent(in) :: load
-      character(narrowest) :: words(size(summary_columns))
+      type(output_file), intent(inout) :: file   !! with summary_columns
 
       real(dp) :: at_hardness(4), errors(3)
 
@@ -103,25 +106,27 @@ contains
             if (results%traits%has_errors) &
                at_hardness(3:) = or_nan([measures%area_at_hardness_error, measures%load_at_hardness_error])
          end if
-         words = [character(narrowest) :: &
-                  integer_text(load), &
-                  number_words([solution%pbar_over_pstar, &
-                                measures%mean_gap_over_amplitude, measures%approach_over_amplitude, &
-                                measures%contact_area_fraction, measures%peak_pressure_over_pstar, &
-                                measures%min_pressure_over_pstar, errors, at_hardness, &
-                                or_nan(measures%contact_area_counted_fraction), &
-                                or_nan(measures%contact_area_corrected_fraction), &
-                                or_nan(linear_area_fraction(surface, scene%roughness%slope, &
-                                                            solution%pbar_over_pstar)), &
-                                results%mean_pressure(load), &
-                                surface%amplitude*measures%mean_gap_over_amplitude, &
-                                surface%amplitude*measures%approach_over_amplitude, &
-                                surface%nominal_area()*measures%contact_area_fraction, &
-                                results%peak_pressure(load)]), &
-                  integer_text(solution%active_constraints), integer_text(solution%iterations), &
-                  number_words(solution%residual), solver_names(solution%solver), &
-                  integer_text(status_code(solution%status)), status_name(solution%status)]
+         call file%add(load)
+         call file%add([solution%pbar_over_pstar, &
+                        measures%mean_gap_over_amplitude, measures%approach_over_amplitude, &
+                        measures%contact_area_fraction, measures%peak_pressure_over_pstar, &
+                        measures%min_pressure_over_pstar, errors, at_hardness, &
+                        or_nan(measures%contact_area_counted_fraction), &
+                        or_nan(measures%contact_area_corrected_fraction), &
+                        or_nan(linear_area_fraction(surface, scene%roughness%slope, solution%pbar_over_pstar)), &
+                        results%mean_pressure(load), &
+                        surface%amplitude*measures%mean_gap_over_amplitude, &
+                        surface%amplitude*measures%approach_over_amplitude, &
+                        surface%nominal_area()*measures%contact_area_fraction, &
+                        results%peak_pressure(load)])
+         call file%add(solution%active_constraints)
+         call file%add(solution%iterations)
+         call file%add(solution%residual)
+         call file%add(trim(solver_names(solution%solver)))
+         call file%add(status_code(solution%status))
+         call file%add(trim(status_name(solution%status)))
       end associate
-   end function summary_row
+      call file%end_row()
+   end subroutine put_summary_row
 
 end module wavycon_summary_table

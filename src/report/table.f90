@@ -16,6 +16,7 @@ module wavycon_table
       procedure(words_of_table), deferred, nopass :: key
       procedure(words_of_table), deferred, nopass :: meaning
       procedure, nopass :: group => output_group
+      procedure :: name
       procedure :: is_requested
       procedure :: refusal
       procedure :: needs_fields
@@ -48,6 +49,15 @@ contains
 
       words = 'output'
    end function output_group
+
+   !> The name of the table: its key, that of &stress with 'stress_' before it. A table without a key overrides it.
+   function name(self) result(words)
+      class(table_type), intent(in) :: self
+      character(:), allocatable :: words
+
+      words = self%key()
+      if (self%group() == 'stress') words = 'stress_'//words
+   end function name
 
    !> Whether the table is written. Here it is if its key is .true. and, without a key, always; never if the deck does
    !> not have its group &stress.

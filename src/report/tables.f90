@@ -21,7 +21,7 @@ module wavycon_tables
    implicit none (type, external)
    private
 
-   public :: all_tables, table_item
+   public :: all_tables, find_table, table_item
 
    type :: table_item
       class(table_type), allocatable :: table
@@ -52,6 +52,24 @@ contains
       call add(tables, stress_section_table())
       call add(tables, stress_planes_table())
    end subroutine all_tables
+
+   !> The table of a name; not allocated if there is none.
+   subroutine find_table(name, table, names)
+      character(*), intent(in) :: name
+      class(table_type), allocatable, intent(out) :: table
+      character(:), allocatable, intent(out) :: names   !! of all tables, such as 'summary, lines and map'
+
+      type(table_item), allocatable :: tables(:)
+      integer :: i
+
+      call all_tables(tables)
+      names = ''
+      do i = 1, size(tables)
+         if (i > 1) names = names//trim(merge(' and', ',   ', i == size(tables)))//' '
+         names = names//tables(i)%table%name()
+         if (tables(i)%table%name() == name) allocate (table, source=tables(i)%table)
+      end do
+   end subroutine find_table
 
    subroutine add(tables, table)
       type(table_item), allocatable, intent(inout) :: tables(:)

@@ -15,7 +15,7 @@ module wavycon_theory_lines_table
    use wavycon_results, only: not_a_number, results_type
    use wavycon_scene, only: scene_type
    use wavycon_surface_lines, only: start_surface_line, surface_line
-   use wavycon_table, only: table_type
+   use wavycon_theory_table, only: theory_table
    use wavycon_westergaard, only: westergaard_displacement_over_amplitude, westergaard_gap_over_amplitude, &
                                   westergaard_pressure_over_pstar
    implicit none (type, external)
@@ -31,10 +31,11 @@ module wavycon_theory_lines_table
    !> The closed forms of the wave in one dimension, and of that in two. Those of the other are NaN.
    integer, parameter :: closed_forms(2) = [4, 3]
 
-   type, extends(table_type) :: theory_lines_table
+   type, extends(theory_table) :: theory_lines_table
    contains
       procedure, nopass :: key
       procedure, nopass :: meaning
+      procedure :: name
       procedure :: is_requested
       procedure, nopass :: write => write_theory_lines_table
    end type theory_lines_table
@@ -47,6 +48,14 @@ contains
 
       words = ''
    end function key
+
+   function name(self) result(words)
+      class(theory_lines_table), intent(in) :: self
+      character(:), allocatable :: words
+
+      associate (unused => self); end associate
+      words = 'theory_lines'
+   end function name
 
    pure function meaning() result(words)
       character(:), allocatable :: words

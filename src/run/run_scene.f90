@@ -155,17 +155,21 @@ contains
    end function asks_for_largest
 
    !> Starts the solver of a scene, finds its tables and how the ranks share the work.
-   subroutine start_results(scene, results, tables)
+   subroutine start_results(scene, results, tables, with_fields)
       type(scene_type), allocatable, intent(inout) :: scene       !! not allocated afterwards: the results own it
       type(results_type), intent(out) :: results                  !! without loads
       type(table_item), allocatable, intent(out) :: tables(:)     !! that are to be written
+      logical, intent(in), optional :: with_fields   !! whether solutions keep their fields; absent: as the tables need
 
+      logical :: keep
       character(:), allocatable :: description
 
       call move_alloc(scene, results%scene)
       call requested_tables(results%scene, tables)
       associate (scene => results%scene)
-         call start_solver(scene%surface, scene%method, keep_fields(scene, tables), results%solver, description)
+         keep = keep_fields(scene, tables)
+         if (present(with_fields)) keep = with_fields
+         call start_solver(scene%surface, scene%method, keep, results%solver, description)
          results%method = scene%method%text('solver')//', '//description
          results%traits = results%solver%traits()
          results%sharing = choose_sharing(results%traits, size(scene%target), need_fields(tables), &

@@ -8,6 +8,7 @@ PYTHON: one that may have numpy, if the one that runs this has not. The long tes
 named.
 """
 import argparse
+import json
 import math
 import os
 import pathlib
@@ -18,13 +19,15 @@ import sys
 import tempfile
 import unittest
 
+from by_ctypes import Library
+
 HERE = pathlib.Path(__file__).resolve().parent
-WAVE = f"""&surface kind = 'wave_2d', amplitude = 1e-6, wavelength = 1e-3 /
-&material e_star = {210e9/(1 - 0.3**2)!r} /
+WAVE = """&surface kind = 'wave_2d', amplitude = 1e-6, wavelength = 1e-3 /
+&material e1 = 210e9, nu1 = 0.3 /
 &method solver = 'auto', accuracy = 1e-4 /
 """
 DECK = WAVE + """&load pbar_over_pstar = 0.9, 0.5, 0.2 /
-&stress nu = 0.3, line = .true., planes = .true., depths = 1e-4, 3e-4 /
+&stress line = .true., planes = .true., depths = 1e-4, 3e-4 /
 &output contours = .true., map_points = 48, 32 /
 """
 MEASURED_DECK = """&surface kind = 'file', file = 'measured.dat', length_x = 4e-3, length_y = 3e-3
@@ -33,8 +36,13 @@ MEASURED_DECK = """&surface kind = 'file', file = 'measured.dat', length_x = 4e-
 &method residual = 1e-10 /
 &load pbar_over_pstar = 0.2 /
 """
+TABLES_DECK = WAVE.replace("auto", "fitted") + """&load pbar_over_pstar = 0.2 /
+&stress line = .true., planes = .true., section = 'x', depths = 1e-4, 3e-4 /
+&output lines = .true., map = .true., contours = .true., spots = .true., histograms = .true., theory = .true.,
+   details = .true., spectrum = .true., map_points = 24, line_points = 24 /
+"""
 YIELD_DECK = WAVE + """&load yield = 1 /
-&stress nu = 0.3, yield_stress = 1e9 /
+&stress yield_stress = 1e9 /
 """
 COLUMNS = ["pbar_over_pstar", "mean_gap", "contact_area_fraction", "peak_pressure", "peak_pressure_over_pstar_error"]
 STRESSES = ["stress_xx", "stress_yy", "stress_zz", "stress_xy", "stress_xz", "stress_yz"]
@@ -100,7 +108,8 @@ class Consumers(unittest.TestCase):
         heights = [[((7*i*i + 3*j*j + i*j) % 11 + 0.25*i)/1048576 for i in range(16)] for j in range(12)]
         heights[2][5] = math.nan
         (cls.folder / "measured.dat").write_text("".join(" ".join(map(repr, row)) + "\n" for row in heights))
-        for name, deck in (("deck", DECK), ("yield", YIELD_DECK), ("measured", MEASURED_DECK)):
+        for name, deck in (("deck", DECK), ("yield", YIELD_DECK), ("measured", MEASURED_DECK),
+                           ("tables", TABLES_DECK)):
             (cls.folder / f"{name}.nml").write_text(deck)
             run(cls.prefix / "bin" / "wavycon", f"{name}.nml", "--output", ".", "--quiet", cwd=cls.folder)
         cls.expected = numbers(run(cls.folder / "project" / "consumer_fortran"))
@@ -208,29 +217,59 @@ class Consumers(unittest.TestCase):
 
     def test_programs_of_the_page(self):
         page = (self.options.sources / "src" / "library" / "README.md").read_text()
-        blocks = {language: [part.split("```")[0] for part in page.split(f"```{language}\n")[1:]]
-                  for language in ("fortran", "c", "python")}
-        self.assertEqual(["fortran", "fortran", "c", "c", "python", "python"],
-                         [language for language, parts in blocks.items() for _ in parts])
-        for number in range(2):
-            found = []
-            for language, suffix, compiler, before, after in (
-                    ("fortran", ".f90", self.options.fortran, "program page\n", "end program page\n"),
-                    ("c", ".c", self.options.c, "#include <stdio.h>\n#include <wavycon.h>\nint main(void)\n{\n", "}\n")):
-                source = self.folder / f"page{number}{suffix}"
-                source.write_text(before + blocks[language][number] + after)
-                run(compiler, *shlex.split(self.options.flags), source, "-o", source.with_suffix(".exe"),
-                    *self.pkg_config("--cflags", "--libs"))
-                found.append(run(source.with_suffix(".exe"), environment=self.path_of_library()))
-            # The first block in Python is a part of a program, the second one is whole.
-            if number == 1 and not self.is_sanitized:
-                (self.folder / "page.py").write_text(blocks["python"][1])
-                found.append(run(sys.executable, self.folder / "page.py", self.library))
-            found = [[float(word) for word in output.split()[:3]] for output in found]
-            for other in found:
-                self.assertEqual(3, len(other))
-                for one, same in zip(found[0], other):
-                    self.assertAlmostEqual(one/same, 1, delta=1e-5)
+        blocks = [(language, block) for language in ("fortran", "c", "python")
+                  for block in (part.split("```")[0] for part in page.split(f"```{language}\n")[1:])]
+        self.assertEqual(["fortran", "fortran", "c", "python"], [language for language, _ in blocks])
+        found = []
+        for number, (language, block) in enumerate(blocks):
+            source = self.folder / f"page{number}"
+            if language == "python":
+                if not self.is_sanitized:
+                    source.write_text(block)
+                    found.append(run(sys.executable, source, self.library))
+                continue
+            suffix, compiler, text = {
+                "fortran": (".f90", self.options.fortran, f"program page\n{block}end program page\n"),
+                "c": (".c", self.options.c,
+                      f"#include <stdio.h>\n#include <wavycon.h>\nint main(void)\n{{\n{block}}}\n"),
+            }[language]
+            source.with_suffix(suffix).write_text(text)
+            run(compiler, *shlex.split(self.options.flags), source.with_suffix(suffix), "-o", source,
+                *self.pkg_config("--cflags", "--libs"))
+            found.append(run(source, environment=self.path_of_library()))
+        # The mean gap and the area of one load in all languages, to the digits that they print.
+        found = [[float(word) for word in output.split()[:2]] for output in found]
+        for other in found:
+            for one, same in zip(found[0], other):
+                self.assertAlmostEqual(one/same, 1, delta=1e-5)
+
+    def test_keys(self):
+        if self.is_sanitized:
+            self.skipTest("Python cannot load a library with a sanitizer")
+        groups = {group["name"]: group for group in json.loads(Library(self.library).text(None, "keys"))}
+        self.assertEqual(["scene", "material", "surface", "load", "stress", "method", "output"], list(groups))
+        keys = {name: {key["name"]: key for key in group["keys"]} for name, group in groups.items()}
+        # The program's --help is made from the same tables.
+        reference = run(self.prefix / "bin" / "wavycon", "--help")
+        for key in (key for group in keys.values() for key in group.values()):
+            self.assertIn(f"\n   {key['name']} ", reference)
+            self.assertIn(key["type"], ("real", "integer", "logical", "text", "choice"))
+            self.assertTrue(key["meaning"])
+        self.assertEqual((0, True, None, "pressure", False), tuple(keys["material"]["e_star"][what] for what in (
+            "least", "above", "most", "unit", "required")))
+        self.assertIn("self_affine", keys["surface"]["kind"]["choices"])
+        self.assertTrue(keys["surface"]["kind"]["required"])
+
+    def test_tables(self):
+        if self.is_sanitized:
+            self.skipTest("Python cannot load a library with a sanitizer")
+        names = run(sys.executable, HERE / "tables.py", self.library, self.folder / "tables.nml").split()
+        self.assertEqual(15, len(names))
+
+    def test_a_load_is_stopped(self):
+        if self.is_sanitized:
+            self.skipTest("Python cannot load a library with a sanitizer")
+        self.assertEqual("stopped\n", run(sys.executable, HERE / "interrupt.py", self.library))
 
     def test_misuse(self):
         self.assertEqual("0 failures\n", run(self.folder / "project" / "misuse", cwd=self.folder))

@@ -9,42 +9,44 @@ static double heights[points][points];
 
 typedef struct results {
     int failures;
-    double numbers[2*repeats];
-    double map[points][points];
-    double stress[points][points][6];
-    double below[2*repeats];
+    double numbers[2*repeats], below[2*repeats], map[points][points], stress[points][points][6];
 } results;
+
+/* A number of the table of largest stresses. */
+static double largest(wavycon_error error, wavycon_solution solution, const char *name)
+{
+    double value = 0;
+    wavycon_table table = wavycon_new_table(error, solution, "stress_largest");
+    wavycon_get_column(error, table, name, 1, &value);
+    wavycon_delete(&table);
+    return value;
+}
 
 static void *work(void *answer)
 {
     results *r = answer;
     wavycon_error error = wavycon_new_error();
     for (int i = 0; i < repeats; i++) {
-        wavycon_surface wave = wavycon_new_wave_2d(error, 1, 1, 1 + 0.5*i);
-        wavycon_surface rough = wavycon_new_heights(error, points, points, &heights[0][0], 1, 1);
-        wavycon_solver fitted = wavycon_new_solver(error, wave, 1, "solver = 'fitted', accuracy = 1e-6", 1);
-        wavycon_solver grid = wavycon_new_solver(error, rough, 1, "solver = 'grid'", 1);
+        char wave[300];
+        snprintf(wave, sizeof wave, "&surface kind = 'wave_2d', wavelength_y = %g / "
+                 "&stress nu = 0.3, lateral = 'free' / &method solver = 'fitted', accuracy = 1e-6 /", 1 + 0.5*i);
+        wavycon_scene fitted = wavycon_new_scene(error, wave, "wave", 1, 0, 0, NULL);
+        wavycon_scene grid = wavycon_new_scene(
+            error, "&surface kind = 'file', file = 'h' / &stress nu = 0.3 / &method solver = 'grid' /", "rough", 1,
+            points, points, &heights[0][0]);
         wavycon_solution one = wavycon_solve(error, fitted, "contact_area_fraction", 0.2);
         wavycon_solution other = wavycon_solve(error, grid, "pbar_over_pstar", 0.1);
-        wavycon_measures m = {0}, n = {0};
-        wavycon_largest_stress below_one = {0}, below_other = {0};
-        r->failures += wavycon_get_measures(error, one, &m) != 0;
-        r->failures += wavycon_get_measures(error, other, &n) != 0;
-        r->failures += wavycon_get_map(error, other, points, points, NULL, &r->map[0][0], NULL, NULL) != 0;
+        r->failures += wavycon_get(error, one, "pbar_over_pstar", &r->numbers[2*i]) != 0;
+        r->failures += wavycon_get(error, other, "contact_area_fraction", &r->numbers[2*i + 1]) != 0;
+        r->failures += wavycon_get_grid(error, other, points, points, NULL, &r->map[0][0], NULL, NULL) != 0;
         r->failures += wavycon_get_stress_plane(error, other, points, points, NULL, 0.05, 0.3, "free",
                                                 &r->stress[0][0][0], NULL) != 0;
-        r->failures += wavycon_get_largest_stress(error, one, 0.3, "free", &below_one) != 0;
-        r->failures += wavycon_get_largest_stress(error, other, 0.3, "free", &below_other) != 0;
-        r->below[2*i] = below_one.largest_von_mises;
-        r->below[2*i + 1] = below_other.largest_shear;
-        r->numbers[2*i] = m.pbar_over_pstar;
-        r->numbers[2*i + 1] = n.contact_area_fraction;
+        r->below[2*i] = largest(error, one, "largest_von_mises");
+        r->below[2*i + 1] = largest(error, other, "largest_shear");
         wavycon_delete(&other);
         wavycon_delete(&one);
         wavycon_delete(&grid);
         wavycon_delete(&fitted);
-        wavycon_delete(&rough);
-        wavycon_delete(&wave);
     }
     wavycon_delete(&error);
     return NULL;
@@ -75,6 +77,42 @@ static void calls_go_on_while_a_load_is_solved(void)
     wavycon_unlock();
 }
 
+/* A callback that itself calls the library and solves loads of another scene. */
+static int solve_another(void *data, int iterations, double residual)
+{
+    void **all = data;
+    if (iterations > 0 || residual < 1)
+        return 0;
+    wavycon_solution solution = wavycon_solve(all[0], all[1], "pbar_over_pstar", 0.5);
+    int is_solved = solution != NULL;
+    wavycon_delete(&solution);
+    return !is_solved;
+}
+
+/* The digits do not depend on what the callback does, nor the lock: others come in afterwards. */
+static int calls_in_a_callback(void)
+{
+    const char deck[] = "&surface kind = 'wave_2d' / &method solver = 'grid', accuracy = 1e-2 /";
+    double one = 0, other = 1;
+    wavycon_error error = wavycon_new_error(), inner = wavycon_new_error();
+    wavycon_scene scene = wavycon_new_scene(error, deck, "d", 0, 0, 0, NULL);
+    wavycon_scene second = wavycon_new_scene(error, deck, "d", 0, 0, 0, NULL);
+    void *data[2] = {inner, second};
+    wavycon_solution plain = wavycon_solve(error, scene, "contact_area_fraction", 0.3);
+    wavycon_set_progress(error, scene, solve_another, data);
+    wavycon_solution disturbed = wavycon_solve(error, scene, "contact_area_fraction", 0.3);
+    wavycon_get(error, plain, "pbar_over_pstar", &one);
+    wavycon_get(error, disturbed, "pbar_over_pstar", &other);
+    wavycon_delete(&disturbed);
+    wavycon_delete(&plain);
+    wavycon_delete(&second);
+    wavycon_delete(&scene);
+    wavycon_delete(&inner);
+    wavycon_delete(&error);
+    calls_go_on_while_a_load_is_solved();
+    return one != other;
+}
+
 int main(void)
 {
     static results all[number_of_threads + 1];
@@ -96,6 +134,7 @@ int main(void)
     failures += all[number_of_threads].failures;
     for (int i = 0; i < 2*repeats; i++)
         failures += !(all[number_of_threads].numbers[i] > 0 && all[number_of_threads].below[i] > 0);
+    failures += calls_in_a_callback();
     printf("%d failures\n", failures);
     return failures != 0;
 }

@@ -1,5 +1,6 @@
 !> kind = 'file': a height map.
 module wavycon_height_map_kind
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_group_values, only: group_values
    use wavycon_height_map, only: surface_of_map
@@ -7,6 +8,7 @@ module wavycon_height_map_kind
    use wavycon_kinds, only: dp
    use wavycon_length_unit, only: convert_lengths
    use wavycon_map_file, only: read_height_map
+   use wavycon_map_size, only: check_map_size, check_room
    use wavycon_map_statistics, only: map_statistics
    use wavycon_map_tuning, only: usual_window_width
    use wavycon_measured_map, only: measured_map
@@ -20,7 +22,7 @@ module wavycon_height_map_kind
    implicit none (type, external)
    private
 
-   public :: height_map_kind, preparation_of
+   public :: height_map_kind, surface_of_heights
 
    integer, parameter :: longest_path = 1000
 
@@ -104,6 +106,49 @@ contains
       map%lacks_missing_value = values%has('missing_value') .and. .not. heights%has_missing_value
       if (allocated(heights%length_unit)) map%length_unit = heights%length_unit
    end subroutine make
+
+   !> The surface of heights in memory in place of those of the file, whose name messages use. Errors: exit_bad_input for
+   !> another kind of surface, for keys that only a file can have, and as of `make`; exit_file_trouble without memory.
+   subroutine surface_of_heights(values, heights, surface, map, error)
+      type(group_values), intent(inout) :: values     !! of &surface, as for `make`
+      real(dp), intent(in) :: heights(:, :)           !! upwards to the other body, NaN: missing; x first, one column: a profile
+      type(surface_type), intent(out) :: surface
+      type(map_statistics), allocatable, intent(out) :: map
+      type(error_type), allocatable, intent(out) :: error
+
+      character(*), parameter :: of_files(*) = [character(13) :: 'file_format', 'missing_value']
+      character(:), allocatable :: assumed_sides, source
+      integer :: i
+      real(dp) :: length(2)
+      type(measured_map) :: measured
+
+      if (values%text('kind') /= 'file') then
+         call fatal_error(error, exit_bad_input, "heights in memory are for kind = 'file', not '"//values%text('kind')//"'")
+         return
+      end if
+      do i = 1, size(of_files)
+         if (values%has(trim(of_files(i)))) then
+            call fatal_error(error, exit_bad_input, trim(of_files(i))//' is not for heights in memory')
+            return
+         end if
+      end do
+      if (values%text('edges') /= 'window') call values%leave_out('window_width')
+      source = values%text('file')
+      call check_map_size(source, shape(heights), error)
+      if (.not. allocated(error)) call check_room(source, shape(heights), error)
+      if (allocated(error)) return
+      measured%missing = ieee_is_nan(heights)
+      allocate (measured%height, source=heights)
+      if (any(measured%missing)) then
+         where (measured%missing) measured%height = 0.0_dp
+      else
+         deallocate (measured%missing)
+      end if
+      call take_sides(values, source, measured, length, assumed_sides, error)
+      if (.not. allocated(error)) call surface_of_map(source, preparation_of(values), values%real('height_scale'), &
+                                                      length, measured, surface, map, error)
+      if (.not. allocated(error)) map%assumed_sides = assumed_sides
+   end subroutine surface_of_heights
 
    !> Reads the map and converts its lengths to the deck's unit. Errors: as of `make`.
    subroutine read_map(values, path, heights, error)

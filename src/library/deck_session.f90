@@ -1,0 +1,398 @@
+!> A deck whose loads are solved one at a time, with its tables in memory. The steps are those of the program.
+module wavycon_deck_session
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use, intrinsic :: iso_c_binding, only: c_int
+   use wavycon_auto_method, only: why_chosen
+   use wavycon_contact_fields, only: contact_fields
+   use wavycon_contact_solution, only: contact_solution
+   use wavycon_deck, only: deck_type
+   use wavycon_deck_text, only: deck_text_type
+   use wavycon_error, only: error_type, exit_bad_input, fatal_error
+   use wavycon_find_stresses, only: find_stresses
+   use wavycon_group_text, only: read_group_text
+   use wavycon_group_values, only: group_values
+   use wavycon_kinds, only: dp
+   use wavycon_load_group, only: check_load_group, check_loads_of_surface, load_table
+   use wavycon_make_scene, only: make_scene, take_loads
+   use wavycon_memory_table, only: memory_table, of_words
+   use wavycon_plain_text, only: exact_number, integer_text
+   use wavycon_problem_report, only: problem_report
+   use wavycon_problems, only: problem_list_type
+   use wavycon_read_deck, only: parse_deck
+   use wavycon_results, only: results_type
+   use wavycon_run_log, only: run_log
+   use wavycon_run_scene, only: start_results
+   use wavycon_scene, only: by_yield, scene_type
+   use wavycon_solve_target, only: solve_target
+   use wavycon_solver_progress, only: solver_progress
+   use wavycon_stress_fields, only: stress_fields
+   use wavycon_table, only: table_type
+   use wavycon_tables, only: find_table, table_item
+   use wavycon_unit_scale, only: scale_of, unit_scale
+   implicit none (type, external)
+   private
+
+   public :: deck_session, number_words, solved_load
+
+   !> In C a thread that solves a load lets others into the library meanwhile, but not into this session: c_lock.c.
+   interface
+      subroutine begin_solve(is_solving) bind(c, name='wavycon_begin_solve')
+         import :: c_int
+         integer(c_int), intent(inout) :: is_solving
+      end subroutine begin_solve
+
+      subroutine end_solve(is_solving) bind(c, name='wavycon_end_solve')
+         import :: c_int
+         integer(c_int), intent(inout) :: is_solving
+      end subroutine end_solve
+   end interface
+
+   !> A deck with its solver started.
+   type :: deck_session
+      !> Scene and solver; its one load is the solution of which a table is asked for.
+      type(results_type) :: results
+      type(unit_scale) :: scale
+      logical :: keeps_fields = .false.                   !! whether solutions have fields, edges and stresses
+      real(dp), allocatable, private :: mean_pressure(:)  !! of the deck's loads [pressure], if it gives them so
+      integer(c_int), private :: is_solving = 0           !! 1: a thread of a C program solves a load
+   contains
+      procedure :: open => open_session
+      procedure :: number_of_loads
+      procedure :: show_progress
+      procedure :: solve
+      procedure :: solve_load
+      procedure :: make_table
+      procedure :: number
+      procedure :: text
+      procedure, private :: solve_one
+      procedure, private :: summarise
+   end type deck_session
+
+   !> A load that a session has solved. What is asked for again is kept.
+   type :: solved_load
+      type(contact_solution), allocatable :: solution
+      real(dp) :: mean_pressure = 0.0_dp              !! [pressure]
+      type(memory_table) :: summary                   !! of one row, made at its first use
+      class(contact_fields), allocatable :: fields    !! made at their first use
+      class(stress_fields), allocatable :: stresses   !! likewise
+   end type solved_load
+
+contains
+
+   !> Reads a deck and starts its solver. A group &load may be left out. Errors: those of the program for a bad deck or
+   !> height map.
+   subroutine open_session(self, text, path, keep_fields, error, heights)
+      class(deck_session), intent(out) :: self
+      character(*), intent(in) :: text      !! of the deck
+      character(*), intent(in) :: path      !! of the deck for messages; files that it names are looked for beside it
+      logical, intent(in) :: keep_fields    !! whether fields, edges or stresses will be asked for
+      type(error_type), allocatable, intent(out) :: error
+      !> In place of those of the file of kind = 'file': upwards to the other body, NaN where they are missing, x first,
+      !> one column for a profile.
+      real(dp), intent(in), optional :: heights(:, :)
+
+      type(deck_type) :: deck
+      type(scene_type), allocatable :: scene
+      type(table_item), allocatable :: tables(:)
+
+      call parse_deck(deck_text_type(path, text), deck, error, heights=heights, in_memory=.true.)
+      if (allocated(error)) return
+      allocate (scene)
+      call make_scene(deck, scene)
+      ! A search by yield asks for stresses.
+      self%keeps_fields = keep_fields .or. scene%loads_by == by_yield
+      call start_results(scene, self%results, tables, self%keeps_fields)
+      associate (scene => self%results%scene)
+         call scene%output%set('map_format', 'text')
+         if (allocated(scene%mean_pressure)) call move_alloc(scene%mean_pressure, self%mean_pressure)
+         allocate (scene%mean_pressure(1), self%results%loads(1))
+         self%scale = scale_of(self%results%solver%surface, scene%e_star)
+      end associate
+   end subroutine open_session
+
+   !> The number of loads that the deck gives.
+   pure integer function number_of_loads(self)
+      class(deck_session), intent(in) :: self
+
+      number_of_loads = 0
+      if (allocated(self%results%scene)) number_of_loads = size(self%results%scene%target)
+   end function number_of_loads
+
+   !> Sets the object that solvers call and ask in the loads to come.
+   subroutine show_progress(self, progress)
+      class(deck_session), intent(inout) :: self                 !! open
+      class(solver_progress), intent(in), pointer :: progress   !! null: none
+
+      self%results%solver%progress => progress
+   end subroutine show_progress
+
+   !> Solves one load. A load that cannot be solved as requested is no error, but the status of the solution. Errors:
+   !> exit_bad_input for a quantity that is none or a value that it cannot have.
+   subroutine solve(self, quantity, value, answer, error)
+      class(deck_session), intent(inout) :: self
+      character(*), intent(in) :: quantity   !! a key of &load, such as pbar_over_pstar, mean_pressure, mean_gap, yield
+      real(dp), intent(in) :: value          !! in the unit of that key
+      type(solved_load), intent(out) :: answer
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: loads_by
+      real(dp), allocatable :: mean_pressure(:), target(:)
+      type(deck_text_type) :: text
+      type(group_values) :: values
+      type(problem_list_type) :: problems
+
+      call check_open(self, error)
+      if (allocated(error)) return
+      call read_group_text(load_table(), quantity//' = '//number_words(value), values, text, problems)
+      call check_load_group(values, problems)
+      if (problems%number == 0) call check_loads_of_surface(values, self%scale%amplitude, self%scale%p_star, problems)
+      if (problems%number > 0) then
+         call fatal_error(error, exit_bad_input, problem_report(problems, text))
+         return
+      end if
+      call take_loads(values, self%scale%amplitude, self%scale%p_star, loads_by, target, mean_pressure)
+      if (size(target) == 1) then
+         call self%solve_one(loads_by, 1, target, mean_pressure, answer, error)
+      else
+         call fatal_error(error, exit_bad_input, text%path//': this is not one load but '//integer_text(size(target)))
+      end if
+   end subroutine solve
+
+   !> Solves a load of the deck. Errors: exit_bad_input for a load that the deck does not have.
+   subroutine solve_load(self, load, answer, error)
+      class(deck_session), intent(inout) :: self
+      integer, intent(in) :: load            !! 1 .. number_of_loads()
+      type(solved_load), intent(out) :: answer
+      type(error_type), allocatable, intent(out) :: error
+
+      call check_open(self, error)
+      if (allocated(error)) return
+      if (load >= 1 .and. load <= self%number_of_loads()) then
+         call self%solve_one(self%results%scene%loads_by, load, self%results%scene%target, self%mean_pressure, answer, &
+                             error)
+      else
+         call fatal_error(error, exit_bad_input, 'there is no such load: the deck gives '// &
+                          integer_text(self%number_of_loads()))
+      end if
+   end subroutine solve_load
+
+   !> Errors: exit_bad_input if the session cannot find loads by yield.
+   subroutine solve_one(self, loads_by, load, target, mean_pressure, answer, error)
+      class(deck_session), intent(inout) :: self
+      integer, intent(in) :: loads_by                             !! a name of wavycon_scene
+      integer, intent(in) :: load
+      real(dp), intent(in) :: target(:)                           !! as of scene_type
+      real(dp), intent(in), allocatable :: mean_pressure(:)       !! [pressure]; allocated if loads are given so
+      type(solved_load), intent(out) :: answer
+      type(error_type), allocatable, intent(out) :: error
+
+      if (loads_by == by_yield) call check_yield(self, error)
+      if (allocated(error)) return
+      allocate (answer%solution)
+      call begin_solve(self%is_solving)
+      call solve_target(self%results%solver, loads_by, target(load), answer%solution, self%results%scene%stress_setting)
+      call end_solve(self%is_solving)
+      if (allocated(mean_pressure)) then
+         answer%mean_pressure = mean_pressure(load)
+      else
+         answer%mean_pressure = self%scale%p_star*answer%solution%pbar_over_pstar
+      end if
+   end subroutine solve_one
+
+   !> Makes a table of a solved load, by its name: that of its key in &output or, behind 'stress_', in &stress; also
+   !> 'summary', 'spot_sizes' and 'theory_lines'. Errors: exit_bad_input for a table that does not exist, or that needs
+   !> what the session does not have; exit_file_trouble without memory.
+   subroutine make_table(self, name, solved, table, error)
+      class(deck_session), intent(inout) :: self
+      character(*), intent(in) :: name
+      type(solved_load), intent(inout) :: solved   !! by this session; unchanged afterwards
+      type(memory_table), intent(out), target :: table
+      type(error_type), allocatable, intent(out) :: error
+
+      class(table_type), allocatable :: writer
+      type(run_log) :: no_log
+
+      call find_writer(self, name, solved, writer, error)
+      if (allocated(error)) return
+      associate (results => self%results)
+         call solved%solution%move_to(results%loads(1))
+         results%scene%mean_pressure = solved%mean_pressure
+         if (name == 'stress_largest') then
+            if (allocated(results%von_mises)) deallocate (results%von_mises, results%shear)
+            call no_log%start(quiet=.true.)
+            call find_stresses(results, no_log)
+         end if
+         results%memory => table
+         call writer%write(results, error)
+         nullify (results%memory)
+         call results%loads(1)%move_to(solved%solution)
+      end associate
+   end subroutine make_table
+
+   !> The table of a name. Errors: exit_bad_input as of make_table.
+   subroutine find_writer(self, name, solved, writer, error)
+      class(deck_session), intent(in) :: self
+      character(*), intent(in) :: name
+      type(solved_load), intent(in) :: solved
+      class(table_type), allocatable, intent(out) :: writer
+      type(error_type), allocatable, intent(out) :: error
+
+      character(:), allocatable :: names, trouble
+      logical :: of_stresses
+
+      call check_solved(self, solved, error)
+      if (allocated(error)) return
+      call find_table(name, writer, names)
+      if (.not. allocated(writer)) then
+         call fatal_error(error, exit_bad_input, "there is no table '"//name//"'. The tables are "//names)
+         return
+      end if
+      of_stresses = writer%group() == 'stress'
+      trouble = ''
+      if (of_stresses .and. .not. allocated(self%results%scene%stress_setting)) then
+         trouble = 'it needs a group &stress in the deck'
+      else if ((of_stresses .or. writer%needs_fields()) .and. .not. self%keeps_fields) then
+         trouble = 'the session was opened without fields'
+      else if (self%scale%p_star <= 0.0_dp .and. .not. writer%is_for_flat_surfaces()) then
+         trouble = 'the surface is flat'
+      else
+         trouble = writer%refusal(self%results%traits, self%results%solver%surface)
+      end if
+      if (trouble /= '') call fatal_error(error, exit_bad_input, "the table '"//name//"' cannot be made: "//trouble)
+   end subroutine find_writer
+
+   !> A number by its name: a column of the summary table, of a solved load, or what is known before. Errors:
+   !> exit_bad_input for a name that is none.
+   subroutine number(self, name, value, error, solved)
+      class(deck_session), intent(inout) :: self
+      character(*), intent(in) :: name
+      real(dp), intent(out) :: value   !! in units of the deck
+      type(error_type), allocatable, intent(out) :: error
+      type(solved_load), intent(inout), optional :: solved
+
+      character(9), parameter :: names(*) = [character(9) :: 'e_star', 'p_star', 'amplitude', 'length_x', 'length_y', &
+         'points_x', 'points_y', 'dimension', 'loads']
+      integer :: i
+      real(dp) :: values(size(names))
+
+      value = 0.0_dp
+      i = 0
+      if (present(solved)) then
+         call self%summarise(solved, error)
+         if (allocated(error)) return
+         i = solved%summary%find_column(name)
+         if (i > 0) then
+            if (solved%summary%kinds(i) == of_words) i = 0
+         end if
+         if (i > 0) value = solved%summary%values(i, 1)
+      else
+         call check_open(self, error)
+         if (allocated(error)) return
+         associate (surface => self%results%solver%surface)
+            values = [self%scale%e_star, self%scale%p_star, self%scale%amplitude, self%scale%sides, &
+                      real([surface%points/surface%parts(), surface%dimension, self%number_of_loads()], dp)]
+         end associate
+         i = findloc(names == name, .true., dim=1)
+         if (i > 0) value = values(i)
+      end if
+      if (i == 0) call fatal_error(error, exit_bad_input, "there is no number '"//name//"'")
+   end subroutine number
+
+   !> A text by its name: a column of words of the summary table, of a solved load, or what is known before. Errors:
+   !> exit_bad_input for a name that is none.
+   subroutine text(self, name, words, error, solved)
+      class(deck_session), intent(inout) :: self
+      character(*), intent(in) :: name
+      character(:), allocatable, intent(out) :: words
+      type(error_type), allocatable, intent(out) :: error
+      type(solved_load), intent(inout), optional :: solved
+
+      integer :: i
+
+      call check_open(self, error)
+      if (present(solved) .and. .not. allocated(error)) call self%summarise(solved, error)
+      if (allocated(error)) return
+      if (present(solved)) then
+         i = solved%summary%find_column(name)
+         if (i > 0) then
+            if (solved%summary%kinds(i) == of_words) words = trim(solved%summary%words(nint(solved%summary%values(i, 1))))
+         end if
+      else
+         select case (name)
+         case ('solver')
+            words = self%results%scene%method%text('solver')
+         case ('method')
+            words = self%results%method
+         case ('why_chosen')
+            words = why_chosen(self%results%traits)
+         case ('pressure_unit')
+            words = self%results%scene%pressure_unit
+         case ('length_unit')
+            words = self%results%scene%length_unit
+         case ('resolved_deck')
+            words = self%results%scene%resolved_deck
+         end select
+      end if
+      if (.not. allocated(words)) call fatal_error(error, exit_bad_input, "there is no text '"//name//"'")
+   end subroutine text
+
+   !> Makes the row of the summary table, once. Errors: exit_bad_input without a solution.
+   subroutine summarise(self, solved, error)
+      class(deck_session), intent(inout) :: self
+      type(solved_load), intent(inout) :: solved
+      type(error_type), allocatable, intent(out) :: error
+
+      type(memory_table) :: summary
+
+      call check_solved(self, solved, error)
+      if (allocated(error) .or. solved%summary%rows > 0) return
+      call self%make_table('summary', solved, summary, error)
+      if (.not. allocated(error)) solved%summary = summary
+   end subroutine summarise
+
+   !> Errors: exit_bad_input if a session has not been opened.
+   subroutine check_open(self, error)
+      class(deck_session), intent(in) :: self
+      type(error_type), allocatable, intent(out) :: error
+
+      if (.not. allocated(self%results%solver)) call fatal_error(error, exit_bad_input, 'the session is not open')
+   end subroutine check_open
+
+   !> Errors: exit_bad_input if a session has not been opened or no load has been solved.
+   subroutine check_solved(self, solved, error)
+      class(deck_session), intent(in) :: self
+      type(solved_load), intent(in) :: solved
+      type(error_type), allocatable, intent(out) :: error
+
+      call check_open(self, error)
+      if (allocated(error) .or. allocated(solved%solution)) return
+      call fatal_error(error, exit_bad_input, 'there is no solution: no load has been solved')
+   end subroutine check_solved
+
+   !> Errors: exit_bad_input if the session cannot find loads by yield.
+   subroutine check_yield(self, error)
+      class(deck_session), intent(in) :: self
+      type(error_type), allocatable, intent(out) :: error
+
+      logical :: has_yield_stress
+
+      has_yield_stress = allocated(self%results%scene%stress_setting)
+      if (has_yield_stress) has_yield_stress = allocated(self%results%scene%stress_setting%yield_stress)
+      if (.not. has_yield_stress) then
+         call fatal_error(error, exit_bad_input, 'yield needs yield_stress in the group &stress of the deck')
+      else if (.not. self%keeps_fields) then
+         call fatal_error(error, exit_bad_input, 'yield needs fields: the session was opened without them')
+      end if
+   end subroutine check_yield
+
+   !> A number to all digits; 'NaN', of which a deck's reader makes a good message, if it is none.
+   function number_words(number) result(words)
+      real(dp), intent(in) :: number
+      character(:), allocatable :: words
+
+      ! Comparisons with a NaN raise an exception, which Debug builds trap.
+      words = 'NaN'
+      if (.not. ieee_is_nan(number)) words = exact_number(number)
+   end function number_words
+
+end module wavycon_deck_session

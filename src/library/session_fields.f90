@@ -1,0 +1,309 @@
+!> Pressures, gaps and stresses of the loads of a session, in the deck's units, in arrays of the caller. Loads without a
+!> solution have NaN.
+!>
+!> Errors of all procedures: exit_bad_input before a load is solved, for a session that does not keep fields, and for
+!> points and places out of range or not finite; exit_file_trouble without memory.
+module wavycon_session_fields
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
+   use, intrinsic :: iso_fortran_env, only: int64
+   use wavycon_deck_session, only: deck_session, number_words, solved_load
+   use wavycon_deck_text, only: deck_text_type
+   use wavycon_elastic_body, only: elastic_body
+   use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
+   use wavycon_group_text, only: read_group_text
+   use wavycon_group_values, only: group_values
+   use wavycon_kinds, only: dp
+   use wavycon_material_group, only: material_table
+   use wavycon_plain_text, only: integer_text, quoted
+   use wavycon_problem_report, only: problem_report
+   use wavycon_problems, only: problem_list_type
+   use wavycon_stress_group, only: make_stress_setting, stress_table
+   use wavycon_stress_setting, only: stress_setting
+   use wavycon_system, only: has_memory_for
+   implicit none (type, external)
+   private
+
+   public :: fields_at, fields_on_grid, own_points, stresses_at, stresses_on_plane
+
+   !> Most points of a grid or plane.
+   integer(int64), parameter, public :: most_points = 8192_int64**2
+
+   !> Numbers of double precision that a point takes: fields or stresses and the work space of transforms.
+   integer(int64), parameter :: numbers_of_fields = 8, numbers_of_stresses = 28
+
+contains
+
+   !> Fields at n points. Pressure is exactly 0 outside contact and the gap exactly 0 in contact, but for solver 'beale',
+   !> whose series is shown as it is.
+   subroutine fields_at(session, solved, n, x, y, error, pressure, gap, displacement)
+      type(deck_session), intent(in) :: session
+      type(solved_load), intent(inout) :: solved
+      integer, intent(in) :: n
+      real(dp), intent(in) :: x(n), y(n)                             !! [length]
+      type(error_type), allocatable, intent(out) :: error
+      real(dp), intent(out), optional :: pressure(n)                 !! [pressure]
+      real(dp), intent(out), optional :: gap(n), displacement(n)     !! [length]; the displacement is u - ubar
+
+      real(dp) :: angles(2), values(3)
+      integer :: i
+
+      call prepare_fields(session, solved, error)
+      if (.not. allocated(error)) call check_places(session, x, y, error)
+      if (allocated(error)) return
+      do i = 1, n
+         values = [solved%mean_pressure, 0.0_dp, 0.0_dp]
+         if (session%scale%p_star > 0.0_dp) then
+            angles = session%scale%angles([x(i), y(i)])
+            call solved%fields%at(angles(1), angles(2), values(1), values(2), values(3))
+            values = [session%scale%p_star, session%scale%amplitude, session%scale%amplitude]*values
+         end if
+         if (present(pressure)) pressure(i) = values(1)
+         if (present(displacement)) displacement(i) = values(2)
+         if (present(gap)) gap(i) = values(3)
+      end do
+   end subroutine fields_at
+
+   !> The same at x = L_x (k + offset(1))/N_x, k = 0 .. N_x - 1, the same in y, L the sides of the surface.
+   subroutine fields_on_grid(session, solved, points, offset, error, pressure, gap, displacement)
+      type(deck_session), intent(in) :: session
+      type(solved_load), intent(inout) :: solved
+      integer, intent(in) :: points(2)                    !! N_x, N_y >= 1; N_y = 1 for a profile
+      real(dp), intent(in) :: offset(2)                   !! of the first point, in steps
+      type(error_type), allocatable, intent(out) :: error
+      real(dp), intent(out), optional, dimension(points(1), points(2)) :: pressure, gap, displacement
+
+      real(dp), allocatable :: g(:, :), p(:, :), u(:, :)
+
+      call prepare_fields(session, solved, error)
+      if (.not. allocated(error)) call check_points(session, points, offset, numbers_of_fields, error)
+      if (allocated(error)) return
+      if (session%scale%p_star > 0.0_dp) then
+         call solved%fields%on_grid(points, offset_on(session, offset), p, u, g)
+         if (present(pressure)) pressure = session%scale%p_star*p
+         if (present(gap)) gap = session%scale%amplitude*g
+         if (present(displacement)) displacement = session%scale%amplitude*u
+      else
+         if (present(pressure)) pressure = solved%mean_pressure
+         if (present(gap)) gap = 0.0_dp
+         if (present(displacement)) displacement = 0.0_dp
+      end if
+   end subroutine fields_on_grid
+
+   !> The grid that the load was solved on, as arguments of fields_on_grid, which shows the solution's own numbers there.
+   !> Zeros if there is none.
+   subroutine own_points(session, solved, points, offset, error)
+      type(deck_session), intent(in) :: session
+      type(solved_load), intent(inout) :: solved
+      integer, intent(out) :: points(2)
+      real(dp), intent(out) :: offset(2)
+      type(error_type), allocatable, intent(out) :: error
+
+      points = 0
+      offset = 0.0_dp
+      call prepare_fields(session, solved, error)
+      if (allocated(error)) return
+      points = solved%fields%own_points
+      offset = solved%fields%own_offset
+   end subroutine own_points
+
+   !> The stresses at n points in a body, z into it, tension positive. Many points at one depth are found faster by
+   !> stresses_on_plane.
+   subroutine stresses_at(session, solved, n, x, y, depth, nu, lateral, stress, error, stress_error)
+      type(deck_session), intent(in) :: session
+      type(solved_load), intent(inout) :: solved
+      integer, intent(in) :: n
+      real(dp), intent(in) :: x(n), y(n)       !! [length]
+      real(dp), intent(in) :: depth(n)         !! >= 0 [length]
+      real(dp), intent(in) :: nu               !! Poisson's ratio of the body, -1 < nu <= 1/2
+      character(*), intent(in) :: lateral      !! a value of the key of &stress
+      real(dp), intent(out) :: stress(6, n)    !! xx, yy, zz, xy, xz, yz [pressure]
+      type(error_type), allocatable, intent(out) :: error
+      !> Estimate of the largest error of a component, NaN if the solver has none [pressure].
+      real(dp), intent(out), optional :: stress_error(n)
+
+      type(elastic_body) :: body
+      real(dp) :: angles(2), parts(6, 2), part_error
+      integer :: i
+
+      call prepare_stresses(session, solved, nu, lateral, body, error)
+      if (.not. allocated(error)) call check_places(session, x, y, error)
+      if (.not. allocated(error)) call check_depths(session, depth, error)
+      if (allocated(error)) return
+      do i = 1, n
+         if (exist(solved)) then
+            angles = session%scale%angles([x(i), y(i)])
+            call solved%stresses%at(angles(1), angles(2), session%scale%depth_angle(depth(i)), parts, part_error)
+            stress(:, i) = session%scale%p_star*body%stress(parts, solved%stresses%pbar_over_pstar)
+            part_error = session%scale%p_star*part_error
+         else
+            call uniform(solved, body, stress(:, i), part_error)
+         end if
+         if (present(stress_error)) stress_error(i) = part_error
+      end do
+   end subroutine stresses_at
+
+   !> The same at the points of fields_on_grid at one depth.
+   subroutine stresses_on_plane(session, solved, points, offset, depth, nu, lateral, stress, error, stress_error)
+      type(deck_session), intent(in) :: session
+      type(solved_load), intent(inout) :: solved
+      integer, intent(in) :: points(2)            !! as of fields_on_grid
+      real(dp), intent(in) :: offset(2)
+      real(dp), intent(in) :: depth               !! >= 0 [length]
+      real(dp), intent(in) :: nu                  !! as of stresses_at
+      character(*), intent(in) :: lateral
+      real(dp), intent(out) :: stress(6, points(1), points(2))
+      type(error_type), allocatable, intent(out) :: error
+      real(dp), intent(out), optional :: stress_error(points(1), points(2))
+
+      type(elastic_body) :: body
+      real(dp), allocatable :: errors(:, :), over_p_star(:, :, :)
+      real(dp) :: everywhere(6), part_error
+      integer :: i
+
+      call prepare_stresses(session, solved, nu, lateral, body, error)
+      if (.not. allocated(error)) call check_points(session, points, offset, numbers_of_stresses, error)
+      if (.not. allocated(error)) call check_depths(session, [depth], error)
+      if (allocated(error)) return
+      if (exist(solved)) then
+         call solved%stresses%on_plane(points, offset_on(session, offset), session%scale%depth_angle(depth), body, &
+                                       over_p_star, errors)
+         do i = 1, 6
+            stress(i, :, :) = session%scale%p_star*over_p_star(:, :, i)
+         end do
+         if (present(stress_error)) stress_error = session%scale%p_star*errors
+      else
+         call uniform(solved, body, everywhere, part_error)
+         stress = spread(spread(everywhere, 2, points(1)), 3, points(2))
+         if (present(stress_error)) stress_error = part_error
+      end if
+   end subroutine stresses_on_plane
+
+   !> Makes the fields, once.
+   subroutine prepare_fields(session, solved, error)
+      type(deck_session), intent(in) :: session
+      type(solved_load), intent(inout) :: solved
+      type(error_type), allocatable, intent(out) :: error
+
+      if (.not. allocated(solved%solution)) then
+         call fatal_error(error, exit_bad_input, 'there is no solution: no load has been solved')
+      else if (.not. session%keeps_fields) then
+         call fatal_error(error, exit_bad_input, 'there are no fields: the session was opened without them')
+      else if (.not. allocated(solved%fields)) then
+         call solved%solution%fields(session%results%solver%surface, solved%fields)
+      end if
+   end subroutine prepare_fields
+
+   !> Makes the stresses, once; a flat surface has none. And the body, with the messages of decks.
+   subroutine prepare_stresses(session, solved, nu, lateral, body, error)
+      type(deck_session), intent(in) :: session
+      type(solved_load), intent(inout) :: solved
+      real(dp), intent(in) :: nu
+      character(*), intent(in) :: lateral
+      type(elastic_body), intent(out) :: body
+      type(error_type), allocatable, intent(out) :: error
+
+      !> Series, their waves and copies of them, in numbers a point of the grid.
+      integer(int64), parameter :: numbers = 8
+      integer :: points(2)
+      real(dp) :: offset(2)
+      type(deck_text_type) :: text
+      type(group_values) :: material, values
+      type(problem_list_type) :: problems
+      type(stress_setting), allocatable :: setting
+
+      call own_points(session, solved, points, offset, error)
+      if (allocated(error)) return
+      call read_group_text(stress_table(), 'nu = '//number_words(nu)//', lateral = '//quoted(lateral), values, text, &
+                           problems)
+      if (problems%number > 0) then
+         call fatal_error(error, exit_bad_input, problem_report(problems, text))
+         return
+      end if
+      call material%start(material_table(), '')
+      call make_stress_setting(values, material, 0.0_dp, setting)
+      body = setting%body(1)
+      if (allocated(solved%stresses) .or. .not. session%scale%p_star > 0.0_dp) return
+      if (has_memory_for(numbers*product(int(points, int64)))) then
+         call solved%solution%stresses(session%results%solver%surface, solved%stresses)
+      else
+         call fatal_error(error, exit_file_trouble, 'there is not the memory for the stresses')
+      end if
+   end subroutine prepare_stresses
+
+   !> The offset of the first point; there is none along y of a profile.
+   pure function offset_on(session, offset) result(first)
+      type(deck_session), intent(in) :: session
+      real(dp), intent(in) :: offset(2)
+      real(dp) :: first(2)
+
+      first = offset
+      if (session%results%solver%surface%dimension == 1) first(2) = 0.0_dp
+   end function offset_on
+
+   subroutine check_places(session, x, y, error)
+      type(deck_session), intent(in) :: session
+      real(dp), intent(in) :: x(:), y(:)
+      type(error_type), allocatable, intent(out) :: error
+
+      associate (period => session%scale%period)
+         if (.not. all(ieee_is_finite(x/period(1)) .and. ieee_is_finite(y/period(2)))) &
+            call fatal_error(error, exit_bad_input, 'places must be finite numbers')
+      end associate
+   end subroutine check_places
+
+   subroutine check_depths(session, depth, error)
+      type(deck_session), intent(in) :: session
+      real(dp), intent(in) :: depth(:)   !! [length]
+      type(error_type), allocatable, intent(out) :: error
+
+      if (.not. all(ieee_is_finite(depth/session%scale%period(1)))) then
+         call fatal_error(error, exit_bad_input, 'depths must be finite numbers')
+      else if (any(depth < 0.0_dp)) then
+         call fatal_error(error, exit_bad_input, 'depths must be 0 or more: z points into the body')
+      end if
+   end subroutine check_depths
+
+   subroutine check_points(session, points, offset, numbers, error)
+      type(deck_session), intent(in) :: session
+      integer, intent(in) :: points(2)
+      real(dp), intent(in) :: offset(2)
+      integer(int64), intent(in) :: numbers    !! of double precision that a point needs
+      type(error_type), allocatable, intent(out) :: error
+
+      character(:), allocatable :: got
+
+      got = integer_text(points(1))//' x '//integer_text(points(2))
+      if (any(points < 1) .or. product(int(points, int64)) > most_points) then
+         call fatal_error(error, exit_bad_input, 'a grid needs 1 or more points a side and at most '// &
+                          integer_text(most_points)//' in all, got '//got)
+      else if (session%results%solver%surface%dimension == 1 .and. points(2) /= 1) then
+         call fatal_error(error, exit_bad_input, 'a grid on a profile needs 1 point along y, got '//got)
+      else if (.not. all(ieee_is_finite(offset))) then
+         call fatal_error(error, exit_bad_input, 'the offset of a grid must be two finite numbers')
+      else if (.not. has_memory_for(numbers*product(int(points, int64)))) then
+         call fatal_error(error, exit_file_trouble, 'there is not the memory for '//got//' points')
+      end if
+   end subroutine check_points
+
+   !> Whether there are fields of stresses: not for a flat surface, and not for a load without a solution.
+   pure logical function exist(solved)
+      type(solved_load), intent(in) :: solved
+
+      exist = allocated(solved%stresses)
+      if (exist) exist = solved%stresses%exist
+   end function exist
+
+   !> The stress where there are no fields: that of the mean pressure for a flat surface, otherwise NaN.
+   subroutine uniform(solved, body, stress, error)
+      type(solved_load), intent(in) :: solved
+      type(elastic_body), intent(in) :: body
+      real(dp), intent(out) :: stress(6), error   !! [pressure]
+
+      real(dp), parameter :: no_waves(6, 2) = 0.0_dp
+
+      error = 0.0_dp
+      if (allocated(solved%stresses)) error = ieee_value(1.0_dp, ieee_quiet_nan)
+      stress = body%stress(no_waves, solved%mean_pressure) + error
+   end subroutine uniform
+
+end module wavycon_session_fields

@@ -1,0 +1,137 @@
+!> A table in memory: its columns as numbers. `output_file` writes tables to it in place of a file.
+module wavycon_memory_table
+   use, intrinsic :: iso_fortran_env, only: int64
+   use wavycon_kinds, only: dp
+   use wavycon_plain_text, only: newline
+   use wavycon_system, only: has_memory_for
+   implicit none (type, external)
+   private
+
+   public :: memory_table
+
+   !> What the values of a column are.
+   integer, parameter, public :: of_reals = 1, of_integers = 2, of_words = 3
+
+   integer, parameter :: longest_name = 48, longest_word = 32, first_room = 64
+
+   type :: memory_table
+      character(longest_name), allocatable :: names(:), units(:)   !! of the columns
+      integer, allocatable :: kinds(:)                      !! of the columns, names above
+      integer :: rows = 0
+      real(dp), allocatable :: values(:, :)                 !! shape (columns, rows or more)
+      !> A column of words has their numbers in this list, from 1.
+      character(longest_word), allocatable :: words(:)
+      logical :: is_full = .false.                          !! whether there was not the memory for all rows
+   contains
+      procedure :: start
+      procedure :: add_rows
+      procedure :: number_of_word
+      procedure :: find_column
+      procedure :: text
+   end type memory_table
+
+contains
+
+   !> Starts an empty table.
+   subroutine start(self, names, units)
+      class(memory_table), intent(out) :: self
+      character(*), intent(in) :: names(:)
+      character(*), intent(in) :: units(:)   !! as many
+
+      allocate (self%names(size(names)), self%units(size(names)))
+      self%names = names
+      self%units = units
+      allocate (self%kinds(size(names)), source=of_reals)
+      allocate (self%values(size(names), first_room), self%words(0))
+   end subroutine start
+
+   !> Adds rows of numbers.
+   subroutine add_rows(self, values, integers)
+      class(memory_table), intent(inout) :: self
+      real(dp), intent(in) :: values(:, :)              !! of the last columns, shape (their number, rows)
+      integer, intent(in), optional :: integers(:)      !! of the columns before them, the same in each row
+
+      integer :: before, last
+
+      before = 0
+      if (present(integers)) before = size(integers)
+      last = self%rows + size(values, 2)
+      call make_room(self, last)
+      if (self%is_full) return
+      if (present(integers)) then
+         self%kinds(:before) = of_integers
+         self%values(:before, self%rows + 1:last) = spread(real(integers, dp), 2, size(values, 2))
+      end if
+      self%values(before + 1:, self%rows + 1:last) = values
+      self%rows = last
+   end subroutine add_rows
+
+   subroutine make_room(self, rows)
+      class(memory_table), intent(inout) :: self
+      integer, intent(in) :: rows
+
+      real(dp), allocatable :: longer(:, :)
+
+      associate (columns => size(self%values, 1), room => size(self%values, 2))
+         if (rows <= room .or. self%is_full) return
+         self%is_full = .not. has_memory_for(int(columns, int64)*max(rows, 2*room))
+         if (self%is_full) return
+         allocate (longer(columns, max(rows, 2*room)))
+      end associate
+      longer(:, :self%rows) = self%values(:, :self%rows)
+      call move_alloc(longer, self%values)
+   end subroutine make_room
+
+   !> The number of a word, which is added to the list if it is new.
+   integer function number_of_word(self, word) result(number)
+      class(memory_table), intent(inout) :: self
+      character(*), intent(in) :: word   !! at most longest_word bytes
+
+      character(longest_word), allocatable :: longer(:)
+
+      number = findloc(self%words == word, .true., dim=1)
+      if (number > 0) return
+      number = size(self%words) + 1
+      allocate (longer(number))
+      longer(:number - 1) = self%words
+      longer(number) = word
+      call move_alloc(longer, self%words)
+   end function number_of_word
+
+   !> The number of a column; 0 if there is none of this name.
+   pure integer function find_column(self, name) result(column)
+      class(memory_table), intent(in) :: self
+      character(*), intent(in) :: name
+
+      column = 0
+      if (allocated(self%names)) column = findloc(self%names == name, .true., dim=1)
+   end function find_column
+
+   !> Lines, without a newline behind the last: 'columns', name[unit] of each, the unit of a column of words being 'word';
+   !> 'words', the list of words. Not allocated for another name.
+   pure subroutine text(self, name, lines)
+      class(memory_table), intent(in) :: self
+      character(*), intent(in) :: name
+      character(:), allocatable, intent(out) :: lines
+
+      character(:), allocatable :: unit
+      integer :: i
+
+      if (name /= 'columns' .and. name /= 'words') return
+      lines = ''
+      if (name == 'columns') then
+         do i = 1, size(self%names)
+            unit = trim(self%units(i))
+            if (self%kinds(i) == of_words) unit = 'word'
+            if (i > 1) lines = lines//newline
+            lines = lines//trim(self%names(i))//'['//unit//']'
+         end do
+      else
+         do i = 1, size(self%words)
+            if (i > 1) lines = lines//newline
+            lines = lines//trim(self%words(i))
+         end do
+      end if
+   end subroutine text
+
+end module wavycon_memory_table
