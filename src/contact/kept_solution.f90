@@ -2,7 +2,7 @@
 module wavycon_kept_solution
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_solution, only: contact_solution
-   use wavycon_contact_status, only: no_memory
+   use wavycon_contact_status, only: interrupted, no_memory
    use wavycon_grid_source, only: grid_source
    use wavycon_kinds, only: dp
    use wavycon_solution_record, only: by_grids, record_of_words, record_words, words_of_record
@@ -14,11 +14,11 @@ module wavycon_kept_solution
 contains
 
    !> Whether a solution is written to checkpoints: those on grids may take minutes, those of other solvers take
-   !> seconds. A load that lacked memory is solved again.
+   !> seconds. A load that lacked memory or was interrupted is solved again.
    pure logical function is_kept(solution)
       type(contact_solution), intent(in) :: solution
 
-      is_kept = solution%solver == by_grids .and. solution%status /= no_memory
+      is_kept = solution%solver == by_grids .and. .not. any(solution%status == [interrupted, no_memory])
    end function is_kept
 
    !> The record of a solution and, if it has a source of fields, the numbers of that.

@@ -5,7 +5,7 @@
 !> `deck_session` takes and gives the deck's units.
 module wavycon
    use wavycon_auto_contact, only: auto_contact
-   use wavycon_beale_contact, only: beale_contact
+   use wavycon_beale_contact, only: beale_contact, qp_options
    use wavycon_closed_form_contact, only: closed_form_contact
    use wavycon_contact_details, only: contact_details
    use wavycon_contact_fields, only: contact_fields
@@ -22,10 +22,10 @@ module wavycon
    use wavycon_elastic_body, only: elastic_body, hydrostatic, laterally_constrained, laterally_free
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, exit_fine, exit_not_converged
    use wavycon_find_load, only: solve_for_contact_area, solve_for_mean_gap
-   use wavycon_fitted_contact, only: fitted_contact
+   use wavycon_fitted_contact, only: fitted_contact, fitted_options
    use wavycon_fourier_series, only: fourier_series
    use wavycon_fourier_terms, only: symmetry_diagonal, symmetry_full, symmetry_none
-   use wavycon_grid_contact, only: grid_contact
+   use wavycon_grid_contact, only: grid_contact, grid_options
    use wavycon_hertz_line
    use wavycon_hertz_point
    use wavycon_hexagonal, only: hexagonal
