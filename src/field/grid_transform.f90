@@ -16,7 +16,7 @@ module wavycon_grid_transform
    use wavycon_line_plans, only: cosines_to_values, plan_of_line, real_to_waves, values_to_cosines, waves_backward, &
       waves_forward, waves_to_real
    use wavycon_own_waves, only: slab_of_waves
-   use wavycon_wave_packing, only: allocate_series, give_cosines, give_waves, take_cosines, take_waves
+   use wavycon_wave_packing, only: give_cosines, give_waves, take_cosines, take_waves
    implicit none (type, external)
    private
 
@@ -26,6 +26,8 @@ module wavycon_grid_transform
       integer :: points(2) = 0       !! M, N
       logical :: even = .true.       !! whether the points are those of a quarter of an even field's cell
       type(grid_slab) :: slab        !! of the points
+      integer, private :: waves = 0     !! wave numbers in X that the points determine
+      integer, private :: numbers = 0   !! real numbers of an element of the spectrum
    contains
       procedure :: start
       procedure :: new_series
@@ -34,8 +36,6 @@ module wavycon_grid_transform
       procedure :: sample_waves
       procedure :: x_angle
       procedure :: y_angle
-      procedure, private :: waves_x
-      procedure, private :: numbers
    end type grid_transform
 
    !> Rows of the spectrum that are copied at a time, so that copies fill lines of the processor's cache.
@@ -51,22 +51,10 @@ contains
 
       self%points = points
       self%even = even
+      self%waves = merge(points(1), points(1)/2 + 1, even)
+      self%numbers = merge(1, 2, even)
       call self%slab%start(points, whole)
    end subroutine start
-
-   !> The number of wave numbers in X that the points determine.
-   pure integer function waves_x(self)
-      class(grid_transform), intent(in) :: self
-
-      waves_x = merge(self%points(1), self%points(1)/2 + 1, self%even)
-   end function waves_x
-
-   !> Real numbers of an element of the spectrum.
-   pure integer function numbers(self)
-      class(grid_transform), intent(in) :: self
-
-      numbers = merge(1, 2, self%even)
-   end function numbers
 
    !> A series of zeros with the coefficients that the points determine, of the own wave numbers.
    subroutine new_series(self, answer)
@@ -75,10 +63,15 @@ contains
 
       type(grid_slab) :: rows
 
-      if (self%slab%is_spread) answer%spread_waves = self%waves_x()
-      rows = slab_of_waves(self%waves_x(), self%slab%is_spread)
-      call allocate_series(answer, rows%first - 1, rows%last - 1, &
-                           merge(self%points(2) - 1, self%points(2)/2, self%even), self%even)
+      if (self%slab%is_spread) answer%spread_waves = self%waves
+      rows = slab_of_waves(self%waves, self%slab%is_spread)
+      associate (first => rows%first - 1, last => rows%last - 1, &
+                 last_y => merge(self%points(2) - 1, self%points(2)/2, self%even))
+         allocate (answer%c(first:last, 0:last_y), source=0.0_dp)
+         if (self%even) return
+         allocate (answer%cs(first:last, 0:last_y), answer%sc(first:last, 0:last_y), answer%ss(first:last, 0:last_y), &
+                   source=0.0_dp)
+      end associate
    end subroutine new_series
 
    !> The series that interpolates a field at the points.
@@ -95,15 +88,15 @@ contains
       call self%new_series(answer)
       first = lbound(answer%c, 1)
       last = ubound(answer%c, 1)
-      allocate (spectrum(self%numbers(), self%waves_x(), self%slab%columns()))
+      allocate (spectrum(self%numbers, self%waves, self%slab%columns()))
       call columns_to_waves(self, field, spectrum)
       if (self%slab%is_spread) then
-         call self%slab%exchange_rows(self%waves_x(), self%numbers(), dp, exchange)
-         allocate (own_rows(self%numbers(), last - first + 1, self%points(2)))
+         call self%slab%exchange_rows(self%waves, self%numbers, dp, exchange)
+         allocate (own_rows(self%numbers, last - first + 1, self%points(2)))
          call exchange%to_rows(spectrum, own_rows)
          call move_alloc(own_rows, spectrum)
       end if
-      allocate (block(self%numbers(), self%points(2), block_rows))
+      allocate (block(self%numbers, self%points(2), block_rows))
       do k = first, last, block_rows
          number = min(block_rows, last - k + 1)
          do j = 1, self%points(2)
@@ -143,10 +136,10 @@ contains
          if (.not. self%slab%is_spread) call kept%divide(self%points)
       end if
       first = lbound(from%c, 1)
-      last = min(self%waves_x() - 1, ubound(from%c, 1))
-      allocate (spectrum(self%numbers(), merge(size(from%c, 1), last + 1, from%is_spread()), computed%columns()))
+      last = min(self%waves - 1, ubound(from%c, 1))
+      allocate (spectrum(self%numbers, merge(size(from%c, 1), last + 1, from%is_spread()), computed%columns()))
       if (from%is_spread()) spectrum(:, max(last - first + 2, 1):, :) = 0.0_dp
-      allocate (block(self%numbers(), self%points(2), block_rows))
+      allocate (block(self%numbers, self%points(2), block_rows))
       do k = first, last, block_rows
          number = min(block_rows, last - k + 1)
          if (self%even) then
@@ -160,9 +153,9 @@ contains
          end do
       end do
       if (from%is_spread()) then
-         call kept%exchange_rows(from%spread_waves, self%numbers(), dp, exchange)
+         call kept%exchange_rows(from%spread_waves, self%numbers, dp, exchange)
          call assert(size(from%c, 1) == exchange%own_rows, 'the series is spread over the same ranks')
-         allocate (own_columns(self%numbers(), from%spread_waves, kept%columns()))
+         allocate (own_columns(self%numbers, from%spread_waves, kept%columns()))
          call exchange%to_columns(spectrum, own_columns)
          call move_alloc(own_columns, spectrum)
       end if
@@ -270,7 +263,7 @@ contains
       type(c_ptr) :: plan
       integer :: j, last
 
-      last = min(self%waves_x(), size(spectrum, 2)) - 1
+      last = min(self%waves, size(spectrum, 2)) - 1
       associate (m => self%points(1))
          allocate (values(m), cosines(merge(m, 0, self%even)), waves(0:merge(0, m/2, self%even)))
          plan = plan_of_line(merge(cosines_to_values, waves_to_real, self%even), m, dp)

@@ -6,21 +6,9 @@ module wavycon_wave_packing
    implicit none (type, external)
    private
 
-   public :: allocate_series, give_cosines, give_waves, take_cosines, take_waves
+   public :: give_cosines, give_waves, take_cosines, take_waves
 
 contains
-
-   !> Allocates a series of zeros with the coefficients of some wave numbers in X, and 0 .. last_y in Y.
-   subroutine allocate_series(answer, first, last, last_y, even)
-      type(fourier_series), intent(inout) :: answer
-      integer, intent(in) :: first, last, last_y
-      logical, intent(in) :: even
-
-      allocate (answer%c(first:last, 0:last_y), source=0.0_dp)
-      if (even) return
-      allocate (answer%cs(first:last, 0:last_y), answer%sc(first:last, 0:last_y), answer%ss(first:last, 0:last_y), &
-                source=0.0_dp)
-   end subroutine allocate_series
 
    !> The coefficients of an even field from rows of its transform.
    pure subroutine take_cosines(points, block, first, answer)

@@ -177,19 +177,10 @@ contains
       class(row_exchange), allocatable :: exchange
       real(dp), allocatable :: height(:, :)
       type(grid_slab) :: lines, slab   ! of the file and of the map
-      integer(int64) :: expected
 
-      call check_map_size(self%path, points, error)
-      if (allocated(error)) return
-      expected = start + self%number_bytes*product(int(points, int64))
-      if (self%bytes /= expected) then
-         call self%refuse('its head announces '//integer_text(points(1))//' x '//integer_text(points(2))// &
-                          ' heights, which make a file of '//integer_text(expected)//' bytes, but it has '// &
-                          integer_text(self%bytes)//': was it copied in full, as binary data?', error)
-         return
-      end if
+      call check_length(self, start, points, error)
       call slab%start(points, whole=.not. self%in_slabs)
-      call check_room(self%path, points, error, slab)
+      if (.not. allocated(error)) call check_room(self%path, points, error, slab)
       if (.not. by_columns) then
          if (.not. allocated(error)) call read_rows(self, start, slab, map%height, error)
       else
@@ -206,6 +197,25 @@ contains
       call exchange%to_columns(map%height, height)
       call move_alloc(height, map%height)
    end subroutine read_heights
+
+   !> Checks the size of the map and of the file. Errors: exit_bad_input.
+   subroutine check_length(self, start, points, error)
+      type(binary_file), intent(in) :: self
+      integer(int64), intent(in) :: start
+      integer, intent(in) :: points(2)
+      type(error_type), allocatable, intent(out) :: error
+
+      integer(int64) :: expected
+
+      call check_map_size(self%path, points, error)
+      if (allocated(error)) return
+      expected = start + self%number_bytes*product(int(points, int64))
+      if (self%bytes /= expected) then
+         call self%refuse('its head announces '//integer_text(points(1))//' x '//integer_text(points(2))// &
+                          ' heights, which make a file of '//integer_text(expected)//' bytes, but it has '// &
+                          integer_text(self%bytes)//': was it copied in full, as binary data?', error)
+      end if
+   end subroutine check_length
 
    !> Reads lines of the file that are rows of the map. Errors: of this process alone.
    subroutine read_rows(self, start, lines, height, error)

@@ -29,7 +29,7 @@ module wavycon_map_file
 
 contains
 
-   !> Reads a map. All ranks call this, and all get the error of any. Errors: exit_file_trouble if the file cannot be
+   !> Reads a map. All processes call this, and all get the error of any. Errors: exit_file_trouble if the file cannot be
    !> read, exit_bad_input if it is not a map.
    subroutine read_height_map(path, format, map, error, missing_value, in_slabs)
       character(*), intent(in) :: path
