@@ -11,9 +11,10 @@ REFERENCES = HERE / "references"
 INPUTS = HERE.parent.parent / "inputs"
 
 # All references together [byte].
-LARGEST = 1_000_000
-# Rows of the excerpt of a long table: enough to see any change of a field, few enough to be committed.
-SAMPLE = 60
+LARGEST = 200_000
+# A table of more rows than LONG is thinned out to some SAMPLE rows; what stands for all its rows comes below them.
+LONG = 24
+SAMPLE = 10
 
 # Tolerances. A number agrees if it differs by at most `absolute + of_largest*L`, where L is the largest size that the
 # reference has in that column.
@@ -110,17 +111,30 @@ def shortened(word):
         return word
 
 
+def of_all_rows(rows):
+    """Three rows that change with any row of a table: of each column of numbers the mean, the mean weighted from -1 at
+    the first row to 1 at the last, and the largest size; of words those that occur. They change by no more than the
+    numbers do, so that the tolerances of these hold for them too. What is not finite counts as 0."""
+    columns = []
+    for words in zip(*rows):
+        try:
+            numbers = [float(word) if math.isfinite(float(word)) else 0.0 for word in words]
+        except ValueError:
+            columns.append([",".join(sorted(set(words)))]*3)
+            continue
+        weights = [2*i/(len(numbers) - 1) - 1 for i in range(len(numbers))]
+        columns.append([repr(math.fsum(numbers)/len(numbers)),
+                        repr(math.fsum(weight*number for weight, number in zip(weights, numbers))/len(numbers)),
+                        repr(max(map(abs, numbers)))])
+    return [list(row) for row in zip(*columns)]
+
+
 def excerpt_of(path):
-    """The excerpt of a table: all of a short one, a sample of the rows of a field, the extents of contours."""
+    """The excerpt of a table: all of a short one, a sample of the rows of a long one, the extents of contours."""
     kind = path.name.split(".")[-2]
     table = Table(path)
     head, columns, units = [], table.columns, table.units
-    if kind in ("lines", "theory_lines", "map", "spectrum", "stress_line", "stress_section", "stress_planes"):
-        # An odd step, which is no multiple of the rows of a map.
-        step = (len(table.lines) // SAMPLE) | 1
-        head = [f"{len(table.lines)} rows in {table.blocks} blocks, 1 of {step} is here"]
-        rows = table.rows(step)
-    elif kind == "contour":
+    if kind == "contour":
         # The number of points of a curve may depend on the last digit, where the curve meets a node of the grid.
         head = ["the least and the largest coordinates of each load"]
         columns = ["load"] + [f"{axis}_{end}" for axis in "xy" for end in ("min", "max")]
@@ -129,6 +143,11 @@ def excerpt_of(path):
         for row in table.records():
             points.setdefault(row["load"], []).append([float(row[axis]) for axis in "xy"])
         rows = [[load] + [repr(end(axis)) for axis in zip(*points[load]) for end in (min, max)] for load in points]
+    elif len(table.lines) > LONG:
+        # An odd step, which is no multiple of the rows of a map.
+        step = (len(table.lines) // SAMPLE) | 1
+        head = [f"{len(table.lines)} rows in {table.blocks} blocks, 1 of {step} is here; then what stands for all"]
+        rows = table.rows(step) + of_all_rows(table.rows())
     else:
         rows = table.rows()
     kept = [tolerance_of(kind, column) is not None for column in columns]

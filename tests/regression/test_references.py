@@ -96,6 +96,12 @@ class References(unittest.TestCase):
         self.assertIn("1000 rows in 1 blocks", new.head[0])
         self.assertEqual([], self.words("a.map.dat", MAP))
         self.assertIn("gap differs", self.words("a.map.dat", MAP, ("1 0 0.0\n", "1 0 1e-6\n"))[0])
+        # Rows that are not in the sample, and two of them that change places.
+        for row in 2, 500, 998:
+            old = f"1 {row} {row*1e-3}\n"
+            self.assertIn("gap differs", self.words("a.map.dat", MAP, (old, f"1 {row} {row*1e-3 + 1e-5}\n"))[0])
+        self.assertIn("gap differs", self.words("a.map.dat", MAP, ("1 2 0.002\n", "1 2 0.704\n"),
+                                                ("1 704 0.704\n", "1 704 0.002\n"))[0])
         self.assertIn("it begins with", self.words("a.map.dat", MAP, ("1 1 0.001\n", ""))[0])
 
     def test_stresses_are_compared_with_the_largest(self):
