@@ -10,7 +10,6 @@ module wavycon_fitted_source
    use wavycon_fitted_details, only: find_fitted_details, fitted_details
    use wavycon_fitted_fields, only: fitted_fields, start_fitted_fields
    use wavycon_fitted_frame, only: fitted_frame
-   use wavycon_fitted_map, only: fitted_map, start_fitted_map
    use wavycon_fitted_stress_fields, only: fitted_stress_fields, start_fitted_stress_fields
    use wavycon_kinds, only: dp
    use wavycon_solution_record, only: solution_record
@@ -26,7 +25,7 @@ module wavycon_fitted_source
       type(fitted_frame) :: frame
       type(wave_lattice), allocatable :: lattice   !! always allocated
       type(fitted_answer) :: answer     !! in the units of src/fitted
-      real(dp) :: accuracy = 0.0_dp     !! that it was asked for, as of wavycon_fitted_map
+      real(dp) :: accuracy = 0.0_dp     !! that it was asked for, relative
    contains
       procedure :: fields
       procedure :: edge_curves
@@ -38,7 +37,7 @@ module wavycon_fitted_source
       real(dp) :: length(2) = 1.0_dp    !! sides of the surface's cell [length]
       logical :: is_square = .false.    !! whether x and y are equivalent
       type(fitted_frame) :: frame
-      real(dp) :: accuracy = 0.0_dp
+      real(dp) :: accuracy = 0.0_dp     !! that the solution was asked for, relative
       type(fitted_fields), allocatable :: fitted
    contains
       procedure :: at
@@ -118,20 +117,20 @@ contains
       real(dp), allocatable, intent(out) :: pressure(:, :), displacement(:, :), gap(:, :)
 
       type(equivalent_points) :: grid
-      type(fitted_map) :: map
       type(point_image) :: first
       integer :: k, l
 
       allocate (pressure(points(1), points(2)), displacement(points(1), points(2)), gap(points(1), points(2)))
       call grid%start(points, offset, self%is_square, self%frame%crests)
-      call start_fitted_map(map, self%fitted, self%accuracy, grid%number_of_first())
+      call self%fitted%prepare_map(self%accuracy, grid%number_of_first())
       do l = 0, points(2) - 1
          do k = 0, points(1) - 1
             first = grid%first_of([k, l])
             associate (i => first%point(1) + 1, j => first%point(2) + 1)
                if (all(first%point == [k, l])) then
                   associate (angles => 2*pi*([k, l] + offset)/points)
-                     call map%at(on_lattice(self, angles(1), angles(2)), pressure(i, j), displacement(i, j), gap(i, j))
+                     call self%fitted%at(on_lattice(self, angles(1), angles(2)), pressure(i, j), displacement(i, j), &
+                                        gap(i, j))
                   end associate
                else
                   pressure(k + 1, l + 1) = pressure(i, j)

@@ -2,11 +2,10 @@
 !>
 !> With w = w_t + t e^(i phi) the area element is |t| dt dphi, and 1 - |w|^2 is the product of the distances to the
 !> chord's ends. So with the weight (1 - |w|^2)^power a Gauss-Gegenbauer rule along the chord is exact for polynomials.
-!> In phi the midpoint rule over half a turn (target inside) or Gauss's rule between the tangents (target outside)
-!> converges exponentially. What is integrated is
+!> In phi the midpoint rule over half a turn converges exponentially. What is integrated is
 !>
 !>     power 1/2: f(w)/|t|, so that the area element cancels the singularity, README.md (F30);
-!>     power 3/2: f(w)/|t|^3 as Hadamard's finite part, for targets inside, README.md (F31).
+!>     power 3/2: f(w)/|t|^3 as Hadamard's finite part, README.md (F31).
 !>
 !> For the finite part let s be the place along a chord, from -1 to 1, and s_0 the target's. Then
 !>
@@ -27,8 +26,7 @@ module wavycon_chord_points
    type :: chord_points
       integer :: twice_power = 1                          !! 2 power: 1 or 3
       real(dp), allocatable :: node(:), node_weight(:)    !! Gauss's rule along a chord, -1 to 1, shape (n)
-      complex(dp), allocatable :: direction(:)            !! e^(i phi) for a target inside, shape (m)
-      real(dp), allocatable :: angle(:), angle_weight(:)  !! Gauss's rule for a target outside, shape (m)
+      complex(dp), allocatable :: direction(:)            !! e^(i phi), shape (m)
       !> What C_m weighs at the nodes, for the finite part, shape (n, 0:n-1).
       real(dp), allocatable, private :: gegenbauer(:, :)
       ! Set for each target, chord after chord, shape (n m).
@@ -52,10 +50,9 @@ contains
 
       n = angles*points
       chords%twice_power = nint(2*power)
-      allocate (chords%node(points), chords%node_weight(points), chords%angle(angles), chords%angle_weight(angles))
+      allocate (chords%node(points), chords%node_weight(points))
       chords%direction = exp(cmplx(0.0_dp, pi*([(m, m=1, angles)] - 0.5_dp)/angles, dp))
       call gauss_jacobi(power, power, chords%node, chords%node_weight)
-      call gauss_jacobi(0.0_dp, 0.0_dp, chords%angle, chords%angle_weight)
       if (chords%twice_power == 3) then
          allocate (chords%gegenbauer(points, 0:points - 1))
          associate (g => chords%gegenbauer, s => chords%node)
@@ -72,25 +69,17 @@ contains
    !> Sets points and weights for a target.
    subroutine place(self, target)
       class(chord_points), intent(inout) :: self
-      complex(dp), intent(in) :: target          !! w_t; for the finite part |w_t| <= 1
+      complex(dp), intent(in) :: target          !! w_t, |w_t| <= 1
 
-      complex(dp) :: direction, e
-      real(dp) :: distance, half, middle, opening, scale, weight(size(self%node))
+      complex(dp) :: e
+      real(dp) :: half, middle, scale, weight(size(self%node))
       integer :: angles, i, j, k
 
-      angles = size(self%angle)
-      distance = abs(target)
+      angles = size(self%direction)
       k = 0
       do i = 1, angles
-         if (distance <= 1.0_dp) then
-            e = self%direction(i)
-            scale = pi/angles
-         else
-            opening = asin(1.0_dp/distance)
-            direction = -target/distance
-            e = direction*exp(cmplx(0.0_dp, opening*self%angle(i), dp))
-            scale = opening*self%angle_weight(i)
-         end if
+         e = self%direction(i)
+         scale = pi/angles
          ! The chord's points are t = middle + half s.
          middle = -(target%re*e%re + target%im*e%im)
          half = sqrt(max(1.0_dp - (target%re*e%im - target%im*e%re)**2, 0.0_dp))

@@ -1,5 +1,5 @@
-!> The singular integral over a mapped disc: of f/|z - z'| for a target inside or outside, however near its edge, and
-!> Hadamard's finite part of that of f/|z - z'|^3 for a target inside.
+!> The singular integral over a mapped disc for a target inside, however near its edge: of f/|z - z'|, and Hadamard's
+!> finite part of that of f/|z - z'|^3.
 !>
 !> For f = (1 - |w|^2)^power times a polynomial, J the map's Jacobian and Q its divided difference along a chord,
 !>
@@ -60,7 +60,7 @@ contains
       class(chord_rule), intent(inout) :: self
       type(disc_polynomials), intent(in) :: basis      !! the one the rule was prepared for
       type(shape_map), intent(in) :: shape
-      complex(dp), intent(in) :: target                !! w_t; for 1/|z - z'|^3 |w_t| <= 1
+      complex(dp), intent(in) :: target                !! w_t, |w_t| <= 1
       real(dp), intent(in) :: c(:)                     !! coefficients of the sum, shape (N)
       real(dp), intent(out) :: row(:)                  !! integrals of the terms, shape (N) [s, 1/s with power 3]
       real(dp), intent(out), optional :: shape_row(0:) !! d(integral of the sum)/d b_k, shape (0:K) [1, 1/s^2]

@@ -144,15 +144,16 @@ contains
       real(dp), intent(in) :: values(n, self%terms)              !! as of evaluate
       real(dp), intent(out), dimension(n, self%terms) :: slope_x, slope_y
 
-      complex(dp) :: power(n)
+      complex(dp) :: power(n), step(n)
       real(dp) :: a, b, c, s
       integer :: i, k, l, t
 
+      step = conjg(w)**self%fold
       t = 0
       do k = 0, self%degree, self%fold
          ! The gradient of Re(w^k) is k conj(w)^(k-1).
          if (k == self%fold) power = conjg(w)**(self%fold - 1)
-         if (k > self%fold) power = power*conjg(w)**self%fold
+         if (k > self%fold) power = power*step
          do l = 0, (self%degree - k)/2
             t = t + 1
             a = self%recurrence(1, t)

@@ -5,46 +5,33 @@
 module wavycon_expansion_stress
    use wavycon_constants, only: pi
    use wavycon_disc_rule, only: disc_rule, start_disc_rule
-   use wavycon_exterior_map, only: find_exterior
    use wavycon_expansion, only: expansion
    use wavycon_far_stress, only: far_nodes, far_stress, set_far_values, start_far_stress
-   use wavycon_fitted_tuning, only: far_bottom, far_top, near_clearance, rule_angles_factor, &
-      rule_angles_per_degree, rule_fineness, rule_radii_factor, rule_radii_per_degree, series_depth
+   use wavycon_fitted_tuning, only: far_bottom, far_top, near_clearance, series_depth
    use wavycon_kinds, only: dp
-   use wavycon_shape_search, only: distance_from_edge, find_edge_in_direction, find_preimage
-   use wavycon_stress_kernel, only: add_gap, add_pressure, stress_fields
-   use wavycon_stress_rays, only: start_stress_rays, stress_rays
+   use wavycon_shape_search, only: distance_from_edge
+   use wavycon_spot_integral, only: spot_integral, start_spot_integral
+   use wavycon_stress_kernel, only: add_gap, add_pressure, all_fields, stress_fields
    use wavycon_stress_series, only: add_wave, start_stress_series, stress_series
-   use wavycon_stress_sources, only: start_stress_sources, stress_sources
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
    private
 
    public :: expansion_stress, start_expansion_stress
 
-   !> Rules of rising fineness, before rays are taken.
-   integer, parameter :: levels = 6
-
    type :: expansion_stress
       type(wave_lattice), private :: lattice
-      type(expansion) :: solution
-      real(dp), private :: digits = 0.0_dp                   !! natural logarithm of 1/accuracy
-      real(dp), private :: radius = 0.0_dp                   !! of the shape [s]
-      real(dp), private :: stretch = 0.0_dp                  !! largest derivative of its map, about [s]
+      type(spot_integral) :: spot                            !! one of the spots or islands
       complex(dp), allocatable, private :: centre(:)         !! of the spots or islands near the cell [s]
       real(dp), allocatable, private :: half_turn(:)         !! 1, or -1 if turned by half a turn
       ! Made when first needed.
       type(stress_series), allocatable, private :: series
       type(far_stress), allocatable, private :: far
-      type(stress_rays), allocatable, private :: rays
-      type(stress_sources), private :: rules(levels)
-      integer, private :: radii(levels) = 0, angles(levels) = 0
    contains
       procedure :: fields_at
       procedure :: distance_from_edges
       procedure, private :: prepare_series
       procedure, private :: prepare_far
-      procedure, private :: add_near
    end type expansion_stress
 
 contains
@@ -55,23 +42,8 @@ contains
       type(expansion), intent(in) :: solution
       real(dp), intent(in) :: accuracy             !! of the stresses over the peak pressure
 
-      integer, parameter :: least_angles = 24, least_radii = 8
-      integer :: i
-
       stress%lattice = lattice
-      stress%solution = solution
-      stress%digits = -log(min(max(accuracy, 1e-15_dp), 1e-2_dp)) + 2.0_dp
-      stress%radius = 1.02_dp*solution%shape%radius()
-      associate (b => solution%shape%b, fold => solution%shape%fold)
-         stress%stretch = b(0)*(1.0_dp + (fold + 1)*solution%shape%clustering) &
-            + sum([((fold*i - 1)*abs(b(i)), i=1, ubound(b, 1))])
-      end associate
-      associate (degree => solution%basis%degree)
-         stress%angles = ceiling(max(least_angles, ceiling(rule_angles_per_degree*degree)) &
-                                 *rule_fineness**[(i, i=0, levels - 1)])
-         stress%radii = ceiling(max(least_radii, ceiling(rule_radii_per_degree*degree) + 2) &
-                                *rule_fineness**[(i, i=0, levels - 1)])
-      end associate
+      call start_spot_integral(stress%spot, solution, accuracy, all_fields)
       call find_centres(stress)
    end subroutine start_expansion_stress
 
@@ -101,10 +73,12 @@ contains
          mirrored(8) = mirrored(8)*sign(1.0_dp, z%im)
          fields = mirrored
          do i = 1, size(self%centre)
-            call self%add_near(self%half_turn(i), self%half_turn(i)*(z - self%centre(i)), depth, fields)
+            fields(7:8) = self%half_turn(i)*fields(7:8)
+            call self%spot%add_at(self%half_turn(i)*(z - self%centre(i)), depth, fields)
+            fields(7:8) = self%half_turn(i)*fields(7:8)
          end do
       end if
-      if (self%solution%island) then
+      if (self%spot%solution%island) then
          do i = 1, size(self%lattice%pressure)
             call add_wave(2*pi*self%lattice%wave(:, i), self%lattice%pressure(i), place, depth, fields)
          end do
@@ -122,8 +96,9 @@ contains
       z = self%lattice%rows%reduced(place)
       distance = huge(distance)
       do i = 1, size(self%centre)
-         if (abs(z - self%centre(i)) - self%radius > distance) cycle
-         distance = min(distance, abs(distance_from_edge(self%solution%shape, self%half_turn(i)*(z - self%centre(i)))))
+         if (abs(z - self%centre(i)) - self%spot%radius > distance) cycle
+         distance = min(distance, abs(distance_from_edge(self%spot%solution%shape, &
+                                                         self%half_turn(i)*(z - self%centre(i)))))
       end do
    end function distance_from_edges
 
@@ -139,16 +114,16 @@ contains
       associate (rows => stress%lattice%rows, lattice => stress%lattice)
          width = [0.5_dp, 0.5_dp*rows%spacing]
          if (rows%along_y) width = width([2, 1])
-         reach = hypot(width(1), width(2)) + near_clearance + stress%radius + abs(lattice%trough)
+         reach = hypot(width(1), width(2)) + near_clearance + stress%spot%radius + abs(lattice%trough)
          call rows%points_within(reach, point, next)
          allocate (stress%centre(0), stress%half_turn(0))
-         do island = 1, merge(lattice%troughs, 1, stress%solution%island)
+         do island = 1, merge(lattice%troughs, 1, stress%spot%solution%island)
             do i = 0, size(point, 2)
                centre = 0.0_dp
                if (i > 0) centre = cmplx(point(1, i), point(2, i), dp)
-               if (stress%solution%island) centre = centre + merge(1, -1, island == 1)*lattice%trough
+               if (stress%spot%solution%island) centre = centre + merge(1, -1, island == 1)*lattice%trough
                off = hypot(max(abs(centre%re) - width(1), 0.0_dp), max(abs(centre%im) - width(2), 0.0_dp))
-               if (off > near_clearance + stress%radius) cycle
+               if (off > near_clearance + stress%spot%radius) cycle
                stress%centre = [stress%centre, centre]
                stress%half_turn = [stress%half_turn, merge(1.0_dp, -1.0_dp, island == 1)]
             end do
@@ -164,12 +139,12 @@ contains
       real(dp), allocatable :: strength(:)
       integer :: turns
 
-      turns = ceiling(self%digits/series_depth*self%radius)
-      call plain_sources(self, 10 + ceiling(0.5_dp*(turns + self%digits + self%solution%basis%degree)), &
-                         ceiling(turns + self%digits + self%solution%basis%degree), place, strength)
+      turns = ceiling(self%spot%digits/series_depth*self%spot%radius)
+      call plain_sources(self, 10 + ceiling(0.5_dp*(turns + self%spot%digits + self%spot%solution%basis%degree)), &
+                         ceiling(turns + self%spot%digits + self%spot%solution%basis%degree), place, strength)
       allocate (self%series)
-      call start_stress_series(self%series, self%lattice%rows, place%re, place%im, strength, self%solution%island, &
-                               series_depth, self%digits)
+      call start_stress_series(self%series, self%lattice%rows, place%re, place%im, strength, &
+                               self%spot%solution%island, series_depth, self%spot%digits)
    end subroutine prepare_series
 
    !> Point sources of all spots or islands in a cell, from a crest: pressure or gap.
@@ -184,7 +159,7 @@ contains
       complex(dp) :: turn
       integer :: fold, g, n
 
-      associate (solution => stress%solution)
+      associate (solution => stress%spot%solution)
          fold = solution%basis%fold
          call start_disc_rule(rule, solution%basis%power, fold, radii, (angles + 2*fold - 1)/(2*fold))
          n = size(rule%point)
@@ -216,20 +191,20 @@ contains
       integer :: i, j, k, m, terms(3)
 
       associate (rows => self%lattice%rows)
-         call plain_sources(self, self%radii(1), self%angles(1), place, strength)
-         call start_stress_series(series, rows, place%re, place%im, strength, self%solution%island, far_top, &
-                                  self%digits + 9.0_dp)
+         call plain_sources(self, self%spot%radii(1), self%spot%angles(1), place, strength)
+         call start_stress_series(series, rows, place%re, place%im, strength, self%spot%solution%island, far_top, &
+                                  self%spot%digits + 9.0_dp)
          mean = -sum(strength)/rows%spacing
          ! Of one spot or island from its centre.
-         if (self%solution%island) then
+         if (self%spot%solution%island) then
             place = place - self%lattice%trough
             strength = strength/self%lattice%troughs
          end if
          sides = [0.5_dp, 0.5_dp*rows%spacing]
          if (rows%along_y) sides = sides([2, 1])
-         terms = far_sizes(sides, self%digits - 1.0_dp)
+         terms = far_sizes(sides, self%spot%digits - 1.0_dp)
          allocate (self%far)
-         call start_far_stress(self%far, sides(1), sides(2), far_top, far_bottom, self%solution%island, terms)
+         call start_far_stress(self%far, sides(1), sides(2), far_top, far_bottom, self%spot%solution%island, terms)
          allocate (x(terms(1)), y(terms(2)), z(terms(3)), values(terms(1), terms(2), terms(3), stress_fields))
          call far_nodes(self%far, x, y, z)
          do k = 1, terms(3)
@@ -239,7 +214,7 @@ contains
                   do m = 1, size(self%centre)
                      at = self%half_turn(m)*(cmplx(x(i), y(j), dp) - self%centre(m))
                      fields(7:8) = self%half_turn(m)*fields(7:8)
-                     if (self%solution%island) then
+                     if (self%spot%solution%island) then
                         call add_gap(size(strength), at%re - place%re, at%im - place%im, z(k), strength, fields)
                      else
                         call add_pressure(size(strength), at%re - place%re, at%im - place%im, z(k), strength, fields)
@@ -277,73 +252,5 @@ contains
 
       ellipse = x + sqrt(x**2 - 1.0_dp)
    end function ellipse
-
-   !> Adds the fields of one spot or island.
-   subroutine add_near(self, half_turn, z, depth, fields)
-      class(expansion_stress), intent(inout) :: self
-      real(dp), intent(in) :: half_turn                   !! -1 if it is turned by half a turn, otherwise 1
-      complex(dp), intent(in) :: z                        !! the place from its centre, turned with it [s]
-      real(dp), intent(in) :: depth
-      real(dp), intent(inout) :: fields(stress_fields)
-
-      real(dp), parameter :: far_from_disc = 1.5_dp
-      complex(dp) :: edge, origin, v
-      real(dp) :: own(stress_fields)
-      integer :: level
-      logical :: inside, found
-
-      own = 0.0_dp
-      inside = .false.
-      origin = 1.0_dp
-      if (hypot(abs(z), depth) > far_from_disc*self%radius) then
-         level = level_for(self, abs(z)/self%radius, depth/self%radius)
-      else
-         call find_preimage(self%solution%shape, z, origin, found)
-         inside = found .and. abs(origin) <= 1.0_dp
-         v = origin
-         if (.not. inside) then
-            call find_exterior(self%solution%shape, z, v, found)
-            if (.not. found) call find_edge_in_direction(self%solution%shape, z, v, edge)
-            origin = v/abs(v)
-         end if
-         level = level_for(self, abs(v), depth/self%stretch)
-      end if
-      if (level <= levels) then
-         if (.not. allocated(self%rules(level)%x)) &
-            call start_stress_sources(self%rules(level), self%solution, self%radii(level), self%angles(level))
-         call self%rules(level)%add_at(z, depth, own)
-      else
-         if (.not. allocated(self%rays)) then
-            allocate (self%rays)
-            call start_stress_rays(self%rays, self%solution%basis%degree, self%digits)
-         end if
-         call self%rays%add_at(self%solution, origin, merge((0.0_dp, 0.0_dp), z - self%solution%shape%place(origin), &
-                                                            inside), depth, own)
-      end if
-      own(7:8) = half_turn*own(7:8)
-      fields = fields + own
-   end subroutine add_near
-
-   !> The coarsest rule that resolves the kernel for a place over a round disc of radius 1: README.md (F57).
-   pure integer function level_for(self, distance, depth) result(level)
-      class(expansion_stress), intent(in) :: self
-      real(dp), intent(in) :: distance                    !! from the axis
-      real(dp), intent(in) :: depth
-
-      complex(dp) :: pole
-      real(dp) :: angular, nearest, radial
-
-      nearest = min(hypot(distance, depth), 1.0_dp)
-      angular = 1.0_dp + ((distance - nearest)**2 + depth**2)/(2*max(distance*nearest, 1e-12_dp))
-      angular = acosh(min(angular, 1e6_dp))
-      ! Bernstein's ellipse through the nearest singularity in |w|^2, between 0 and 1.
-      pole = 2*cmplx(distance, depth, dp)**2 - 1.0_dp
-      radial = abs(pole + sqrt(pole - 1.0_dp)*sqrt(pole + 1.0_dp))
-      radial = 2*log(max(radial, 1/radial))
-      do level = 1, levels
-         if (self%angles(level)*angular >= rule_angles_factor*self%digits .and. &
-             self%radii(level)*radial >= rule_radii_factor*self%digits) exit
-      end do
-   end function level_for
 
 end module wavycon_expansion_stress

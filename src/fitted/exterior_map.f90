@@ -58,14 +58,12 @@ contains
       call linearise_exterior(shape, v, z, slope, conjugate_slope)
    end function exterior_place
 
-   !> The preimage of a place, by Newton's method (F19) from a preimage near by or, without one, from the edge in the
-   !> direction of the place.
-   pure subroutine find_exterior(shape, z, v, found, near)
+   !> The preimage of a place, by Newton's method (F19) from the edge in the direction of the place.
+   pure subroutine find_exterior(shape, z, v, found)
       type(shape_map), intent(in) :: shape
       complex(dp), intent(in) :: z                !! [s], not 0
       complex(dp), intent(out) :: v
       logical, intent(out) :: found               !! whether v is a preimage with |v| >= 1: whether z is outside
-      complex(dp), intent(in), optional :: near   !! preimage of a neighbouring place
 
       !> Relative step after which the next one would be below rounding, as convergence is quadratic.
       real(dp), parameter :: small_step = 1e-9_dp
@@ -78,12 +76,8 @@ contains
       real(dp) :: jacobian
       integer :: cuts, i
 
-      if (present(near)) then
-         v = near
-      else
-         call find_edge_in_direction(shape, z, v, edge)
-         v = v*max(abs(z)/abs(edge), 1.0_dp)
-      end if
+      call find_edge_in_direction(shape, z, v, edge)
+      v = v*max(abs(z)/abs(edge), 1.0_dp)
       found = .false.
       cuts = 0
       do i = 1, most_steps

@@ -6,7 +6,6 @@ module wavycon_fitted_details
    use wavycon_error_estimate, only: at_point, error_estimate
    use wavycon_fitted_answer, only: fitted_answer, most_previous
    use wavycon_fitted_fields, only: fitted_separations
-   use wavycon_fitted_tuning, only: detail_refinement
    use wavycon_kinds, only: dp
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
@@ -31,6 +30,8 @@ contains
       type(fitted_answer), intent(in) :: answer    !! with a solution, status <= fitted_less_exact
       type(fitted_details), intent(out) :: details
 
+      !> Accuracy of the second evaluation.
+      real(dp), parameter :: finer = 1e-15_dp
       !> Trough gap, saddle gap, saddle pressure.
       integer, parameter :: values = 3
       real(dp) :: at(values, 0:most_previous), by_finer_rules(values)
@@ -39,7 +40,7 @@ contains
       integer :: i, k
 
       call separations(lattice, answer, at(:, 0))
-      call separations(lattice, answer, by_finer_rules, refinement=detail_refinement)
+      call separations(lattice, answer, by_finer_rules, accuracy=finer)
       older = answer
       do k = 1, size(answer%previous)
          older%solution = answer%previous(k)
@@ -71,13 +72,13 @@ contains
       if (.not. answer%island) details%saddle_pressure_error = 0.0_dp
    end subroutine find_fitted_details
 
-   subroutine separations(lattice, answer, values, refinement)
+   subroutine separations(lattice, answer, values, accuracy)
       type(wave_lattice), intent(in) :: lattice
       type(fitted_answer), intent(in) :: answer
       real(dp), intent(out) :: values(:)             !! trough gap, saddle gap, saddle pressure, shape (3)
-      real(dp), intent(in), optional :: refinement   !! of the rules
+      real(dp), intent(in), optional :: accuracy   !! of the integrals
 
-      call fitted_separations(lattice, answer, values(1), values(2), values(3), refinement)
+      call fitted_separations(lattice, answer, values(1), values(2), values(3), accuracy)
    end subroutine separations
 
 end module wavycon_fitted_details

@@ -1,88 +1,73 @@
 !> Pressure, displacement and gap anywhere on the surface, from an expansion and without a grid.
 !>
 !> Places are from a crest, in s. Inside the spot or island the fields are the expansion and the condition of contact.
-!> Elsewhere they are integrals over the expansion and all its images: README.md (F2) and (F10). For an image that is
-!> near, these are taken along chords through the preimage of the place under the continued map, or by a fine rule over
-!> the disc where that map folds, and for all others by one coarser rule: README.md, section 12.
+!> Elsewhere they are integrals over the expansion and all its images: README.md (F2) and (F10). Those over near images
+!> are taken by fine rules or along rays, and those over all others by one coarse rule: README.md, section 12.
 module wavycon_fitted_fields
-   use wavycon_chord_rule, only: chord_rule, start_chord_rule
    use wavycon_constants, only: pi
    use wavycon_disc_sources, only: disc_sources, start_disc_sources
-   use wavycon_exterior_map, only: find_exterior
+   use wavycon_even_polynomial, only: even_polynomial, fit_degree, fit_nodes, start_even_polynomial
+   use wavycon_exterior_series, only: exterior_series, start_exterior_series
    use wavycon_fitted_answer, only: fitted_answer
-   use wavycon_fitted_tuning, only: field_angles, field_chord_points, field_chords, field_radii, field_radius_margin, &
-      near_field_radius, near_field_refinement, outside_chords, outside_half_points
+   use wavycon_fitted_tuning, only: field_accuracy, field_angles, field_angles_per_degree, field_radii, &
+      field_radii_per_degree, least_map
    use wavycon_kinds, only: dp
-   use wavycon_outside_integral, only: outside_rule, start_outside_rule
-   use wavycon_shape_search, only: find_preimage
+   use wavycon_spot_integral, only: spot_integral, start_spot_integral
+   use wavycon_stress_kernel, only: stress_fields, surface_field
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
    private
 
    public :: fitted_fields, start_fitted_fields, fitted_separations
 
-   !> Rules for the integral over one spot or island.
-   integer, parameter :: by_plain_rule = 1, by_finer_rule = 2, by_chords = 3
-
    type :: fitted_fields
       type(wave_lattice) :: lattice
       type(fitted_answer) :: answer
       complex(dp) :: centre = 0.0_dp                     !! of the spot or the island [s]
       integer :: places = 1                              !! in a cell: the centre and, if there are two, -centre
-      real(dp), private :: radius = 0.0_dp               !! of a circle about the spot or the island [s]
       complex(dp), allocatable, private :: image(:)      !! centres of the spot or island, 0, and of its near images [s]
-      type(chord_rule), private :: chords
-      type(outside_rule), private :: outside
-      type(disc_sources), private :: sources             !! of the rule over the whole disc
-      type(disc_sources), private :: near_sources        !! of a finer one for near places; made when first needed
-      real(dp), private :: near_refinement = 1.0_dp
-      real(dp), private :: reach = 0.0_dp                !! places farther from the centre have |v| > near_radius [s]
+      type(spot_integral), private :: spot
+      integer, private :: angles = 0, radii = 0          !! points of the coarse rule
+      type(disc_sources), private :: sources             !! and its sources
+      ! For maps.
+      type(exterior_series), allocatable :: series       !! of the spot or island
+      type(even_polynomial), private :: far(2)           !! of all but the near images: even in x, and odd over x
    contains
       procedure :: at
       procedure :: edge
-      procedure :: fields_inside
-      procedure :: fields_outside
-      procedure :: outside_integral
+      procedure :: prepare_map
       procedure, private :: find_inside
-      procedure, private :: integral_at
+      procedure, private :: sum_over_images
+      procedure, private :: quick_sum
+      procedure, private :: coarse_sum
    end type fitted_fields
 
 contains
 
    !> Prepares to evaluate an answer.
-   subroutine start_fitted_fields(fields, lattice, answer, refinement)
+   subroutine start_fitted_fields(fields, lattice, answer, accuracy)
       type(fitted_fields), intent(out) :: fields
       type(wave_lattice), intent(in) :: lattice    !! the answer's
       type(fitted_answer), intent(in) :: answer    !! with a solution, status <= fitted_less_exact
-      real(dp), intent(in), optional :: refinement !! factor on the points of the rules either way, > 0; 1 if absent
+      real(dp), intent(in), optional :: accuracy   !! of the integrals over the fields' scale; field_accuracy if absent
 
-      real(dp) :: finer
+      real(dp) :: asked
 
-      finer = 1.0_dp
-      if (present(refinement)) finer = refinement
+      asked = field_accuracy
+      if (present(accuracy)) asked = accuracy
       fields%lattice = lattice
       fields%answer = answer
       if (answer%island) then
          fields%centre = lattice%trough
          fields%places = lattice%troughs
       end if
-      associate (near => lattice%displacement_kernel%near_points())
+      associate (near => lattice%displacement_kernel%near_points(), degree => answer%solution%basis%degree)
          fields%image = [(0.0_dp, 0.0_dp), cmplx(near(1, :), near(2, :), dp)]
+         fields%angles = max(field_angles, ceiling(field_angles_per_degree*degree))
+         fields%radii = max(field_radii, ceiling(field_radii_per_degree*degree))
       end associate
-      associate (solution => fields%answer%solution)
-         fields%radius = field_radius_margin*solution%shape%radius()
-         call start_chord_rule(fields%chords, solution%basis, ubound(solution%shape%b, 1), &
-                               ceiling(finer*field_chords), ceiling(finer*field_chord_points))
-         call start_outside_rule(fields%outside, solution%basis%power, ceiling(finer*outside_chords), &
-                                 ceiling(finer*outside_half_points))
-      end associate
-      associate (solution => fields%answer%solution)
-         call start_disc_sources(fields%sources, solution, ceiling(finer*field_radii), ceiling(finer*field_angles))
-         fields%near_refinement = finer*near_field_refinement
-         associate (b => solution%shape%b)
-            fields%reach = near_field_radius*b(0)*(1.0_dp + solution%shape%clustering) + sum(abs(b(1:)))
-         end associate
-      end associate
+      call start_spot_integral(fields%spot, answer%solution, asked, surface_field)
+      call start_disc_sources(fields%sources, answer%solution, fields%radii, fields%angles)
    end subroutine start_fitted_fields
 
    !> The fields at a place.
@@ -93,69 +78,42 @@ contains
       real(dp), intent(out) :: displacement        !! u less its mean [Delta]
       real(dp), intent(out) :: gap                 !! [Delta], 0 in contact
 
-      complex(dp) :: w
+      complex(dp) :: w, z(self%places)
+      real(dp) :: without_gap
       logical :: inside
+      integer :: i
 
-      call self%find_inside(self%lattice%rows%reduced(place - self%centre), w, inside)
+      pressure = 0.0_dp
+      gap = 0.0_dp
+      without_gap = 1.0_dp - self%answer%mean_gap - self%lattice%undeformed_gap(place)
+      displacement = without_gap
       ! The second island of a cell is the first one turned by half a turn about a crest, with all its fields.
-      if (self%places == 2 .and. .not. inside) &
-         call self%find_inside(self%lattice%rows%reduced(-place - self%centre), w, inside)
-      if (inside) then
-         call self%fields_inside(place, w, pressure, displacement, gap)
+      do i = 1, self%places
+         z(i) = self%lattice%rows%reduced(merge(place, -place, i == 1) - self%centre)
+         call self%find_inside(z(i), w, inside)
+         if (.not. inside) cycle
+         if (self%answer%island) then
+            gap = self%answer%solution%at(w)
+            displacement = gap + without_gap
+         else
+            pressure = self%answer%solution%at(w)
+         end if
+         return
+      end do
+      if (self%answer%island) then
+         pressure = self%answer%pbar_over_pstar - self%lattice%closing_pressure &
+            + self%lattice%pressure_rise(place - self%lattice%trough)
+         do i = 1, self%places
+            pressure = pressure + self%sum_over_images(z(i))
+         end do
       else
-         call self%fields_outside(place, self%outside_integral(place), pressure, displacement, gap)
+         displacement = self%sum_over_images(z(1))
+         gap = displacement - without_gap
       end if
    end subroutine at
 
-   !> The fields at a place inside a spot or island.
-   subroutine fields_inside(self, place, w, pressure, displacement, gap)
-      class(fitted_fields), intent(in) :: self
-      complex(dp), intent(in) :: place                           !! as of at
-      complex(dp), intent(in) :: w                               !! its preimage, or that of an equivalent place
-      real(dp), intent(out) :: pressure, displacement, gap       !! as of at
-
-      real(dp) :: value
-
-      value = self%answer%solution%at(w)
-      pressure = merge(0.0_dp, value, self%answer%island)
-      gap = merge(value, 0.0_dp, self%answer%island)
-      displacement = gap + 1.0_dp - self%answer%mean_gap - self%lattice%undeformed_gap(place)
-   end subroutine fields_inside
-
-   !> The fields at a place outside of all spots and islands.
-   subroutine fields_outside(self, place, integral, pressure, displacement, gap)
-      class(fitted_fields), intent(in) :: self
-      complex(dp), intent(in) :: place                           !! as of at
-      real(dp), intent(in) :: integral                           !! the outside_integral at the place
-      real(dp), intent(out) :: pressure, displacement, gap       !! as of at
-
-      real(dp) :: without_gap
-
-      without_gap = 1.0_dp - self%answer%mean_gap - self%lattice%undeformed_gap(place)
-      if (self%answer%island) then
-         pressure = self%answer%pbar_over_pstar - self%lattice%closing_pressure &
-            + self%lattice%pressure_rise(place - self%lattice%trough) - integral/(4*pi**2)
-         displacement = without_gap
-         gap = 0.0_dp
-      else
-         pressure = 0.0_dp
-         displacement = integral
-         gap = integral - without_gap
-      end if
-   end subroutine fields_outside
-
-   !> At a place outside of all spots the displacement, the integral of Gp and p [Delta]; outside of all islands the
-   !> integral of the Laplacian of Gp and the gap [Delta/s].
-   real(dp) function outside_integral(self, place) result(integral)
-      class(fitted_fields), intent(inout) :: self
-      complex(dp), intent(in) :: place             !! as of at
-
-      integral = self%integral_at(self%lattice%rows%reduced(place - self%centre))
-      if (self%places == 2) integral = integral + self%integral_at(self%lattice%rows%reduced(-place - self%centre))
-   end function outside_integral
-
    !> Whether a place is inside the spot or island at the centre, or inside a near image of it; and its preimage there.
-   subroutine find_inside(self, z, w, inside)
+   pure subroutine find_inside(self, z, w, inside)
       class(fitted_fields), intent(in) :: self
       complex(dp), intent(in) :: z          !! from the centre, reduced [s]
       complex(dp), intent(out) :: w
@@ -165,27 +123,145 @@ contains
 
       ! Long spots and islands of a rhombic lattice reach beyond the rectangle that places are reduced to.
       do k = 1, size(self%image)
-         inside = .false.
-         if (abs(z - self%image(k)) > self%radius) cycle
-         call find_preimage(self%answer%solution%shape, z - self%image(k), w, inside)
-         inside = inside .and. abs(w) <= 1.0_dp
+         call self%spot%find_inside(z - self%image(k), w, inside)
          if (inside) return
       end do
    end subroutine find_inside
 
+   !> What one spot or island and all its images add to the displacement [Delta] or the pressure [pi E* Delta/s] at a
+   !> place outside of all.
+   real(dp) function sum_over_images(self, z) result(total)
+      class(fitted_fields), intent(inout) :: self
+      complex(dp), intent(in) :: z      !! from the centre, reduced [s]
+
+      real(dp) :: exact(stress_fields)
+      logical :: far(size(self%image))
+      integer :: k
+
+      if (allocated(self%series)) then
+         total = self%quick_sum(z)
+         return
+      end if
+      far = [(self%spot%is_resolved(self%angles, self%radii, z - self%image(k)), k=1, size(far))]
+      total = self%coarse_sum(z, far)
+      exact = 0.0_dp
+      do k = 1, size(far)
+         if (.not. far(k)) call self%spot%add_at(z - self%image(k), 0.0_dp, exact)
+      end do
+      total = total + exact(1)
+   end function sum_over_images
+
+   !> The sum over all images but some near ones, by the coarse rule.
+   real(dp) function coarse_sum(self, z, counted) result(total)
+      class(fitted_fields), intent(in) :: self
+      complex(dp), intent(in) :: z                           !! from the centre, reduced [s]
+      logical, intent(in) :: counted(:)                      !! the near images that are part of it
+
+      real(dp), dimension(size(self%sources%place)) :: value, x, y
+      integer :: k, n, power
+
+      n = size(self%sources%place)
+      power = merge(3, 1, self%answer%island)
+      x = z%re - self%sources%place%re
+      y = z%im - self%sources%place%im
+      if (self%answer%island) then
+         call self%lattice%pressure_kernel%evaluate(n, x, y, value)
+      else
+         call self%lattice%displacement_kernel%evaluate(n, x, y, value)
+      end if
+      total = dot_product(self%sources%strength, value)
+      ! The kernels' smooth part has the terms 1/r^power of all images but not that of the one at the origin.
+      if (counted(1)) total = total + self%sources%sum_at(z, power)
+      do k = 2, size(counted)
+         if (.not. counted(k)) total = total - self%sources%sum_at(z - self%image(k), power)
+      end do
+      if (self%answer%island) total = -total/(4*pi**2)
+   end function coarse_sum
+
+   !> Prepares for many places: a series of the spot or island itself and of its near images, and a polynomial of the
+   !> others. Without such a series, or for few places, each place is evaluated for itself.
+   subroutine prepare_map(self, accuracy, places)
+      class(fitted_fields), intent(inout) :: self
+      real(dp), intent(in) :: accuracy            !! that the solution was asked for, relative
+      integer, intent(in) :: places               !! spread over the cell, >= 0
+
+      !> Error over the accuracy that was asked for, and the least one over the fields' scale.
+      real(dp), parameter :: share = 1e-3_dp, least = 1e-11_dp
+      real(dp), dimension(0:fit_degree, 0:fit_degree) :: even, odd, x, y
+      complex(dp) :: z
+      real(dp) :: other, outside, tolerance
+      logical :: found, none(size(self%image))
+      integer :: i, j
+
+      associate (answer => self%answer)
+         outside = places*merge(answer%area_fraction, 1.0_dp - answer%area_fraction, answer%island)
+         if (outside < least_map) return
+         allocate (self%series)
+         call start_exterior_series(self%series, answer%solution, max(share*accuracy, least), nint(0.5_dp*outside), &
+                                    found)
+         if (.not. found) then
+            deallocate (self%series)
+            return
+         end if
+         ! Displacements are of order 1, pressures of the order of their peak.
+         tolerance = merge(answer%peak_pressure, 1.0_dp, answer%island)*max(share*accuracy, least)
+      end associate
+      none = .false.
+      associate (rows => self%lattice%rows)
+         call fit_nodes(rows%spacing, x, y)
+         do j = 0, fit_degree
+            do i = 0, fit_degree
+               z = cmplx(x(i, j), y(i, j), dp)
+               if (rows%along_y) z = cmplx(y(i, j), x(i, j), dp)
+               even(i, j) = self%coarse_sum(z, none)
+               odd(i, j) = 0.0_dp
+               if (mod(self%answer%solution%shape%fold, 2) == 0) cycle
+               other = self%coarse_sum(-conjg(z), none)
+               odd(i, j) = 0.5_dp*(even(i, j) - other)/z%re
+               even(i, j) = 0.5_dp*(even(i, j) + other)
+            end do
+         end do
+         call start_even_polynomial(self%far(1), rows%spacing, even, 0.01_dp*tolerance)
+         call start_even_polynomial(self%far(2), rows%spacing, odd, 0.01_dp*tolerance)
+      end associate
+   end subroutine prepare_map
+
+   !> The sum over all images as prepared.
+   real(dp) function quick_sum(self, z) result(total)
+      class(fitted_fields), intent(inout) :: self
+      complex(dp), intent(in) :: z      !! from the centre, reduced [s]
+
+      real(dp) :: even(1), exact(stress_fields), odd(1), of_rows(2), value
+      logical :: found
+      integer :: k
+
+      of_rows = [z%re, z%im]
+      if (self%lattice%rows%along_y) of_rows = [z%im, z%re]
+      call self%far(1)%evaluate(1, of_rows(:1), of_rows(2:), even)
+      call self%far(2)%evaluate(1, of_rows(:1), of_rows(2:), odd)
+      total = even(1) + z%re*odd(1)
+      exact = 0.0_dp
+      do k = 1, size(self%image)
+         call self%series%at(self%spot%solution%shape, z - self%image(k), value, found)
+         total = total + value
+         if (.not. found) call self%spot%add_at(z - self%image(k), 0.0_dp, exact)
+      end do
+      total = total + exact(1)
+   end function quick_sum
+
    !> Gaps at the trough and at the lattice's saddle, and the pressure at the saddle.
-   subroutine fitted_separations(lattice, answer, trough_gap, saddle_gap, saddle_pressure, refinement)
+   subroutine fitted_separations(lattice, answer, trough_gap, saddle_gap, saddle_pressure, accuracy)
       type(wave_lattice), intent(in) :: lattice    !! the answer's
       type(fitted_answer), intent(in) :: answer    !! with a solution, status <= fitted_less_exact
       real(dp), intent(out) :: trough_gap          !! [Delta]
       real(dp), intent(out) :: saddle_gap          !! 0 above merging [Delta]
       real(dp), intent(out) :: saddle_pressure     !! 0 below merging [p*]
-      real(dp), intent(in), optional :: refinement !! as of start_fitted_fields
+      real(dp), intent(in), optional :: accuracy   !! as of start_fitted_fields
 
       type(fitted_fields) :: fields
       real(dp) :: displacement, pressure
 
-      call start_fitted_fields(fields, lattice, answer, refinement)
+      call start_fitted_fields(fields, lattice, answer, accuracy)
       call fields%at(lattice%trough, pressure, displacement, trough_gap)
       call fields%at(lattice%saddle, saddle_pressure, displacement, saddle_gap)
    end subroutine fitted_separations
@@ -202,80 +278,5 @@ contains
          z(i) = self%centre + self%answer%solution%shape%place(exp(cmplx(0.0_dp, 2*pi*(i - 1)/points, dp)))
       end do
    end function edge
-
-   !> The same with one island a cell.
-   real(dp) function integral_at(self, z) result(total)
-      class(fitted_fields), intent(inout) :: self
-      complex(dp), intent(in) :: z      !! from the centre, reduced [s]
-
-      real(dp), dimension(size(self%sources%place)) :: value, x, y
-      complex(dp) :: from_image, w
-      integer :: k, n, power, rule
-
-      n = size(self%sources%place)
-      x = z%re - self%sources%place%re
-      y = z%im - self%sources%place%im
-      if (self%answer%island) then
-         call self%lattice%pressure_kernel%evaluate(n, x, y, value)
-         power = self%lattice%pressure_kernel%power
-      else
-         call self%lattice%displacement_kernel%evaluate(n, x, y, value)
-         power = self%lattice%displacement_kernel%power
-      end if
-      total = dot_product(self%sources%strength, value)
-      do k = 1, size(self%image)
-         from_image = z - self%image(k)
-         call find_rule(self, from_image, w, rule)
-         if (rule == by_chords) total = total + integral_by_chords(self, w)
-         if (rule == by_finer_rule) then
-            if (.not. allocated(self%near_sources%place)) &
-               call start_disc_sources(self%near_sources, self%answer%solution, &
-                                       ceiling(self%near_refinement*field_radii), &
-                                       ceiling(self%near_refinement*field_angles))
-            total = total + self%near_sources%sum_at(from_image, power)
-         end if
-         ! The smooth part has the terms 1/r^power of all images but not that of the one at the origin.
-         if (rule == by_plain_rule .and. k == 1) total = total + self%sources%sum_at(from_image, power)
-         if (rule /= by_plain_rule .and. k > 1) total = total - self%sources%sum_at(from_image, power)
-      end do
-   end function integral_at
-
-   !> How to take the integral of 1/r or 1/r^3 over one spot or island for a place.
-   !>
-   !> A rule over the disc converges as the powers of |v| of the exterior map. Near places take chords through their
-   !> preimage under the continued map, as far as that goes, which beyond sharp tips is not far.
-   pure subroutine find_rule(fields, z, w, rule)
-      type(fitted_fields), intent(in) :: fields
-      complex(dp), intent(in) :: z                 !! from the centre of this spot or island [s]
-      complex(dp), intent(out) :: w                !! the preimage, for chords
-      integer, intent(out) :: rule
-
-      complex(dp) :: v
-      logical :: found
-
-      rule = by_plain_rule
-      if (abs(z) > fields%reach) return
-      call find_exterior(fields%answer%solution%shape, z, v, found)
-      if (found .and. abs(v) > near_field_radius) return
-      call find_preimage(fields%answer%solution%shape, z, w, found)
-      rule = merge(by_chords, by_finer_rule, found)
-   end subroutine find_rule
-
-   !> The integral over one spot or island with 1/r, or over an island with 1/r^3.
-   real(dp) function integral_by_chords(fields, w) result(integral)
-      type(fitted_fields), intent(inout) :: fields
-      complex(dp), intent(in) :: w      !! preimage of the place, outside the disc
-
-      real(dp) :: row(size(fields%answer%solution%c))
-
-      associate (solution => fields%answer%solution)
-         if (solution%island) then
-            integral = fields%outside%integral(solution%basis, solution%shape, w, solution%c)
-         else
-            call fields%chords%rows(solution%basis, solution%shape, w, solution%c, row)
-            integral = dot_product(row, solution%c)
-         end if
-      end associate
-   end function integral_by_chords
 
 end module wavycon_fitted_fields

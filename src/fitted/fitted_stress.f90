@@ -103,7 +103,7 @@ contains
          + self%relative_error*maxval(abs(matmul(parts, at_limits)))
       associate (solution => self%of_degree(0))
          distance = hypot(solution%distance_from_edges(place), depth)
-         error = error + self%peak_pressure/sqrt(solution%solution%shape%b(0)) &
+         error = error + self%peak_pressure/sqrt(solution%spot%solution%shape%b(0)) &
             *self%edge_error/(sqrt(distance + self%edge_error) + sqrt(distance))
       end associate
    end function error_at

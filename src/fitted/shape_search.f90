@@ -17,10 +17,6 @@ module wavycon_shape_search
    !> the fold of the continued map. The place then counts as outside, and integrals to it take the rule over the disc.
    !> It matters in fields near merging: without it a map of the hexagonal wave at P = 0.7 p* takes four times as long.
    real(dp), parameter :: least_inverse_jacobian = 1e-3_dp
-   !> Guard: least derivative of the edge's polar angle that a Newton step divides by. It is smaller only at sharp tips,
-   !> where a full step would overshoot; a smaller step takes longer. Without it some 0.3 % of the lines of maps of the
-   !> square lattice at loads from 0.01 to 0.95 p* change.
-   real(dp), parameter :: least_turning = 0.2_dp
 
 contains
 
@@ -28,12 +24,11 @@ contains
    !>
    !> Newton's method, README.md (F19), from the point of the edge that is seen from the centre in the direction of z.
    !> The shapes in use are star-shaped: there is one such point.
-   pure subroutine find_preimage(shape, z, w, found, near)
+   pure subroutine find_preimage(shape, z, w, found)
       type(shape_map), intent(in) :: shape
       complex(dp), intent(in) :: z                !! [s]
       complex(dp), intent(out) :: w
       logical, intent(out) :: found               !! false where the continued map folds before it gets to z
-      complex(dp), intent(in), optional :: near   !! the preimage of a neighbouring place, to start from
 
       !> Step, and distance over b_0, that rounding leaves.
       real(dp), parameter :: rounding = 64*epsilon(1.0_dp)
@@ -44,12 +39,8 @@ contains
       w = 0.0_dp
       found = abs(z) <= tiny(1.0_dp)
       if (found) return
-      if (present(near)) then
-         w = near
-      else
-         call find_edge_in_direction(shape, z, w, edge)
-         w = w*min(abs(z)/abs(edge), farthest_inverse_start)
-      end if
+      call find_edge_in_direction(shape, z, w, edge)
+      w = w*min(abs(z)/abs(edge), farthest_inverse_start)
       do i = 1, most_inverse_steps
          left = z - shape%place(w)
          slope = shape%conjugate_slope(w)
@@ -63,7 +54,8 @@ contains
       end do
    end subroutine find_preimage
 
-   !> The point of the edge that lies in the direction of z, by Newton's method for its polar angle.
+   !> The point of the edge that lies in the direction of z, by Newton's method for its polar angle between two mirror
+   !> lines, and by halving where that would leave them: at sharp tips and on long flat sides.
    pure subroutine find_edge_in_direction(shape, z, w, edge)
       type(shape_map), intent(in) :: shape
       complex(dp), intent(in) :: z         !! not the centre
@@ -72,19 +64,27 @@ contains
 
       !> Angle that is good enough for a start.
       real(dp), parameter :: angle_tolerance = 1e-10_dp
-      real(dp) :: angle, direction, missing
+      real(dp) :: above, angle, below, direction, missing
       integer :: i
 
       direction = atan2(z%im, z%re)
+      below = pi/shape%fold*floor(direction*shape%fold/pi)
+      above = below + pi/shape%fold
       angle = direction
       do i = 1, most_inverse_steps
          w = exp(cmplx(0.0_dp, angle, dp))
          edge = shape%place(w)
          missing = direction - atan2(edge%im, edge%re)
          missing = missing - 2*pi*anint(missing/(2*pi))
-         ! The polar angle's derivative, which is small at tips.
-         angle = angle + missing/max(real(shape%tangent(w)/edge, dp), least_turning)
          if (abs(missing) < angle_tolerance) exit
+         if (missing > 0.0_dp) then
+            below = angle
+         else
+            above = angle
+         end if
+         ! The polar angle's derivative, which is small at tips.
+         angle = angle + missing/max(real(shape%tangent(w)/edge, dp), tiny(1.0_dp))
+         if (.not. (angle > below .and. angle < above)) angle = 0.5_dp*(below + above)
       end do
    end subroutine find_edge_in_direction
 

@@ -43,17 +43,20 @@ contains
       complex(dp), intent(in) :: w(n)
       complex(dp), intent(out) :: slope(n), conjugate_slope(n)
 
-      complex(dp), dimension(n) :: step, total
+      complex(dp), dimension(n) :: lower, step, total
       integer :: k
 
+      lower = 1.0_dp
+      do k = 1, shape%fold - 2
+         lower = lower*conjg(w)
+      end do
       ! Horner's scheme in conj(w)^fold.
-      step = conjg(w)**shape%fold
+      step = lower*conjg(w)**2
       total = 0.0_dp
       do k = ubound(shape%b, 1), 1, -1
          total = total*step + (shape%fold*k - 1)*shape%b(k)
       end do
-      conjugate_slope = total
-      if (shape%fold > 2) conjugate_slope = total*conjg(w)**(shape%fold - 2)
+      conjugate_slope = total*lower
       slope = shape%b(0)
       if (shape%clustering > 0.0_dp) &
          slope = shape%b(0)*(1.0_dp - (shape%fold + 1)*shape%clustering*conjg(step))
@@ -77,8 +80,8 @@ contains
          of_term = w*of_term + origin**(j - 1)
       end do
       of_fold = w*of_term + origin**(m - 1)
-      power = w**m
       origin_step = origin**m
+      power = origin_step + step*of_fold
       origin_power = origin**(m - 1)
       total = shape%b(1)*of_term
       do k = 2, ubound(shape%b, 1)

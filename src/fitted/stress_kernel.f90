@@ -13,20 +13,47 @@ module wavycon_stress_kernel
    implicit none (type, external)
    private
 
-   public :: add_gap, add_gap_gradient, add_pressure, stress_parts
+   public :: add_gap, add_pressure, add_sources, stress_parts
 
    !> Number of fields, and their order: H, z H_z, then real and imaginary parts of D^2 L, z D^2 V and z D H.
    integer, parameter, public :: stress_fields = 8
    integer, parameter, public :: h_field = 1, hz_field = 2, l_field = 3, v_field = 5, dh_field = 7
+
+   !> What sources are summed for: all these fields, or on the surface, outside of the sources, the displacement by a
+   !> pressure [Delta] or the pressure by a gap.
+   integer, parameter, public :: all_fields = 1, surface_field = 2
 
    !> Sources that are evaluated at a time: their kernels stay in the first cache.
    integer, parameter :: block = 128
 
 contains
 
+   !> Adds the fields of n point forces or, with a gap, of the pressure by its gradient at n points.
+   !>
+   !> N.B. On the surface, z = 0, no source may be at the place.
+   pure subroutine add_sources(kernel, gap, n, x, y, z, strength_x, strength_y, fields)
+      integer, intent(in) :: kernel                           !! all_fields or surface_field
+      logical, intent(in) :: gap
+      integer, intent(in) :: n
+      real(dp), intent(in) :: x(n), y(n)                      !! the place as seen from the sources [s]
+      real(dp), intent(in) :: z                               !! depth >= 0 [s]
+      real(dp), intent(in) :: strength_x(n), strength_y(n)    !! times area: pressure, and 0; or the gap's gradient
+      real(dp), intent(inout) :: fields(stress_fields)        !! of surface_field the first one
+
+      if (kernel == all_fields .and. gap) then
+         call add_gap_gradient(n, x, y, z, strength_x, strength_y, fields)
+      else if (kernel == all_fields) then
+         call add_pressure(n, x, y, z, strength_x, fields)
+      else if (gap) then
+         fields(1) = fields(1) + sum((x*strength_x + y*strength_y)/sqrt(x**2 + y**2)**3)/(4*pi**2)
+      else
+         fields(1) = fields(1) + sum(strength_x/sqrt(x**2 + y**2))
+      end if
+   end subroutine add_sources
+
    !> Adds the fields of n point forces at one place, README.md (F52).
    !>
-   !> N.B. On the surface, z = 0, none may be at the place.
+   !> N.B. As of add_sources.
    pure subroutine add_pressure(n, x, y, z, force, fields)
       integer, intent(in) :: n
       real(dp), intent(in) :: x(n), y(n)           !! the place as seen from the sources [s]
@@ -72,7 +99,7 @@ contains
 
    !> Adds the fields of the pressure |k| g_k of a gap g, by its gradient at n points: README.md (F53).
    !>
-   !> N.B. As of add_pressure.
+   !> N.B. As of add_sources.
    pure subroutine add_gap_gradient(n, x, y, z, gradient_x, gradient_y, fields)
       integer, intent(in) :: n
       real(dp), intent(in) :: x(n), y(n)                      !! the place as seen from the sources [s]

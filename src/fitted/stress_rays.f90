@@ -11,7 +11,7 @@ module wavycon_stress_rays
    use wavycon_gauss_rules, only: gauss_jacobi
    use wavycon_kinds, only: dp
    use wavycon_source_density, only: find_density, find_slopes, place_differences
-   use wavycon_stress_kernel, only: add_gap_gradient, add_pressure, h_field, l_field, stress_fields
+   use wavycon_stress_kernel, only: add_sources, all_fields, h_field, l_field, stress_fields
    implicit none (type, external)
    private
 
@@ -24,6 +24,7 @@ module wavycon_stress_rays
    end type gauss_rule
 
    type :: stress_rays
+      integer, private :: kernel = all_fields                  !! what is integrated, as of wavycon_stress_kernel
       real(dp), private :: least_points = 0.0_dp               !! on a ray, and directions in a quarter of a turn
       real(dp), private :: angles_per_unit = 0.0_dp            !! more directions for each unit of a quarter in x
       real(dp), private :: points_per_unit = 0.0_dp            !! more points for each unit of a ray in eta
@@ -37,11 +38,13 @@ module wavycon_stress_rays
 
 contains
 
-   subroutine start_stress_rays(rays, degree, digits)
+   subroutine start_stress_rays(rays, degree, digits, kernel)
       type(stress_rays), intent(out) :: rays
       integer, intent(in) :: degree              !! of the expansion
       real(dp), intent(in) :: digits             !! natural logarithm of 1/accuracy
+      integer, intent(in) :: kernel              !! all_fields, or surface_field for places outside
 
+      rays%kernel = kernel
       associate (share => digits/27.0_dp)
          rays%least_points = share*(ray_points + ray_points_per_degree*degree)
          rays%angles_per_unit = share*ray_angles_per_unit
@@ -66,7 +69,7 @@ contains
 
       scale = solution%shape%b(0)
       distance = hypot(abs(offset), depth)
-      on_surface = distance <= epsilon(1.0_dp)**2*scale
+      on_surface = self%kernel == all_fields .and. distance <= epsilon(1.0_dp)**2*scale
       edge = max((1.0_dp - abs(origin))*(1.0_dp + abs(origin)), at_edge)
       call find_slopes(solution%shape, 1, [origin], slope, conjugate_slope)
       ! A place outside sees the edge vary on the scale of its distance.
@@ -199,12 +202,8 @@ contains
          y = difference%im
          strength = density%re
          own = 0.0_dp
-         if (solution%island) then
-            strength_y = density%im
-            call add_gap_gradient(n, x, y, depth, strength, strength_y, own)
-         else
-            call add_pressure(n, x, y, depth, strength, own)
-         end if
+         strength_y = density%im
+         call add_sources(self%kernel, solution%island, n, x, y, depth, strength, strength_y, own)
          if (on_surface) then
             ! Less 1/t times the value at t = 0, of which the integral to a small circle in z is known.
             squared_stretch = stretch%re**2 + stretch%im**2

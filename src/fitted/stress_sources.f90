@@ -5,7 +5,7 @@ module wavycon_stress_sources
    use wavycon_expansion, only: expansion
    use wavycon_kinds, only: dp
    use wavycon_source_density, only: find_density
-   use wavycon_stress_kernel, only: add_gap_gradient, add_pressure, stress_fields
+   use wavycon_stress_kernel, only: add_sources, stress_fields
    implicit none (type, external)
    private
 
@@ -14,7 +14,7 @@ module wavycon_stress_sources
    type :: stress_sources
       logical :: island = .false.
       real(dp), allocatable :: x(:), y(:)                       !! from the centre, shape (n) [s]
-      real(dp), allocatable :: strength(:), strength_y(:)       !! force, or the gap's gradient along x and y, with area
+      real(dp), allocatable :: strength(:), strength_y(:)       !! force and 0, or the gap's gradient, with area
    contains
       procedure :: add_at
    end type stress_sources
@@ -41,7 +41,7 @@ contains
       place = solution%shape%place(rule%point)
       sources%island = solution%island
       allocate (sources%x(2*fold*n), sources%y(2*fold*n), sources%strength(2*fold*n))
-      if (sources%island) allocate (sources%strength_y(2*fold*n))
+      allocate (sources%strength_y(2*fold*n), source=0.0_dp)
       do g = 0, fold - 1
          turn = exp(cmplx(0.0_dp, 2*pi*g/fold, dp))
          call set_copy(2*g, turn*place, turn*density)
@@ -67,19 +67,15 @@ contains
    end subroutine start_stress_sources
 
    !> Adds the fields at a place.
-   pure subroutine add_at(self, place, depth, fields)
+   pure subroutine add_at(self, kernel, place, depth, fields)
       class(stress_sources), intent(in) :: self
+      integer, intent(in) :: kernel                     !! as of add_sources
       complex(dp), intent(in) :: place                  !! from the centre [s]
       real(dp), intent(in) :: depth                     !! >= 0 [s]
       real(dp), intent(inout) :: fields(stress_fields)
 
-      associate (x => place%re - self%x, y => place%im - self%y)
-         if (self%island) then
-            call add_gap_gradient(size(self%x), x, y, depth, self%strength, self%strength_y, fields)
-         else
-            call add_pressure(size(self%x), x, y, depth, self%strength, fields)
-         end if
-      end associate
+      call add_sources(kernel, self%island, size(self%x), place%re - self%x, place%im - self%y, depth, self%strength, &
+                       self%strength_y, fields)
    end subroutine add_at
 
 end module wavycon_stress_sources

@@ -213,67 +213,22 @@ module wavycon_fitted_tuning
 
    ! Fields.
 
-   integer, parameter, public :: field_angles = 96
-      !! Points per turn of the rule for spots and islands that are far. Smaller: the quadrature's error shows in the
-      !! fields. Larger: more expensive fields.
-   integer, parameter, public :: field_radii = 20
-      !! Points per radius of that rule. As field_angles.
-   real(dp), parameter, public :: near_field_refinement = 3.0_dp
-      !! Factor on both for near places that have no chords: the continued map does not get far beyond sharp tips.
-      !! Smaller: the quadrature's error shows there. Larger: more expensive fields.
-   real(dp), parameter, public :: near_field_radius = 1.6_dp
-      !! |v| of the exterior map up to which a place is near to a spot or island: its integral is taken along chords or
-      !! by a finer rule. Smaller: the plain rule does not resolve the nearest places. Larger: chords where that rule is
-      !! exact.
-   real(dp), parameter, public :: field_radius_margin = 1.05_dp
-      !! Factor on a shape's radius, which is that of some of its points. Smaller: places inside sharp tips count as
-      !! outside. Larger: the map is inverted for places far outside.
-   integer, parameter, public :: field_chords = 96
-      !! Chords through a place. Smaller: the quadrature's error shows in the fields. Larger: more expensive fields.
-   integer, parameter, public :: field_chord_points = 24
-      !! Points on each of them. As field_angles.
-   integer, parameter, public :: outside_chords = 64
-      !! Chords of the integral of 1/r^3 for a place outside. As field_angles.
-   integer, parameter, public :: outside_half_points = 40
-      !! Points on either half of each of them. As field_angles.
-   real(dp), parameter, public :: detail_refinement = 2.0_dp
-      !! How much finer the rules are that check a field's quadrature. Smaller than 2 checks nothing. Larger: more
-      !! time.
+   real(dp), parameter, public :: field_accuracy = 1e-12_dp
+      !! Accuracy of the integrals over spots or islands over the fields' scale. Larger: the error of rules and rays
+      !! shows in fields. Smaller: more expensive fields.
+   integer, parameter, public :: field_angles = 48
+      !! Least points per turn of the rule for spots and islands that are far. Smaller: more of them count as near.
+      !! Larger: more points of the periodic kernel.
+   real(dp), parameter, public :: field_angles_per_degree = 2.0_dp
+      !! The same over the degree.
+   integer, parameter, public :: field_radii = 12
+      !! Least points per radius of that rule. As field_angles.
+   real(dp), parameter, public :: field_radii_per_degree = 0.6_dp
+      !! The same over the degree.
 
-   ! Tables of fields.
-
-   real(dp), parameter, public :: table_share = 0.1_dp
-      !! Error of a table over the estimated one of the solution. Larger: the table's error shows in maps. Smaller: more
-      !! places.
-   real(dp), parameter, public :: table_share_of_accuracy = 1e-3_dp
-      !! The same over the accuracy asked for, if that is larger: solutions may be much more exact than asked for.
-   real(dp), parameter, public :: least_table_tolerance = 2e-11_dp
-      !! Least error of a table over the field's scale. Smaller: the quadrature's error next to sharp shapes hinders it.
    integer, parameter, public :: least_map = 150
-      !! Places outside from which on a map takes a table. Smaller: tables that cost more than they save. Larger: slow
+      !! Places outside from which on a map takes a series. Smaller: series that cost more than they save. Larger: slow
       !! maps of few points.
-   integer, parameter, public :: first_table_size = 8
-      !! Terms of a table that are tried first, either way. Larger: places that low accuracies do not need. Smaller: a
-      !! poor guess of the terms that are needed.
-   integer, parameter, public :: last_table_size = 48
-      !! Most terms either way. Larger: tables near merging that cost more than the map. Smaller: maps near merging
-      !! without a table.
-   real(dp), parameter, public :: table_bend = 2.0_dp
-      !! Place of the pole, over the border's, of the rational coordinate from edge to border. Smaller: terms fall
-      !! slowly because of the neighbour's edge. Larger: because of the spot's centre, at light loads.
-   real(dp), parameter, public :: largest_enlargement = 2.5_dp
-      !! Largest factor on the number of terms from one fit to the next. Larger: too many terms where the first ones do
-      !! not show yet how they fall. Smaller: more fits.
-   real(dp), parameter, public :: last_terms = 8.0_dp
-      !! Sum of a table's last terms over its tolerance. The error is about the sum of the terms left out, some 20 times
-      !! smaller than the last ones. Larger: tables beyond their tolerance. Smaller: places that are not needed.
-   real(dp), parameter, public :: coarsest_rules = 0.25_dp
-      !! Least factor on the points of the rules that a table's places take. Larger: more points than low accuracies
-      !! need. Smaller: more trials.
-   real(dp), parameter, public :: rules_step = 1.3_dp
-      !! Factor from one such trial to the next. Larger: more points than needed. Smaller: more trials.
-   real(dp), parameter, public :: rules_share = 0.1_dp
-      !! Error of the rules over that of the table. Larger: the rules' error shows. Smaller: more points.
 
    ! Stresses in the half-space.
 
@@ -301,10 +256,10 @@ module wavycon_fitted_tuning
       !! Larger: finer rules, or rays, than needed.
    real(dp), parameter, public :: rule_radii_factor = 1.5_dp
       !! The same of radii.
-   real(dp), parameter, public :: ray_points = 12.0_dp
+   real(dp), parameter, public :: ray_points = 17.0_dp
       !! Points on a ray, and directions in a quarter of a turn, at an accuracy of 2e-12, beside the following. Smaller:
       !! the quadrature's error shows next to spots and islands. Larger: slower rays.
-   real(dp), parameter, public :: ray_points_per_degree = 0.3_dp
+   real(dp), parameter, public :: ray_points_per_degree = 0.2_dp
       !! More of both for each degree.
    real(dp), parameter, public :: ray_angles_per_unit = 4.8_dp
       !! More directions for each factor of e in the distance from the edge.

@@ -1,0 +1,112 @@
+!> What one spot or island adds to the displacement or the pressure outside of it, as a series in coordinates that
+!> follow its edge:
+!>
+!>     sum over j, k of c_jk cos(fold j arg v) T_k(2 (1 - 1/|v|)^(1/2) - 1),   README.md (F49),
+!>
+!> v the preimage of the place under the exterior map, T Chebyshev's polynomials. It holds from the edge to infinity.
+module wavycon_exterior_series
+   use wavycon_chebyshev, only: chebyshev_coefficients, chebyshev_node, chebyshev_polynomials
+   use wavycon_constants, only: pi
+   use wavycon_exterior_map, only: exterior_place, find_exterior
+   use wavycon_expansion, only: expansion
+   use wavycon_kinds, only: dp
+   use wavycon_shape_map, only: shape_map
+   use wavycon_spot_integral, only: spot_integral, start_spot_integral
+   use wavycon_stress_kernel, only: stress_fields, surface_field
+   implicit none (type, external)
+   private
+
+   public :: exterior_series, start_exterior_series
+
+   type :: exterior_series
+      real(dp), allocatable, private :: c(:, :)     !! shape (n_theta, n_r)
+   contains
+      procedure :: at
+   end type exterior_series
+
+   !> Terms of the first series either way.
+   integer, parameter :: first_terms = 10
+   !> Accuracy of the values over that of the series.
+   real(dp), parameter :: values_share = 0.05_dp
+   !> What is left out over the sum of the last two terms: at sharp tips terms fall slowly.
+   real(dp), parameter :: rest = 3.0_dp
+   !> Range of the factor on the number of terms from one fit to the next.
+   real(dp), parameter :: least_factor = 1.15_dp, largest_factor = 2.5_dp
+
+contains
+
+   !> Makes the series, with more terms until the last ones are below the accuracy.
+   subroutine start_exterior_series(series, solution, accuracy, most_places, found)
+      type(exterior_series), intent(out) :: series
+      type(expansion), intent(in) :: solution
+      real(dp), intent(in) :: accuracy              !! over the largest term, > 0
+      integer, intent(in) :: most_places            !! most places that values may be taken at
+      logical, intent(out) :: found                 !! whether they were enough
+
+      type(spot_integral) :: spot
+      integer :: places, terms(2)
+
+      call start_spot_integral(spot, solution, values_share*accuracy, surface_field)
+      terms = first_terms
+      places = 0
+      do
+         places = places + product(terms)
+         found = places <= most_places
+         if (.not. found) return
+         call fit_terms(series, spot, terms)
+         associate (c => abs(series%c)/maxval(abs(series%c)))
+            associate (last => rest*[sum(c(terms(1) - 1:, :)), sum(c(:, terms(2) - 1:))])
+               if (all(last <= accuracy)) return
+               ! As many as bring the last ones below the accuracy if they go on to fall as they did.
+               terms = merge(terms, ceiling(terms*min(max(log(accuracy)/min(log(last), -0.1_dp), least_factor), &
+                                                      largest_factor)), last <= accuracy)
+            end associate
+         end associate
+      end do
+   end subroutine start_exterior_series
+
+   !> Fits a number of terms to as many values.
+   subroutine fit_terms(series, spot, terms)
+      type(exterior_series), intent(inout) :: series
+      type(spot_integral), intent(inout) :: spot    !! of the surface field
+      integer, intent(in) :: terms(2)               !! n_theta, n_r
+
+      complex(dp) :: v
+      real(dp) :: fields(stress_fields), s, values(terms(1), terms(2))
+      integer :: i, j
+
+      associate (shape => spot%solution%shape)
+         do j = 1, terms(2)
+            s = 0.5_dp*(1.0_dp + chebyshev_node(j, terms(2)))
+            do i = 1, terms(1)
+               v = exp(cmplx(0.0_dp, pi*(i - 0.5_dp)/(terms(1)*shape%fold), dp))/((1.0_dp - s)*(1.0_dp + s))
+               fields = 0.0_dp
+               call spot%add_at(exterior_place(shape, v), 0.0_dp, fields)
+               values(i, j) = fields(1)
+            end do
+         end do
+      end associate
+      series%c = matmul(chebyshev_coefficients(terms(1)), &
+                        matmul(values, transpose(chebyshev_coefficients(terms(2)))))
+   end subroutine fit_terms
+
+   !> The field at a place.
+   pure subroutine at(self, shape, z, value, found)
+      class(exterior_series), intent(in) :: self
+      type(shape_map), intent(in) :: shape          !! the expansion's
+      complex(dp), intent(in) :: z                  !! from the centre of the spot or island, outside of it [s]
+      real(dp), intent(out) :: value
+      logical, intent(out) :: found                 !! false without a preimage, next to the edge
+
+      complex(dp) :: v
+      real(dp) :: of_angle(size(self%c, 1)), of_radius(size(self%c, 2))
+
+      value = 0.0_dp
+      call find_exterior(shape, z, v, found)
+      if (.not. found) return
+      of_angle = chebyshev_polynomials(real((v/abs(v))**shape%fold, dp), size(of_angle))
+      of_radius = chebyshev_polynomials(2*sqrt(max(1.0_dp - 1.0_dp/abs(v), 0.0_dp)) - 1.0_dp, size(of_radius))
+      value = dot_product(of_angle, matmul(self%c, of_radius))
+   end subroutine at
+
+end module wavycon_exterior_series
