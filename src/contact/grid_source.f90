@@ -1,5 +1,6 @@
 !> The source of fields, edge curves and stresses of a load that was solved on a grid: pressures and gaps at its points.
 module wavycon_grid_source
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_measures, only: or_nan
@@ -37,10 +38,11 @@ module wavycon_grid_source
       procedure :: collect
       procedure :: pack => pack_source
       procedure :: unpack => unpack_source
+      procedure :: has_all_columns
    end type grid_source
 
    !> Numbers in the array of pack_source before the field.
-   integer, parameter :: own_values = 9
+   integer, parameter :: own_values = 8
 
 contains
 
@@ -159,9 +161,9 @@ contains
       call move_alloc(own, answer)
    end subroutine stresses
 
-   !> What a checkpoint keeps: the imprint, the stiffness of `edge`, the points along x and y, the width of the slabs
-   !> and the first column of this rank's, whether the cell is turned, whether the grid covers a quarter of it, and the
-   !> pressures and gaps at the own columns.
+   !> What a checkpoint keeps: the imprint, the stiffness of `edge`, the points along x and y, the first of the own
+   !> columns, whether the cell is turned, whether the grid covers a quarter of it, and the pressures and gaps at the own
+   !> columns.
    pure subroutine pack_source(self, values)
       class(grid_source), intent(in) :: self
       real(dp), allocatable, intent(out) :: values(:)   !! not allocated if there is not enough memory
@@ -173,7 +175,7 @@ contains
          rows = size(edge%pressure_or_gap, 1)
          allocate (values(own_values + size(edge%pressure_or_gap, kind=int64)), stat=status)
          if (status /= 0) return
-         values(:own_values) = [self%imprint, edge%stiffness, real([slab%points, slab%width, slab%first], dp), &
+         values(:own_values) = [self%imprint, edge%stiffness, real([slab%points, slab%first], dp), &
                                 merge(1.0_dp, 0.0_dp, [self%turned, edge%even])]
          do j = 1, size(edge%pressure_or_gap, 2)
             values(own_values + (j - 1)*rows + 1:own_values + j*rows) = edge%pressure_or_gap(:, j)
@@ -181,38 +183,54 @@ contains
       end associate
    end subroutine pack_source
 
-   !> Restores what pack_source made. N.B. Without exchange: other slabs may have numbers that are not understood.
-   pure subroutine unpack_source(self, values, understood)
-      class(grid_source), intent(inout) :: self
+   !> Takes the columns that pack_source has put into an array on any rank, as far as they are own ones here. Called for
+   !> the arrays of all ranks, it restores the source: has_all_columns.
+   subroutine unpack_source(self, values, whole, understood)
+      class(grid_source), intent(inout) :: self   !! empty at first
       real(dp), intent(in) :: values(:)
-      logical, intent(out) :: understood                !! .false. if these are not the numbers of a grid
+      logical, intent(in) :: whole                !! whether the own columns are all columns
+      logical, intent(out) :: understood          !! .false. if these are not the numbers of a grid, or of another one
 
-      integer :: columns, j, layout(4)
-      integer(int64) :: rows
+      integer :: columns, first, j, points(2)
+      integer(int64) :: before, rows
       real(dp), allocatable :: field(:, :)
       type(grid_edge), allocatable :: edge
       type(grid_slab) :: slab
 
       understood = size(values) >= own_values
-      if (understood) understood = all(values(4:7) >= 0.0_dp .and. values(4:7) <= huge(layout))
+      if (understood) understood = all(values(4:6) >= 1.0_dp .and. values(4:6) <= huge(points))
       if (.not. understood) return
-      layout = nint(values(4:7))
-      slab = grid_slab(points=layout(:2), width=layout(3), first=layout(4), is_spread=layout(3) < layout(2))
-      slab%last = min(slab%first - 1 + slab%width, slab%points(2))
-      columns = slab%columns()
-      rows = slab%points(1)
-      understood = columns >= 0 .and. rows > 0 .and. rows*columns == size(values, kind=int64) - own_values
+      points = nint(values(4:5))
+      first = nint(values(6))
+      rows = points(1)
+      columns = int((size(values, kind=int64) - own_values)/rows)
+      understood = columns <= points(2) - first + 1 .and. rows*columns == size(values, kind=int64) - own_values
       if (.not. understood) return
-      self%imprint = values(1)
-      self%turned = values(8) > 0.0_dp
-      allocate (field(rows, columns))
-      do j = 1, columns
-         field(:, j) = values(own_values + (j - 1)*rows + 1:own_values + j*rows)
-      end do
-      allocate (edge)
-      call make_grid_edge(edge, field, values(9) > 0.0_dp, values(2:3), slab)
-      call self%take_edge(edge)
+      if (.not. allocated(self%edge)) then
+         self%imprint = values(1)
+         self%turned = values(7) > 0.0_dp
+         call slab%start(points, whole)
+         allocate (field(rows, slab%columns()), source=ieee_value(1.0_dp, ieee_quiet_nan))
+         allocate (edge)
+         call make_grid_edge(edge, field, values(8) > 0.0_dp, values(2:3), slab)
+         call self%take_edge(edge)
+      end if
+      associate (own => self%edge%slab)
+         understood = all(own%points == points)
+         if (.not. understood) return
+         do j = max(first, own%first), min(first + columns - 1, own%last)
+            before = own_values + (j - first)*rows
+            self%edge%pressure_or_gap(:, j - own%first + 1) = values(before + 1:before + rows)
+         end do
+      end associate
    end subroutine unpack_source
+
+   !> Whether unpack has found all own columns.
+   pure logical function has_all_columns(self)
+      class(grid_source), intent(in) :: self
+
+      has_all_columns = .not. any(ieee_is_nan(self%edge%pressure_or_gap(1, :)))
+   end function has_all_columns
 
    !> What each spot carries of the load: the pressures at its points.
    pure subroutine spot_loads(edge, numbers, loads)

@@ -31,6 +31,7 @@ module wavycon_results
       !> The largest von Mises and shear stresses, shape (bodies, loads); not allocated unless the deck asks for them.
       type(largest_stress), allocatable :: von_mises(:, :), shear(:, :)
       type(work_sharing) :: sharing                          !! how the ranks share the work
+      integer, allocatable :: order(:)                       !! the loads in the order in which they are solved
       type(memory_table), pointer :: memory => null()        !! tables are written to it in place of files
    contains
       procedure :: open_table

@@ -1,7 +1,7 @@
 !> Runs a scene from beginning to end: starts the solver, solves all loads, writes the tables.
 module wavycon_run_scene
    use, intrinsic :: iso_fortran_env, only: int64
-   use wavycon_checkpoint, only: checkpoint_file, checkpoint_name, read_checkpoint
+   use wavycon_checkpoint, only: checkpoint_file, checkpoint_name, read_checkpoints
    use wavycon_closing_notes, only: sum_up
    use wavycon_error, only: error_type, exit_file_trouble, exit_fine, exit_not_converged, fatal_error
    use wavycon_find_stresses, only: find_stresses
@@ -12,7 +12,7 @@ module wavycon_run_scene
    use wavycon_results, only: results_type
    use wavycon_run_log, only: run_log
    use wavycon_scene, only: by_pressure, by_yield, scene_type
-   use wavycon_solve_loads, only: solve_loads
+   use wavycon_solve_loads, only: order_loads, solve_loads
    use wavycon_surface, only: whole_surface
    use wavycon_system, only: has_memory_for, make_directories
    use wavycon_tables, only: all_tables, table_item
@@ -93,6 +93,7 @@ contains
       status = exit_fine
       allocate (results%loads(size(known)))
       known = .false.
+      call order_loads(results)
       if (resume) call take_checkpoint(results, known, log, error)
       if (allocated(error)) return
       if (results%sharing%is_first()) call prepare_directory(results%scene, error)
@@ -245,10 +246,10 @@ contains
       type(run_log), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
 
+      character(:), allocatable :: name
       integer(int64) :: ranks_that_know(size(known))
-      logical :: found
 
-      call read_checkpoint(results, known, found, error)
+      call read_checkpoints(results, known, name, error)
       call results%sharing%share_error(error)
       if (allocated(error)) return
       ranks_that_know = merge(1, 0, known)
@@ -258,9 +259,9 @@ contains
          ranks_that_know = ranks_that_know/results%sharing%ranks
          known = ranks_that_know > 0
       end if
-      if (results%sharing%any(found)) then
+      if (allocated(name)) then
          call log%say('resumed   '//integer_text(count(ranks_that_know > 0))//' of '//integer_text(size(known))// &
-                      ' loads are in '//escaped(checkpoint_name(results)))
+                      ' loads are in '//escaped(name))
       else
          call log%say('note: there is no '//escaped(checkpoint_name(results))// &
                       ' to resume from: all loads are solved')

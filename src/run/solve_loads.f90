@@ -13,7 +13,7 @@ module wavycon_solve_loads
    implicit none (type, external)
    private
 
-   public :: solve_loads
+   public :: order_loads, solve_loads
 
    !> Loads of a block where each starts from the last one and loads are spread. The first of a block starts as the
    !> first load of a sweep does. The length does not depend on who solves the block, and so the digits do not.
@@ -21,23 +21,38 @@ module wavycon_solve_loads
 
 contains
 
-   !> Solves and measures all loads that are not known, from the highest to the lowest so that each can start from the
-   !> last one. Where the loads are spread, solves the own ones and takes the measures of the others.
+   !> Orders the loads from the highest to the lowest, so that each can start from the last one, and deals them to the
+   !> ranks if these share them.
+   subroutine order_loads(results)
+      type(results_type), intent(inout) :: results   !! with the solver started
+
+      associate (target => results%scene%target)
+         results%order = descending(merge(-target, target, results%scene%loads_by == by_mean_gap))
+      end associate
+      call results%sharing%deal_loads(results%order, length_of_block(results))
+   end subroutine order_loads
+
+   pure integer function length_of_block(results) result(length)
+      type(results_type), intent(in) :: results
+
+      length = merge(block_length, 1, results%traits%continues_last_load)
+   end function length_of_block
+
+   !> Solves and measures all loads that are not known. Where the loads are spread, solves the own ones and takes the
+   !> measures of the others.
    subroutine solve_loads(results, known, checkpoint, log)
-      type(results_type), intent(inout) :: results       !! with the solver started
+      type(results_type), intent(inout) :: results       !! after order_loads
       logical, intent(in) :: known(:)                    !! of each load: whether the results have its solution
       type(checkpoint_file), intent(inout) :: checkpoint !! the solutions computed here are added to it
       type(run_log), intent(inout), target :: log        !! shows the progress
 
-      integer :: i, length, load, order(size(results%loads))
+      integer :: i, load
       logical :: are_spread
       type(log_progress), target :: progress
 
       are_spread = results%sharing%kind == spread_loads
-      associate (target => results%scene%target, loads_by => results%scene%loads_by, solver => results%solver)
-         order = descending(merge(-target, target, loads_by == by_mean_gap))
-         length = merge(block_length, 1, results%traits%continues_last_load)
-         call results%sharing%deal_loads(order, length)
+      associate (target => results%scene%target, loads_by => results%scene%loads_by, solver => results%solver, &
+                 order => results%order)
          if (are_spread) call results%sharing%work_alone(.true.)
          progress%log => log
          progress%loads = size(order)
@@ -45,7 +60,7 @@ contains
          do i = 1, size(order)
             load = order(i)
             if (.not. results%sharing%is_own_load(load)) cycle
-            if (are_spread .and. mod(i - 1, length) == 0) call solver%forget_last_load()
+            if (are_spread .and. mod(i - 1, length_of_block(results)) == 0) call solver%forget_last_load()
             progress%load = i
             if (known(load)) then
                call solver%skip_load(target(load))

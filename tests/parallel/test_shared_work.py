@@ -5,6 +5,7 @@ usage: test_shared_work.py --mpiexec MPIEXEC --ranks N[,N...] --program WAVYCON 
 """
 import argparse
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -83,7 +84,33 @@ class SharedWork(unittest.TestCase):
         for name in "deck.summary.dat", "deck.contour.dat":
             self.assertEqual((self.folder/"serial"/name).read_bytes(), (self.folder/"ranks"/name).read_bytes())
 
-    def test_a_file_of_another_number_of_ranks_is_refused(self):
+    def interrupt(self, text, ranks):
+        """A run that cannot write its summary, and whose last checkpoint has lost the end of its last load."""
+        shutil.rmtree(self.folder/"results", ignore_errors=True)
+        (self.folder/"results"/"deck.summary.dat").mkdir(parents=True)
+        outcome = self.solve(text, ranks, "results")
+        self.assertNotEqual("", outcome.stderr)
+        (self.folder/"results"/"deck.summary.dat").rmdir()
+        last = sorted((self.folder/"results").glob("deck.checkpoint*"))[-1]
+        last.write_bytes(last.read_bytes()[:-1])
+
+    def test_interrupted_runs_are_resumed_on_any_number_of_ranks(self):
+        """All but the load that was not written whole are restored, and the tables are those of one run."""
+        deck = WAVE + "&load pbar_over_pstar = 0.4, 0.3, 0.2, 0.1 /\n&method solver = 'grid', grid_points = %d /\n"
+        # Loads are dealt to the ranks, or the columns of grids are distributed over them.
+        for text in deck % 64, deck % 512 + "&output lines = .true. /\n":
+            self.solve(text, 0, "whole")
+            for before, now in (0, max(self.ranks)), (max(self.ranks), 0), (max(self.ranks), min(self.ranks)):
+                with self.subTest(before=before, now=now, deck=text):
+                    self.interrupt(text, before)
+                    outcome = self.solve(text, now, "results", "--resume")
+                    self.assertEqual("", outcome.stderr)
+                    self.assertRegex(outcome.stdout, r"(?m)^resumed +3 of 4 loads")
+                    for path in (self.folder/"whole").glob("*.dat"):
+                        self.assertEqual(path.read_bytes(), (self.folder/"results"/path.name).read_bytes())
+                    self.assertEqual([], list((self.folder/"results").glob("*checkpoint*")))
+
+    def test_files_that_are_no_checkpoints_are_refused(self):
         deck = WAVE + "&load pbar_over_pstar = 0.3, 0.1 /\n&method solver = 'grid', grid_points = 1024 /\n"
         (self.folder/"results").mkdir()
         for name, ranks in ("deck.checkpoint", 2), ("deck.checkpoint.0", 1):

@@ -241,7 +241,7 @@ contains
       type(contact_solution) :: again
       type(contact_solution) :: spread_solution, whole_solution
       integer(int64), allocatable :: packed(:)
-      logical :: understood
+      logical :: complete, understood
 
       call solver%start(surface, grid_options(accuracy, points), keep_fields=.true.)
       call work_alone(.true.)
@@ -254,8 +254,8 @@ contains
       call check(whole_solution%status == spread_solution%status)
       call check(same(numbers(whole_solution), numbers(spread_solution)))
       call pack_solution(spread_solution, packed)
-      call unpack_solution(packed, again, understood)
-      call check(understood)
+      call unpack_solution(packed, .false., again, complete, understood)
+      call check(understood .and. complete)
       call check_spread(spread_solution, whole_solution)
       call check_spread(again, whole_solution)
       call again%collect_fields()
