@@ -82,9 +82,8 @@ MAPS = {"odd": (263, 301, "f8"), "mirrored": (256, 384, "f4"), "coarse": (128, 1
 
 def logs(text):
     """The lines of each deck's log, by its name, without times and without what only several ranks say; and all lines."""
-    parts = re.split(r"^deck +(\w+)\.nml$", text, flags=re.MULTILINE)
-    lines = {name: [re.sub(r"^\[ *[\d.]+ s\]", "[]", line) for line in part.splitlines()]
-             for name, part in zip(parts[1::2], parts[2::2])}
+    parts = re.findall(r"^(wavycon .*\ndeck +(\w+)\.nml\n(?:(?!wavycon |\d+ decks: ).*\n)*)", text, re.MULTILINE)
+    lines = {name: [re.sub(r"^\[ *[\d.]+ s\]", "[]", line) for line in part.rstrip().splitlines()] for part, name in parts}
     return {name: [line for line in own if not line.startswith("ranks ")] for name, own in lines.items()}, lines
 
 
@@ -164,35 +163,30 @@ class SameTables(ProgramTest):
             write_npy(self.folder/f"{name}.npy", rough_map(rows, along, rows), kind)
         for name, case in CASES.items():
             (self.folder/f"{name}.nml").write_text(case.deck)
-        every = self.serial([*(f"{name}.nml" for name in CASES), "--output", "serial"])
+        every = self.serial([*(f"{name}.nml" for name in CASES), "--output", "results"])
         self.assertEqual((0, ""), (every.returncode, every.stderr))
+        (self.folder/"results").rename(self.folder/"serial")
         expected, _ = logs(every.stdout)
         first = {}
         for ranks in self.ranks:
             chosen = {name: case for name, case in CASES.items() if ranks in case.ranks}
-            output = f"ranks-{ranks}"
-            outcome = run(self.mpiexec, ranks, [self.parallel, *(f"{name}.nml" for name in chosen), "--output", output],
+            outcome = run(self.mpiexec, ranks, [self.parallel, *(f"{name}.nml" for name in chosen), "--output", "results"],
                           self.folder)
             self.assertEqual((0, ""), (outcome.status, outcome.stderr))
+            results = (self.folder/"results").rename(self.folder/f"ranks-{ranks}")
             found, lines = logs(outcome.stdout)
             for name, case in chosen.items():
                 with self.subTest(ranks=ranks, deck=name):
-                    self.check(name, case, ranks, (expected[name], found[name]), lines[name])
+                    if case.rounding == NONE:
+                        self.assertEqual(expected[name], found[name])
+                    self.assertEqual(len(expected[name]), len(found[name]))
+                    rounding = case.rounding if ranks > 1 else NONE
+                    self.assertEqual([], complaints(name, self.folder/"serial", results, rounding, case.left_out))
                     if ranks > 1:
-                        other = first.setdefault(name, self.folder/output)
-                        self.assertEqual([], complaints(name, other, self.folder/output, min(case.rounding, LAST_DIGIT)),
+                        self.assertRegex("\n".join(lines[name]), case.spread)
+                        fewer = first.setdefault(name, results)
+                        self.assertEqual([], complaints(name, fewer, results, min(case.rounding, LAST_DIGIT)),
                                          "unlike fewer ranks")
-
-    def check(self, name, case, ranks, both_logs, lines):
-        """A deck on some ranks against the serial program."""
-        mine, found = both_logs
-        if case.rounding == NONE:
-            self.assertEqual([line.replace("serial/", f"ranks-{ranks}/") for line in mine], found)
-        self.assertEqual(len(mine), len(found))
-        if ranks > 1:
-            self.assertRegex("\n".join(lines), case.spread)
-        self.assertEqual([], complaints(name, self.folder/"serial", self.folder/f"ranks-{ranks}",
-                                        case.rounding if ranks > 1 else NONE, case.left_out))
 
     # The command line.
 
