@@ -19,22 +19,21 @@ from virtual_environment import go_on_with
 
 # pandas reads numbers fast, to within some units of the last of 16 digits.
 ROUNDING = 1e-15
-# The table in blocks that a library's example reads, beside the summary, and its name for these blocks.
-EXAMPLES = {"pandas": ("lines", "lines"), "numpy": ("map", "maps")}
+# The examples' names of a table in blocks; each also has a summary, which is one block.
+EXAMPLES = {"pandas": "lines", "numpy": "maps"}
+IN_BLOCKS = "lines", "map", "stress_section"
 
 
-def example_of(library):
-    """The example that reads text with a library."""
-    example, = [example for example in page_examples("python")
-                if f"import {library} " in example and f"demo.{EXAMPLES[library][0]}.dat" in example]
-    return example
-
-
-def read_as_in(library, kind, name, path):
-    """What an example has under a name if it reads another table in the place of that kind."""
-    text, names = example_of(library), {}
-    exec(text[:text.index("\nprint(")].replace(f"outputs/demo/demo.{kind}.dat", str(path)), names)
-    return names[name]
+def read_as_in(library, table):
+    """The summary and the blocks that the example of a library has if it reads another table in the place of its own."""
+    text, = [example.split("\nprint(")[0] for example in page_examples("python")
+             if f"import {library} " in example and f"\n{EXAMPLES[library]} =" in example]
+    for kind in re.findall(r"outputs/demo/demo\.(\w+)\.dat", text):
+        if kind in IN_BLOCKS or table.blocks == 1:
+            text = text.replace(f"outputs/demo/demo.{kind}.dat", str(table.path))
+    names = {}
+    exec(text, names)
+    return names["summary"], names[EXAMPLES[library]]
 
 
 class PythonReaders(ProgramTest):
@@ -48,13 +47,13 @@ class PythonReaders(ProgramTest):
 
     def test_all_tables(self):
         for table in self.tables:
-            for library, (kind, name) in EXAMPLES.items():
-                found = read_as_in(library, kind, name, table.path)
+            for library in EXAMPLES:
+                whole, found = read_as_in(library, table)
                 self.assertEqual(len(blocks_of(table)), len(found))
                 for records, block in zip(blocks_of(table), found):
                     self.check(table, records, block)
                 if table.blocks == 1:
-                    self.check(table, table.records(), read_as_in(library, "summary", "summary", table.path))
+                    self.check(table, table.records(), whole)
 
     def check(self, table, records, found):
         """A structured array or a frame: names, numbers and words."""

@@ -41,7 +41,9 @@ def go_on_with(*packages):
         python = python_with(home, packages, packages, options=["--only-binary", ":all:"])
         if not python:
             skip(f"{', '.join(packages)} cannot be installed; see {home}.log")
-        os.execv(python, [python, *words])
+        # What it compiles is kept in the folder: compiling pandas takes as long as these tests.
+        variables = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
+        os.execve(python, [python, *words], dict(variables, PYTHONPYCACHEPREFIX=os.path.join(home, "cache")))
 
 
 def succeeds(command, log):
