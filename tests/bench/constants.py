@@ -18,7 +18,7 @@ import sys
 import tempfile
 
 sys.dont_write_bytecode = True
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent/'regression'))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent/'support'))
 from tables import Table  # noqa: E402
 
 ROOMS = 'fitted', 'map', 'measure', 'contact', 'stress'

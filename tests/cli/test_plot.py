@@ -16,7 +16,8 @@ import tempfile
 import unittest
 import xml.dom.minidom
 
-sys.dont_write_bytecode = True
+from program import ProgramTest, main, skip
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT/"scripts"/"pictures"))
 import facts  # noqa: E402
@@ -26,7 +27,6 @@ import variables  # noqa: E402
 from axes import Scale, axis, chosen, marked_up  # noqa: E402
 from table import NotATable, Table  # noqa: E402
 
-SKIPPED = 77
 SOUND_START = {"png": b"\x89PNG", "svg": b"<?xml", "pdf": b"%PDF"}
 WAVE = """\
 &surface kind = 'wave_2d' /
@@ -67,22 +67,15 @@ DECKS = {
 HEIGHTS = "1 0 1 2\n0 1 2 1\n1 2 4 3\n0 1 1 2\n"
 
 
-class Plot(unittest.TestCase):
-    program = ""
+class Plot(ProgramTest):
     pictures = {}   # paths of the pictures drawn
 
     @classmethod
     def setUpClass(cls):
-        cls.scratch = tempfile.TemporaryDirectory()
-        cls.folder = pathlib.Path(cls.scratch.name)
+        super().setUpClass()
         (cls.folder/"heights.txt").write_text(HEIGHTS)
         for case, deck in DECKS.items():
-            (cls.folder/f"{case}.nml").write_text(deck + "\n")
-            subprocess.run([cls.program, f"{case}.nml", "--quiet", "--output", "."], cwd=cls.folder, check=False)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.scratch.cleanup()
+            cls.run_deck(case, deck + "\n", statuses=(2,) if case == "unsolved" else (0,))
 
     def plot(self, *words, status=0):
         """Runs scripts/plot. Returns what it writes on standard output and on standard error."""
@@ -310,9 +303,7 @@ class Plot(unittest.TestCase):
             self.assertIn("--body 2 shows the second", self.plot("--format", "svg", name)[1])
         self.assertIn("(MPa)", self.drawn("--body", "2", "--depths", "1,9", "bodies.stress_planes.npy"))
         # Loads, bodies and depths of both formats are the same.
-        text = (self.folder/"bodies.nml").read_text().replace("'npy'", "'text'")
-        (self.folder/"bodies.nml").write_text(text)
-        subprocess.run([self.program, "bodies.nml", "--quiet", "--output", "bad"], cwd=self.folder, check=True)
+        self.run_deck("bodies", DECKS["bodies"].replace("'npy'", "'text'") + "\n", output="bad")
         binary, text = (Table(self.folder/name) for name in ("bodies.stress_planes.npy", "bad/bodies.stress_planes.dat"))
         self.assertEqual([(block.load, block.body, block.columns["depth"][0]) for block in text.blocks],
                          [(block.load, block.body, block.columns["depth"][0]) for block in binary.blocks])
@@ -341,8 +332,7 @@ class Plot(unittest.TestCase):
         self.assertIn("no rows", self.plot("bad/head.summary.dat", status=3)[1])
         self.assertEqual("plot: nowhere.dat: No such file or directory\n", self.plot("nowhere.dat", status=3)[1])
         self.plot("bad", status=3)
-        subprocess.run([self.program, "auto.nml", "--quiet", "--output", ".", "--table", "bad/all.dat"], cwd=self.folder,
-                       check=True)
+        self.run_deck("auto", None, "--table", "bad/all.dat")
         self.assertIn("several decks", self.plot("bad/all.dat", status=3)[1])
         shortened = (self.folder/"npy.map.npy").read_bytes()[:-8]
         (self.folder/"bad"/"short.map.npy").write_bytes(shortened)
@@ -457,9 +447,6 @@ class Numbers(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    Plot.program = str(pathlib.Path(sys.argv.pop(sys.argv.index("--program") + 1)).resolve())
-    sys.argv.remove("--program")
     if not shutil.which("gnuplot"):
-        print("SKIPPED: gnuplot is not installed")
-        sys.exit(SKIPPED)
-    unittest.main()
+        skip("gnuplot is not installed")
+    main()

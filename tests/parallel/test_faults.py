@@ -3,19 +3,15 @@
 
 usage: test_faults.py --mpiexec MPIEXEC --ranks 3 --program WAVYCON --parallel WAVYCON_MPI
 """
-import argparse
 import os
 import pathlib
 import shutil
 import signal
 import subprocess
-import sys
-import tempfile
 import time
-import unittest
 
-sys.dont_write_bytecode = True
-from ranks import finish, run, start  # noqa: E402
+from program import ProgramTest, new_folder, skip
+from ranks import finish, main, run, start
 
 RANKS = 3
 SOON = 20.0  # of processes that share a processor [s]
@@ -67,13 +63,11 @@ def is_running(process):
         return False
 
 
-class Faults(unittest.TestCase):
+class Faults(ProgramTest):
     mpiexec = parallel = ""
 
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        self.folder = new_folder(self.addCleanup)
 
     def write(self, text):
         (self.folder/"deck.nml").write_text(text)
@@ -221,18 +215,7 @@ class Faults(unittest.TestCase):
         self.assertEqual(["deck.resolved.nml", "deck.summary.dat"], self.results())
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    for name in "mpiexec", "ranks", "program", "parallel":
-        parser.add_argument(f"--{name}", required=True)
-    options, rest = parser.parse_known_args()
-    for name, value in vars(options).items():
-        setattr(Faults, name, value)
-    if not pathlib.Path("/proc").is_dir():
-        print("SKIPPED: processes are found in /proc, which this system lacks")
-        return 77
-    unittest.main(argv=[sys.argv[0], *rest], verbosity=2)
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    if not pathlib.Path("/proc").is_dir():
+        skip("processes are found in /proc, which this system lacks")
+    main(Faults)

@@ -3,34 +3,23 @@
 
 usage: test_shared_work.py --mpiexec MPIEXEC --ranks N[,N...] --program WAVYCON --parallel WAVYCON_MPI
 """
-import argparse
-import pathlib
 import subprocess
-import sys
-import tempfile
-import unittest
 
-sys.dont_write_bytecode = True
-from ranks import numbers, run  # noqa: E402
+from program import ProgramTest
+from ranks import main, run
+from tables import Table
 
 WAVE = "&surface kind = 'wave_2d' /\n"
 SWEEP = "&load sweep_from = 0.02, sweep_to = 0.95, sweep_steps = 60 /\n"
 EXIT_BAD_INPUT = 1
 
 
-def table(path):
-    """The columns of a table by name."""
-    lines = [line.split() for line in path.read_text().splitlines() if line and not line.startswith("#")]
-    return dict(zip(lines[0], zip(*lines[1:])))
+class SharedWork(ProgramTest):
+    mpiexec = parallel = ""
 
-
-class SharedWork(unittest.TestCase):
-    mpiexec = program = parallel = ""
-
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+    def several(self):
+        """One rank has nothing to share."""
+        return [ranks for ranks in self.ranks if ranks > 1]
 
     def solve(self, text, ranks, output, *options):
         """Runs a deck on so many ranks; 0: by the serial program."""
@@ -45,9 +34,9 @@ class SharedWork(unittest.TestCase):
         for solver in "'fitted', accuracy = 1e-6", "'beale'":
             deck = WAVE + SWEEP + f"&method solver = {solver} /\n"
             self.solve(deck, 0, "serial")
-            serial = table(self.folder/"serial"/"deck.summary.dat")
+            serial = Table(self.folder/"serial"/"deck.summary.dat")
             first = None
-            for ranks in self.ranks:
+            for ranks in self.several():
                 with self.subTest(solver=solver, ranks=ranks):
                     outcome = self.solve(deck, ranks, f"ranks-{ranks}")
                     self.assertEqual((0, ""), (outcome.status, outcome.stderr))
@@ -55,18 +44,18 @@ class SharedWork(unittest.TestCase):
                     text = (self.folder/f"ranks-{ranks}"/"deck.summary.dat").read_text()
                     first = first or text
                     self.assertEqual(first, text)
-                    shared = table(self.folder/f"ranks-{ranks}"/"deck.summary.dat")
+                    shared = Table(self.folder/f"ranks-{ranks}"/"deck.summary.dat")
                     for name in "mean_gap_over_amplitude", "contact_area_fraction":
-                        for one, other in zip(serial[name], shared[name]):
+                        for one, other in zip(serial.column(name), shared.column(name)):
                             self.assertAlmostEqual(float(one), float(other), delta=1e-6)
-                    self.assertEqual(serial["status"], shared["status"])
+                    self.assertEqual(serial.column("status"), shared.column("status"))
 
     def test_loads_on_small_grids_and_their_stresses(self):
         """Each load is solved by itself: the digits are those of the serial program."""
         deck = (WAVE + "&load pbar_over_pstar = 0.3, 0.1, 0.2, 1.2, 0 /\n&stress nu = 0.3, yield_stress = 1 /\n"
                 "&method solver = 'grid', grid_points = 64 /\n")
         self.solve(deck, 0, "serial")
-        for ranks in self.ranks:
+        for ranks in self.several():
             outcome = self.solve(deck, ranks, f"ranks-{ranks}")
             self.assertEqual((0, ""), (outcome.status, outcome.stderr))
             self.assertIn("the loads are spread over them", outcome.stdout)
@@ -97,11 +86,4 @@ class SharedWork(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser()
-    for name in "mpiexec", "ranks", "program", "parallel":
-        parser.add_argument(f"--{name}", required=True)
-    given, rest = parser.parse_known_args()
-    SharedWork.mpiexec, SharedWork.program, SharedWork.parallel = given.mpiexec, given.program, given.parallel
-    # One rank has nothing to share.
-    SharedWork.ranks = tuple(number for number in numbers(given.ranks) if number > 1)
-    unittest.main(argv=[sys.argv[0], *rest])
+    main(SharedWork)

@@ -33,18 +33,15 @@ COLLECTED = "plane", "grid", "no_edge"
 WORDS = "solver", "status", "direction", "region", "deck", "case", "surface_kind", "method_solver"
 
 
-def make_tables(program, folder):
-    """Runs the decks in a folder, and returns all tables."""
-    (folder / "heights.txt").write_text(HEIGHTS)
+def make_tables(test):
+    """Runs the decks in the folder of a ProgramTest, and returns all tables."""
+    (test.folder/"heights.txt").write_text(HEIGHTS)
     for name, text in DECKS.items():
-        (folder / f"{name}.nml").write_text(text)
         # 2: a load of `fitted` has no solution, by intention.
-        result = subprocess.run([program, f"{name}.nml", "--quiet", "--output", "."], cwd=folder, check=False)
-        if result.returncode != (2 if name == "fitted" else 0):
-            raise RuntimeError(f"{name}.nml: exit status {result.returncode}")
-    subprocess.run([program, *(f"{name}.nml" for name in COLLECTED), "--table", "collected.dat", "--quiet",
-                    "--set", "material.e_star=2"], cwd=folder, check=True)
-    return [Table(path) for path in sorted(folder.glob("*.dat"))]
+        test.run_deck(name, text, statuses=(2,) if name == "fitted" else (0,))
+    test.run_deck(COLLECTED[0], None, *(f"{name}.nml" for name in COLLECTED[1:]), "--table", "collected.dat",
+                  "--set", "material.e_star=2", output="collected")
+    return [Table(path) for path in sorted(test.folder.glob("*.dat"))]
 
 
 def blocks_of(table):
@@ -58,9 +55,9 @@ def page_examples(language):
     return re.findall(rf"^```{language}\n(.*?)^```$", PAGE.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
 
 
-def run_page_decks(program, folder):
-    """Runs the decks of these examples in a folder, where they also find the reference values."""
+def run_page_decks(test):
+    """Runs the decks of these examples in the folder of a ProgramTest, where they also find the reference values."""
     for deck in page_examples("fortran"):
-        (folder / "deck.nml").write_text(deck)
-        subprocess.run([program, "deck.nml", "--quiet"], cwd=folder, check=True)
-    (folder / "outputs" / "reference").symlink_to(PAGE.parent / "reference")
+        (test.folder/"deck.nml").write_text(deck)
+        subprocess.run([test.program, "deck.nml", "--quiet"], cwd=test.folder, check=True)
+    (test.folder/"outputs"/"reference").symlink_to(PAGE.parent/"reference")

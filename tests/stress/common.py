@@ -8,7 +8,7 @@ import subprocess
 import sys
 
 sys.dont_write_bytecode = True
-sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent/"regression"))
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent/"support"))
 from tables import Table  # noqa: E402
 
 SECONDS = 2.0  # most processor time of a deck that needs little work [s]
