@@ -19,9 +19,9 @@ module wavycon_ranks
    public :: exchange_columns, gather_columns, move_columns, new_row_exchange
    public :: share_error, share_text, write_shared_columns, end_ranks
 
-   !> Exchanges a matrix whose columns are spread over the ranks for the same matrix with its rows spread, and back. In
-   !> both the elements of a column follow each other. An element has one or two real numbers of one precision. Ranks have
-   !> adjacent columns: all the same number, `width`, but the last ones; likewise rows.
+   !> Exchanges a matrix whose columns are distributed over the ranks for the same matrix with its rows distributed, and
+   !> back. In both the elements of a column follow each other. An element has one or two real numbers of one precision.
+   !> Ranks have adjacent columns: all the same number, `width`, but the last ones; likewise rows.
    type, abstract :: row_exchange
       integer :: columns = 0      !! of the matrix
       integer :: rows = 0         !! of the matrix
@@ -35,7 +35,7 @@ module wavycon_ranks
       procedure(exchange_rows_and_columns), deferred :: to_columns
    end type row_exchange
 
-   !> What the ranks exchange; the extension of the parallel program does it by MPI.
+   !> What the ranks exchange; the parallel program extends the type and does it by MPI.
    type, abstract :: rank_team
    contains
       procedure(get_number), deferred :: rank                  !! of this process, from 0
@@ -207,8 +207,8 @@ contains
       if (allocated(team)) text = team%library()
    end function rank_library
 
-   !> From now on each rank works on something else: no grid is spread, and nothing is exchanged until the ranks work
-   !> together again.
+   !> From now on each rank works on something else: no grid is distributed, and nothing is exchanged until the ranks
+   !> work together again.
    subroutine work_alone(alone)
       logical, intent(in) :: alone
 

@@ -110,7 +110,7 @@ contains
       allocate (source)
       source = self%series
       call move_alloc(programme%x, source%x)
-      ! Without an imprint no point is at H, although a peak between the points may come close.
+      ! Without an residual indentation no point is at H, although a peak between the points may come close.
       call measure_series(source%pressure(pbar_over_pstar), source%displacement(), self%series%edge_level, &
                           solution%measures, merge(self%surface%hardness, huge(1.0_dp), imprint > 0.0_dp))
       ! The crest, from which the approach follows otherwise, is then not in elastic contact.

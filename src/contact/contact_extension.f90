@@ -2,8 +2,8 @@
 !> that: equations (C4a) to (C4c) of README.md in this directory.
 !>
 !> Each coarser grid has half the points each way: a point of it has the mean of four. It needs even numbers of points;
-!> where they become odd the sequence ends. If the grid is spread, so are those coarser ones that are large; small ones
-!> are whole.
+!> where they become odd the sequence ends. If the grid is distributed, so are those coarser ones that are large; small
+!> ones are whole.
 module wavycon_contact_extension
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_tuning, only: decay_alone, decay_growth
@@ -181,7 +181,7 @@ contains
       call complete(part, slab, coarse)
    end subroutine average
 
-   !> Takes the columns of the other slabs where a grid that is whole follows one that is spread.
+   !> Takes the columns of the other slabs where a grid that is whole follows one that is distributed.
    subroutine complete(part, slab, coarse)
       type(grid_slab), intent(in) :: part, slab
       real(sp), intent(inout), contiguous :: coarse(:, :)

@@ -176,7 +176,7 @@ contains
       if (found) call self%source%details(answer, found)
    end subroutine details
 
-   !> The points of the grid if its columns are spread over the ranks, otherwise 0.
+   !> The points of the grid if its columns are distributed over the ranks, otherwise 0.
    pure integer(int64) function spread_points(self)
       class(contact_solution), intent(in) :: self
 
@@ -184,8 +184,8 @@ contains
       if (allocated(self%source)) spread_points = self%source%spread_points
    end function spread_points
 
-   !> Brings fields whose columns are spread over the ranks to the first rank: afterwards it has them whole, the others
-   !> have none. All ranks call it.
+   !> Brings fields whose columns are distributed over the ranks to the first rank: afterwards it has them whole, the
+   !> others have none. All ranks call it.
    subroutine collect_fields(self)
       class(contact_solution), intent(inout) :: self
 

@@ -92,7 +92,7 @@ contains
    !> Number of points in contact, with no open point beside them, whose pressure is so far below that of a neighbour
    !> that a gap may lie between them, o of (C15).
    integer(int64) function possible_openings(edge) result(openings)
-      type(grid_edge), intent(in) :: edge   !! with the columns of the neighbours, if the grid is spread
+      type(grid_edge), intent(in) :: edge   !! with the columns of the neighbours, if the grid is distributed
 
       real(dp), dimension(0:edge%slab%points(1) + 1) :: before, here, next
       integer(int64) :: total(1)

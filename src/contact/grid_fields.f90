@@ -53,7 +53,7 @@ contains
       fields%turned = turned
       fields%parts = surface%parts()
       fields%own_slab = edge%slab
-      ! The points of a turned grid are only every other one of any grid of the cell.
+      ! The points of a rotated grid are only every other one of any grid of the cell.
       if (turned) return
       fields%own_points = edge%slab%points
       if (.not. edge%even) return

@@ -254,7 +254,7 @@ contains
          free(:, j) = 0.0_sp
          if (touched(j)) free(:, j) = merge(1.0_sp, 0.0_sp, is_free(state%pressure(:, j), state%hardness))
       end do
-      ! The edge across the rim of a whole cell is left out: mirror images at the rim are no neighbours.
+      ! The edge across the border of a whole cell is left out: mirror images at the border are no neighbours.
       call state%slab%halo(free, .true., low, high)
       do j = 1, n
          beside = .false.

@@ -1,4 +1,5 @@
-!> The source of fields, edge curves and stresses of a load that was solved on a grid: pressures and gaps at its points.
+!> The source of fields, contact contours and stresses of a load that was solved on a grid: pressures and gaps at its
+!> points.
 module wavycon_grid_source
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_fields, only: contact_fields
@@ -27,7 +28,7 @@ module wavycon_grid_source
 
    type, extends(field_source) :: grid_source
       type(grid_edge), allocatable :: edge    !! pressure and gap at the grid points; always allocated
-      logical :: turned = .false.             !! the grid's cell is the smaller one, turned by 45 degrees
+      logical :: turned = .false.             !! the grid's cell is the smaller one, rotated by 45 degrees
       real(dp) :: imprint = 0.0_dp            !! mean overlap where p = H [Delta] (C22)
    contains
       procedure :: take_edge
@@ -53,7 +54,7 @@ contains
       self%spread_points = merge(product(int(self%edge%slab%points, int64)), 0_int64, self%edge%slab%is_spread)
    end subroutine take_edge
 
-   !> Gathers the pressures and gaps of a grid that is spread where the tables are written.
+   !> Gathers the pressures and gaps of a grid that is distributed where the tables are written.
    subroutine collect(self, is_here)
       class(grid_source), intent(inout) :: self
       logical, intent(out) :: is_here
@@ -134,7 +135,7 @@ contains
       type(fourier_series) :: pressure
       type(grid_transform) :: transform
       type(series_stress), allocatable :: own
-      !> Of the whole cell: pressures, series, waves; twice as many from a turned cell.
+      !> Of the whole cell: pressures, series, waves; twice as many from a rotated cell.
       integer(int64), parameter :: numbers_a_point = 8
       real(dp) :: error
       real(dp), allocatable :: values(:, :)
@@ -159,9 +160,9 @@ contains
       call move_alloc(own, answer)
    end subroutine stresses
 
-   !> What a checkpoint keeps: the imprint, the stiffness of `edge`, the points along x and y, the width of the slabs
-   !> and the first column of this rank's, whether the cell is turned, whether the grid covers a quarter of it, and the
-   !> pressures and gaps at the own columns.
+   !> What a checkpoint keeps: the residual indentation, the stiffness of `edge`, the points along x and y, the width of
+   !> the slabs and the first column of this rank's, whether the cell is rotated, whether the grid covers a quarter of
+   !> it, and the pressures and gaps at the own columns.
    pure subroutine pack_source(self, values)
       class(grid_source), intent(in) :: self
       real(dp), allocatable, intent(out) :: values(:)   !! not allocated if there is not enough memory

@@ -9,8 +9,8 @@ module wavycon_column_layout
 
    public :: column_layout
 
-   !> Columns of a strip. Slabs begin with a strip, so that sums over strips are the same however a grid is spread, and
-   !> means of 2, 4, ... 32 columns have all of them on one rank.
+   !> Columns of a strip. Slabs begin with a strip, so that sums over strips are the same however a grid is distributed,
+   !> and means of 2, 4, ... 32 columns have all of them on one rank.
    integer, parameter, public :: strip_columns = 32
 
    !> Columns that a neighbour may need, and that each rank with columns therefore has at least.
@@ -38,12 +38,12 @@ module wavycon_column_layout
 
 contains
 
-   !> Spreads a grid over the ranks that are at work. The result depends on nothing but the arguments and the number of
-   !> these ranks.
+   !> Distributes a grid over the ranks that are at work. The result depends on nothing but the arguments and the number
+   !> of these ranks.
    subroutine start(self, points, whole)
       class(column_layout), intent(out) :: self
       integer, intent(in) :: points(2)         !! M, N >= 1
-      logical, intent(in), optional :: whole   !! whether the grid is not spread however large it is; .false. if absent
+      logical, intent(in), optional :: whole   !! whether the grid is not distributed however large it is; .false. if absent
 
       integer :: ranks, width
 
@@ -73,7 +73,7 @@ contains
       if (ranks_at_work() > 1) call set_width(self, (points(2) - 1)/ranks_at_work() + 1)
    end subroutine divide
 
-   !> Spreads a grid in slabs of a given width.
+   !> Distributes a grid in slabs of a given width.
    subroutine set_width(self, width)
       class(column_layout), intent(inout) :: self
       integer, intent(in) :: width
@@ -84,7 +84,7 @@ contains
       self%last = min((this_rank() + 1)*width, self%points(2))
    end subroutine set_width
 
-   !> The first and last columns of all ranks, shape (2, ranks), of a grid that is spread; last = first - 1: none.
+   !> The first and last columns of all ranks, shape (2, ranks), of a grid that is distributed; last = first - 1: none.
    function blocks(self)
       class(column_layout), intent(in) :: self
       integer, allocatable :: blocks(:, :)
@@ -130,7 +130,7 @@ contains
       has_memory = has_memory_for(int(self%points(1), int64)*self%width*numbers*ranks_on_this_machine())
    end function has_memory
 
-   !> The ranks that have the columns before and behind the own ones; -1 beyond a rim that mirrors the grid.
+   !> The ranks that have the columns before and behind the own ones; -1 beyond a border that mirrors the grid.
    subroutine find_neighbours(self, even, before, behind)
       class(column_layout), intent(in) :: self
       logical, intent(in) :: even

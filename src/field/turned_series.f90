@@ -1,4 +1,4 @@
-!> Even fields of a square lattice in axes turned by 45 degrees: X = phi + theta, Y = phi - theta.
+!> Even fields of a square lattice in axes rotated by 45 degrees: X = phi + theta, Y = phi - theta.
 !>
 !> A field that is even in both pairs of angles, and does not change when the two angles of a pair are exchanged, is a
 !> sum of cos iX cos jY + cos jX cos iY = cos(i+j)phi cos(i-j)theta + cos(i-j)phi cos(i+j)theta.

@@ -31,12 +31,12 @@ module wavycon_map_statistics
 
 contains
 
-   !> The statistics of a map. The last digit of largest_step(1) may depend on how the map is spread.
+   !> The statistics of a map. The last digit of largest_step(1) may depend on how the map is distributed.
    type(map_statistics) function statistics_of(height, format, path, points) result(statistics)
       real(dp), intent(in) :: height(:, :)   !! over the mean [length], shape (M, N) or (M, columns of the grid's slab)
       character(*), intent(in) :: format     !! as of measured_map
       character(*), intent(in) :: path       !! absolute
-      integer, intent(in), optional :: points(2)   !! M, N of a map that may be spread; the shape of height if absent
+      integer, intent(in), optional :: points(2)   !! M, N of a map that may be distributed; the shape of height if absent
 
       type(grid_slab) :: slab
       real(dp) :: extremes(2)

@@ -43,7 +43,7 @@ contains
 
    !> Prepares a map. 'mirror' leaves the heights as they are: the surface adds the mirror images. Errors:
    !> exit_bad_input for holes that are not to be filled, and for heights that do not determine the trend;
-   !> exit_file_trouble without memory. The holes of a map that is spread cannot be filled.
+   !> exit_file_trouble without memory. The holes of a map that is distributed cannot be filled.
    subroutine prepare_map(source, preparation, length, map, changes, error)
       character(*), intent(in) :: source                !! of the map, for messages
       type(map_preparation), intent(in) :: preparation

@@ -94,7 +94,7 @@ contains
    end function mean_square
 
    !> Makes the heights at the own columns of a grid of the cell (G1), from the waves of own wave numbers along x. They
-   !> do not depend on how the grid is spread.
+   !> do not depend on how the grid is distributed.
    !>
    !> N.B. The random numbers are drawn in the order of (G5), for waves beyond the cut-offs too: the phase of a wave
    !> depends on the seed and its wave numbers only, and the surface does not depend on the grid.
@@ -103,7 +103,7 @@ contains
       !> [length], shape (M, N), N = 1 in 1-D, or (M, columns of the grid's slab).
       real(dp), intent(inout), contiguous :: height(:, :)
       logical, intent(out) :: is_made                      !! .false. if there is no memory for a generator
-      !> M, N, not below least_points_of, of a grid that may be spread; the shape of height if absent.
+      !> M, N, not below least_points_of, of a grid that may be distributed; the shape of height if absent.
       integer, intent(in), optional :: points(2)
 
       type(c_ptr) :: generator
