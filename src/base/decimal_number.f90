@@ -51,7 +51,7 @@ contains
       real(dp), intent(out) :: value    !! 0 if it is not read
       logical, intent(out) :: is_read   !! .false. for any other number and for what is no number
 
-      !> Larger numbers with another digit may be beyond 2**53.
+      !> Above this a number with one more digit may be beyond 2**53.
       integer(int64), parameter :: most = 900719925474098_int64
       !> Sign, 16 digits, point and exponent.
       integer, parameter :: longest = 22

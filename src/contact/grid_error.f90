@@ -19,8 +19,8 @@ module wavycon_grid_error
 
    public :: change_history, estimate_errors, implied_errors, unresolved_errors
 
-   !> Mean gap, contact area and peak pressure on the last grid, and their last two changes: of fewer than three grids
-   !> estimates are unknown.
+   !> Mean gap, contact area and peak pressure on the last grid, and their last two changes; with fewer than three grids
+   !> the estimates are unknown.
    type :: change_history
       real(dp) :: values(3) = unknown
       real(dp) :: change(3) = unknown

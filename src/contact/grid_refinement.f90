@@ -76,8 +76,8 @@ contains
       fine(2*m) = fine(2*m) + (1.0_dp - parts(2, even))*coarse(image_of_point(m + 1, m, even))
    end subroutine refine_line
 
-   !> The part of the nearest coarse point in the first or second of its fine points: on a quarter of the cell it lies
-   !> midway between both, on a whole cell at the first.
+   !> The weight of the nearest coarse point in the first or second of its two fine points: on a quarter of the cell it
+   !> lies midway between both, on a whole cell at the first.
    pure real(dp) function parts(k, even)
       integer, intent(in) :: k
       logical, intent(in) :: even

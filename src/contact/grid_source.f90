@@ -54,7 +54,7 @@ contains
       self%spread_points = merge(product(int(self%edge%slab%points, int64)), 0_int64, self%edge%slab%is_spread)
    end subroutine take_edge
 
-   !> Gathers the pressures and gaps of a grid that is distributed where the tables are written.
+   !> Gathers the pressures and gaps of a distributed grid on the rank that writes the tables.
    subroutine collect(self, is_here)
       class(grid_source), intent(inout) :: self
       logical, intent(out) :: is_here
@@ -102,7 +102,7 @@ contains
       associate (unused => record); end associate
       if (surface%dimension == 2) then
          if (self%turned) then
-            ! The surface's cell is two of the grid's.
+            ! The surface's cell consists of two cells of the grid.
             call trace_edges(self%edge, curves, self%edge%period*[2, 1], self%edge%period(1), numbers)
          else
             call trace_edges(self%edge, curves, numbers=numbers, with_images=surface%mirrored)
@@ -123,9 +123,9 @@ contains
       end if
    end subroutine edge_curves
 
-   !> Of the series that interpolates the pressures at the points. Its error is that of the peak pressure and the part
-   !> of the series' last octave, or unknown as that of the peak is. Without the memory for the series there are no
-   !> stresses.
+   !> The stresses of the series that interpolates the pressures at the points. Their error is that of the peak pressure
+   !> and the part of the series' last octave; it is unknown where that of the peak is. Without the memory for the
+   !> series there are no stresses.
    subroutine stresses(self, record, surface, answer)
       class(grid_source), intent(in) :: self
       type(solution_record), intent(in) :: record
@@ -135,7 +135,7 @@ contains
       type(fourier_series) :: pressure
       type(grid_transform) :: transform
       type(series_stress), allocatable :: own
-      !> Of the whole cell: pressures, series, waves; twice as many from a rotated cell.
+      !> Numbers on the whole cell: pressures, series, waves; twice as many from a rotated cell.
       integer(int64), parameter :: numbers_a_point = 8
       real(dp) :: error
       real(dp), allocatable :: values(:, :)
@@ -147,7 +147,8 @@ contains
          return
       end if
       values = max(self%edge%pressure_or_gap, 0.0_dp)
-      ! If all points are in contact below full contact, they miss a gap; with it closed the pressure there is P - 1.
+      ! If all points are in contact at P < 1, the grid misses a gap. If that gap were closed the pressure there would
+      ! be P - 1.
       error = record%measures%peak_pressure_error
       if (all(values > 0.0_dp)) error = max(error, 1.0_dp - record%pbar_over_pstar)
       error = or_nan(error)
@@ -182,7 +183,8 @@ contains
       end associate
    end subroutine pack_source
 
-   !> Restores what pack_source made. N.B. Without exchange: other slabs may have numbers that are not understood.
+   !> Restores what pack_source made. N.B. The ranks exchange nothing here: on other slabs the numbers may not be
+   !> understood.
    pure subroutine unpack_source(self, values, understood)
       class(grid_source), intent(inout) :: self
       real(dp), intent(in) :: values(:)
@@ -215,7 +217,7 @@ contains
       call self%take_edge(edge)
    end subroutine unpack_source
 
-   !> What each spot carries of the load: the pressures at its points.
+   !> The part of the load that each spot carries: the sum of the pressures at its points.
    pure subroutine spot_loads(edge, numbers, loads)
       type(grid_edge), intent(in) :: edge
       type(region_numbers), intent(in) :: numbers   !! of the points
@@ -234,7 +236,7 @@ contains
       if (numbers%spots > 0) loads = loads/sum(loads)
    end subroutine spot_loads
 
-   !> The same of the strips of a 1-D contact, which begin with the one of the first point.
+   !> The part of the load that each strip of a 1-D contact carries; the first strip is that of the first point.
    pure subroutine strip_loads(edge, strips, loads)
       type(grid_edge), intent(in) :: edge
       integer, intent(in) :: strips   !! their number

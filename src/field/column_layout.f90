@@ -43,7 +43,7 @@ contains
    subroutine start(self, points, whole)
       class(column_layout), intent(out) :: self
       integer, intent(in) :: points(2)         !! M, N >= 1
-      logical, intent(in), optional :: whole   !! whether the grid is not distributed however large it is; .false. if absent
+      logical, intent(in), optional :: whole   !! whether no grid, however large, is distributed; .false. if absent
 
       integer :: ranks, width
 
@@ -63,8 +63,8 @@ contains
       if (width < points(2)) call set_width(self, width)
    end subroutine start
 
-   !> Divides a grid of any size: all ranks at work but the last ones have the same number of columns. For what has
-   !> neither neighbours nor strips.
+   !> Divides a grid of any size: all ranks at work but the last ones have the same number of columns. Only for uses
+   !> without neighbours and strips.
    subroutine divide(self, points)
       class(column_layout), intent(out) :: self
       integer, intent(in) :: points(2)   !! M, N >= 1
@@ -122,7 +122,7 @@ contains
       strips = (self%columns() + strip_columns - 1)/strip_columns
    end function strips
 
-   !> Whether this machine has the memory for so many real numbers at each point of the slabs of all ranks on it.
+   !> Whether this machine has the memory for so many real numbers at each point of the slabs of all its ranks.
    logical function has_memory(self, numbers)
       class(column_layout), intent(in) :: self
       integer, intent(in) :: numbers   !! of each point
@@ -142,7 +142,8 @@ contains
       if (self%last == self%points(2)) behind = merge(-1, 0, even)
    end subroutine find_neighbours
 
-   !> The place among the own columns of that whose image a column beside them is; 0 if another rank has the column.
+   !> For a column beside the own ones: the place, among the own columns, of the column whose image it is; 0 if another
+   !> rank has it.
    pure integer function place_of_image(self, even, column) result(place)
       class(column_layout), intent(in) :: self
       logical, intent(in) :: even

@@ -32,7 +32,7 @@ module wavycon_grid_slab
       procedure :: find_largest
       !> Whether something is true on any rank at work, also if each has the whole grid.
       procedure, nopass :: any => any_rank
-      !> Makes an error of any rank at work that of all, also if each has the whole grid.
+      !> Reports an error of any rank at work to all, also if each has the whole grid.
       procedure, nopass :: share_error
       !> Columns beside the own ones.
       generic :: halo => halo_dp, halo_sp
@@ -46,10 +46,10 @@ module wavycon_grid_slab
 
 contains
 
-   !> The grid of half the points each way, on the ranks as this one: each has the means of its own columns. A rank may
-   !> have as little as one column for its neighbours.
+   !> The grid of half the points each way, distributed like this one: each rank has the means of its own columns. It
+   !> may have as little as one column for its neighbours.
    pure type(grid_slab) function coarser(self)
-      class(grid_slab), intent(in) :: self   !! of even numbers of points, but N may be 1, and of even width if distributed
+      class(grid_slab), intent(in) :: self   !! even numbers of points, but N may be 1; even width if distributed
 
       coarser = self
       coarser%points = max(self%points/2, 1)
@@ -177,7 +177,7 @@ contains
       end do
    end subroutine halo_dp
 
-   !> As halo_dp.
+   !> As halo_dp, in single precision.
    subroutine halo_sp(self, field, even, low, high)
       class(grid_slab), intent(in) :: self
       real(sp), intent(in) :: field(:, :)
@@ -294,8 +294,8 @@ contains
       if (this_rank() > 0) deallocate (whole)
    end subroutine gather_to_first
 
-   !> Prepares the exchange of the own columns for own rows, of a grid that is distributed. The elements may be complex
-   !> numbers, and each column may have another number of them than M.
+   !> Prepares the exchange of own columns for own rows of a distributed grid. The elements may be complex numbers, and
+   !> each column may have another number of them than M.
    subroutine exchange_rows(self, rows, numbers, precision, exchange)
       class(grid_slab), intent(in) :: self
       integer, intent(in) :: rows         !! elements of a column

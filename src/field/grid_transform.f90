@@ -2,8 +2,8 @@
 !>
 !> The points are those of wavycon_grid_points. The values of an even field on a quarter of its cell are a sum of
 !> cosines (DCT-II and III), those of any other field a sum of waves. Columns are transformed along x, then rows of the
-!> spectrum along y. Of a grid that is distributed the field has the own columns, and the series the coefficients of own
-!> wave numbers in X: a series of the shape c(first:last, 0:n), whose component `spread_waves` is the number of all wave
+!> spectrum along y. On a distributed grid the field has the own columns, and the series the coefficients of own wave
+!> numbers in X: a series of the shape c(first:last, 0:n), whose component `spread_waves` is the number of all wave
 !> numbers in X. The digits of the coefficients and of the values do not depend on how the grid is distributed.
 module wavycon_grid_transform
    use, intrinsic :: iso_c_binding, only: c_double, c_double_complex, c_ptr
@@ -47,7 +47,7 @@ contains
       class(grid_transform), intent(out) :: self
       integer, intent(in) :: points(2)         !! M, N >= 1
       logical, intent(in) :: even
-      logical, intent(in), optional :: whole   !! whether the grid is not distributed however large it is; .false. if absent
+      logical, intent(in), optional :: whole   !! whether no grid, however large, is distributed; .false. if absent
 
       self%points = points
       self%even = even

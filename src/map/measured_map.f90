@@ -8,8 +8,8 @@ module wavycon_measured_map
    public :: measured_map
 
    type :: measured_map
-      !> As in the file, 0 where it is missing, shape (M, N): along x, along y; N = 1 for a profile. Of a map that is
-      !> distributed the own columns.
+      !> As in the file, 0 where it is missing, shape (M, N): along x, along y; N = 1 for a profile. If the map is
+      !> distributed it has the own columns.
       real(dp), allocatable :: height(:, :)
       logical, allocatable :: missing(:, :)        !! shape of `height`; not allocated if no height is missing
       logical :: has_missing_value = .false.       !! whether a height had the value that stands for a missing one
@@ -43,7 +43,7 @@ contains
       if (height_unit == '') self%height_unit = length_unit
    end subroutine set_units
 
-   !> Says that `height` has, or will have, the own columns of a map.
+   !> Declares that `height` has, or will have, the own columns of a map.
    pure subroutine spread_over(self, slab)
       class(measured_map), intent(inout) :: self
       type(grid_slab), intent(in) :: slab
@@ -71,7 +71,7 @@ contains
       if (self%slab%is_spread) points = self%slab%points
    end function points
 
-   !> Distributes a map that is whole, if it is large.
+   !> Distributes a whole map if it is large.
    subroutine keep_own_columns(self)
       class(measured_map), intent(inout) :: self
 

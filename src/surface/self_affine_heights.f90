@@ -46,7 +46,7 @@ contains
       type(self_affine_spectrum), intent(in) :: spectrum
       integer :: highest(2)
 
-      !> Grids are far below this; it keeps the number an integer.
+      !> Grids have far fewer points; the limit keeps the number an integer.
       real(dp), parameter :: most = 1e8_dp
 
       highest = int(min(most, spectrum%length/spectrum%shortest*(1 + rounding)))
@@ -69,7 +69,7 @@ contains
       has_waves = .false.
    end function has_waves
 
-   !> One over the length of a wave (G2) [1/length].
+   !> The frequency of a wave (G2) [1/length].
    elemental real(dp) function frequency(spectrum, m, n)
       type(self_affine_spectrum), intent(in) :: spectrum
       integer, intent(in) :: m, n   !! wave numbers
@@ -129,7 +129,7 @@ contains
       call transform%new_series(waves)
       first = lbound(waves%c, 1)
       last = ubound(waves%c, 1)
-      ! Each wave number is summed by itself: rounding then grows with the square root of the number of waves.
+      ! Each wave number has its own sum, so that rounding grows with the square root of the number of waves.
       allocate (moments(1, first:last), source=0.0_dp)
       do k = 1, maxval(highest)
          if (spectrum%dimension == 1) then
