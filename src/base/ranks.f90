@@ -1,11 +1,11 @@
 !> The processes that work on a run together. They are called ranks, as in MPI, and are numbered from zero.
 !>
-!> All ranks run the same program on the same decks. What a rank does alone, every rank does; what they share they
-!> exchange by the procedures of this module, which all ranks must call in the same order. The serial program is one
-!> rank: its procedures return at once, and nothing of it depends on MPI. The parallel program calls `use_team` first.
+!> All ranks run the same program on the same decks. They exchange what they share by the procedures of this module,
+!> which all ranks must call in the same order. The serial program is one rank: its procedures return at once, and
+!> nothing of it depends on MPI. The parallel program calls `use_team` first.
 !>
-!> Few modules use this one: wavycon_grid_slab, through which all that solves contacts exchanges, wavycon_work_sharing
-!> for the steps of a run, and one of each room that reads or writes files.
+!> Few modules use this one: wavycon_grid_slab, through which the solvers exchange, wavycon_work_sharing for the steps
+!> of a run, and one module of each room that reads or writes files.
 module wavycon_ranks
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_error, only: error_type
@@ -19,9 +19,10 @@ module wavycon_ranks
    public :: exchange_columns, gather_columns, move_columns, new_row_exchange
    public :: share_error, share_text, write_shared_columns, end_ranks
 
-   !> Exchanges a matrix whose columns are spread over the ranks for the same matrix with its rows spread, and back. In
-   !> both the elements of a column follow each other. An element has one or two real numbers of one precision. Ranks have
-   !> adjacent columns: all the same number, `width`, but the last ones; likewise rows.
+   !> Exchanges a matrix whose columns are distributed over the ranks for the same matrix with its rows distributed, and
+   !> back. In both the elements of a column follow each other. An element has one or two real numbers of one precision.
+   !> Each rank has adjacent columns; all ranks but the last ones have the same number, `width`. The same holds for
+   !> rows.
    type, abstract :: row_exchange
       integer :: columns = 0      !! of the matrix
       integer :: rows = 0         !! of the matrix
@@ -35,7 +36,7 @@ module wavycon_ranks
       procedure(exchange_rows_and_columns), deferred :: to_columns
    end type row_exchange
 
-   !> What the ranks exchange; the extension of the parallel program does it by MPI.
+   !> What the ranks exchange; the parallel program extends the type and does it by MPI.
    type, abstract :: rank_team
    contains
       procedure(get_number), deferred :: rank                  !! of this process, from 0
@@ -163,7 +164,7 @@ module wavycon_ranks
 
 contains
 
-   !> Makes the processes of a parallel program known.
+   !> Sets the processes of a parallel program.
    subroutine use_team(new)
       class(rank_team), allocatable, intent(inout) :: new   !! not allocated afterwards
 
@@ -199,7 +200,7 @@ contains
       if (allocated(team)) number = team%ranks_on_machine()
    end function ranks_on_this_machine
 
-   !> Name and version of the library by which the ranks exchange; empty in the serial program.
+   !> Name and version of the library that the ranks exchange data with; empty in the serial program.
    function rank_library() result(text)
       character(:), allocatable :: text
 
@@ -207,8 +208,8 @@ contains
       if (allocated(team)) text = team%library()
    end function rank_library
 
-   !> From now on each rank works on something else: no grid is spread, and nothing is exchanged until the ranks work
-   !> together again.
+   !> From now on each rank works on something else: no grid is distributed, and nothing is exchanged until the ranks
+   !> work together again.
    subroutine work_alone(alone)
       logical, intent(in) :: alone
 
@@ -245,7 +246,7 @@ contains
       any_rank = number(1) > 0
    end function any_rank
 
-   !> Sends columns to the neighbours and takes theirs. More than one rank.
+   !> Sends columns to the neighbours and receives theirs. Only for more than one rank.
    subroutine exchange_columns(low, high, bytes, to_low, to_high, from_low, from_high)
       integer, intent(in) :: low, high    !! ranks that have the columns before and after the own ones; -1: none
       integer, intent(in) :: bytes        !! of the columns for one neighbour
@@ -255,27 +256,27 @@ contains
       call team%exchange(low, high, bytes, to_low, to_high, from_low, from_high)
    end subroutine exchange_columns
 
-   !> Gathers the columns that the ranks have into whole matrices, on all ranks or on the first alone. More than one
+   !> Gathers the columns of all ranks into whole matrices, on all ranks or on rank 0 alone. Only for more than one
    !> rank.
    subroutine gather_columns(column_bytes, columns, own, whole, first_only)
       integer, intent(in) :: column_bytes                !! of a column
       integer, intent(in) :: columns(0:)                 !! of each rank
       type(*), intent(in), target :: own(*)              !! columns(this_rank()) columns
       type(*), intent(inout), target :: whole(*)         !! sum(columns) columns; of any size where not needed
-      logical, intent(in) :: first_only                  !! whether the first rank alone needs it
+      logical, intent(in) :: first_only                  !! whether rank 0 alone needs it
 
       call team%gather(column_bytes, columns, own, whole, first_only)
    end subroutine gather_columns
 
-   !> Moves columns of a matrix from the ranks that have them to those that want them. More than one rank.
+   !> Moves columns of a matrix from the ranks that have them to those that want them. Only for more than one rank.
    !>
-   !> N.B. Every rank knows what all others have and want: nothing but the columns is sent.
+   !> N.B. Every rank knows what all others have and want, so that only the columns are sent.
    subroutine move_columns(column_bytes, have, own, want, wanted)
       integer, intent(in) :: column_bytes                  !! of a column
       integer, intent(in) :: have(:, 0:)                   !! first and last column of each rank, shape (2, ranks);
                                                            !! last < first: none. No column is there twice
       type(*), intent(in), target :: own(*)                !! the own columns
-      integer, intent(in) :: want(:, 0:)                   !! likewise what each wants; some may be wanted by several
+      integer, intent(in) :: want(:, 0:)                   !! what each wants; several may want the same
       type(*), intent(inout), target :: wanted(*)          !! what this rank wants
 
       call team%move(column_bytes, have, own, want, wanted)
@@ -292,8 +293,8 @@ contains
       call team%new_row_exchange(columns, rows, width, numbers, precision, exchange)
    end subroutine new_row_exchange
 
-   !> Makes an error of any rank that of all: the message is that of the lowest rank that has one. Without errors nothing
-   !> happens.
+   !> Reports an error of any rank to all ranks, with the message of the lowest rank that has one. Without errors
+   !> nothing happens.
    subroutine share_error(error)
       type(error_type), allocatable, intent(inout) :: error
 
@@ -321,7 +322,7 @@ contains
       error%message = message
    end subroutine share_error
 
-   !> Makes a text of one rank known to all.
+   !> Sends a text of one rank to all others.
    subroutine share_text(from, text)
       integer, intent(in) :: from                              !! the rank
       character(:), allocatable, intent(inout) :: text         !! allocated
@@ -329,8 +330,8 @@ contains
       if (ranks_at_work() > 1) call team%share_text(from, text)
    end subroutine share_text
 
-   !> Writes the own columns of a matrix to a file that exists, all ranks at a time: columns follow each other. More than
-   !> one rank.
+   !> All ranks write their columns of a matrix, one after the other, to a file that exists. Only for more than one
+   !> rank.
    subroutine write_shared_columns(path, start, number_bytes, rows, first, columns, values, failure)
       character(*), intent(in) :: path
       integer(int64), intent(in) :: start            !! bytes of the file before the first column of all

@@ -48,8 +48,8 @@ module wavycon_beale_contact
 
 contains
 
-   !> As many points to a harmonic as the paper has: 27 for 9 harmonics of the 2-D wave, 26 (25 intervals) for 10 of the
-   !> 1-D wave. Always more than harmonics.
+   !> The number of points, in the paper's proportion to harmonics: 27 for 9 harmonics of the 2-D wave, 26 (25
+   !> intervals) for 10 of the 1-D wave. Always more than harmonics.
    pure integer function paper_constraint_points(dimension, harmonics) result(points)
       integer, intent(in) :: dimension   !! 1 or 2
       integer, intent(in) :: harmonics   !! >= 1
@@ -110,7 +110,7 @@ contains
       allocate (source)
       source = self%series
       call move_alloc(programme%x, source%x)
-      ! Without an imprint no point is at H, although a peak between the points may come close.
+      ! Without residual indentation no point is at H, although a peak between the points may come close.
       call measure_series(source%pressure(pbar_over_pstar), source%displacement(), self%series%edge_level, &
                           solution%measures, merge(self%surface%hardness, huge(1.0_dp), imprint > 0.0_dp))
       ! The crest, from which the approach follows otherwise, is then not in elastic contact.

@@ -1,9 +1,9 @@
 !> Continues a field from the contact to the points outside it, over grids of ever larger steps, and the adjoint of
 !> that: equations (C4a) to (C4c) of README.md in this directory.
 !>
-!> Each coarser grid has half the points each way: a point of it has the mean of four. It needs even numbers of points;
-!> where they become odd the sequence ends. If the grid is spread, so are those coarser ones that are large; small ones
-!> are whole.
+!> The multilevel preconditioner uses it. A point of each coarser grid has the mean of two by two points of the finer
+!> one; the sequence ends where a number of points is odd. If the grid is distributed, so are the large ones of the
+!> coarser grids; small ones are whole.
 module wavycon_contact_extension
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_tuning, only: decay_alone, decay_growth
@@ -124,7 +124,7 @@ contains
       call fill(self, self%grids(1), contact, field)
    end subroutine extend
 
-   !> The adjoint of `extend`: adds to the values in contact those outside that the extension takes from them.
+   !> The adjoint of `extend`: adds to the values in contact the values outside, with the weights that `extend` uses.
    subroutine collect(self, contact, field)
       class(contact_extension), intent(inout) :: self
       real(sp), intent(in), contiguous :: contact(:, :)    !! that of `set_contact`
@@ -147,7 +147,7 @@ contains
       call adjoint_average(self%grids(1), field)
    end subroutine collect
 
-   !> Divides the values by the part of their area in contact; points without contact get zero.
+   !> Divides each value by the part of its area in contact; points without contact get zero.
    pure subroutine normalise(grid)
       type(coarse_grid), intent(inout) :: grid
 
@@ -181,7 +181,7 @@ contains
       call complete(part, slab, coarse)
    end subroutine average
 
-   !> Takes the columns of the other slabs where a grid that is whole follows one that is spread.
+   !> Gathers the columns of the other slabs where a whole grid follows a distributed one.
    subroutine complete(part, slab, coarse)
       type(grid_slab), intent(in) :: part, slab
       real(sp), intent(inout), contiguous :: coarse(:, :)
@@ -214,7 +214,7 @@ contains
       type(contact_extension), intent(in) :: self
       type(coarse_grid), intent(in) :: coarse
       real(sp), intent(in), contiguous :: contact(:, :)   !! own columns
-      real(sp), intent(inout), contiguous :: fine(:, :)   !! likewise
+      real(sp), intent(inout), contiguous :: fine(:, :)   !! own columns
 
       real(sp) :: column(0:size(coarse%values, 1) + 1)
       real(sp) :: beside(size(coarse%values, 1), 2)   !! the columns before and after those of the coarser grid

@@ -26,8 +26,9 @@ module wavycon_contact_solution
    real(dp), parameter :: rounding = 1e-14_dp
 
    type, extends(solution_record) :: contact_solution
-      !> Of a partial contact. Not allocated if the solver was started without keep_fields, if another rank has solved
-      !> the load or has the collected fields, or if there is no solution. Full contact and no load need none.
+      !> The source of a partial contact. Not allocated if the solver was started without keep_fields, if another rank
+      !> has solved the load or has the collected fields, or if there is no solution. Full contact and no load need
+      !> none.
       class(field_source), allocatable :: source
    contains
       procedure :: move_to
@@ -91,7 +92,7 @@ contains
       class(contact_solution), intent(in) :: self
       type(surface_type), intent(in) :: surface             !! that was solved
       type(edge_curve), allocatable, intent(out) :: curves(:)
-      !> What each spot carries of the load, by their numbers; of no size if that is not known.
+      !> The part of the load that each spot carries, by the numbers of the spots; of size 0 if not known.
       real(dp), allocatable, intent(out), optional :: loads(:)
 
       real(dp), allocatable :: loads_of_spots(:)
@@ -126,7 +127,7 @@ contains
       end if
    end subroutine stresses
 
-   !> The spots of contact and the pools of gap; of a mirrored height map those of the map. Not known for a partial
+   !> The spots of contact and the pools of gap; for a mirrored height map those of the map. Not known for a partial
    !> contact without a source.
    subroutine spots(self, surface, answer)
       class(contact_solution), intent(in) :: self
@@ -176,7 +177,7 @@ contains
       if (found) call self%source%details(answer, found)
    end subroutine details
 
-   !> The points of the grid if its columns are spread over the ranks, otherwise 0.
+   !> The points of the grid if its columns are distributed over the ranks, otherwise 0.
    pure integer(int64) function spread_points(self)
       class(contact_solution), intent(in) :: self
 
@@ -184,8 +185,8 @@ contains
       if (allocated(self%source)) spread_points = self%source%spread_points
    end function spread_points
 
-   !> Brings fields whose columns are spread over the ranks to the first rank: afterwards it has them whole, the others
-   !> have none. All ranks call it.
+   !> Gathers fields whose columns are distributed over the ranks on rank 0; the others then have none. All ranks call
+   !> it.
    subroutine collect_fields(self)
       class(contact_solution), intent(inout) :: self
 

@@ -33,7 +33,7 @@ module wavycon_grid_cascade
       type(grid_edge), allocatable :: edge
       real(dp) :: values(3) = 0.0_dp       !! mean gap [Delta], contact area fraction, peak pressure [p*]
       real(dp) :: errors(3) = unknown      !! their error estimates, in the same units, or `unknown`
-      !> The area by the number of points in contact, and in 2-D corrected by (C26), otherwise `unknown`.
+      !> The area by the number of points in contact, and that area corrected by (C26), in 1-D `unknown`.
       real(dp) :: counted_area = unknown, corrected_area = unknown
       real(dp) :: area_at_hardness = 0.0_dp         !! fraction of the area at which p = H
       real(dp) :: area_at_hardness_error = 0.0_dp   !! its error estimate, or `unknown`
@@ -96,7 +96,7 @@ contains
             call progress%grid_solved(grid*merge(2, 1, surface%shape%is_even() .and. grid > 1)/surface%parts(), &
                                       answer%state%iterations, answer%state%local_iterations, &
                                       answer%state%plain_iterations, answer%state%residual)
-         ! A solution that has not converged is no start for a finer grid.
+         ! No finer grid starts from a solution that has not converged.
          if (answer%accurate .or. last .or. .not. answer%state%converged) exit
          grid = finer_grid(grid)
          if (.not. fits_memory(grid)) then
@@ -161,10 +161,10 @@ contains
       most_iterations = max(most_iterations, iteration_limit)
    end function most_iterations
 
-   !> Mean gap, contact area (C11), (C12) and peak pressure (C13) on the present grid, and their error estimates (C14)
-   !> to (C17). The area is at least that which carries the load at the hardness; its estimate is that of the area
-   !> without this bound, which would hide its changes. The error is unknown where (C12) gives no area although there is
-   !> contact. The edge takes the memory of the gap, which no longer exists afterwards.
+   !> Computes mean gap, contact area (C11), (C12) and peak pressure (C13) on the present grid, and their error
+   !> estimates (C14) to (C17). The area is at least P/H, the smallest that carries the load at the hardness; its error
+   !> is estimated before this bound is applied, which would hide changes. The error is unknown where (C12) gives no
+   !> area although there is contact. The edge takes over the memory of the gap, which no longer exists afterwards.
    subroutine measure_level(surface, mean_pressure, history, answer)
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: mean_pressure
@@ -209,8 +209,8 @@ contains
       call edge%fetch_neighbours()
    end subroutine find_edge_at_hardness
 
-   !> The area at which p = H, and its error estimate. It is at most that which carries the load; its estimate is that of
-   !> the area without this bound.
+   !> The area at which p = H, and its error estimate. The area is at most P/H, the area that carries the load at the
+   !> hardness; its error is estimated before this bound is applied.
    subroutine measure_at_hardness(surface, mean_pressure, edge, history, answer)
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: mean_pressure

@@ -1,7 +1,7 @@
 !> Contact on grids, refined to an accuracy or with a given number of points.
 !>
 !> An even surface is solved on a quarter of its cell. The wave (21), and any surface with the same symmetry, is also
-!> periodic on a square of half the area turned by 45 degrees; a quarter of that square is then enough, unless
+!> periodic on a square of half the area rotated by 45 degrees; a quarter of that square is then enough, unless
 !> the number of points, which refers to the user's cell, is given.
 module wavycon_grid_contact
    use, intrinsic :: iso_fortran_env, only: int64
@@ -37,7 +37,7 @@ module wavycon_grid_contact
    type, extends(contact_solver) :: grid_contact
       type(grid_options), private :: options
       logical, private :: keep_fields = .true.
-      !> The surface on its smaller cell, if that is solved: turned by 45 degrees.
+      !> The surface on its smaller cell, if that is solved: rotated by 45 degrees.
       type(surface_type), allocatable, private :: smaller
    contains
       procedure :: start

@@ -1,5 +1,5 @@
-!> The fields of a solution on a grid: at the points of the grid those of the solution, between them interpolated by
-!> (C19), (C20) of README.md so that contact and gap exclude each other.
+!> The fields of a solution on a grid. At its points they are those of the solution. Between the points (C19), (C20) of
+!> README.md interpolate them so that contact and gap exclude each other.
 !>
 !> One function has the signs and the places of both: p^2 in contact and -(a gap)^(2/3) elsewhere fall in proportion to
 !> the distance from the edge on either side of it, and the factor a makes the slopes the same on the average.
@@ -34,7 +34,8 @@ module wavycon_grid_fields
       procedure :: at_own_column
    end type grid_fields
 
-   !> Points that are nearer than this to a point of the grid, in steps, are that point: positions are rounded.
+   !> A position that is nearer than this to a point of the grid, in steps, counts as that point, as positions are
+   !> rounded.
    real(dp), parameter :: rounding = 1e-9_dp
 
 contains
@@ -53,7 +54,7 @@ contains
       fields%turned = turned
       fields%parts = surface%parts()
       fields%own_slab = edge%slab
-      ! The points of a turned grid are only every other one of any grid of the cell.
+      ! The points of a rotated grid are every other point of a grid of the cell.
       if (turned) return
       fields%own_points = edge%slab%points
       if (.not. edge%even) return
@@ -237,7 +238,7 @@ contains
                + slope_s(i)*value_t(j)*slope(psi(i - 1:i + 1, j)) + value_s(i)*slope_t(j)*slope(psi(i, j - 1:j + 1))
          end do
       end do
-      ! Between four points in contact there is no gap, and no contact between four others.
+      ! Between four points in contact there is no gap, and between four points outside no contact.
       linear = (1.0_dp - t)*((1.0_dp - s)*psi(0, 0) + s*psi(1, 0)) + t*((1.0_dp - s)*psi(0, 1) + s*psi(1, 1))
       if (all(psi(0:1, 0:1) > 0.0_dp)) then
          cubic = max(cubic, 0.5_dp*linear)

@@ -1,4 +1,5 @@
-!> The source of fields, edge curves and stresses of a load that was solved on a grid: pressures and gaps at its points.
+!> The source of fields, contact contours and stresses of a load that was solved on a grid: pressures and gaps at its
+!> points.
 module wavycon_grid_source
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_fortran_env, only: int64
@@ -28,7 +29,7 @@ module wavycon_grid_source
 
    type, extends(field_source) :: grid_source
       type(grid_edge), allocatable :: edge    !! pressure and gap at the grid points; always allocated
-      logical :: turned = .false.             !! the grid's cell is the smaller one, turned by 45 degrees
+      logical :: turned = .false.             !! the grid's cell is the smaller one, rotated by 45 degrees
       real(dp) :: imprint = 0.0_dp            !! mean overlap where p = H [Delta] (C22)
    contains
       procedure :: take_edge
@@ -55,7 +56,7 @@ contains
       self%spread_points = merge(product(int(self%edge%slab%points, int64)), 0_int64, self%edge%slab%is_spread)
    end subroutine take_edge
 
-   !> Gathers the pressures and gaps of a grid that is spread where the tables are written.
+   !> Gathers the pressures and gaps of a distributed grid on the rank that writes the tables.
    subroutine collect(self, is_here)
       class(grid_source), intent(inout) :: self
       logical, intent(out) :: is_here
@@ -103,7 +104,7 @@ contains
       associate (unused => record); end associate
       if (surface%dimension == 2) then
          if (self%turned) then
-            ! The surface's cell is two of the grid's.
+            ! The surface's cell consists of two cells of the grid.
             call trace_edges(self%edge, curves, self%edge%period*[2, 1], self%edge%period(1), numbers)
          else
             call trace_edges(self%edge, curves, numbers=numbers, with_images=surface%mirrored)
@@ -124,9 +125,9 @@ contains
       end if
    end subroutine edge_curves
 
-   !> Of the series that interpolates the pressures at the points. Its error is that of the peak pressure and the part
-   !> of the series' last octave, or unknown as that of the peak is. Without the memory for the series there are no
-   !> stresses.
+   !> The stresses of the series that interpolates the pressures at the points. Their error is that of the peak pressure
+   !> and the part of the series' last octave; it is unknown where that of the peak is. Without the memory for the
+   !> series there are no stresses.
    subroutine stresses(self, record, surface, answer)
       class(grid_source), intent(in) :: self
       type(solution_record), intent(in) :: record
@@ -136,7 +137,7 @@ contains
       type(fourier_series) :: pressure
       type(grid_transform) :: transform
       type(series_stress), allocatable :: own
-      !> Of the whole cell: pressures, series, waves; twice as many from a turned cell.
+      !> Numbers on the whole cell: pressures, series, waves; twice as many from a rotated cell.
       integer(int64), parameter :: numbers_a_point = 8
       real(dp) :: error
       real(dp), allocatable :: values(:, :)
@@ -148,7 +149,8 @@ contains
          return
       end if
       values = max(self%edge%pressure_or_gap, 0.0_dp)
-      ! If all points are in contact below full contact, they miss a gap; with it closed the pressure there is P - 1.
+      ! If all points are in contact at P < 1, the grid misses a gap. If that gap were closed the pressure there would
+      ! be P - 1.
       error = record%measures%peak_pressure_error
       if (all(values > 0.0_dp)) error = max(error, 1.0_dp - record%pbar_over_pstar)
       error = or_nan(error)
@@ -251,7 +253,7 @@ contains
       if (numbers%spots > 0) loads = loads/sum(loads)
    end subroutine spot_loads
 
-   !> The same of the strips of a 1-D contact, which begin with the one of the first point.
+   !> The part of the load that each strip of a 1-D contact carries; the first strip is that of the first point.
    pure subroutine strip_loads(edge, strips, loads)
       type(grid_edge), intent(in) :: edge
       integer, intent(in) :: strips   !! their number

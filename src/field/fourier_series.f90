@@ -13,9 +13,8 @@ module wavycon_fourier_series
    type :: fourier_series
       real(dp), allocatable :: c(:, :)   !! shape (0:m, 0:n)
       real(dp), allocatable :: cs(:, :), sc(:, :), ss(:, :)   !! of the same shape; not allocated for an even field
-      !> m + 1 of a series that is spread as grids are: the own ones are some of the first indices, see
-      !> wavycon_grid_transform.
-      !> 0: it is whole.
+      !> m + 1 for a series that is distributed as grids are, where the rank has some of the first indices only, see
+      !> wavycon_grid_transform. 0: it is whole.
       integer :: spread_waves = 0
    contains
       procedure :: is_even

@@ -1,10 +1,10 @@
 !> The own columns of a grid that may be distributed over processes, its ranks. Code that solves contacts knows this
 !> type and not the ranks.
 !>
-!> Large grids are spread over the ranks: each has a slab of adjacent columns, all rows of them. Small grids are whole
-!> on each rank, and each computes all of it: then nothing is exchanged. In the serial program every grid is whole. Code
-!> that works on a slab and takes its sums, neighbours and columns by the procedures here does not ask which of the two
-!> it is. All ranks that work on a grid call them in the same order.
+!> Large grids are distributed over the ranks: each has a slab of adjacent columns, all rows of them. Small grids are
+!> whole on each rank, and each computes all of it: then nothing is exchanged. In the serial program every grid is
+!> whole. Code that works on a slab and takes its sums, neighbours and columns by the procedures here does not ask which
+!> of the two it is. All ranks that work on a grid call them in the same order.
 !>
 !> Sums do not depend on the number of ranks to the last digit: each rank sums its columns, or strips of
 !> `strip_columns` columns, and the sums of all columns or strips are added in the order of the grid.
@@ -32,7 +32,7 @@ module wavycon_grid_slab
       procedure :: find_largest
       !> Whether something is true on any rank at work, also if each has the whole grid.
       procedure, nopass :: any => any_rank
-      !> Makes an error of any rank at work that of all, also if each has the whole grid.
+      !> Reports an error of any rank at work to all, also if each has the whole grid.
       procedure, nopass :: share_error
       !> Columns beside the own ones.
       generic :: halo => halo_dp, halo_sp
@@ -46,10 +46,10 @@ module wavycon_grid_slab
 
 contains
 
-   !> The grid of half the points each way, on the ranks as this one: each has the means of its own columns. A rank may
-   !> have as little as one column for its neighbours.
+   !> The grid of half the points each way, distributed like this one: each rank has the means of its own columns. It
+   !> may have as little as one column for its neighbours.
    pure type(grid_slab) function coarser(self)
-      class(grid_slab), intent(in) :: self   !! of even numbers of points, but N may be 1, and of even width if spread
+      class(grid_slab), intent(in) :: self   !! even numbers of points, but N may be 1; even width if distributed
 
       coarser = self
       coarser%points = max(self%points/2, 1)
@@ -148,7 +148,7 @@ contains
       point = point + 1
    end subroutine find_largest
 
-   !> The columns before and after the own ones: columns of other ranks, or at the rim of the grid the images that
+   !> The columns before and after the own ones: columns of other ranks, or at the border of the grid the images that
    !> continue it. A rank without columns gets none.
    subroutine halo_dp(self, field, even, low, high)
       class(grid_slab), intent(in) :: self
@@ -177,7 +177,7 @@ contains
       end do
    end subroutine halo_dp
 
-   !> As halo_dp.
+   !> As halo_dp, in single precision.
    subroutine halo_sp(self, field, even, low, high)
       class(grid_slab), intent(in) :: self
       real(sp), intent(in) :: field(:, :)
@@ -282,7 +282,7 @@ contains
    subroutine gather_to_first(self, own, whole)
       class(grid_slab), intent(in) :: self
       real(dp), intent(in), contiguous :: own(:, :)   !! shape (M, columns())
-      !> Shape (M, N); not allocated on the other ranks if the grid is spread.
+      !> Shape (M, N); not allocated on the other ranks if the grid is distributed.
       real(dp), allocatable, intent(out) :: whole(:, :)
 
       if (.not. self%is_spread) then
@@ -294,8 +294,8 @@ contains
       if (this_rank() > 0) deallocate (whole)
    end subroutine gather_to_first
 
-   !> Prepares the exchange of the own columns for own rows, of a grid that is spread. The elements may be complex
-   !> numbers, and each column may have another number of them than M.
+   !> Prepares the exchange of own columns for own rows of a distributed grid. The elements may be complex numbers, and
+   !> each column may have another number of them than M.
    subroutine exchange_rows(self, rows, numbers, precision, exchange)
       class(grid_slab), intent(in) :: self
       integer, intent(in) :: rows         !! elements of a column

@@ -1,10 +1,10 @@
-!> Fourier series of fields on the points of a grid that may be spread, by FFTW's transforms of its lines.
+!> Fourier series of fields on the points of a grid that may be distributed, by FFTW's transforms of its lines.
 !>
 !> The points are those of wavycon_grid_points. The values of an even field on a quarter of its cell are a sum of
 !> cosines (DCT-II and III), those of any other field a sum of waves. Columns are transformed along x, then rows of the
-!> spectrum along y. Of a grid that is spread the field has the own columns, and the series the coefficients of own wave
+!> spectrum along y. On a distributed grid the field has the own columns, and the series the coefficients of own wave
 !> numbers in X: a series of the shape c(first:last, 0:n), whose component `spread_waves` is the number of all wave
-!> numbers in X. The digits of the coefficients and of the values do not depend on how the grid is spread.
+!> numbers in X. The digits of the coefficients and of the values do not depend on how the grid is distributed.
 module wavycon_grid_transform
    use, intrinsic :: iso_c_binding, only: c_double, c_double_complex, c_ptr
    use wavycon_assertion, only: assert
@@ -47,7 +47,7 @@ contains
       class(grid_transform), intent(out) :: self
       integer, intent(in) :: points(2)         !! M, N >= 1
       logical, intent(in) :: even
-      logical, intent(in), optional :: whole   !! whether the grid is not spread however large it is; .false. if absent
+      logical, intent(in), optional :: whole   !! whether no grid, however large, is distributed; .false. if absent
 
       self%points = points
       self%even = even
@@ -59,7 +59,7 @@ contains
    !> A series of zeros with the coefficients that the points determine, of the own wave numbers.
    subroutine new_series(self, answer)
       class(grid_transform), intent(in) :: self
-      type(fourier_series), intent(out) :: answer    !! spread if the grid is
+      type(fourier_series), intent(out) :: answer    !! distributed if the grid is
 
       type(grid_slab) :: rows
 
@@ -78,7 +78,7 @@ contains
    subroutine series(self, field, answer)
       class(grid_transform), intent(in) :: self
       real(dp), intent(in) :: field(:, :)            !! shape (M, slab%columns())
-      type(fourier_series), intent(out) :: answer    !! spread if the grid is
+      type(fourier_series), intent(out) :: answer    !! distributed if the grid is
 
       real(c_double), allocatable :: block(:, :, :), own_rows(:, :, :), spectrum(:, :, :)
       class(row_exchange), allocatable :: exchange
@@ -168,7 +168,7 @@ contains
       end if
    end subroutine sample
 
-   !> The values of waves at the points of a whole cell, in a grid that is not spread:
+   !> The values of waves at the points of a whole cell, in a grid that is not distributed:
    !> f = sum_kl w_kl e^(i(kX + lY)), k = -M/2 .. M/2, l = 0 .. N - 1, where w_-k,N-l is the conjugate of w_kl.
    subroutine sample_waves(self, waves, field)
       class(grid_transform), intent(in) :: self                 !! even is .false.

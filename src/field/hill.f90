@@ -35,8 +35,8 @@ contains
    !> Climbs from a place to the maximum near it, until a step gains nothing more.
    !>
    !> The Hessian is shifted by its largest eigenvalue, where that is positive, and by a little more, so that each step
-   !> goes uphill also near a saddle or at a crest that has the same height all along a line. The latter shortens the
-   !> steps: convergence is linear, by a factor of a thousand a step.
+   !> goes uphill also near a saddle or on a ridge of constant height. The extra shift shortens the steps: convergence
+   !> is linear, by a factor of a thousand a step.
    pure subroutine climb(self, place)
       class(hill), intent(in) :: self
       real(dp), intent(inout) :: place(2)
@@ -48,7 +48,7 @@ contains
 
       do i = 1, most_steps
          call self%derivatives(place, g, h)
-         ! Squares of curvatures in unlike units may overflow.
+         ! Squares of curvatures may overflow in some units.
          scale = maxval(abs(h))
          if (.not. scale > 0.0_dp) return
          g = g/scale

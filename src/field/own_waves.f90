@@ -1,4 +1,4 @@
-!> The own waves of a Fourier series: all of them or, of a series that is spread, those of some wave numbers in X.
+!> The own waves of a Fourier series: all waves or, if the series is distributed, those of some wave numbers in X.
 module wavycon_own_waves
    use wavycon_fourier_series, only: fourier_series
    use wavycon_grid_slab, only: grid_slab
@@ -28,7 +28,7 @@ contains
       end if
    end function slab_of_waves
 
-   !> Makes a series that is spread whole, where tables are written or everywhere; elsewhere it stays as it is.
+   !> Gathers a distributed series, on the rank that writes the tables or on all; on other ranks it stays as it is.
    subroutine gather_series(series, first_only)
       type(fourier_series), intent(inout) :: series
       logical, intent(in) :: first_only   !! whether only where tables are written

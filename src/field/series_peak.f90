@@ -12,9 +12,9 @@ module wavycon_series_peak
 
    !> Points to the shortest wave. Newton's method climbs from the highest.
    integer, parameter :: points_per_wave = 16
-   !> Crests are tried until no other can be higher: between the points the largest modulus of a series of two
-   !> variables may be larger by this factor (Ehlich & Zeller, Math. Z. 86 (1964) 41-44). Of many equal crests, as along
-   !> a line, at most so many are tried.
+   !> Crests are tried until no other can be higher: between the points the largest modulus of a series of two variables
+   !> may be larger by this factor (Ehlich & Zeller, Math. Z. 86 (1964) 41-44). If many crests are equal, as along a
+   !> line, at most so many are tried.
    real(dp), parameter :: most_between = 1.0_dp/cos(pi/points_per_wave)**2
    integer, parameter :: most_crests = 10
 

@@ -110,7 +110,7 @@ contains
             do j = 0, ubound(series%c, 2)
                l = modulo(sign_y*j, points(2))
                do i = 0, ubound(series%c, 1)
-                  ! The transform takes the other half of the spectrum from this one.
+                  ! The transform derives the other half of the spectrum from this one.
                   k = modulo(sign_x*i, points(1))
                   if (2*k > points(1)) cycle
                   wave = series%c(i, j)

@@ -1,4 +1,4 @@
-!> Even fields of a square lattice in axes turned by 45 degrees: X = phi + theta, Y = phi - theta.
+!> Even fields of a square lattice in axes rotated by 45 degrees: X = phi + theta, Y = phi - theta.
 !>
 !> A field that is even in both pairs of angles, and does not change when the two angles of a pair are exchanged, is a
 !> sum of cos iX cos jY + cos jX cos iY = cos(i+j)phi cos(i-j)theta + cos(i-j)phi cos(i+j)theta.
@@ -12,8 +12,8 @@ module wavycon_turned_series
 
 contains
 
-   !> From phi and theta to X and Y, of a field that has the period (pi, pi) too: the terms (i, j) become terms
-   !> ((i+j)/2, |i-j|/2) and (|i-j|/2, (i+j)/2), half each.
+   !> Converts a series in phi and theta to one in X and Y. The field also has the period (pi, pi). A term (i, j)
+   !> becomes the terms ((i+j)/2, |i-j|/2) and (|i-j|/2, (i+j)/2), each with half its coefficient.
    pure type(fourier_series) function to_sum_angles(series) result(turned)
       type(fourier_series), intent(in) :: series   !! in phi and theta; terms with odd i + j are zero but for rounding
 
@@ -32,8 +32,8 @@ contains
       end do
    end function to_sum_angles
 
-   !> The inverse: from X and Y to phi and theta. The terms (i, j) and (j, i) become terms (i + j, |i - j|) and
-   !> (|i - j|, i + j).
+   !> The inverse, from X and Y to phi and theta. The terms (i, j) and (j, i) become the terms (i + j, |i - j|) and (|i
+   !> - j|, i + j).
    pure type(fourier_series) function to_difference_angles(series) result(turned)
       type(fourier_series), intent(in) :: series   !! in X and Y; does not change when these are exchanged
 

@@ -136,7 +136,7 @@ contains
       end do
    end subroutine take_singles
 
-   !> As take_singles.
+   !> The numbers that words of the file are in double precision, with the errors of read_numbers.
    pure subroutine take_doubles(self, words, numbers, infinite)
       class(binary_file), intent(in) :: self
       integer(int64), intent(in) :: words(:)
@@ -164,8 +164,8 @@ contains
    end subroutine take_doubles
 
    !> Reads the heights of a map: from `start` to the end of the file there must be nothing else. Missing heights are
-   !> NaN. With in_slabs of a large map the own columns. Errors: exit_bad_input for a map that is too small or too
-   !> large, a file of another length, and infinite heights; exit_file_trouble.
+   !> NaN. With in_slabs only the own columns of a large map are read. Errors: exit_bad_input for a map that is too
+   !> small or too large, a file of another length, and infinite heights; exit_file_trouble.
    subroutine read_heights(self, start, points, by_columns, map, error)
       class(binary_file), intent(in) :: self
       integer(int64), intent(in) :: start   !! bytes before the first height
@@ -236,7 +236,7 @@ contains
       end do
    end subroutine read_rows
 
-   !> The same of lines that are columns of the map.
+   !> Reads lines of the file that are columns of the map. Errors: of this process alone.
    subroutine read_columns(self, start, lines, height, error)
       type(binary_file), intent(in) :: self
       integer(int64), intent(in) :: start
@@ -283,7 +283,7 @@ contains
                        ' is infinite: make it nan if it is missing', error)
    end subroutine refuse_infinite
 
-   !> Makes an error with the name of the file. Status: exit_bad_input.
+   !> Makes an error with the name of the file and the status exit_bad_input.
    pure subroutine refuse(self, words, error)
       class(binary_file), intent(in) :: self
       character(*), intent(in) :: words

@@ -8,8 +8,8 @@ module wavycon_measured_map
    public :: measured_map
 
    type :: measured_map
-      !> As in the file, 0 where it is missing, shape (M, N): along x, along y; N = 1 for a profile. Of a map that is
-      !> spread the own columns.
+      !> As in the file, 0 where it is missing, shape (M, N): along x, along y; N = 1 for a profile. If the map is
+      !> distributed it has the own columns.
       real(dp), allocatable :: height(:, :)
       logical, allocatable :: missing(:, :)        !! shape of `height`; not allocated if no height is missing
       logical :: has_missing_value = .false.       !! whether a height had the value that stands for a missing one
@@ -20,7 +20,7 @@ module wavycon_measured_map
       character(7) :: format = ''                  !! of the file, as of read_height_map, but not 'auto'
       character(:), allocatable :: length_unit     !! of the steps; not allocated if the file does not name units
       character(:), allocatable :: height_unit     !! of the heights; allocated if length_unit is
-      type(grid_slab), private :: slab             !! of the points of a map that is spread
+      type(grid_slab), private :: slab             !! of the points of a map that is distributed
    contains
       procedure :: set_units
       procedure :: spread_over
@@ -43,7 +43,7 @@ contains
       if (height_unit == '') self%height_unit = length_unit
    end subroutine set_units
 
-   !> Says that `height` has, or will have, the own columns of a map.
+   !> Declares that `height` has, or will have, the own columns of a map.
    pure subroutine spread_over(self, slab)
       class(measured_map), intent(inout) :: self
       type(grid_slab), intent(in) :: slab
@@ -51,7 +51,7 @@ contains
       self%slab = slab
    end subroutine spread_over
 
-   !> The columns that `height` has: the whole grid, unless the map is spread.
+   !> The columns that `height` has: the whole grid, unless the map is distributed.
    pure type(grid_slab) function columns(self)
       class(measured_map), intent(in) :: self
 
@@ -71,7 +71,7 @@ contains
       if (self%slab%is_spread) points = self%slab%points
    end function points
 
-   !> Spreads a map that is whole, if it is large.
+   !> Distributes a whole map if it is large.
    subroutine keep_own_columns(self)
       class(measured_map), intent(inout) :: self
 

@@ -7,8 +7,8 @@ module wavycon_paper_wave
 
    public :: paper_wave_of
 
-   !> Whether a shape is one, and in which angles. Straight: eq. (3) or
-   !> (21) with phi = X, theta = Y. Turned: eq. (21) with phi = (X + Y)/2, theta = (X - Y)/2.
+   !> Whether a shape is a wave of the paper, and in which angles. Straight: eq. (3) or (21) with phi = X, theta = Y.
+   !> Turned: eq. (21) with phi = (X + Y)/2, theta = (X - Y)/2.
    integer, parameter, public :: no_paper_wave = 0, straight_paper_wave = 1, turned_paper_wave = 2
 
    !> Coefficients of a shape that differ by less than this are equal.

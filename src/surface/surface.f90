@@ -23,7 +23,7 @@ module wavycon_surface
       integer :: dimension = 2
       real(dp) :: length(2) = 1.0_dp            !! L_x, L_y, sides of the periodic cell [length]
       real(dp) :: amplitude = 1.0_dp            !! Delta [length], >= 0
-      !> Of a height map whose points are spread the own waves, see is_spread.
+      !> If the points of a height map are distributed it has the own waves, see is_spread.
       type(fourier_series) :: shape
       integer :: points(2) = 0                  !! of the grid of a height map on the cell; zeros for a sum of waves
       !> Whether the cell consists of a height map and its mirror images. The map is then the quarter 0 <= X, Y <= pi.
@@ -83,8 +83,8 @@ contains
    end function surface_of_series
 
    !> The surface through given heights on a grid. Between the points it is their Fourier series. Crest, full-contact
-   !> pressure and curvature are the extremes over the points. If the grid is spread the surface is, and its
-   !> numbers are those of the whole grid.
+   !> pressure and curvature are the extremes over the points. If the grid is distributed so is the surface; its numbers
+   !> are those of the whole grid.
    !>
    !> The grid is that of the whole cell, with the first point at X = Y = 0, or that of a quarter, which mirror images
    !> continue: equation (M6) of src/map/README.md.
@@ -93,7 +93,7 @@ contains
       !> [length], shape (M, N), N = 1 for a profile, or (M, columns of the grid's slab).
       real(dp), intent(in), contiguous :: height(:, :)
       logical, intent(in), optional :: mirrored        !! whether mirror images continue it; .false. if absent
-      integer, intent(in), optional :: points(2)       !! M, N of a grid that may be spread; the shape of height if absent
+      integer, intent(in), optional :: points(2)       !! M, N if the grid may be distributed; shape of height if absent
 
       type(grid_transform) :: transform
       real(dp), allocatable :: values(:, :)
@@ -129,8 +129,8 @@ contains
       surface%crest_curvature = extremes(1)
    end function surface_of_points
 
-   !> Makes a surface that is spread whole, where the tables are written or everywhere; elsewhere it stays spread. The
-   !> shape has 8 bytes a point, and takes twice as much for a moment.
+   !> Gathers a distributed surface, on the rank that writes the tables or on all; on other ranks it stays distributed.
+   !> The shape has 8 bytes a point, and takes twice as much for a moment.
    subroutine whole_surface(surface, first_only)
       type(surface_type), intent(inout) :: surface
       logical, intent(in) :: first_only
@@ -138,8 +138,8 @@ contains
       call gather_series(surface%shape, first_only)
    end subroutine whole_surface
 
-   !> How often the part of the cell that decks and tables refer to lies in it along x and y: the map of a mirrored map
-   !> twice, any other whole cell once.
+   !> How often the cell contains, along x and y, the part that decks and tables refer to: 2 for a mirrored map,
+   !> otherwise 1.
    pure function parts(self)
       class(surface_type), intent(in) :: self
       integer :: parts(2)
@@ -173,8 +173,9 @@ contains
       is_height_map = all(self%points > 0)
    end function is_height_map
 
-   !> Whether the shape has the coefficients of own wave numbers in X only, see wavycon_own_waves. It cannot be evaluated
-   !> then but by wavycon_undeformed_gap; `whole_surface` makes it whole. All other components are those of the whole.
+   !> Whether the shape has the coefficients of own wave numbers in X only, see wavycon_own_waves. Then only
+   !> wavycon_undeformed_gap can evaluate it; `whole_surface` gathers it. All other components are those of the whole
+   !> surface.
    pure logical function is_spread(self)
       class(surface_type), intent(in) :: self
 
@@ -311,8 +312,8 @@ contains
       series%ss = series%ss/unit
    end subroutine divide
 
-   !> Whether the surface is a wave of the paper: no_paper_wave, straight_paper_wave or turned_paper_wave. A surface that
-   !> is spread is taken for none.
+   !> Whether the surface is a wave of the paper: no_paper_wave, straight_paper_wave or turned_paper_wave. A distributed
+   !> surface counts as none.
    pure integer function paper_wave(self)
       class(surface_type), intent(in) :: self
 
@@ -352,7 +353,7 @@ contains
       end if
    end subroutine paper_angles
 
-   !> Whether the surface is periodic on a square of half the area, turned by 45 degrees, and there even and symmetric
+   !> Whether the surface is periodic on a square of half the area, rotated by 45 degrees, and there even and symmetric
    !> under exchange of the directions. A height map is taken as it is.
    pure logical function has_smaller_cell(self)
       class(surface_type), intent(in) :: self
