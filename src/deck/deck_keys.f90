@@ -2,8 +2,7 @@
 module wavycon_deck_keys
    use wavycon_deck, only: deck_type
    use wavycon_group_values, only: group_values
-   use wavycon_key_table, only: choice_value, integer_value, key_type, logical_value, real_value, text_value
-   use wavycon_plain_text, only: exact_number, integer_text
+   use wavycon_key_table, only: integer_value, key_type, logical_value, number_text, real_value
    implicit none (type, external)
    private
 
@@ -27,22 +26,17 @@ contains
       type(deck_type), intent(in) :: deck   !! without problems
       type(deck_key), allocatable, intent(out) :: keys(:)
 
-      type(deck_key), allocatable :: room(:)
-      integer :: i, number
+      type(deck_key) :: room(size(deck%material%table%keys) + size(deck%surface_values%table%keys) + &
+                             size(deck%load%table%keys) + size(deck%stress%table%keys) + size(deck%method%table%keys))
+      integer :: number
 
-      allocate (room(size(deck%material%table%keys) + size(deck%surface_values%table%keys) + &
-                     size(deck%load%table%keys) + size(deck%stress%table%keys) + &
-                     size(deck%method%table%keys)))
       number = 0
       call add_group(deck%material)
       call add_group(deck%surface_values)
       call add_group(deck%load)
       if (deck%stress%place > 0) call add_group(deck%stress)
       call add_group(deck%method)
-      allocate (keys(number))
-      do i = 1, number
-         keys(i) = room(i)
-      end do
+      allocate (keys, source=room(:number))
 
    contains
 
@@ -75,29 +69,20 @@ contains
       character(:), allocatable :: word
 
       integer :: i
-      logical :: are_equal
 
-      word = ''
       select case (key%kind)
-      case (real_value)
-         associate (numbers => values%reals(trim(key%name)))
-            are_equal = .not. maxval(numbers) > minval(numbers)
-            do i = 1, merge(1, size(numbers), are_equal)
-               word = word//','//exact_number(numbers(i))
-            end do
+      case (real_value, integer_value)
+         associate (numbers => values%numbers(trim(key%name)))
+            word = number_text(key, numbers(1))
+            if (maxval(numbers) > minval(numbers)) then
+               do i = 2, size(numbers)
+                  word = word//','//number_text(key, numbers(i))
+               end do
+            end if
          end associate
-         word = word(2:)
-      case (integer_value)
-         associate (numbers => values%integers(trim(key%name)))
-            are_equal = .not. maxval(numbers) > minval(numbers)
-            do i = 1, merge(1, size(numbers), are_equal)
-               word = word//','//integer_text(numbers(i))
-            end do
-         end associate
-         word = word(2:)
       case (logical_value)
          word = trim(merge('.true. ', '.false.', values%logical(trim(key%name))))
-      case (choice_value, text_value)
+      case default
          word = values%text(trim(key%name))
          do i = 1, len(word)
             if (word(i:i) == ' ') word(i:i) = '_'

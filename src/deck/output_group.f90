@@ -1,6 +1,6 @@
 !> The &output group: which files are written, and where.
 module wavycon_output_group
-   use wavycon_grid_keys, only: points_of_grid
+   use wavycon_grid_method, only: points_of_grid
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: choice_key, integer_key, key_group, key_group_type, key_type, logical_key, text_key
    use wavycon_map_table, only: text_side
@@ -114,13 +114,11 @@ contains
 
       ! A multiple of the grid's points: lines on a square height map pass through its points and do not cut peaks.
       finest = max(1, maxval(grid))
-      call values%set_default('line_points', finest*((max(usual_points, finest) + finest - 1)/finest))
+      call values%set_default('line_points', [finest*((max(usual_points, finest) + finest - 1)/finest)])
       if (values%is_bad('map_points')) return
       points = grid
       if (all(grid == 0)) points = usual_points
-      associate (given => values%integers('map_points'))
-         if (values%has('map_points')) points = given([1, size(given)])
-      end associate
+      if (values%has('map_points')) points = nint(values%pair('map_points'))
       call values%set('map_points', points(:dimension))
    end subroutine set_points
 

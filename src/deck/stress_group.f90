@@ -10,7 +10,7 @@ module wavycon_stress_group
    implicit none (type, external)
    private
 
-   public :: stress_table, check_stress_group, is_another_way, make_stress_setting
+   public :: stress_table, check_stress_group, make_stress_setting
 
    !> Most depths of a list or a range.
    integer, parameter :: most_depths = 10000
@@ -29,35 +29,29 @@ contains
          logical_key('largest', '.true.', 'A table of the largest von Mises stress and the largest shear stress of '// &
             'each load, and where they are.'), &
          logical_key('line', '.false.', 'A table of the stresses on the line below the crest.'), &
-         choice_key('section', "'none'", "a table of the stresses on a vertical section through the crest, "// &
-            "along 'x', "// &
-            "'y' or the 'diagonal' of the cell.", [character(8) :: 'none', 'x', 'y', 'diagonal']), &
-         logical_key('planes', '.false.', 'A table of the stresses on the planes at the given depths, with the '// &
-            'points '// &
-            'and in the format of maps.'), &
-         real_key('depths', '', 'length', 'Depths of the planes; also of the points of line and section unless '// &
-            'a range '// &
-            'is given.', least=0.0_dp, &
-            most_values=most_depths), &
-         real_key('depths_over_cell_x', '', '-', 'The same over the side of the cell along x, which is the '// &
-            'wavelength '// &
-            'of a wave.', least=0.0_dp, most_values=most_depths), &
-         real_key('depth_from', '0.0', '-', 'First depth of a range in equal steps, over the side of the cell '// &
-            'along x, for '// &
-            'line and section; also for the planes unless depths are given.', &
-            least=0.0_dp), &
+         choice_key('section', "'none'", "a table of the stresses on a vertical section through the crest, along "// &
+            "'x', 'y' or the 'diagonal' of the cell.", [character(8) :: 'none', 'x', 'y', 'diagonal']), &
+         logical_key('planes', '.false.', &
+            'A table of the stresses on the planes at the given depths, with the points and in the format of maps.'), &
+         real_key('depths', '', 'length', &
+            'Depths of the planes; also of the points of line and section unless a range is given.', least=0.0_dp, &
+            most_values=most_depths, way=1), &
+         real_key('depths_over_cell_x', '', '-', &
+            'The same over the side of the cell along x, which is the wavelength of a wave.', least=0.0_dp, &
+            most_values=most_depths, way=2), &
+         real_key('depth_from', '0.0', '-', 'First depth of a range in equal steps, over the side of the cell along '// &
+            'x, for line and section; also for the planes unless depths are given.', least=0.0_dp), &
          real_key('depth_to', '1.0', '-', 'Last depth of the range.', least=0.0_dp), &
          integer_key('depth_steps', '65', 'Number of depths of the range, both ends included.', 1, most_depths), &
-         real_key('nu', 'nu1, nu2', '-', "Poisson's ratios of the first and the second body; one number: of "// &
-            "both. The "// &
-            'default is that of &material. Where they differ the stresses of both bodies are computed.', &
+         real_key('nu', 'nu1, nu2', '-', "Poisson's ratios of the first and the second body; one number: of both. "// &
+            'The default is that of &material. Where they differ the stresses of both bodies are computed.', &
             above=-1.0_dp, most=0.5_dp, most_values=2), &
          choice_key('lateral', "'constrained'", "the lateral stresses of the mean pressure pbar. 'constrained': no "// &
             "lateral strain, -nu pbar/(1 - nu); 'free': 0; 'hydrostatic': -pbar.", &
             [character(11) :: 'constrained', 'free', 'hydrostatic']), &
-         real_key('yield_stress', '', 'unit of e_star', 'Yield stresses of the first and the second body in '// &
-            'uniaxial '// &
-            'tension; one number: of both.', above=0.0_dp, most_values=2), &
+         real_key('yield_stress', '', 'unit of e_star', &
+            'Yield stresses of the first and the second body in uniaxial tension; one number: of both.', above=0.0_dp, &
+            most_values=2), &
          choice_key('yield_criterion', "'von_mises'", "which stress reaches the yield stress: 'von_mises', the von "// &
             "Mises stress; 'tresca', twice the largest shear stress.", [character(9) :: 'von_mises', 'tresca'])])
    end function stress_table
@@ -121,16 +115,9 @@ contains
       else if (material%has('nu2')) then
          call values%set_default('nu', [material%real('nu1'), material%real('nu2')])
       else
-         call values%set_default('nu', material%real('nu1'))
+         call values%set_default('nu', [material%real('nu1')])
       end if
    end subroutine take_ratios
-
-   !> Whether two keys of &stress give a list of depths in different ways.
-   pure logical function is_another_way(key, other)
-      character(*), intent(in) :: key, other
-
-      is_another_way = any(lists == key) .and. any(lists == other) .and. key /= other
-   end function is_another_way
 
    !> What the group asks for. A rigid body has no stresses, and a body that is like the other is left out.
    subroutine make_stress_setting(values, material, p_star, setting)
@@ -144,9 +131,7 @@ contains
 
       if (values%place == 0) return
       allocate (setting)
-      associate (given => values%reals('nu'))
-         nu = given([1, size(given)])
-      end associate
+      nu = values%pair('nu')
       select case (values%text('lateral'))
       case ('free')
          lateral = laterally_free
@@ -157,11 +142,7 @@ contains
       end select
       allocate (setting%body, source=[elastic_body(nu(1), lateral), elastic_body(nu(2), lateral)])
       setting%by_shear = values%text('yield_criterion') == 'tresca'
-      if (values%has('yield_stress') .and. p_star > 0.0_dp) then
-         associate (given => values%reals('yield_stress'))
-            allocate (setting%yield_stress, source=given([1, size(given)])/p_star)
-         end associate
-      end if
+      if (values%has('yield_stress') .and. p_star > 0.0_dp) setting%yield_stress = values%pair('yield_stress')/p_star
       if (is_rigid() .or. is_like_the_first()) then
          setting%body = setting%body(:1)
          if (allocated(setting%yield_stress)) setting%yield_stress = setting%yield_stress(:1)

@@ -14,11 +14,10 @@ module wavycon_key_values
 
    public :: word_value, read_value
 
-   !> The value of a word: a number, a flag or a text, according to the type of the key.
+   !> The value of a word: a number or a text, according to the type of the key.
    type :: word_value
       integer :: repeats = 1                 !! r of 'r*value'
-      real(dp) :: number = 0.0_dp            !! of reals and integers
-      logical :: flag = .false.
+      real(dp) :: number = 0.0_dp            !! of reals and integers; of logicals 1 for .true. and 0 for .false.
       character(:), allocatable :: text      !! of texts and choices, without the quotes
    end type word_value
 
@@ -50,8 +49,8 @@ contains
          case (integer_value)
             call read_integer(key, rest, value%number, trouble)
          case (logical_value)
-            value%flag = any(lower_case(rest) == true_words)
-            if (.not. value%flag .and. all(lower_case(rest) /= false_words)) trouble = must_be(key, rest)
+            value%number = count(lower_case(rest) == true_words)
+            if (value%number < 1 .and. all(lower_case(rest) /= false_words)) trouble = must_be(key, rest)
          case (text_value)
             call read_text(key, rest, value%text, trouble)
          case (choice_value)

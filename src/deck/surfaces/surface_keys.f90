@@ -5,21 +5,9 @@ module wavycon_surface_keys
    implicit none (type, external)
    private
 
-   public :: amplitude_key, wavelength_key, length_x_key, length_y_key
+   public :: length_x_key, length_y_key
 
 contains
-
-   pure type(key_type) function amplitude_key(meaning) result(key)
-      character(*), intent(in) :: meaning
-
-      key = real_key('amplitude', '1.0', 'length', meaning, least=0.0_dp)
-   end function amplitude_key
-
-   pure type(key_type) function wavelength_key(meaning) result(key)
-      character(*), intent(in) :: meaning
-
-      key = real_key('wavelength', '1.0', 'length', meaning, above=0.0_dp)
-   end function wavelength_key
 
    pure type(key_type) function length_x_key() result(key)
       key = real_key('length_x', '1.0', 'length', 'side of the periodic cell along x.', above=0.0_dp)

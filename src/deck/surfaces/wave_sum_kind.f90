@@ -44,7 +44,7 @@ contains
    subroutine set_defaults(values)
       type(group_values), intent(inout) :: values
 
-      call values%set_default('length_y', values%real('length_x'))
+      call values%set_default('length_y', values%reals('length_x'))
       call values%set_default('waves_y', 0*values%integers('waves_x'))
       call values%set_default('phases', 0*values%reals('amplitudes'))
    end subroutine set_defaults
