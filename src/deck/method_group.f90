@@ -4,7 +4,7 @@ module wavycon_method_group
    use wavycon_key_alternatives, only: alternative_group, check_alternatives
    use wavycon_key_table, only: key_group_type
    use wavycon_problems, only: problem_list_type
-   use wavycon_method_list, only: default_solver, get_methods, number_of_methods, refusal, solvers_for
+   use wavycon_method_list, only: default_solver, get_methods, method_of, number_of_methods, refusal, solvers_for
    use wavycon_solver_method, only: solver_method
    use wavycon_surface, only: surface_type
    implicit none (type, external)
@@ -32,28 +32,24 @@ contains
       type(surface_type), allocatable, intent(in) :: surface     !! not allocated if it has problems
       type(problem_list_type), intent(inout) :: problems
 
-      type(solver_method) :: methods(number_of_methods)
+      type(solver_method) :: method
       character(:), allocatable :: words
-      integer :: chosen
 
-      call get_methods(methods)
       if (allocated(surface)) call values%set_default('solver', default_solver(surface, kind))
       if (values%is_bad('solver')) return
-      chosen = findloc(methods%name == values%text('solver'), .true., dim=1)
-      if (chosen == 0) return
-      associate (method => methods(chosen))
-         call check_alternatives(method%alternative_type, values, problems, before='solver = ')
-         ! Without a surface the remaining checks would report problems that are not there.
-         if (.not. allocated(surface)) return
-         words = refusal(method, surface)
-         if (words /= '') then
-            call values%complain(problems, 'solver', "solver = '"//values%text('solver')//"' "//words//'. Give '// &
-                                 solvers_for(surface))
-            return
-         end if
-         if (associated(method%set_defaults)) call method%set_defaults(values, surface)
-         if (associated(method%check)) call method%check(values, surface, problems)
-      end associate
+      method = method_of(values)
+      if (method%name == '') return
+      call check_alternatives(method%alternative_type, values, problems, before='solver = ')
+      ! Without a surface the remaining checks would report problems that are not there.
+      if (.not. allocated(surface)) return
+      words = refusal(method, surface)
+      if (words /= '') then
+         call values%complain(problems, 'solver', "solver = '"//values%text('solver')//"' "//words//'. Give '// &
+                              solvers_for(surface))
+         return
+      end if
+      if (associated(method%set_defaults)) call method%set_defaults(values, surface)
+      if (associated(method%check)) call method%check(values, surface, problems)
    end subroutine check_method_group
 
 end module wavycon_method_group

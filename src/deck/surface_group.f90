@@ -11,7 +11,7 @@ module wavycon_surface_group
    use wavycon_problems, only: problem_list_type
    use wavycon_surface, only: surface_type
    use wavycon_surface_kind, only: surface_kind
-   use wavycon_surface_kinds, only: get_surface_kinds, number_of_kinds
+   use wavycon_surface_kinds, only: get_surface_kinds, kind_of, number_of_kinds
    implicit none (type, external)
    private
 
@@ -40,15 +40,13 @@ contains
       type(group_values), intent(inout) :: values
       type(problem_list_type), intent(inout) :: problems
 
-      type(surface_kind) :: kinds(number_of_kinds)
-      integer :: chosen
+      type(surface_kind) :: kind
 
-      call get_surface_kinds(kinds)
-      chosen = findloc(kinds%name == values%text('kind'), .true., dim=1)
-      if (chosen == 0) return
-      call check_alternatives(kinds(chosen)%alternative_type, values, problems, before='')
-      if (associated(kinds(chosen)%set_defaults)) call kinds(chosen)%set_defaults(values)
-      if (associated(kinds(chosen)%check)) call kinds(chosen)%check(values, problems)
+      kind = kind_of(values)
+      if (kind%name == '') return
+      call check_alternatives(kind%alternative_type, values, problems, before='')
+      if (associated(kind%set_defaults)) call kind%set_defaults(values)
+      if (associated(kind%check)) call kind%check(values, problems)
    end subroutine check_surface_group
 
    !> Reports a cell that is so long that loads would take too many iterations.
@@ -88,17 +86,15 @@ contains
       type(error_type), allocatable, intent(out) :: error
       real(dp), intent(in), optional :: heights(:, :)   !! in place of those of the file, as of surface_of_heights
 
-      type(surface_kind) :: kinds(number_of_kinds)
-      integer :: chosen
+      type(surface_kind) :: kind
 
-      call get_surface_kinds(kinds)
-      chosen = findloc(kinds%name == values%text('kind'), .true., dim=1)
-      if (chosen == 0) return
+      kind = kind_of(values)
+      if (kind%name == '') return
       allocate (surface)
       if (present(heights)) then
          call surface_of_heights(values, heights, surface, map, error)
       else
-         call kinds(chosen)%make(values, surface, map, error)
+         call kind%make(values, surface, map, error)
       end if
       if (allocated(error)) deallocate (surface)
    end subroutine make_surface

@@ -82,9 +82,7 @@ contains
       type(surface_type), intent(in) :: surface
       type(problem_list_type), intent(inout) :: problems
 
-      type(fourier_terms) :: terms
-      integer, allocatable :: k(:), l(:)
-      integer :: harmonics, points
+      integer :: constraints, harmonics, points, unknowns
 
       if (surface%dimension == 1 .and. values%has('symmetry')) call values%complain(problems, 'symmetry', &
          'symmetry means nothing in 1-D: leave it out')
@@ -100,15 +98,29 @@ contains
             'constraint_points must be more than harmonics, got '//integer_text(points)//' and '// &
             integer_text(harmonics)//trim(merge('              ', ' (the default)', values%has('harmonics'))))
       else if (.not. values%is_bad('symmetry')) then
-         terms = choose_terms(surface%dimension, harmonics, symmetry_of(values))
-         call choose_points(surface%dimension, points, symmetry_of(values), k, l)
-         if (real(terms%count(), dp)*size(k)*merge(2, 1, surface%has_hardness()) > most_elements) &
+         call find_size(values, surface, unknowns, constraints)
+         if (real(unknowns, dp)*constraints*merge(2, 1, surface%has_hardness()) > most_elements) &
             call values%complain(problems, 'constraint_points', 'harmonics = '//integer_text(harmonics)// &
-               ' and constraint_points = '//integer_text(points)//' make '//integer_text(terms%count())// &
-               ' unknowns and '//integer_text(size(k))//' constraints: too many for the memory. Give fewer '// &
+               ' and constraint_points = '//integer_text(points)//' make '//integer_text(unknowns)// &
+               ' unknowns and '//integer_text(constraints)//' constraints: too many for the memory. Give fewer '// &
                'constraint_points (harmonics + 1 serve well), or a symmetry')
       end if
    end subroutine check
+
+   !> The size of the quadratic programme.
+   subroutine find_size(values, surface, unknowns, constraints)
+      type(group_values), intent(in) :: values
+      type(surface_type), intent(in) :: surface
+      integer, intent(out) :: unknowns, constraints   !! without those of a hardness, which are as many again
+
+      type(fourier_terms) :: terms
+      integer, allocatable :: k(:), l(:)
+
+      terms = choose_terms(surface%dimension, values%integer('harmonics'), symmetry_of(values))
+      call choose_points(surface%dimension, values%integer('constraint_points'), symmetry_of(values), k, l)
+      unknowns = terms%count()
+      constraints = size(k)
+   end subroutine find_size
 
    pure integer function symmetry_of(values) result(symmetry)
       type(group_values), intent(in) :: values
@@ -131,8 +143,7 @@ contains
       character(:), allocatable, intent(out) :: description
 
       type(beale_contact), allocatable :: own
-      type(fourier_terms) :: terms
-      integer, allocatable :: k(:), l(:)
+      integer :: constraints, unknowns
 
       associate (fields_are_always_kept => keep_fields); end associate
       allocate (own)
@@ -140,11 +151,10 @@ contains
                                          symmetry_of(values), values%real('edge_level'), &
                                          values%text('minimiser') == 'beale'))
       call move_alloc(own, solver)
-      terms = choose_terms(surface%dimension, values%integer('harmonics'), symmetry_of(values))
-      call choose_points(surface%dimension, values%integer('constraint_points'), symmetry_of(values), k, l)
-      description = integer_text(terms%harmonics)//' harmonics ('//integer_text(terms%count())//' unknowns), '// &
-                    integer_text(size(k)*merge(2, 1, surface%has_hardness()))//' constraint points, edge_level[p*] = '// &
-                    short_number(values%real('edge_level'))
+      call find_size(values, surface, unknowns, constraints)
+      description = integer_text(values%integer('harmonics'))//' harmonics ('//integer_text(unknowns)//' unknowns), '// &
+                    integer_text(constraints*merge(2, 1, surface%has_hardness()))// &
+                    ' constraint points, edge_level[p*] = '//short_number(values%real('edge_level'))
    end subroutine make
 
    subroutine why_no_area(values, words)

@@ -40,17 +40,11 @@ contains
       words = ''
       if (surface%has_hardness()) words = 'has no solution with a hardness'
       ! A flat surface is in full contact at every load: no expansion is needed.
-      if (.not. frame%is_found() .and. surface%amplitude > 0.0_dp) words = 'has expansions for '//its_surfaces()
+      if (.not. frame%is_found() .and. surface%amplitude > 0.0_dp) words = &
+         "has expansions for the paper's wave, also with two wavelengths up to "//short_number(largest_aspect_ratio)// &
+         ':1, for crossed waves with crest curvatures up to '//short_number(largest_curvature_ratio)// &
+         ':1 and for three equal waves at 60 degrees'
    end subroutine refusal
-
-   !> The surfaces that have a frame, for messages and the key reference.
-   pure function its_surfaces() result(words)
-      character(:), allocatable :: words
-
-      words = "the paper's wave, also with two wavelengths up to "//short_number(largest_aspect_ratio)// &
-              ':1, for crossed waves with crest curvatures up to '//short_number(largest_curvature_ratio)// &
-              ':1 and for three equal waves at 60 degrees'
-   end function its_surfaces
 
    subroutine make(values, surface, keep_fields, solver, description)
       type(group_values), intent(in) :: values

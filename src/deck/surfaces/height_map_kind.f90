@@ -16,8 +16,7 @@ module wavycon_height_map_kind
    use wavycon_prepare_map, only: map_preparation
    use wavycon_problems, only: problem_list_type
    use wavycon_surface, only: surface_type
-   use wavycon_surface_keys, only: length_x_key, length_y_key
-   use wavycon_surface_kind, only: surface_kind
+   use wavycon_surface_kind, only: length_x_key, length_y_key, surface_kind
    use wavycon_system, only: full_path, path_absent, path_kind
    implicit none (type, external)
    private

@@ -11,8 +11,7 @@ module wavycon_self_affine_kind
    use wavycon_self_affine, only: self_affine_surface
    use wavycon_self_affine_heights, only: has_waves, least_points_of, self_affine_spectrum
    use wavycon_surface, only: surface_type
-   use wavycon_surface_keys, only: length_x_key, length_y_key
-   use wavycon_surface_kind, only: surface_kind
+   use wavycon_surface_kind, only: length_x_key, length_y_key, surface_kind
    implicit none (type, external)
    private
 

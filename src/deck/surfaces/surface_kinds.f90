@@ -1,5 +1,6 @@
 !> The list of all kinds of surface. A new kind adds its line to `get_surface_kinds`.
 module wavycon_surface_kinds
+   use wavycon_group_values, only: group_values
    use wavycon_height_map_kind, only: height_map_kind
    use wavycon_plain_text, only: listed
    use wavycon_self_affine_kind, only: self_affine_kind
@@ -9,7 +10,7 @@ module wavycon_surface_kinds
    implicit none (type, external)
    private
 
-   public :: get_surface_kinds, paper_waves, is_paper_kind
+   public :: get_surface_kinds, kind_of, paper_waves, is_paper_kind
 
    integer, parameter, public :: number_of_kinds = 7
 
@@ -24,6 +25,18 @@ contains
       kinds(6) = height_map_kind()
       kinds(7) = self_affine_kind()
    end subroutine get_surface_kinds
+
+   !> The kind that &surface names. Its pointers are null if there is none of that name.
+   type(surface_kind) function kind_of(values) result(kind)
+      type(group_values), intent(in) :: values   !! of &surface
+
+      type(surface_kind) :: kinds(number_of_kinds)
+      integer :: i
+
+      call get_surface_kinds(kinds)
+      i = findloc(kinds%name == values%text('kind'), .true., dim=1)
+      if (i > 0) kind = kinds(i)
+   end function kind_of
 
    !> The kinds that are waves of Johnson, Greenwood & Higginson (1985), eqs. (3) and (21), and their conditions, for
    !> messages.

@@ -9,8 +9,7 @@ module wavycon_wave_sum_kind
    use wavycon_plain_text, only: integer_text
    use wavycon_problems, only: problem_list_type
    use wavycon_surface, only: surface_type
-   use wavycon_surface_keys, only: length_x_key, length_y_key
-   use wavycon_surface_kind, only: surface_kind
+   use wavycon_surface_kind, only: length_x_key, length_y_key, surface_kind
    use wavycon_wave_sum, only: wave_sum
    implicit none (type, external)
    private
