@@ -136,7 +136,7 @@ contains
       type(group_values), intent(inout) :: values
       type(problem_list_type), intent(inout) :: problems
 
-      character(:), allocatable :: key
+      character(:), allocatable :: first, key
       integer :: e, i, k
 
       do i = 1, size(entries)
@@ -145,7 +145,9 @@ contains
          k = key_index(values%table%keys, key)
          if (k == 0) cycle
          if (values%has(key)) then
-            call problems%add(place(e), key//' is given twice, first '//where_is(text, values%place_of(key)))
+            first = 'in line '//integer_text(text%line_of(values%place_of(key)))
+            if (text%is_in_option(values%place_of(key))) first = 'by '//excerpt(text%option_at(values%place_of(key)))
+            call problems%add(place(e), key//' is given twice, first '//first)
             call values%take(key, values%place_of(key))
          else
             call take_value(text, scan, scan%entries(e), values%table%keys(k), values, problems)
@@ -173,16 +175,6 @@ contains
       end function place
 
    end subroutine take_keys
-
-   !> "in line N", or "by" an option.
-   pure function where_is(text, place) result(words)
-      type(deck_text_type), intent(in) :: text
-      integer, intent(in) :: place
-      character(:), allocatable :: words
-
-      words = 'in line '//integer_text(text%line_of(place))
-      if (text%is_in_option(place)) words = 'by '//excerpt(text%option_at(place))
-   end function where_is
 
    !> The message for a key that the group does not have.
    pure function unknown_key(key, table, tables) result(words)
