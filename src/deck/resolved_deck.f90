@@ -8,9 +8,7 @@ module wavycon_resolved_deck
    implicit none (type, external)
    private
 
-   public :: resolved_deck_text, with_text
-
-   character(*), parameter :: margin = '   '   !! before a key
+   public :: resolved_deck_text
 
 contains
 
@@ -26,20 +24,6 @@ contains
       if (deck%stress%place > 0) text = text//group_text(deck%stress)
       text = text//group_text(deck%method)//group_text(deck%output)
    end function resolved_deck_text
-
-   !> A resolved deck with another value of a key.
-   pure function with_text(deck_text, key, old, new) result(text)
-      character(*), intent(in) :: deck_text
-      character(*), intent(in) :: key        !! of texts, in one group alone
-      character(*), intent(in) :: old, new   !! the value that it has, and gets
-      character(:), allocatable :: text
-
-      integer :: first
-
-      text = newline//margin//key//' = '
-      first = index(deck_text, text) + len(text)
-      text = deck_text(:first - 1)//quoted(new)//deck_text(first + len(quoted(old)):)
-   end function with_text
 
    !> A group, each line with a newline before it.
    function group_text(values) result(text)
@@ -70,7 +54,7 @@ contains
       comment = '   ! '
       if (key%unit /= '') comment = comment//'['//trim(key%unit)//'] '
       comment = comment//allowed_values(key)
-      text = newline//margin//name//' = '
+      text = newline//'   '//name//' = '
       select case (key%kind)
       case (real_value, integer_value)
          numbers = values%numbers(name)

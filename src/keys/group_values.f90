@@ -47,10 +47,9 @@ module wavycon_group_values
       procedure :: integers
       procedure :: logical => get_logical
       procedure :: text
-      procedure, private :: set_flag
       procedure, private :: set_integers
       procedure, private :: set_text
-      generic :: set => set_flag, set_integers, set_text
+      generic :: set => set_integers, set_text
       procedure, private :: default_reals
       procedure, private :: default_integers
       procedure, private :: default_text
@@ -237,14 +236,6 @@ contains
    end function text
 
    !> `set`: sets a value in place of the deck's or the default.
-   pure subroutine set_flag(self, key, flag)
-      class(group_values), intent(inout) :: self
-      character(*), intent(in) :: key
-      logical, intent(in) :: flag
-
-      call put(self, self%find(key, [logical_value]), [merge(1.0_dp, 0.0_dp, flag)])
-   end subroutine set_flag
-
    pure subroutine set_integers(self, key, numbers)
       class(group_values), intent(inout) :: self
       character(*), intent(in) :: key
