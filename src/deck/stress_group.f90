@@ -15,10 +15,6 @@ module wavycon_stress_group
    !> Most depths of a list or a range.
    integer, parameter :: most_depths = 10000
 
-   !> The keys of a range of depths, and the two that give a list of them.
-   character(18), parameter :: range_keys(*) = [character(18) :: 'depth_from', 'depth_to', 'depth_steps']
-   character(18), parameter :: lists(*) = [character(18) :: 'depths', 'depths_over_cell_x']
-
 contains
 
    !> The table of keys of &stress.
@@ -64,7 +60,6 @@ contains
       type(surface_type), intent(in), optional :: surface   !! absent if it is not known, or its keys are bad
 
       logical :: has_range
-      integer :: k
 
       if (load%has('yield') .and. values%place == 0) then
          call load%complain(problems, 'yield', 'yield needs yield_stress in a group &stress')
@@ -72,12 +67,12 @@ contains
          call load%complain(problems, 'yield', 'yield needs yield_stress in &stress')
       end if
       if (values%place == 0) return
-      has_range = gives_range(values)
-      call values%forbid(problems, trim(lists(1)), trim(lists(2)), 'give one of them')
-      if (.not. has_range .and. any([(values%has(trim(lists(k))), k=1, size(lists))])) then
-         do k = 1, size(range_keys)
-            call values%leave_out(trim(range_keys(k)))
-         end do
+      has_range = values%has('depth_from') .or. values%has('depth_to') .or. values%has('depth_steps')
+      call values%forbid(problems, 'depths', 'depths_over_cell_x', 'give one of them')
+      if (.not. has_range .and. (values%has('depths') .or. values%has('depths_over_cell_x'))) then
+         call values%leave_out('depth_from')
+         call values%leave_out('depth_to')
+         call values%leave_out('depth_steps')
       else if (values%logical('planes') .and. .not. has_range) then
          call values%complain(problems, 'planes', 'planes needs depths, depths_over_cell_x or a range of depths')
       end if
@@ -87,19 +82,9 @@ contains
             call values%complain(problems, 'section', &
             "the surface does not change along y: section must be 'none' or 'x'")
       end if
-      if (values%has('yield_criterion') .and. .not. values%has('yield_stress')) call values%complain(problems, &
-         'yield_criterion', 'yield_criterion needs yield_stress beside it')
+      call values%require(problems, 'yield_criterion', 'yield_stress')
       if (.not. values%has('yield_stress')) call values%leave_out('yield_criterion')
    end subroutine check_stress_group
-
-   !> Whether the deck gives a range of depths.
-   pure logical function gives_range(values)
-      type(group_values), intent(in) :: values
-
-      integer :: k
-
-      gives_range = any([(values%has(trim(range_keys(k))), k=1, size(range_keys))])
-   end function gives_range
 
    !> Sets Poisson's ratios to those of &material, or reports that there are none or that they contradict each other.
    subroutine take_ratios(values, material, problems)
@@ -128,6 +113,7 @@ contains
 
       real(dp) :: nu(2)
       integer :: lateral
+      logical :: are_alike
 
       if (values%place == 0) return
       allocate (setting)
@@ -143,24 +129,14 @@ contains
       allocate (setting%body, source=[elastic_body(nu(1), lateral), elastic_body(nu(2), lateral)])
       setting%by_shear = values%text('yield_criterion') == 'tresca'
       if (values%has('yield_stress') .and. p_star > 0.0_dp) setting%yield_stress = values%pair('yield_stress')/p_star
-      if (is_rigid() .or. is_like_the_first()) then
+      are_alike = abs(nu(2) - nu(1)) <= 0.0_dp
+      if (allocated(setting%yield_stress)) are_alike = are_alike .and. &
+         abs(setting%yield_stress(2) - setting%yield_stress(1)) <= 0.0_dp
+      ! Without e2 the second body is rigid.
+      if (are_alike .or. (material%has('e1') .and. .not. material%has('e2'))) then
          setting%body = setting%body(:1)
          if (allocated(setting%yield_stress)) setting%yield_stress = setting%yield_stress(:1)
       end if
-
-   contains
-
-      !> Whether the second body is rigid.
-      logical function is_rigid()
-         is_rigid = material%has('e1') .and. .not. material%has('e2')
-      end function is_rigid
-
-      logical function is_like_the_first()
-         is_like_the_first = abs(nu(2) - nu(1)) <= 0.0_dp
-         if (allocated(setting%yield_stress)) is_like_the_first = is_like_the_first .and. &
-            abs(setting%yield_stress(2) - setting%yield_stress(1)) <= 0.0_dp
-      end function is_like_the_first
-
    end subroutine make_stress_setting
 
 end module wavycon_stress_group
