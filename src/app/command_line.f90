@@ -45,11 +45,13 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       character(:), allocatable :: given, trouble, value, word
-      type(setting_type) :: setting
-      integer :: equals, i, near
+      type(path_type) :: deck(command_argument_count())
+      type(setting_type) :: setting(size(deck))
+      integer :: decks, equals, i, near, settings
       logical :: options_over
 
-      allocate (command_line%decks(0), command_line%settings(0))
+      decks = 0
+      settings = 0
       options_over = .false.
       i = 0
       do while (i < command_argument_count())
@@ -58,7 +60,8 @@ contains
          if (options_over .or. index(word, '-') /= 1) then
             if (word == '') call fatal_error(error, exit_bad_input, 'the name of a deck is empty')
             if (allocated(error)) return
-            call add_deck(command_line%decks, word)
+            decks = decks + 1
+            deck(decks)%path = word
             cycle
          end if
          equals = index(word, '=')
@@ -85,10 +88,10 @@ contains
             command_line%help = .true.
          case ('--set')
             call take_value(value)
-            call read_setting(value, setting, trouble)
+            settings = settings + 1
+            call read_setting(value, setting(settings), trouble)
             if (allocated(trouble)) call fatal_error(error, exit_bad_input, trouble)
             if (allocated(error)) return
-            call add_setting(command_line%settings, setting)
          case ('--output')
             call take_value(value)
             command_line%output = value
@@ -114,7 +117,9 @@ contains
             return
          end select
       end do
-      if (size(command_line%decks) == 0 .and. .not. (command_line%version .or. command_line%help)) &
+      allocate (command_line%decks, source=deck(:decks))
+      allocate (command_line%settings, source=setting(:settings))
+      if (decks == 0 .and. .not. (command_line%version .or. command_line%help)) &
          call fatal_error(error, exit_bad_input, 'no deck is given')
 
    contains
@@ -151,40 +156,6 @@ contains
          call fatal_error(error, exit_bad_input, "--threads needs a number from 1 to "// &
                           integer_text(most_threads)//", got '"//escaped(text)//"'")
    end subroutine read_threads
-
-   !> Adds the path of a deck.
-   !>
-   !> N.B. decks = [decks, path_type(word)] leaks memory: gfortran 12 does not free the paths of the temporary array.
-   pure subroutine add_deck(decks, path)
-      type(path_type), allocatable, intent(inout) :: decks(:)
-      character(*), intent(in) :: path
-
-      type(path_type), allocatable :: longer(:)
-      integer :: i
-
-      allocate (longer(size(decks) + 1))
-      do i = 1, size(decks)
-         call move_alloc(decks(i)%path, longer(i)%path)
-      end do
-      longer(size(longer))%path = path
-      call move_alloc(longer, decks)
-   end subroutine add_deck
-
-   !> Adds a setting. N.B. As in add_deck, settings = [settings, setting] would leak memory.
-   pure subroutine add_setting(settings, setting)
-      type(setting_type), allocatable, intent(inout) :: settings(:)
-      type(setting_type), intent(in) :: setting
-
-      type(setting_type), allocatable :: longer(:)
-      integer :: i
-
-      allocate (longer(size(settings) + 1))
-      do i = 1, size(settings)
-         longer(i) = settings(i)
-      end do
-      longer(size(longer)) = setting
-      call move_alloc(longer, settings)
-   end subroutine add_setting
 
    !> Checks a path given to an option as the key `directory` of a deck is checked. Errors: exit_bad_input.
    subroutine check_path(option, what, path, error)
