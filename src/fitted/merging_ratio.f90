@@ -3,7 +3,7 @@ module wavycon_merging_ratio
    use wavycon_expansion, only: expansion
    use wavycon_kinds, only: dp
    use wavycon_shape_map, only: shape_map
-   use wavycon_shape_search, only: distance_from_edge
+   use wavycon_shape_search, only: distance_from_edge, edge_points
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
    private
@@ -48,7 +48,7 @@ contains
             ratio = abs(shape%place(direction))/abs(midpoint)
          else
             ! Tips off the axes, as long spots have, come to the midpoint from the side.
-            ratio = 1.0_dp - distance_from_edge(shape, midpoint)/abs(midpoint)
+            ratio = 1.0_dp - distance_from_edge(shape, edge_points(shape), midpoint)/abs(midpoint)
          end if
       end associate
    end function ratio_towards

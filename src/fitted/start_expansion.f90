@@ -3,7 +3,7 @@ module wavycon_start_expansion
    use wavycon_constants, only: pi
    use wavycon_disc_polynomials, only: start_disc_polynomials
    use wavycon_expansion, only: expansion
-   use wavycon_fitted_tuning, only: island_ellipticity_power, spot_ellipticity_power, start_degree
+   use wavycon_fitted_tuning, only: start_degree
    use wavycon_kinds, only: dp
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
@@ -32,7 +32,8 @@ contains
       allocate (spot%shape%b(0:1))
       spot%shape%b(:) = [radius, 0.0_dp]
       if (lattice%fold == 2) then
-         ratio = (curvature(1)/curvature(2))**spot_ellipticity_power
+         ! Only a start: about the exact relation, which has elliptic integrals.
+         ratio = (curvature(1)/curvature(2))**0.6_dp
          spot%shape%b(1) = radius*(1.0_dp - ratio)/(1.0_dp + ratio)
       end if
       allocate (spot%c(spot%basis%terms), source=0.0_dp)
@@ -62,7 +63,8 @@ contains
       allocate (island%shape%b(0:1))
       island%shape%b(:) = [radius, 0.0_dp]
       if (lattice%trough_fold == 2) then
-         ratio = (curvature(1)/curvature(2))**island_ellipticity_power
+         ! Only a start: exact for slender ellipses.
+         ratio = sqrt(curvature(1)/curvature(2))
          island%shape%b(1) = radius*(1.0_dp - ratio)/(1.0_dp + ratio)
       end if
       allocate (island%c(island%basis%terms), source=0.0_dp)
