@@ -14,6 +14,7 @@ module wavycon_contact_equations
    use wavycon_chord_rule, only: chord_rule, start_chord_rule
    use wavycon_constants, only: pi
    use wavycon_disc_rule, only: disc_rule, start_disc_rule
+   use wavycon_disc_sources, only: linearise_sources
    use wavycon_expansion, only: expansion
    use wavycon_fitted_tuning, only: chords_per_degree, extra_chord_points, extra_disc_angles, island_extra_angles, &
       island_extra_radii, near_images_ratio, sharp_chords_per_degree, sharp_collocation_factor, &
@@ -185,19 +186,13 @@ contains
       class(contact_equations), intent(inout) :: self
       type(expansion), intent(in) :: now
 
-      real(dp) :: density(size(self%rule%point)), jacobian, slope(0:ubound(now%shape%b, 1))
-      integer :: i, n
+      real(dp), dimension(size(self%rule%point), 0:ubound(now%shape%b, 1)) :: moment_x, moment_y, strength_slope
+      real(dp) :: weighted(size(self%rule%point), now%basis%terms)
 
-      n = size(self%rule%point)
-      call dgemv('N', n, now%basis%terms, 1.0_dp, self%values, n, now%c, 1, 0.0_dp, density, 1)
-      self%load_row = 0.0_dp
-      associate (terms => now%basis%terms, first => self%before_shape + 1, weight => self%rule%weight)
-         do i = 1, n
-            call now%shape%linearise_jacobian(self%rule%point(i), jacobian, slope)
-            self%load_row(:terms) = self%load_row(:terms) + weight(i)*jacobian*self%values(i, :)
-            self%load_row(first:) = self%load_row(first:) + weight(i)*density(i)*slope
-         end do
-      end associate
+      call linearise_sources(now%shape, self%rule, self%values, now%c, weighted, strength_slope, moment_x, moment_y)
+      self%load_row(:now%basis%terms) = sum(weighted, 1)
+      self%load_row(now%basis%terms + 1) = 0.0_dp
+      self%load_row(self%before_shape + 1:) = sum(strength_slope, 1)
    end subroutine linearise_load
 
    !> Integral over the spot or island of an expansion, p or g, times a function of the place.

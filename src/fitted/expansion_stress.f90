@@ -104,32 +104,23 @@ contains
       end do
    end function distance_from_edges
 
-   !> Centres of the spots or islands within a distance of the rectangle that places are reduced to.
+   !> Finds the spots or islands near the rectangle that places are reduced to.
    subroutine find_centres(stress)
       type(expansion_stress), intent(inout) :: stress
 
-      real(dp), allocatable :: point(:, :)
-      real(dp) :: next, off, reach, width(2)
-      complex(dp) :: centre
-      integer :: i, island
+      complex(dp), allocatable :: second(:)
 
-      associate (rows => stress%lattice%rows, lattice => stress%lattice)
-         width = [0.5_dp, 0.5_dp*rows%spacing]
-         if (rows%along_y) width = width([2, 1])
-         reach = hypot(width(1), width(2)) + near_clearance + stress%spot%radius + abs(lattice%trough)
-         call rows%points_within(reach, point, next)
-         allocate (stress%centre(0), stress%half_turn(0))
-         do island = 1, merge(lattice%troughs, 1, stress%spot%solution%island)
-            do i = 0, size(point, 2)
-               centre = 0.0_dp
-               if (i > 0) centre = cmplx(point(1, i), point(2, i), dp)
-               if (stress%spot%solution%island) centre = centre + merge(1, -1, island == 1)*lattice%trough
-               off = hypot(max(abs(centre%re) - width(1), 0.0_dp), max(abs(centre%im) - width(2), 0.0_dp))
-               if (off > near_clearance + stress%spot%radius) cycle
-               stress%centre = [stress%centre, centre]
-               stress%half_turn = [stress%half_turn, merge(1.0_dp, -1.0_dp, island == 1)]
-            end do
-         end do
+      associate (lattice => stress%lattice, reach => near_clearance + stress%spot%radius)
+         if (.not. stress%spot%solution%island) then
+            stress%centre = lattice%rows%points_about(reach, (0.0_dp, 0.0_dp))
+         else
+            stress%centre = lattice%rows%points_about(reach, lattice%trough)
+         end if
+         allocate (stress%half_turn(size(stress%centre)), source=1.0_dp)
+         if (lattice%troughs == 1 .or. .not. stress%spot%solution%island) return
+         second = lattice%rows%points_about(reach, -lattice%trough)
+         stress%centre = [stress%centre, second]
+         stress%half_turn = [stress%half_turn, spread(-1.0_dp, 1, size(second))]
       end associate
    end subroutine find_centres
 

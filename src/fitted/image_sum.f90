@@ -81,29 +81,19 @@ contains
       real(dp), intent(out), dimension(:) :: gradient_x, gradient_y      !! in the source's sector, shape (n)
       complex(dp), intent(out) :: gradient     !! of the sum with respect to the target's place
 
-      complex(dp) :: turn
-      real(dp) :: across, along
-      integer :: copy, g, i, mirrored, n
+      complex(dp) :: back(size(strength)), slope(size(strength), 2, 0:fold - 1), turn
+      integer :: g
 
-      n = size(strength)
-      folded = 0.0_dp
-      gradient_x = 0.0_dp
-      gradient_y = 0.0_dp
-      gradient = 0.0_dp
+      folded = sum(reshape(value, [size(strength), 2*fold]), 2)
+      slope = reshape(cmplx(slope_x, slope_y, dp), shape(slope))
+      gradient = sum(strength*sum(sum(slope, 3), 2))
+      back = 0.0_dp
       do g = 0, fold - 1
          turn = exp(cmplx(0.0_dp, -2*pi*g/fold, dp))
-         do i = 1, n
-            copy = 2*n*g + i
-            mirrored = copy + n
-            along = slope_x(copy) + slope_x(mirrored)
-            across = slope_y(copy) + slope_y(mirrored)
-            gradient = gradient + strength(i)*cmplx(along, across, dp)
-            folded(i) = folded(i) + value(copy) + value(mirrored)
-            gradient_x(i) = gradient_x(i) + (turn%re*along - turn%im*across)
-            gradient_y(i) = gradient_y(i) + (turn%re*(slope_y(copy) - slope_y(mirrored)) &
-                                             + turn%im*(slope_x(copy) - slope_x(mirrored)))
-         end do
+         back = back + turn*slope(:, 1, g) + conjg(turn*slope(:, 2, g))
       end do
+      gradient_x = back%re
+      gradient_y = back%im
    end subroutine fold_copies
 
 end module wavycon_image_sum

@@ -18,18 +18,15 @@ contains
       type(wave_lattice), intent(in) :: lattice
       type(expansion), intent(in) :: now
 
+      complex(dp), allocatable :: midpoints(:)
       integer :: i
 
-      ratio = 0.0_dp
       if (now%island) then
-         do i = 1, size(lattice%to_next_trough)
-            ratio = max(ratio, ratio_towards(now%shape, lattice%to_next_trough(i)))
-         end do
+         allocate (midpoints, source=lattice%to_next_trough)
       else
-         do i = 1, size(lattice%to_next_crest)
-            ratio = max(ratio, ratio_towards(now%shape, lattice%to_next_crest(i)))
-         end do
+         allocate (midpoints, source=lattice%to_next_crest)
       end if
+      ratio = maxval([(ratio_towards(now%shape, midpoints(i)), i=1, size(midpoints))])
    end function merging_ratio
 
    !> The same towards one midpoint.

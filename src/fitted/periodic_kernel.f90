@@ -35,9 +35,6 @@ module wavycon_periodic_kernel
    real(dp), parameter :: rounding(2) = [32, 320]*epsilon(1.0_dp)
    !> Least square of a distance. The inverse powers of a place and of the same place reduced must be equal and finite.
    real(dp), parameter :: least_square = 1e-100_dp
-   !> Rows and points of a row in which near lattice points are looked for: enough for the spacings in use, 1/2 to 3.
-   integer, parameter :: most_rows = 4, most_columns = 6
-
 contains
 
    !> Fits both kernels of a lattice.
@@ -48,10 +45,15 @@ contains
 
       integer, parameter :: n = fit_degree
       real(dp), dimension(0:n, 0:n) :: distance, value, value_of_laplacian, x, y
+      complex(dp), allocatable :: z(:)
       real(dp), allocatable :: near(:, :)
       integer :: k
 
-      call find_near_points(rows, near)
+      ! Fewer would take a fit of higher degree.
+      z = rows%points_about(0.75_dp + 0.6_dp*max(rows%spacing, 1.0_dp), (0.0_dp, 0.0_dp))
+      z = pack(z, abs(z) > 0.0_dp)
+      near = reshape([z%re, z%im], [2, size(z)], order=[2, 1])
+      if (rows%along_y) near = near([2, 1], :)
       call fit_nodes(rows%spacing, x, y)
       call ewald_sum(rows, size(x), x, y, value, value_of_laplacian)
       do k = 1, size(near, 2)
@@ -67,27 +69,6 @@ contains
       laplacian%point = near
       call start_even_polynomial(laplacian%fit, rows%spacing, value_of_laplacian, rounding(2))
    end subroutine start_periodic_kernels
-
-   !> The lattice points near the rectangle about the origin, but the origin.
-   pure subroutine find_near_points(rows, near)
-      type(row_lattice), intent(in) :: rows
-      real(dp), allocatable, intent(out) :: near(:, :)    !! along and across the rows, shape (2, m) [s]
-
-      real(dp) :: farthest, point(2)
-      integer :: i, j
-
-      ! Fewer would take a fit of higher degree.
-      farthest = 0.75_dp + 0.6_dp*max(rows%spacing, 1.0_dp)
-      allocate (near(2, 0))
-      do j = -most_rows, most_rows
-         do i = -most_columns, most_columns
-            point = [i + rows%shift*j, rows%spacing*j]
-            if (i == 0 .and. j == 0) cycle
-            if (norm2(max(abs(point) - 0.5_dp*[1.0_dp, rows%spacing], 0.0_dp)) > farthest) cycle
-            near = reshape([near, point], [2, size(near, 2) + 1])
-         end do
-      end do
-   end subroutine find_near_points
 
    !> The near lattice points by their x and y.
    pure function near_points(self) result(point)
