@@ -7,7 +7,7 @@ module wavycon_fitted_source
    use wavycon_equivalent_points, only: equivalent_points, point_image
    use wavycon_field_source, only: field_source
    use wavycon_fitted_answer, only: fitted_answer
-   use wavycon_fitted_details, only: find_fitted_details, fitted_details
+   use wavycon_fitted_details, only: find_fitted_details
    use wavycon_fitted_fields, only: fitted_fields, start_fitted_fields
    use wavycon_fitted_frame, only: fitted_frame
    use wavycon_fitted_stress_fields, only: fitted_stress_fields, start_fitted_stress_fields
@@ -202,17 +202,16 @@ contains
       type(contact_details), intent(out) :: answer
       logical, intent(out) :: found
 
-      type(fitted_details) :: own
-      real(dp) :: energy_unit
+      real(dp) :: energy_unit, errors(3), values(3)
 
       found = .true.
-      call find_fitted_details(self%lattice, self%answer, own)
+      call find_fitted_details(self%lattice, self%answer, values, errors)
       energy_unit = self%frame%pressure_unit/self%lattice%area
       answer = contact_details( &
-               trough_gap=own%trough_gap, trough_gap_error=own%trough_gap_error, &
-               saddle_gap=own%saddle_gap, saddle_gap_error=own%saddle_gap_error, &
-               saddle_pressure=own%saddle_pressure*self%frame%pressure_unit, &
-               saddle_pressure_error=own%saddle_pressure_error*self%frame%pressure_unit, &
+               trough_gap=values(1), trough_gap_error=errors(1), &
+               saddle_gap=values(2), saddle_gap_error=errors(2), &
+               saddle_pressure=values(3)*self%frame%pressure_unit, &
+               saddle_pressure_error=errors(3)*self%frame%pressure_unit, &
                energy=self%answer%energy*energy_unit, energy_error=self%answer%energy_error*energy_unit, &
                perimeter=self%answer%perimeter*self%frame%side, &
                perimeter_error=self%answer%perimeter_error*self%frame%side, degree=self%answer%degree)
