@@ -37,7 +37,6 @@ module wavycon_grid_edge
       procedure :: place
       procedure :: at
       procedure :: column
-      procedure :: contact_of_column
       procedure :: points_in_contact
       procedure :: number_of_points
       procedure :: fetch_neighbours
@@ -166,18 +165,6 @@ contains
       values(0) = values(self%place(0, 1))
       values(m + 1) = values(self%place(m + 1, 1))
    end function column
-
-   !> Which points of a column are in contact, likewise.
-   pure function contact_of_column(self, l) result(inside)
-      class(grid_edge), intent(in) :: self
-      integer, intent(in) :: l   !! as of `at`
-      logical :: inside(0:self%slab%points(1) + 1)
-
-      real(dp) :: values(0:self%slab%points(1) + 1)
-
-      values = self%column(l)
-      inside = values > 0.0_dp
-   end function contact_of_column
 
    !> The number of points of the grid in contact.
    integer(int64) function points_in_contact(self) result(number)

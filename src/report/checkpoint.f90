@@ -51,26 +51,17 @@ contains
       type(results_type), intent(in) :: results
       character(:), allocatable :: name
 
-      name = results%scene%directory//'/'//file_name(results)
+      name = unshared_name(results)
+      if (results%sharing%is_shared()) name = name//'.'//integer_text(results%sharing%rank)
    end function checkpoint_name
 
-   !> The name of the file in its directory.
-   function file_name(results) result(name)
-      type(results_type), intent(in) :: results
-      character(:), allocatable :: name
-
-      name = results%scene%case//'.checkpoint'
-      if (results%sharing%is_shared()) name = name//'.'//integer_text(results%sharing%rank)
-   end function file_name
-
-   !> The checkpoints of an interrupted run on another number of ranks begin with this one.
-   function name_of_others(results) result(name)
+   !> That of a run whose work is not shared.
+   function unshared_name(results) result(name)
       type(results_type), intent(in) :: results
       character(:), allocatable :: name
 
       name = results%scene%directory//'/'//results%scene%case//'.checkpoint'
-      if (.not. results%sharing%is_shared()) name = name//'.0'
-   end function name_of_others
+   end function unshared_name
 
    !> Removes the checkpoints of an earlier run that had another number of ranks.
    subroutine remove_others(results)
@@ -80,7 +71,7 @@ contains
       integer :: rank
 
       if (.not. results%sharing%is_first()) return
-      stem = results%scene%directory//'/'//results%scene%case//'.checkpoint'
+      stem = unshared_name(results)
       rank = 0
       if (results%sharing%is_shared()) then
          call remove_file(stem)
@@ -103,7 +94,8 @@ contains
       integer :: clock(8), load, status
 
       self%name = checkpoint_name(results)
-      self%name_now = results%scene%directory//'/.'//file_name(results)//'.'//integer_text(process_id())//'.part'
+      self%name_now = results%scene%directory//'/.'//self%name(index(self%name, '/', back=.true.) + 1:)// &
+                      '.'//integer_text(process_id())//'.part'
       call remove_others(results)
       call date_and_time(values=clock)
       call system_clock(self%run(3))
@@ -243,7 +235,7 @@ contains
       found = path_kind(name) /= path_absent
       if (.not. found) then
          ! It is not of this run, and says of how many ranks it is.
-         name = name_of_others(results)
+         name = unshared_name(results)//trim(merge('  ', '.0', results%sharing%is_shared()))
          if (path_kind(name) == path_absent) return
       end if
       open (newunit=unit, file=name, access='stream', form='unformatted', status='old', action='read', &
