@@ -61,12 +61,8 @@ contains
       type(grid_slab), intent(in), optional :: slab   !! whose columns these are; absent: all columns of a grid
 
       real(dp), allocatable :: field(:, :)
-      integer :: j
 
-      allocate (field, mold=gap)
-      do j = 1, size(gap, 2)
-         field(:, j) = joined(pressure(:, j), gap(:, j))
-      end do
+      field = joined(pressure, gap)
       call make_grid_edge(edge, field, even, stiffness, slab)
    end subroutine start_grid_edge
 

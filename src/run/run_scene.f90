@@ -76,7 +76,6 @@ contains
       if (any(tables%needs_fields .and. by_first) .or. asks_for_largest(results%scene)) &
          points = size(results%scene%target)*product(int(results%traits%given_grid, int64))
       call check_memory(results, points, any(tables%needs_surface .and. by_first), error)
-      call results%sharing%share_error(error)
    end subroutine check_sharing
 
    !> Solves the loads of a scene and writes its tables. Errors: as of run_scene.
@@ -285,7 +284,6 @@ contains
       points = 0
       if (fields) points = sum([(results%loads(load)%spread_points(), load=1, size(results%loads))])
       call check_memory(results, points, surface, error)
-      call results%sharing%share_error(error)
       if (allocated(error)) return
       if (fields) then
          do load = 1, size(results%loads)
@@ -295,7 +293,8 @@ contains
       if (surface) call whole_surface(results%solver%surface, first_only=.true.)
    end subroutine collect
 
-   !> Whether the first rank has the memory for what is spread over the ranks. Errors: exit_file_trouble.
+   !> Checks that the first rank has the memory for what is spread over the ranks. Its error is that of all. Errors:
+   !> exit_file_trouble.
    subroutine check_memory(results, points, surface, error)
       type(results_type), intent(in) :: results
       integer(int64), intent(in) :: points   !! of the grids of all loads whose fields are needed
@@ -305,17 +304,17 @@ contains
       integer, parameter :: bytes_of_number = storage_size(1.0_dp)/8
       integer(int64) :: numbers
 
-      if (.not. results%sharing%is_first()) return
       numbers = points
       ! The series, and twice as much while it is gathered.
       if (surface .and. results%solver%surface%is_spread()) &
          numbers = numbers + 3*product(int(results%solver%surface%points, int64)/results%solver%surface%parts())
-      if (has_memory_for(numbers)) return
-      call fatal_error(error, exit_file_trouble, 'the first rank has too little memory for the tables: the whole '// &
-                       'fields of all loads, and the surface, take '// &
-                       short_number(real(bytes_of_number*numbers, dp)/1e9_dp)//' GB. Leave out tables but the '// &
-                       "summary, a map with map_format = 'npy' and the points of the grid, and the heights, "// &
-                       'or solve fewer loads')
+      if (results%sharing%is_first()) then
+         if (.not. has_memory_for(numbers)) call fatal_error(error, exit_file_trouble, &
+            'the first rank has too little memory for the tables: the whole fields of all loads, and the surface, '// &
+            'take '//short_number(real(bytes_of_number*numbers, dp)/1e9_dp)//' GB. Leave out tables but the '// &
+            "summary, a map with map_format = 'npy' and the points of the grid, and the heights, or solve fewer loads")
+      end if
+      call results%sharing%share_error(error)
    end subroutine check_memory
 
 end module wavycon_run_scene
