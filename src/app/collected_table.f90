@@ -1,9 +1,8 @@
 !> The table of --table: a row for each load of each deck, with the columns of the summary.
 module wavycon_collected_table
-   use wavycon_column_text, only: column_name, column_unit
    use wavycon_deck_keys, only: deck_key
    use wavycon_error, only: error_type, exit_file_trouble, fatal_error
-   use wavycon_memory_table, only: memory_table
+   use wavycon_memory_table, only: column_name, column_unit, memory_table
    use wavycon_output_file, only: output_file
    use wavycon_plain_text, only: escaped
    use wavycon_results, only: results_type
@@ -111,7 +110,6 @@ contains
       call file%open(directory_of(path), path(index(path, '/', back=.true.) + 1:))
       call file%put('# wavycon '//version//' ('//revision//')'//self%failed)
       call put_columns(self, columns, file)
-      call file%put_names()
       do d = 1, self%number
          associate (rows => self%decks(d))
             do i = 1, rows%summary%rows

@@ -1,15 +1,16 @@
 !> The &output group: which files are written, and where.
 module wavycon_output_group
+   use wavycon_cell_file, only: text_side
    use wavycon_grid_method, only: points_of_grid
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: choice_key, integer_key, key_group, key_group_type, key_type, logical_key, text_key
-   use wavycon_map_table, only: text_side
    use wavycon_method_list, only: method_of
    use wavycon_plain_text, only: integer_text
    use wavycon_problems, only: problem_list_type
    use wavycon_solver_method, only: solver_method
    use wavycon_surface, only: surface_type
-   use wavycon_tables, only: all_tables, table_item
+   use wavycon_table, only: table_type
+   use wavycon_tables, only: all_tables
    implicit none (type, external)
    private
 
@@ -33,15 +34,15 @@ contains
    function output_table() result(table)
       type(key_group_type) :: table
 
-      type(table_item), allocatable :: tables(:)
+      type(table_type), allocatable :: tables(:)
       type(key_type), allocatable :: rows(:)
       integer :: i
 
       call all_tables(tables)
       allocate (rows(0))
       do i = 1, size(tables)
-         if (tables(i)%table%key() == '' .or. tables(i)%table%group() /= 'output') cycle
-         rows = [rows, logical_key(tables(i)%table%key(), '.false.', tables(i)%table%meaning())]
+         if (tables(i)%key == '' .or. tables(i)%group /= 'output') cycle
+         rows = [rows, logical_key(trim(tables(i)%key), '.false.', tables(i)%meaning)]
       end do
       table = key_group('output', 'which files are written, and where', [ &
          text_key('directory', "'outputs/<case>'", &
@@ -72,7 +73,7 @@ contains
       type(problem_list_type), intent(inout) :: problems
 
       type(solver_method) :: chosen
-      type(table_item), allocatable :: tables(:)
+      type(table_type), allocatable :: tables(:)
       character(:), allocatable :: key, refusal
       integer :: i
 
@@ -84,10 +85,10 @@ contains
       if (chosen%name == '') return
       call all_tables(tables)
       do i = 1, size(tables)
-         key = tables(i)%table%key()
-         if (key == '' .or. tables(i)%table%group() /= 'output') cycle
+         key = trim(tables(i)%key)
+         if (key == '' .or. tables(i)%group /= 'output') cycle
          if (.not. values%logical(key)) cycle
-         refusal = tables(i)%table%refusal(chosen%traits, surface)
+         refusal = tables(i)%refusal(chosen%traits, surface)
          if (refusal /= '') call values%complain(problems, key, key//' cannot be written: '//refusal)
       end do
    end subroutine check_output_group

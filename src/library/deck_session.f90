@@ -27,7 +27,7 @@ module wavycon_deck_session
    use wavycon_solver_progress, only: solver_progress
    use wavycon_stress_fields, only: stress_fields
    use wavycon_table, only: table_type
-   use wavycon_tables, only: find_table, table_item
+   use wavycon_tables, only: find_table
    use wavycon_unit_scale, only: scale_of, unit_scale
    implicit none (type, external)
    private
@@ -93,7 +93,7 @@ contains
 
       type(deck_type) :: deck
       type(scene_type), allocatable :: scene
-      type(table_item), allocatable :: tables(:)
+      type(table_type), allocatable :: tables(:)
 
       call parse_deck(deck_text_type(path, text), deck, error, heights=heights, in_memory=.true.)
       if (allocated(error)) return
@@ -209,7 +209,7 @@ contains
       type(memory_table), intent(out), target :: table
       type(error_type), allocatable, intent(out) :: error
 
-      class(table_type), allocatable :: writer
+      type(table_type), allocatable :: writer
       type(run_log) :: no_log
 
       call find_writer(self, name, solved, writer, error)
@@ -234,7 +234,7 @@ contains
       class(deck_session), intent(in) :: self
       character(*), intent(in) :: name
       type(solved_load), intent(in) :: solved
-      class(table_type), allocatable, intent(out) :: writer
+      type(table_type), allocatable, intent(out) :: writer
       type(error_type), allocatable, intent(out) :: error
 
       character(:), allocatable :: names, trouble
@@ -247,13 +247,13 @@ contains
          call fatal_error(error, exit_bad_input, "there is no table '"//name//"'. The tables are "//names)
          return
       end if
-      of_stresses = writer%group() == 'stress'
+      of_stresses = writer%group == 'stress'
       trouble = ''
       if (of_stresses .and. .not. allocated(self%results%scene%stress_setting)) then
          trouble = 'it needs a group &stress in the deck'
-      else if ((of_stresses .or. writer%needs_fields()) .and. .not. self%keeps_fields) then
+      else if ((of_stresses .or. writer%needs_fields) .and. .not. self%keeps_fields) then
          trouble = 'the session was opened without fields'
-      else if (self%scale%p_star <= 0.0_dp .and. .not. writer%is_for_flat_surfaces()) then
+      else if (self%scale%p_star <= 0.0_dp .and. .not. writer%is_for_flat_surfaces) then
          trouble = 'the surface is flat'
       else
          trouble = writer%refusal(self%results%traits, self%results%solver%surface)

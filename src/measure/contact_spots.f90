@@ -31,7 +31,6 @@ module wavycon_contact_spots
       type(contact_region), allocatable :: spots(:)          !! of contact, the largest first
       type(contact_region), allocatable :: pools(:)          !! of gap, likewise
    contains
-      procedure :: closed_pools
       procedure :: perimeter => total_perimeter
    end type contact_spots
 
@@ -45,13 +44,6 @@ contains
 
       is_closed = .not. any(self%percolates)
    end function is_closed
-
-   !> The number of pools that are closed.
-   pure integer function closed_pools(self)
-      class(contact_spots), intent(in) :: self
-
-      closed_pools = count(self%pools%is_closed())
-   end function closed_pools
 
    !> The length of the edge of contact in one cell, or in the mirrored map [length]; NaN in 1-D.
    pure real(dp) function total_perimeter(self)

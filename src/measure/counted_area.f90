@@ -41,10 +41,10 @@ contains
 
       m = edge%slab%points(1)
       total = 0
-      if (edge%slab%columns() > 0) next = edge%contact_of_column(edge%slab%first)
+      if (edge%slab%columns() > 0) next = edge%column(edge%slab%first) > 0.0_dp
       do j = edge%slab%first, edge%slab%last
          here = next
-         next = edge%contact_of_column(j + 1)
+         next = edge%column(j + 1) > 0.0_dp
          total = total + count(here(1:m) .neqv. here(2:)) + count(here(1:m) .neqv. next(1:m))
       end do
       call edge%slab%add(total)

@@ -37,7 +37,6 @@ contains
 
       type(region_numbers) :: own
       integer(int8), allocatable :: seen(:, :)   ! a bit for each side of a cell
-      type(edge_curve) :: curve
       integer :: count, k, l, number, points(2), steps
 
       points = edge%period
@@ -53,8 +52,9 @@ contains
             if (is_uniform(own, k, l)) cycle
             do number = 1, 4
                if (btest(seen(k, l), number) .or. .not. leaves_contact(own, k, l, number)) cycle
-               call trace(edge, own, k, l, number, seen, curve)
-               call append(curves, count, curve)
+               if (count == size(curves)) call resize(curves, max(8, 2*count))
+               count = count + 1
+               call trace(edge, own, k, l, number, seen, curves(count))
             end do
          end do
       end do
@@ -62,43 +62,19 @@ contains
       if (present(numbers)) numbers = own
    end subroutine trace_edges
 
-   !> Adds a curve to the first `count` of an array, which grows as needed.
-   subroutine append(curves, count, curve)
-      type(edge_curve), allocatable, intent(inout) :: curves(:)
-      integer, intent(inout) :: count
-      type(edge_curve), intent(inout) :: curve   !! without its points afterwards
-
-      if (count == size(curves)) call resize(curves, max(8, 2*count))
-      count = count + 1
-      call move_curve(curve, curves(count))
-   end subroutine append
-
+   !> Gives an array another length.
    subroutine resize(curves, length)
       type(edge_curve), allocatable, intent(inout) :: curves(:)
       integer, intent(in) :: length
 
       type(edge_curve), allocatable :: other(:)
-      integer :: i
+      integer :: kept
 
       allocate (other(length))
-      do i = 1, min(length, size(curves))
-         call move_curve(curves(i), other(i))
-      end do
+      kept = min(length, size(curves))
+      other(:kept) = curves(:kept)
       call move_alloc(other, curves)
    end subroutine resize
-
-   subroutine move_curve(from, to)
-      type(edge_curve), intent(inout) :: from   !! without its points afterwards
-      type(edge_curve), intent(inout) :: to
-
-      call move_alloc(from%phi, to%phi)
-      call move_alloc(from%theta, to%theta)
-      to%turns = from%turns
-      to%spot = from%spot
-      to%pool = from%pool
-      to%area = from%area
-      to%length = from%length
-   end subroutine move_curve
 
    !> The strips of a 1-D contact that is even, over a whole period, as curves of two points each.
    pure subroutine strip_ends(edges, crest_in_contact, curves)

@@ -37,7 +37,6 @@ module wavycon_grid_edge
       procedure :: place
       procedure :: at
       procedure :: column
-      procedure :: contact_of_column
       procedure :: points_in_contact
       procedure :: number_of_points
       procedure :: fetch_neighbours
@@ -62,12 +61,8 @@ contains
       type(grid_slab), intent(in), optional :: slab   !! whose columns these are; absent: all columns of a grid
 
       real(dp), allocatable :: field(:, :)
-      integer :: j
 
-      allocate (field, mold=gap)
-      do j = 1, size(gap, 2)
-         field(:, j) = joined(pressure(:, j), gap(:, j))
-      end do
+      field = joined(pressure, gap)
       call make_grid_edge(edge, field, even, stiffness, slab)
    end subroutine start_grid_edge
 
@@ -166,18 +161,6 @@ contains
       values(0) = values(self%place(0, 1))
       values(m + 1) = values(self%place(m + 1, 1))
    end function column
-
-   !> Which points of a column are in contact, likewise.
-   pure function contact_of_column(self, l) result(inside)
-      class(grid_edge), intent(in) :: self
-      integer, intent(in) :: l   !! as of `at`
-      logical :: inside(0:self%slab%points(1) + 1)
-
-      real(dp) :: values(0:self%slab%points(1) + 1)
-
-      values = self%column(l)
-      inside = values > 0.0_dp
-   end function contact_of_column
 
    !> The number of points of the grid in contact.
    integer(int64) function points_in_contact(self) result(number)

@@ -38,7 +38,7 @@ contains
                call find_largest_stresses(fields, setting%body(body), results%von_mises(body, load), &
                                           results%shear(body, load))
             end do
-            call log%show_stress_progress(load, size(results%loads))
+            call log%say_progress('stresses of '//integer_text(load)//' of '//integer_text(size(results%loads))//' loads')
          end do
       end associate
       if (.not. are_spread) return

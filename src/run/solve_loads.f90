@@ -4,6 +4,7 @@ module wavycon_solve_loads
    use wavycon_checkpoint, only: checkpoint_file
    use wavycon_gsl, only: gsl_sort_index
    use wavycon_kinds, only: dp
+   use wavycon_plain_text, only: integer_text
    use wavycon_results, only: results_type
    use wavycon_run_log, only: log_progress, run_log
    use wavycon_scene, only: by_mean_gap
@@ -69,7 +70,7 @@ contains
                                  results%scene%stress_setting)
                call checkpoint%add(load, results%loads(load))
             end if
-            call log%show_progress(i, size(order))
+            call log%say_progress('solved '//integer_text(i)//' of '//integer_text(size(order)))
          end do
          solver%progress => null()
       end associate
