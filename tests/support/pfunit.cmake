@@ -34,7 +34,7 @@ function(wavycon_add_pf_tests label)
   endif()
   foreach(source IN LISTS sources)
     string(REGEX REPLACE "^test_(.*)\\.pf$" "${label}.\\1" name ${source})
-    wavycon_add_pf_test(${name} ${label} ${source} wavycon::wavycon)
+    wavycon_add_pf_test(${name} ${label} ${source} unit_support)
   endforeach()
   if(PFUNIT_FOUND)
     # What the stand-in's preprocessor would refuse is an error here too.

@@ -1,0 +1,110 @@
+!> What tests of many subjects build again and again: files, maps that are read, surfaces, integrals, numbers.
+!>
+!> What must be possible before a test has a question ends the program, and so the test, if it fails.
+module unit_support
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use wavycon, only: dp, error_type, surface_type, wave_1d, wave_2d
+   use wavycon_map_file, only: read_height_map
+   use wavycon_measured_map, only: measured_map
+   use wavycon_quadrature, only: integrate, integrand
+   use wavycon_plain_text, only: integer_text
+   use wavycon_system, only: process_id, remove_file
+   implicit none (type, external)
+   private
+
+   public :: integral_of, lines, map_trouble, read_map, spread_number, unit_wave, write_file
+
+contains
+
+   !> The wave of the paper, of amplitude and wavelength 1.
+   type(surface_type) function unit_wave(dimension, hardness) result(surface)
+      integer, intent(in) :: dimension                  !! 1 or 2
+      real(dp), intent(in), optional :: hardness        !! over p*; absent: no limit
+
+      if (dimension == 1) surface = wave_1d(1.0_dp, 1.0_dp)
+      if (dimension == 2) surface = wave_2d(1.0_dp, 1.0_dp, 1.0_dp)
+      if (present(hardness)) surface%hardness = hardness
+   end function unit_wave
+
+   !> Numbers spread evenly over 0 .. 1.
+   elemental real(dp) function spread_number(i, j)
+      integer, intent(in) :: i, j
+
+      spread_number = modulo(0.754877666_dp*i + 0.569840291_dp*j, 1.0_dp)
+   end function spread_number
+
+   !> The integral by `integrate`, to 1e-11; NaN if that fails.
+   real(dp) function integral_of(f, parameters, a, b, left_power) result(integral)
+      procedure(integrand) :: f
+      real(dp), intent(in) :: parameters(:), a, b
+      real(dp), intent(in), optional :: left_power
+
+      type(error_type), allocatable :: error
+
+      call integrate(f, parameters, a, b, integral, error, left_power)
+      if (allocated(error)) integral = ieee_value(integral, ieee_quiet_nan)
+   end function integral_of
+
+   !> A text whose lines have bars between them.
+   pure function lines(text)
+      character(*), intent(in) :: text
+      character(:), allocatable :: lines
+
+      integer :: i
+
+      lines = trim(text)
+      do i = 1, len(lines)
+         if (lines(i:i) == '|') lines(i:i) = new_line('a')
+      end do
+   end function lines
+
+   !> A file of these bytes.
+   subroutine write_file(path, content)
+      character(*), intent(in) :: path, content
+
+      integer :: unit
+
+      open (newunit=unit, file=path, status='replace', access='stream', form='unformatted', action='write')
+      write (unit) content
+      close (unit)
+   end subroutine write_file
+
+   !> A file for contents that a test makes up.
+   function made_up_file() result(path)
+      character(:), allocatable :: path
+
+      path = 'made_up_'//integer_text(process_id())//'.tmp'
+   end function made_up_file
+
+   !> The height map of a file with this content, which must be one.
+   subroutine read_map(content, format, map, missing_value)
+      character(*), intent(in) :: content, format
+      type(measured_map), intent(out) :: map
+      real(dp), intent(in), optional :: missing_value
+
+      type(error_type), allocatable :: error
+
+      call write_file(made_up_file(), content)
+      call read_height_map(made_up_file(), format, map, error, missing_value)
+      call remove_file(made_up_file())
+      if (allocated(error)) error stop error%message
+   end subroutine read_map
+
+   !> What is said of a file with this content, behind the name of the file; '' if it is a height map.
+   function map_trouble(content, format) result(words)
+      character(*), intent(in) :: content, format
+      character(:), allocatable :: words
+
+      type(measured_map) :: map
+      type(error_type), allocatable :: error
+
+      call write_file(made_up_file(), content)
+      call read_height_map(made_up_file(), format, map, error)
+      call remove_file(made_up_file())
+      words = ''
+      if (.not. allocated(error)) return
+      words = error%message
+      words = words(len(made_up_file()) + 1:)
+   end function map_trouble
+
+end module unit_support
