@@ -91,21 +91,15 @@ contains
             settings = settings + 1
             call read_setting(value, setting(settings), trouble)
             if (allocated(trouble)) call fatal_error(error, exit_bad_input, trouble)
-            if (allocated(error)) return
          case ('--output')
-            call take_value(value)
-            command_line%output = value
-            call check_path(word, 'a directory', value, error)
-            if (allocated(error)) return
+            call take_value(command_line%output)
+            call check_path(word, 'a directory', command_line%output, error)
          case ('--table')
-            call take_value(value)
-            command_line%table = value
-            call check_path(word, 'a file', value, error)
-            if (allocated(error)) return
+            call take_value(command_line%table)
+            call check_path(word, 'a file', command_line%table, error)
          case ('--threads')
             call take_value(value)
             call read_threads(value, command_line%threads, error)
-            if (allocated(error)) return
          case default
             near = nearest_name(word, options)
             if (near > 0) then
@@ -114,8 +108,8 @@ contains
             else
                call fatal_error(error, exit_bad_input, "unknown option '"//escaped(word)//"'")
             end if
-            return
          end select
+         if (allocated(error)) return
       end do
       allocate (command_line%decks, source=deck(:decks))
       allocate (command_line%settings, source=setting(:settings))

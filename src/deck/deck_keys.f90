@@ -9,7 +9,7 @@ module wavycon_deck_keys
    public :: deck_key, list_keys
 
    !> Bytes of a name.
-   integer, parameter, public :: longest_key_name = 49
+   integer, parameter :: longest_key_name = 49
 
    type :: deck_key
       character(longest_key_name) :: name = ''   !! 'group_key'

@@ -93,8 +93,8 @@ contains
       end do
    end subroutine check_output_group
 
-   !> Sets the points of maps in full and those of lines: as given or, by default, from those of the grid to solve or, if
-   !> the deck gives none, of the height map, on the part of the cell that decks refer to.
+   !> Sets the points of maps in full and those of lines: as given or, by default, from those of the grid to solve or,
+   !> if the deck gives none, of the height map, on the part of the cell that decks refer to.
    subroutine set_points(values, method, surface)
       type(group_values), intent(inout) :: values
       type(group_values), intent(in) :: method   !! &method, after its check

@@ -35,8 +35,8 @@ contains
          real_key('depths_over_cell_x', '', '-', &
             'The same over the side of the cell along x, which is the wavelength of a wave.', least=0.0_dp, &
             most_values=most_depths, way=2), &
-         real_key('depth_from', '0.0', '-', 'First depth of a range in equal steps, over the side of the cell along '// &
-            'x, for line and section; also for the planes unless depths are given.', least=0.0_dp), &
+         real_key('depth_from', '0.0', '-', 'First depth of a range in equal steps, over the side of the cell '// &
+            'along x, for line and section; also for the planes unless depths are given.', least=0.0_dp), &
          real_key('depth_to', '1.0', '-', 'Last depth of the range.', least=0.0_dp), &
          integer_key('depth_steps', '65', 'Number of depths of the range, both ends included.', 1, most_depths), &
          real_key('nu', 'nu1, nu2', '-', "Poisson's ratios of the first and the second body; one number: of both. "// &

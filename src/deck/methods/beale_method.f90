@@ -50,7 +50,8 @@ contains
                'the isobar that is taken as the edge of contact.', above=0.0_dp, below=1.0_dp)])
       method%traits = solver%traits()
       method%lacks = ['accuracy   ', 'grid_points']
-      method%because = [character(40) :: ': its series has no error estimate', ': it has harmonics and constraint_points']
+      method%because = [character(40) :: ': its series has no error estimate', &
+                        ': it has harmonics and constraint_points']
       method%refusal => refusal
       method%is_for_paper_waves = .true.
       method%set_defaults => set_defaults
@@ -152,8 +153,8 @@ contains
                                          values%text('minimiser') == 'beale'))
       call move_alloc(own, solver)
       call find_size(values, surface, unknowns, constraints)
-      description = integer_text(values%integer('harmonics'))//' harmonics ('//integer_text(unknowns)//' unknowns), '// &
-                    integer_text(constraints*merge(2, 1, surface%has_hardness()))// &
+      description = integer_text(values%integer('harmonics'))//' harmonics ('//integer_text(unknowns)// &
+                    ' unknowns), '//integer_text(constraints*merge(2, 1, surface%has_hardness()))// &
                     ' constraint points, edge_level[p*] = '//short_number(values%real('edge_level'))
    end subroutine make
 

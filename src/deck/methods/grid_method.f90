@@ -1,4 +1,5 @@
-!> solver = 'grid': grids, refined to an accuracy or with a given number of points. Its keys, which other solvers read too.
+!> solver = 'grid': grids, refined to an accuracy or with a given number of points; also its keys, which other solvers
+!> read.
 module wavycon_grid_method
    use wavycon_contact_solver, only: contact_solver, default_accuracy
    use wavycon_grid_contact, only: grid_contact, grid_options
@@ -12,8 +13,8 @@ module wavycon_grid_method
    implicit none (type, external)
    private
 
-   public :: accuracy_key, check_grid_points, grid_in_words, grid_keys, grid_method, points_of_grid, set_grid_defaults, &
-      start_on_grids
+   public :: accuracy_key, check_grid_points, grid_in_words, grid_keys, grid_method, points_of_grid, &
+      set_grid_defaults, start_on_grids
 
 contains
 
