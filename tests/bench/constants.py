@@ -369,7 +369,7 @@ def main():
             chosen = [(name, value) for name, value in constants(texts[room])
                       if not options.only or name in options.only]
             of_stresses = [(name, value) for name, value in chosen
-                           if all('stress' in path.name for path in tree.users[name])]
+                           if all(re.search('stress|spot_integral', path.name) for path in tree.users[name])]
             for cases in (room, f'{room}, stresses'):
                 if cases not in CASES:
                     continue
