@@ -40,19 +40,29 @@ contains
       real(dp), intent(inout) :: value(n)
       real(dp), intent(inout), optional :: slope_x(n), slope_y(n)
 
-      real(dp), dimension(n) :: inverse, inverse_square
-      integer :: k
+      real(dp) :: inverse, inverse_square, of_cube, of_first
+      integer :: i, k
 
+      ! 1/r or 1/r^3 as 1/r (of_first + of_cube/r^2): with a choice in them the loops would not be of vectors.
+      of_first = merge(1.0_dp, 0.0_dp, self%power == 1)
+      of_cube = 1.0_dp - of_first
       do k = 1, size(self%point, 2)
          associate (a => self%point(1, k), b => self%point(2, k))
-            inverse_square = 1.0_dp/((x - a)**2 + (y - b)**2)
-            inverse = sqrt(inverse_square)
-            if (self%power == 3) inverse = inverse*inverse_square
-            value = value + inverse
-            if (.not. present(slope_x)) cycle
-            inverse = self%power*inverse*inverse_square
-            slope_x = slope_x - (x - a)*inverse
-            slope_y = slope_y - (y - b)*inverse
+            if (present(slope_x)) then
+               do i = 1, n
+                  inverse_square = 1.0_dp/((x(i) - a)**2 + (y(i) - b)**2)
+                  inverse = sqrt(inverse_square)*(of_first + of_cube*inverse_square)
+                  value(i) = value(i) + inverse
+                  inverse = self%power*inverse*inverse_square
+                  slope_x(i) = slope_x(i) - (x(i) - a)*inverse
+                  slope_y(i) = slope_y(i) - (y(i) - b)*inverse
+               end do
+            else
+               do i = 1, n
+                  inverse_square = 1.0_dp/((x(i) - a)**2 + (y(i) - b)**2)
+                  value(i) = value(i) + sqrt(inverse_square)*(of_first + of_cube*inverse_square)
+               end do
+            end if
          end associate
       end do
    end subroutine add
