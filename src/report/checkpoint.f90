@@ -316,15 +316,17 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       character(:), allocatable :: line_before, line_now, words
-      integer :: i
+      integer :: i, place_before, place_now
 
+      place_before = 1
+      place_now = 1
       i = 0
       do
+         if (place_before > len(before) .and. place_now > len(now)) return
          i = i + 1
-         line_before = line_of(before, i)
-         line_now = line_of(now, i)
+         call next_line(before, place_before, line_before)
+         call next_line(now, place_now, line_now)
          if (line_before /= line_now) exit
-         if (line_now == '(end)') return
       end do
       select case (i)
       case (1)
@@ -339,24 +341,24 @@ contains
       call fatal_error(error, exit_bad_input, escaped(name)//': the checkpoint '//words//way_out)
    end subroutine compare
 
-   !> A line of a text, without comment and without blanks at both ends; '(end)' after the last line.
-   pure function line_of(text, number) result(line)
+   !> Reads a line of a text, without comment and without blanks at both ends.
+   pure subroutine next_line(text, place, line)
       character(*), intent(in) :: text
-      integer, intent(in) :: number   !! from 1
-      character(:), allocatable :: line
+      integer, intent(inout) :: place                     !! first byte of the line; on return of the next one
+      character(:), allocatable, intent(out) :: line      !! '(end)' after the last line
 
-      integer :: i, start
+      integer :: comment, length
 
-      start = 1
-      do i = 2, number
-         start = start + index(text(start:)//newline, newline)
-      end do
       line = '(end)'
-      if (start > len(text)) return
-      line = text(start:start + index(text(start:)//newline, newline) - 2)
-      if (index(line, '   ! ') > 0) line = line(:index(line, '   ! ') - 1)
+      if (place > len(text)) return
+      length = index(text(place:), newline) - 1
+      if (length < 0) length = len(text) - place + 1
+      line = text(place:place + length - 1)
+      place = place + length + 1
+      comment = index(line, '   ! ')
+      if (comment > 0) line = line(:comment - 1)
       line = trim(adjustl(line))
-   end function line_of
+   end subroutine next_line
 
    !> A text as 8-byte words, padded with blanks.
    pure function words_of(text) result(words)
