@@ -23,7 +23,7 @@ contains
       table%file = 'coefficients'
       table%key = 'coefficients'
       table%meaning = 'The Fourier coefficients of the pressure.'
-      table%columns = columns
+      call table%set_columns(columns)
       table%refuse => refuse
       table%put_load => put_coefficients
    end function coefficients_table

@@ -23,7 +23,7 @@ contains
       table%file = 'contour'
       table%key = 'contours'
       table%meaning = 'The edge of contact as closed curves.'
-      table%columns = columns
+      call table%set_columns(columns)
       table%needs_fields = .true.
       table%put_load => put_curves
    end function contour_table

@@ -38,7 +38,7 @@ contains
       table%key = 'details'
       table%meaning = 'Gaps at trough and saddle, strain energy, perimeter and the numbers of the summary, '// &
                       'each with its error estimate.'
-      table%columns = columns
+      call table%set_columns(columns)
       table%needs_fields = .true.
       table%refuse => refuse
       table%put_load => put_details

@@ -29,7 +29,7 @@ contains
       table%file = 'height'
       table%key = 'height'
       table%meaning = "The heights that are solved, as a file of numpy that kind = 'file' reads."
-      table%columns = columns
+      call table%set_columns(columns)
       table%written_by_all => is_written_by_all
       table%write_all => write_height_table
    end function height_table

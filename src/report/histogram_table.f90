@@ -27,7 +27,7 @@ contains
       table%file = 'histogram'
       table%key = 'histograms'
       table%meaning = 'How pressures are distributed over the contact, and gaps over the open area.'
-      table%columns = columns
+      call table%set_columns(columns)
       table%needs_fields = .true.
       table%put_load => put_histogram
    end function histogram_table

@@ -27,7 +27,7 @@ contains
       table%file = 'stress_largest'
       table%key = 'largest'
       table%meaning = 'The largest von Mises stress and the largest shear stress of each load.'
-      table%columns = columns
+      call table%set_columns(columns)
       table%group = 'stress'
       table%put_load => put_largest_stresses
    end function largest_stress_table

@@ -22,7 +22,7 @@ contains
       table%file = 'lines'
       table%key = 'lines'
       table%meaning = 'Pressures and gaps along lines.'
-      table%columns = columns
+      call table%set_columns(columns)
       table%needs_fields = .true.
       table%put_load => put_lines
    end function lines_table

@@ -33,7 +33,7 @@ contains
       table%file = 'map'
       table%key = 'map'
       table%meaning = 'Pressures and gaps over the whole cell.'
-      table%columns = columns
+      call table%set_columns(columns)
       table%needs_fields = .true.
       table%written_by_all => is_written_by_all
       table%write_all => write_map_table

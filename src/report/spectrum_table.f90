@@ -24,7 +24,7 @@ contains
       table%file = 'spectrum'
       table%key = 'spectrum'
       table%meaning = 'The power spectrum of the surface.'
-      table%columns = columns
+      call table%set_columns(columns)
       table%refuse => refuse
       table%write_all => write_spectrum_table
    end function spectrum_table

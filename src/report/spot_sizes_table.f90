@@ -24,7 +24,7 @@ contains
    type(table_type) function spot_sizes_table() result(table)
       table%file = 'spot_sizes'
       table%meaning = 'Sizes and places of contact spots and of pools of gap.'
-      table%columns = columns
+      call table%set_columns(columns)
       table%needs_fields = .true.
       table%requested => asks_for_spots
       table%put_load => put_spot_sizes

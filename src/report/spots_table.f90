@@ -24,7 +24,7 @@ contains
       table%file = 'spots'
       table%key = 'spots'
       table%meaning = 'Number and sizes of contact spots and of pools of gap; percolation of both.'
-      table%columns = columns
+      call table%set_columns(columns)
       table%needs_fields = .true.
       table%put_load => put_spots
    end function spots_table

@@ -20,7 +20,7 @@ contains
       table%file = 'stress_line'
       table%key = 'line'
       table%meaning = 'Stresses on the line below the crest.'
-      table%columns = columns
+      call table%set_columns(columns)
       table%group = 'stress'
       table%needs_fields = .true.
       table%put_load => put_line

@@ -24,7 +24,7 @@ contains
       table%file = 'stress_planes'
       table%key = 'planes'
       table%meaning = 'Stresses on planes.'
-      table%columns = columns
+      call table%set_columns(columns)
       table%group = 'stress'
       table%needs_fields = .true.
       table%write_all => write_stress_planes_table

@@ -23,7 +23,7 @@ contains
       table%file = 'stress_section'
       table%key = 'section'
       table%meaning = 'Stresses on a vertical section through the crest.'
-      table%columns = columns
+      call table%set_columns(columns)
       table%group = 'stress'
       table%needs_fields = .true.
       table%requested => asks_for_section

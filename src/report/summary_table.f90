@@ -30,7 +30,7 @@ contains
    type(table_type) function summary_table() result(table)
       table%file = 'summary'
       table%meaning = 'A line for each load: mean gap, contact area, pressures.'
-      table%columns = summary_columns
+      call table%set_columns(summary_columns)
       table%needs_surface = .false.
       table%is_for_flat_surfaces = .true.
       table%put_load => put_summary_row

@@ -1,6 +1,7 @@
 !> What a table of results is, as data: its name, its columns, who asks for it, and the procedures that write its rows.
 !> src/README.md describes how to add a table.
 module wavycon_table
+   use wavycon_assertion, only: assert
    use wavycon_contact_solver, only: solver_traits
    use wavycon_error, only: error_type
    use wavycon_output_file, only: output_file
@@ -19,7 +20,7 @@ module wavycon_table
       character(16) :: key = ''           !! the logical key that requests it; empty: it has none of its own
       character(8) :: group = 'output'    !! of the key: 'output' or 'stress'
       character(:), allocatable :: meaning      !! one sentence for the key reference
-      character(longest_column), allocatable :: columns(:)   !! name[unit], units as of `unit_in_words` of the results
+      character(longest_column), allocatable :: columns(:)
       logical :: needs_fields = .false.   !! whether it is made from fields, edges or details of the solutions
       logical :: needs_surface = .true.   !! whether it is made from the whole surface
       logical :: is_for_flat_surfaces = .false.   !! whether it is written where p* and Delta are zero
@@ -31,6 +32,7 @@ module wavycon_table
       procedure(load_interface), pointer, nopass :: put_load => null()
       procedure(write_interface), pointer, nopass :: write_all => null()
    contains
+      procedure :: set_columns
       procedure :: name
       procedure :: is_requested
       procedure :: refusal
@@ -76,6 +78,16 @@ module wavycon_table
    end interface
 
 contains
+
+   !> Declares the columns.
+   pure subroutine set_columns(self, columns)
+      class(table_type), intent(inout) :: self
+      character(*), intent(in) :: columns(:)   !! name[unit], units as of `unit_in_words` of the results
+
+      call assert(all(len_trim(columns) <= longest_column), 'no column is cut short')
+      allocate (self%columns(size(columns)))
+      self%columns = columns
+   end subroutine set_columns
 
    !> The name that programs ask for: the key, that of &stress with 'stress_' before it; without a key that of the file.
    elemental function name(self) result(words)

@@ -36,7 +36,7 @@ contains
    type(table_type) function theory_lines_table() result(table)
       table%file = 'theory_lines'
       table%meaning = 'Closed forms along lines.'
-      table%columns = columns
+      call table%set_columns(columns)
       table%requested => asks_for_lines_and_theory
       table%refuse => refuse_other_waves
       table%put_load => put_theory_lines

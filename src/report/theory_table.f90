@@ -47,7 +47,7 @@ contains
       table%file = 'theory'
       table%key = 'theory'
       table%meaning = 'The closed forms beside the numbers.'
-      table%columns = columns
+      call table%set_columns(columns)
       table%refuse => refuse_other_waves
       table%put_load => put_theory
    end function theory_table
