@@ -1,18 +1,22 @@
-!> What tests of many subjects build again and again: files, maps that are read, surfaces, integrals, numbers.
+!> What tests of many subjects build again and again: files, maps and decks that are read, surfaces, integrals,
+!> numbers.
 !>
 !> What must be possible before a test has a question ends the program, and so the test, if it fails.
 module unit_support
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use wavycon, only: dp, error_type, surface_type, wave_1d, wave_2d
+   use wavycon_deck, only: deck_type
+   use wavycon_deck_text, only: deck_text_type
    use wavycon_map_file, only: read_height_map
    use wavycon_measured_map, only: measured_map
    use wavycon_quadrature, only: integrate, integrand
    use wavycon_plain_text, only: integer_text
+   use wavycon_read_deck, only: parse_deck
    use wavycon_system, only: process_id, remove_file
    implicit none (type, external)
    private
 
-   public :: integral_of, lines, map_trouble, read_map, spread_number, unit_wave, write_file
+   public :: deck_trouble, good_deck, integral_of, lines, map_trouble, read_map, spread_number, unit_wave, write_file
 
 contains
 
@@ -106,5 +110,29 @@ contains
       words = error%message
       words = words(len(made_up_file()) + 1:)
    end function map_trouble
+
+   !> The deck of a text, which must be one.
+   subroutine good_deck(content, deck)
+      character(*), intent(in) :: content
+      type(deck_type), intent(out) :: deck
+
+      type(error_type), allocatable :: error
+
+      call parse_deck(deck_text_type('a.nml', content), deck, error)
+      if (allocated(error)) error stop error%message
+   end subroutine good_deck
+
+   !> What is said of a deck of this text; '' if it is one.
+   function deck_trouble(content) result(words)
+      character(*), intent(in) :: content
+      character(:), allocatable :: words
+
+      type(deck_type) :: deck
+      type(error_type), allocatable :: error
+
+      call parse_deck(deck_text_type('a.nml', content), deck, error)
+      words = ''
+      if (allocated(error)) words = error%message
+   end function deck_trouble
 
 end module unit_support
