@@ -118,7 +118,7 @@ def of_all_rows(rows):
     columns = []
     for words in zip(*rows):
         try:
-            numbers = [float(word) if math.isfinite(float(word)) else 0.0 for word in words]
+            numbers = [number if math.isfinite(number) else 0.0 for number in map(float, words)]
         except ValueError:
             columns.append([",".join(sorted(set(words)))]*3)
             continue
