@@ -33,7 +33,8 @@ WAVE = """\
 &load pbar_over_pstar = 0, 0.1, 0.5 /
 """
 TABLES = "lines = t, map = t, contours = t, map_points = 16, line_points = 16"
-TITLE = "Steel_1 {a}^2 'b' @c & 100 % \\n"   # marks that gnuplot or svg could take for commands
+# Marks and words that gnuplot, a shell or svg could take for commands.
+TITLE = "Steel_1 {a}^2 'b' @c & 100 % \\n `touch CANARY` $(touch CANARY)"
 DECKS = {
     "auto": WAVE + "&method solver = 'fitted' /\n&output " + TABLES + ", spots = t, theory = t, details = t /",
     "paper": WAVE + "&output " + TABLES + ", theory = t, coefficients = t /",
@@ -343,10 +344,12 @@ class Plot(ProgramTest):
         self.assertIn("nowhere.dat", complaints)
 
     def test_names_are_not_commands(self):
-        for name in ("a'b; touch CANARY.summary.dat", "$(touch CANARY) `touch CANARY`.lines.dat",
-                     "<x {-Bold_^.map.dat"):
+        names = ("a'b; touch CANARY.summary.dat", "$(touch CANARY) `touch CANARY`.lines.dat", "<x {-Bold_^.map.dat",
+                 "a' . system('touch CANARY') . '.summary.dat", "| touch CANARY.lines.dat", "#!touch CANARY.map.dat",
+                 "-e.summary.dat", "%s %d.lines.dat", "*?[a]~.map.dat")
+        for name in names:
             shutil.copy(self.folder/("auto." + name.split(".")[-2] + ".dat"), self.folder/name)
-            self.assertEqual("", self.plot("--", name)[1])
+        self.assertEqual("", self.plot("--", *names)[1])
         self.assertFalse((self.folder/"CANARY").exists())
         name = b"\xff.summary.dat"
         shutil.copy(self.folder/"auto.summary.dat", os.path.join(os.fsencode(self.folder), name))
