@@ -11,7 +11,7 @@ module wavycon_fitted_fields
    use wavycon_fitted_answer, only: fitted_answer
    use wavycon_fitted_tuning, only: field_accuracy, least_map
    use wavycon_kinds, only: dp
-   use wavycon_spot_integral, only: spot_integral, start_spot_integral
+   use wavycon_spot_integral, only: far_level, spot_integral, start_spot_integral
    use wavycon_stress_kernel, only: stress_fields, surface_field
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
@@ -26,7 +26,7 @@ module wavycon_fitted_fields
       integer :: places = 1                              !! in a cell: the centre and, if there are two, -centre
       complex(dp), allocatable, private :: image(:)      !! centres of the spot or island, 0, and of its near images [s]
       type(spot_integral), private :: spot
-      type(disc_sources), private :: sources             !! those of its coarsest rule
+      type(disc_sources), private :: sources             !! those of its rule at far_level
       ! For maps.
       type(exterior_series), allocatable :: series       !! of the spot or island
       type(even_polynomial), private :: far(2)           !! of all but the near images: even in x, and odd over x
@@ -63,7 +63,8 @@ contains
          fields%image = [(0.0_dp, 0.0_dp), cmplx(near(1, :), near(2, :), dp)]
       end associate
       call start_spot_integral(fields%spot, answer%solution, asked, surface_field)
-      call start_disc_sources(fields%sources, answer%solution, .false., fields%spot%radii(1), fields%spot%angles(1))
+      call start_disc_sources(fields%sources, answer%solution, .false., fields%spot%radii(far_level), &
+                              fields%spot%angles(far_level))
    end subroutine start_fitted_fields
 
    !> The fields at a place.

@@ -18,6 +18,8 @@ module wavycon_spot_integral
 
    !> Rules of rising fineness, before rays are taken.
    integer, parameter :: levels = 6
+   !> The rule for spots or islands that are far. The coarsest one leaves 1e-7 where sharp shapes have a low degree.
+   integer, parameter, public :: far_level = 2
 
    type :: spot_integral
       type(expansion) :: solution
@@ -95,7 +97,7 @@ contains
       end if
    end subroutine add_at
 
-   !> Whether the coarsest rule over the disc resolves the kernel for a place on the surface.
+   !> Whether the rule of far spots or islands resolves the kernel for a place on the surface.
    pure logical function is_resolved(self, z)
       class(spot_integral), intent(in) :: self
       complex(dp), intent(in) :: z                        !! the place from the centre [s]
@@ -104,7 +106,7 @@ contains
       real(dp) :: angular, radial
 
       call self%locate(z, 0.0_dp, origin, offset, angular, radial)
-      is_resolved = resolves(self%angles(1), self%radii(1), angular, radial, self%digits)
+      is_resolved = resolves(self%angles(far_level), self%radii(far_level), angular, radial, self%digits)
    end function is_resolved
 
    !> Whether a place on the surface is inside the spot or island, and its preimage there.
