@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Times of wavycon-mpi on a rough surface against the number of ranks, beside those of the serial program.
 
-Surface: self-affine, Hurst exponent 0.8, rms slope 1, roll-off at a tenth of the cell, 8 steps to the shortest wave; mean
-pressure 0.3 E*, residual 1e-8. The runs of a grid are repeated in turn, so that other work on the machine meets all of
+Surface: self-affine, Hurst exponent 0.8, rms slope 1, roll-off at a tenth of the cell, 8 steps to the shortest wave;
+mean pressure 0.3 E*, residual 1e-8. The runs of a grid are repeated in turn, so that other work on the machine meets all of
 them alike. Each row: points a side, ranks (0: the serial program), iterations on all grids, contact area, median and
 least of the times from the start of the first grid to the measures [s], over the time of one rank, and bytes a point of
 all processes together.
@@ -54,7 +54,7 @@ def measure(given, ranks, points):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--build", type=pathlib.Path, default=ROOT/"build", help="made by scripts/build --mpi all [build]")
+    parser.add_argument("--build", type=pathlib.Path, default=ROOT/"build", help="by scripts/build --mpi all [build]")
     parser.add_argument("--launch", default="mpirun -n {ranks}", help="starts programs on ranks [%(default)s]")
     parser.add_argument("--ranks", type=numbers, default=[0, 1, 2], help="[0,1,2]")
     parser.add_argument("--points", type=numbers, default=[1024, 2048, 4096], help="along a side [1024,2048,4096]")

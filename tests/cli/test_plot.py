@@ -84,7 +84,8 @@ class Plot(ProgramTest):
 
     @classmethod
     def run_plot(cls, *words):
-        return subprocess.run([ROOT/"scripts"/"plot", *words], cwd=cls.folder, capture_output=True, text=True, check=False)
+        return subprocess.run([ROOT/"scripts"/"plot", *words], cwd=cls.folder, capture_output=True, text=True,
+                              check=False)
 
     def plot(self, *words, status=0):
         """Runs scripts/plot. Returns what it writes on standard output and on standard error."""

@@ -60,8 +60,8 @@ class Runner(ProgramTest):
     def outcome(self, cases):
         path = self.folder/"some.cases"
         path.write_text(cases)
-        result = subprocess.run([sys.executable, RUNNER, "--program", self.program, path], capture_output=True, text=True,
-                                check=False)
+        result = subprocess.run([sys.executable, RUNNER, "--program", self.program, path], capture_output=True,
+                                text=True, check=False)
         return result.returncode, result.stdout + result.stderr
 
     def test_a_sound_case_passes(self):

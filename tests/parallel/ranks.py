@@ -82,7 +82,8 @@ def numbers(text):
 def main(test):
     """Runs a test with the programs and the numbers of ranks of the command line, in folders of its class."""
     given = take_options("mpiexec", "ranks", "program", "parallel")
-    test.mpiexec, test.program, test.parallel, test.ranks = given.mpiexec, given.program, given.parallel, numbers(given.ranks)
+    test.mpiexec, test.program, test.parallel = given.mpiexec, given.program, given.parallel
+    test.ranks = numbers(given.ranks)
     unittest.main(verbosity=2)
 
 

@@ -48,11 +48,12 @@ CASES = {
     # One load each, so that its grids are spread, not the loads.
     **{name: Case(f"{SURFACE}'wave_2d', wavelength_y = 2 /\n&load {load} /\n"
                   f"&method solver = 'grid', grid_points = 768 /\n{material}", GRIDS)
-       for name, load, material in (("gap", "mean_gap_over_amplitude = 0.1", ""), ("area", "contact_area_fraction = 0.1", ""),
+       for name, load, material in (("gap", "mean_gap_over_amplitude = 0.1", ""),
+                                    ("area", "contact_area_fraction = 0.1", ""),
                                     ("hardness", "pbar_over_pstar = 0.4", "&material hardness = 5 /\n"))},
     # Height maps: of odd size, mirrored, on other points, with more ranks than columns, made.
-    "odd": Case(f"{SURFACE}'file', file = 'odd.npy', length_x = 3, length_y = 2.6 /\n&load pbar_over_pstar = 0.05, 0.4 /\n"
-                f"&output {TABLES} /\n", GRIDS, ALL_RANKS, LAST_DIGIT),
+    "odd": Case(f"{SURFACE}'file', file = 'odd.npy', length_x = 3, length_y = 2.6 /\n"
+                f"&load pbar_over_pstar = 0.05, 0.4 /\n&output {TABLES} /\n", GRIDS, ALL_RANKS, LAST_DIGIT),
     "mirrored": Case(f"{SURFACE}'file', file = 'mirrored.npy', edges = 'mirror', detrend = 'plane' /\n"
                      f"&load pbar_over_pstar = 0.05, 0.4 /\n&output {TABLES} /\n", GRIDS, SOME_RANKS, LAST_DIGIT),
     "other_points": Case(f"{SURFACE}'file', file = 'coarse.npy' /\n&load pbar_over_pstar = 0.1 /\n"
@@ -71,8 +72,8 @@ CASES = {
     "line": Case(f"{SURFACE}'wave_1d' /\n&load pbar_over_pstar = 0.1, 0.6 /\n&method solver = 'auto' /\n"
                  "&output lines = t, map = t /\n&stress nu = 0.3, line = t /\n", FIRST),
     # Loads that are.
-    **{f"loads_of_{solver}": Case(f"{SURFACE}'wave_2d' /\n&load sweep_from = 0.05, sweep_to = 0.95, sweep_steps = 37 /\n"
-                                  f"&method solver = '{solver}' /\n", LOADS, SEVERAL_RANKS, rounding, OF_THE_START)
+    **{f"loads_of_{solver}": Case(f"{SURFACE}'wave_2d' /\n&method solver = '{solver}' /\n"
+                                  "&load sweep_from = 0.05, sweep_to = 0.95, sweep_steps = 37 /\n", LOADS, SEVERAL_RANKS, rounding, OF_THE_START)
        for solver, rounding in (("fitted", OTHER_START_OF_EXPANSIONS), ("beale", OTHER_START_OF_BEALE))},
     "loads_of_grids": Case(f"{SURFACE}'hexagonal' /\n&load sweep_from = 0.05, sweep_to = 0.9, sweep_steps = 20 /\n"
                            "&method solver = 'grid', grid_points = 64 /\n", LOADS, SEVERAL_RANKS),
@@ -81,9 +82,10 @@ MAPS = {"odd": (263, 301, "f8"), "mirrored": (256, 384, "f4"), "coarse": (128, 1
 
 
 def logs(text):
-    """The lines of each deck's log, by its name, without times and without what only several ranks say; and all lines."""
+    """The lines of each deck's log, by its name, without times and what only several ranks say; and with the latter."""
     parts = re.findall(r"^(wavycon .*\ndeck +(\w+)\.nml\n(?:(?!wavycon |\d+ decks: ).*\n)*)", text, re.MULTILINE)
-    lines = {name: [re.sub(r"^\[ *[\d.]+ s\]", "[]", line) for line in part.rstrip().splitlines()] for part, name in parts}
+    lines = {name: [re.sub(r"^\[ *[\d.]+ s\]", "[]", line) for line in part.rstrip().splitlines()]
+             for part, name in parts}
     return {name: [line for line in own if not line.startswith("ranks ")] for name, own in lines.items()}, lines
 
 
@@ -170,8 +172,8 @@ class SameTables(ProgramTest):
         first = {}
         for ranks in self.ranks:
             chosen = {name: case for name, case in CASES.items() if ranks in case.ranks}
-            outcome = run(self.mpiexec, ranks, [self.parallel, *(f"{name}.nml" for name in chosen), "--output", "results"],
-                          self.folder)
+            decks = [f"{name}.nml" for name in chosen]
+            outcome = run(self.mpiexec, ranks, [self.parallel, *decks, "--output", "results"], self.folder)
             self.assertEqual((0, ""), (outcome.status, outcome.stderr))
             results = (self.folder/"results").rename(self.folder/f"ranks-{ranks}")
             found, lines = logs(outcome.stdout)

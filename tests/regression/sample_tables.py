@@ -10,8 +10,8 @@ LOADS = "&load pbar_over_pstar = 0, 0.2, 0.6, 1 /\n"
 ALL = ("lines = t, map = t, contours = t, spots = t, histograms = t, histogram_bins = 8, spectrum = t, line_points = 8, "
        "map_points = 8")
 HEIGHTS = "".join(" ".join(str((3*i*i + 5*j + i*j) % 7) for i in range(8)) + "\n" for j in range(8))
-# Both dimensions, every solver and table, labels of units, loads without numbers, a single load, tables without rows. The
-# histograms of an expansion take seconds; grids have them too.
+# Both dimensions, every solver and table, labels of units, loads without numbers, a single load, tables without rows.
+# The histograms of an expansion take seconds; grids have them too.
 DECKS = {
     "line": f"&surface kind = 'wave_1d' /\n{LOADS}&output {ALL}, coefficients = t, theory = t /\n",
     "plane": f"&surface kind = 'wave_2d' /\n{LOADS}&output {ALL}, coefficients = t, theory = t /\n",

@@ -3,8 +3,8 @@
 
 usage: test_python_readers.py --program WAVYCON --environment FOLDER
 
-Where this Python lacks numpy or pandas, both are installed into a virtual environment in FOLDER, once. Exit status: 77 if
-they cannot be.
+Where this Python lacks numpy or pandas, both are installed into a virtual environment in FOLDER, once. Exit status: 77
+if they cannot be.
 """
 import contextlib
 import io
@@ -25,7 +25,7 @@ IN_BLOCKS = "lines", "map", "stress_section"
 
 
 def read_as_in(library, table):
-    """The summary and the blocks that the example of a library has if it reads another table in the place of its own."""
+    """The summary and the blocks that the example of a library has if it reads another table in place of its own."""
     text, = [example.split("\nprint(")[0] for example in page_examples("python")
              if f"import {library} " in example and f"\n{EXAMPLES[library]} =" in example]
     for kind in re.findall(r"outputs/demo/demo\.(\w+)\.dat", text):

@@ -179,8 +179,8 @@ def table_complaints(table, may_be_missing):
 
 
 def check_all(part, program, cases, work, failures, limits=()):
-    """Runs `--check` of cases, which are a name, {file: bytes} with deck.nml among them, more words of the command, and a
-    function that says what is wrong with the outcome. Returns the part."""
+    """Runs `--check` of cases, which are a name, {file: bytes} with deck.nml among them, more words of the command, and
+    a function that says what is wrong with the outcome. Returns the part."""
     slowest, accepted = ("", 0.0), 0
     for name, files, words, judge in cases:
         for file, content in files.items():

@@ -242,8 +242,8 @@ def monsters(stream, size):
 
 def fuzz_checks(program, seed, count, work, failures):
     """Mutated decks with --check."""
-    cases = ((f"check-{i}", {"deck.nml": mutated(random.Random(f"{seed} check {i}"), LARGE), "heights.dat": HEIGHTS.encode()},
-              (), message_complaints) for i in range(count))
+    cases = ((f"check-{i}", {"deck.nml": mutated(random.Random(f"{seed} check {i}"), LARGE),
+                             "heights.dat": HEIGHTS.encode()}, (), message_complaints) for i in range(count))
     return check_all(Part("mutated decks, --check"), program, cases, work, failures)
 
 

@@ -23,7 +23,7 @@ class ProgramTest(unittest.TestCase):
 
     @classmethod
     def run_deck(cls, name, text=None, *options, output=".", statuses=(0,), **environment):
-        """Writes NAME.nml, if there is a text, and runs it in the folder. Environment: variables. Returns the status."""
+        """Writes NAME.nml, if there is a text, and runs it there. environment: variables. Returns the status."""
         if text is not None:
             (cls.folder/f"{name}.nml").write_text(text, encoding="utf-8")
         done = subprocess.run([cls.program, f"{name}.nml", "--quiet", "--output", output, *options], cwd=cls.folder,

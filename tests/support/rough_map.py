@@ -4,8 +4,8 @@ import random
 
 
 def rough_map(rows, columns, seed, longest=1, shortest=5, power=2.0):
-    """Periodic heights, rows along x: waves of random heights and phases, from `longest` to `shortest` of them on a side,
-    whose amplitudes fall with the power of their number."""
+    """Periodic heights, rows along x: waves of random heights and phases, from `longest` to `shortest` of them on a
+    side, whose amplitudes fall with the power of their number."""
     stream = random.Random(seed)
     heights = [[0.0]*columns for _ in range(rows)]
     for k in range(shortest + 1):

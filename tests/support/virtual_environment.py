@@ -31,8 +31,8 @@ def python_with(home, requirements, imports, interpreters=(sys.executable,), opt
 
 
 def go_on_with(*packages):
-    """Returns in a Python that has the packages, wheels alone: this one if it has them, else one that is made in the folder
-    of the option --environment, in which the file is started again; the test is skipped if that fails."""
+    """Returns in a Python that has the packages, wheels alone: this one if it has them, else one that is made in the
+    folder of the option --environment, in which the file is started again; the test is skipped if that fails."""
     words, home = list(sys.argv), os.path.abspath(take_options("environment").environment)
     try:
         for package in packages:
