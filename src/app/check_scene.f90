@@ -11,7 +11,7 @@ module wavycon_check_scene
    use wavycon_run_scene, only: keep_fields, start_results
    use wavycon_scene, only: scene_type
    use wavycon_table, only: table_type
-   use wavycon_work_sharing, only: spread_grids, spread_loads
+   use wavycon_work_sharing, only: distributed_grids, distributed_loads
    implicit none (type, external)
    private
 
@@ -64,10 +64,10 @@ contains
       own = points
       loads = size(results%scene%target)
       associate (sharing => results%sharing)
-         if (sharing%kind == spread_grids) then
+         if (sharing%kind == distributed_grids) then
             call slab%start(points)
             own(2) = slab%width
-         else if (sharing%kind == spread_loads) then
+         else if (sharing%kind == distributed_loads) then
             loads = (loads - 1)/sharing%ranks + 1
          end if
          bytes = bytes_of_grid(own)

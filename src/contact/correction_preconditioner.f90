@@ -2,7 +2,7 @@
 !> them; numbers (C..) are its equations.
 module wavycon_correction_preconditioner
    use wavycon_compliance_operator, only: compliance_operator
-   use wavycon_contact_extension, only: contact_extension
+   use wavycon_multilevel_preconditioner, only: multilevel_preconditioner
    use wavycon_contact_region, only: longest_chunk
    use wavycon_contact_tuning, only: largest_growth, settled_part, stencil_fraction
    use wavycon_correction_state, only: correction_state
@@ -23,7 +23,7 @@ module wavycon_correction_preconditioner
       integer, private :: kind = extended
       logical, private :: has_resumed = .false. !! whether the kind was `restricted` and is `extended` again
       real(sp), allocatable, private :: contact_field(:, :)   !! K on the grid, for the multilevel preconditioner
-      type(contact_extension), private :: extension
+      type(multilevel_preconditioner), private :: extension
    contains
       procedure :: select
       procedure :: apply

@@ -3,7 +3,7 @@ module wavycon_fitted_source
    use wavycon_constants, only: pi
    use wavycon_contact_details, only: contact_details
    use wavycon_contact_fields, only: contact_fields
-   use wavycon_edge_curves, only: edge_curve
+   use wavycon_contact_contours, only: contact_contour
    use wavycon_equivalent_points, only: equivalent_points, point_image
    use wavycon_field_source, only: field_source
    use wavycon_fitted_answer, only: fitted_answer
@@ -28,7 +28,7 @@ module wavycon_fitted_source
       real(dp) :: accuracy = 0.0_dp     !! that it was asked for, relative
    contains
       procedure :: fields
-      procedure :: edge_curves
+      procedure :: contact_contours
       procedure :: stresses
       procedure :: details
    end type fitted_source
@@ -144,16 +144,16 @@ contains
    end subroutine on_grid
 
    !> A closed curve about each crest or, once the spots have merged, about each trough.
-   subroutine edge_curves(self, record, surface, curves, loads)
+   subroutine contact_contours(self, record, surface, curves, loads)
       class(fitted_source), intent(in) :: self
       type(solution_record), intent(in) :: record
       type(surface_type), intent(in) :: surface
-      type(edge_curve), allocatable, intent(out) :: curves(:)
+      type(contact_contour), allocatable, intent(out) :: curves(:)
       real(dp), allocatable, intent(out) :: loads(:)
 
       complex(dp) :: centre, edge(edge_points), to_surface
       type(fitted_fields) :: fields
-      integer :: i, k, turned
+      integer :: i, k, rotated
 
       call start_fitted_fields(fields, self%lattice, self%answer)
       to_surface = self%frame%side/self%frame%turn
@@ -164,12 +164,12 @@ contains
       ! translated.
       allocate (curves(self%frame%crests*fields%places))
       do k = 1, size(curves)
-         turned = merge(-1, 1, k > self%frame%crests)
-         centre = turned*fields%centre*to_surface
+         rotated = merge(-1, 1, k > self%frame%crests)
+         centre = rotated*fields%centre*to_surface
          associate (length => surface%length, places => [(mod(i, edge_points) + 1, i=0, edge_points)], &
                     half_cells => modulo(k - 1, self%frame%crests))
-            curves(k)%phi = in_cell(2*pi*centre%re/length(1) + pi*half_cells) + 2*pi*turned*edge(places)%re/length(1)
-            curves(k)%theta = in_cell(2*pi*centre%im/length(2) + pi*half_cells) + 2*pi*turned*edge(places)%im/length(2)
+            curves(k)%phi = in_cell(2*pi*centre%re/length(1) + pi*half_cells) + 2*pi*rotated*edge(places)%re/length(1)
+            curves(k)%theta = in_cell(2*pi*centre%im/length(2) + pi*half_cells) + 2*pi*rotated*edge(places)%im/length(2)
          end associate
          ! All are alike: the area is that of the expansion itself, not that of polygons.
          curves(k)%turns = merge(-1, 1, self%answer%island)
@@ -195,7 +195,7 @@ contains
          in_cell = angle - 2*pi*floor(angle/(2*pi) + rounding)
       end function in_cell
 
-   end subroutine edge_curves
+   end subroutine contact_contours
 
    subroutine details(self, answer, found)
       class(fitted_source), intent(in) :: self

@@ -22,7 +22,7 @@ module wavycon_grid_fields
       type(fourier_series) :: shape          !! of the surface: 1 - h/Delta
       real(dp) :: mean_gap = 1.0_dp          !! 1 - approach
       real(dp) :: hardness = huge(1.0_dp)    !! H, upper bound of the pressure [p*]
-      logical :: turned = .false.            !! whether the angles of the grid are X + Y and X - Y
+      logical :: rotated = .false.            !! whether the angles of the grid are X + Y and X - Y
       integer :: parts(2) = 1                !! of the surface: how often the points of on_grid fit into the cell
       real(dp) :: scale = 1.0_dp             !! a^(2/3) [p*^2/Delta^(2/3)]
       !> psi [p*^2] at the points of the grid and at two more beyond each side, shape (-1:M+2, -1:N+2). Not allocated
@@ -40,22 +40,22 @@ module wavycon_grid_fields
 
 contains
 
-   subroutine start_grid_fields(fields, surface, edge, mean_gap, turned)
+   subroutine start_grid_fields(fields, surface, edge, mean_gap, rotated)
       type(grid_fields), intent(out) :: fields
       type(surface_type), intent(in) :: surface
       type(grid_edge), intent(in) :: edge       !! pressure [p*] and gap [Delta] at the points
       real(dp), intent(in) :: mean_gap          !! 1 - approach
-      logical, intent(in) :: turned             !! whether the angles of the grid are X + Y and X - Y
+      logical, intent(in) :: rotated             !! whether the angles of the grid are X + Y and X - Y
 
       fields%shape = surface%shape
       fields%edge = edge
       fields%mean_gap = mean_gap
       fields%hardness = surface%hardness
-      fields%turned = turned
+      fields%rotated = rotated
       fields%parts = surface%parts()
       fields%own_slab = edge%slab
       ! The points of a rotated grid are every other point of a grid of the cell.
-      if (turned) return
+      if (rotated) return
       fields%own_points = edge%slab%points
       if (.not. edge%even) return
       associate (are_halved => edge%slab%points > 1)
@@ -182,7 +182,7 @@ contains
       integer :: node(2)
 
       s = [x, y]
-      if (fields%turned) s = [x + y, x - y]
+      if (fields%rotated) s = [x + y, x - y]
       call locate(s(1), size(fields%edge%pressure_or_gap, 1), fields%edge%even, node(1), t(1))
       call locate(s(2), size(fields%edge%pressure_or_gap, 2), fields%edge%even, node(2), t(2))
       psi = cubic(fields%psi(node(1) - 1:node(1) + 2, node(2) - 1:node(2) + 2), t(1), t(2))

@@ -34,7 +34,7 @@ module wavycon_grid_solver
       real(dp), allocatable :: gap(:, :)
       real(dp) :: hardness = huge(1.0_dp)       !! H/p*, huge if there is none
       real(dp) :: mean_gap = 1.0_dp             !! 1 - approach; without a hardness G
-      real(dp) :: imprint = 0.0_dp              !! mean over the cell of the overlap where p = H [Delta] (C22)
+      real(dp) :: residual_indentation = 0.0_dp   !! mean over the cell of the overlap where p = H [Delta] (C22)
       real(dp) :: residual = huge(1.0_dp)       !! root mean square of the violated conditions on the gap, over G (C9)
       integer :: corrections = 0                !! steps
       integer :: iterations = 0                 !! of all corrections
@@ -116,7 +116,7 @@ contains
    pure real(dp) function open_gap(self)
       class(grid_state), intent(in) :: self   !! solved
 
-      open_gap = self%mean_gap + self%imprint
+      open_gap = self%mean_gap + self%residual_indentation
       if (self%hardness >= huge(self%hardness)) return
       if (.not. self%is_open) open_gap = 0.0_dp
    end function open_gap
@@ -125,7 +125,7 @@ contains
    pure real(dp) function size_of_gaps(state)
       type(grid_state), intent(in) :: state
 
-      size_of_gaps = abs(state%open_gap() + state%imprint)
+      size_of_gaps = abs(state%open_gap() + state%residual_indentation)
    end function size_of_gaps
 
    !> Whether a pressure lies between its bounds: the gap is zero there.
@@ -195,7 +195,7 @@ contains
          sums = state%slab%column_totals(violations)
       end associate
       state%residual = sqrt(sums(1)/points)
-      state%imprint = sums(2)/points
+      state%residual_indentation = sums(2)/points
       state%is_open = sums(3) > 0.0_dp
       state%mean_gap = 1.0_dp - (approach + change)
    end subroutine compute_gap

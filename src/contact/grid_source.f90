@@ -5,7 +5,8 @@ module wavycon_grid_source
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_measures, only: or_nan
-   use wavycon_edge_curves, only: edge_curve, shift_curve, strip_ends, trace_edges, turn_curves, whole_strips
+   use wavycon_contact_contours, only: contact_contour, shift_contour, strip_ends, trace_edges, rotate_contours, &
+         whole_strips
    use wavycon_field_source, only: field_source
    use wavycon_fourier_series, only: fourier_series
    use wavycon_grid_area, only: grid_strip_edges
@@ -21,7 +22,7 @@ module wavycon_grid_source
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type
    use wavycon_system, only: has_memory_for
-   use wavycon_turned_series, only: to_difference_angles
+   use wavycon_rotated_series, only: to_difference_angles
    implicit none (type, external)
    private
 
@@ -29,12 +30,12 @@ module wavycon_grid_source
 
    type, extends(field_source) :: grid_source
       type(grid_edge), allocatable :: edge    !! pressure and gap at the grid points; always allocated
-      logical :: turned = .false.             !! the grid's cell is the smaller one, rotated by 45 degrees
-      real(dp) :: imprint = 0.0_dp            !! mean overlap where p = H [Delta] (C22)
+      logical :: rotated = .false.             !! the grid's cell is the smaller one, rotated by 45 degrees
+      real(dp) :: residual_indentation = 0.0_dp            !! mean overlap where p = H [Delta] (C22)
    contains
       procedure :: take_edge
       procedure :: fields
-      procedure :: edge_curves
+      procedure :: contact_contours
       procedure :: stresses
       procedure :: collect
       procedure :: pack => pack_source
@@ -53,7 +54,8 @@ contains
       type(grid_edge), allocatable, intent(inout) :: edge   !! not allocated afterwards
 
       call move_alloc(edge, self%edge)
-      self%spread_points = merge(product(int(self%edge%slab%points, int64)), 0_int64, self%edge%slab%is_spread)
+      self%distributed_points = merge(product(int(self%edge%slab%points, int64)), 0_int64, &
+            self%edge%slab%is_distributed)
    end subroutine take_edge
 
    !> Gathers the pressures and gaps of a distributed grid on the rank that writes the tables.
@@ -65,7 +67,7 @@ contains
       real(dp), allocatable :: values(:, :)
 
       is_here = .true.
-      if (self%spread_points == 0) return
+      if (self%distributed_points == 0) return
       associate (slab => self%edge%slab)
          call slab%gather_to_first(self%edge%pressure_or_gap, values)
       end associate
@@ -85,16 +87,17 @@ contains
       type(grid_fields), allocatable :: own
 
       allocate (own)
-      call start_grid_fields(own, surface, self%edge, record%measures%mean_gap_over_amplitude - self%imprint, &
-                             self%turned)
+      call start_grid_fields(own, surface, self%edge, &
+            record%measures%mean_gap_over_amplitude - self%residual_indentation, &
+                             self%rotated)
       call move_alloc(own, answer)
    end subroutine fields
 
-   subroutine edge_curves(self, record, surface, curves, loads)
+   subroutine contact_contours(self, record, surface, curves, loads)
       class(grid_source), intent(in) :: self
       type(solution_record), intent(in) :: record
       type(surface_type), intent(in) :: surface
-      type(edge_curve), allocatable, intent(out) :: curves(:)
+      type(contact_contour), allocatable, intent(out) :: curves(:)
       real(dp), allocatable, intent(out) :: loads(:)
 
       type(region_numbers) :: numbers
@@ -103,16 +106,16 @@ contains
 
       associate (unused => record); end associate
       if (surface%dimension == 2) then
-         if (self%turned) then
+         if (self%rotated) then
             ! The surface's cell consists of two cells of the grid.
             call trace_edges(self%edge, curves, self%edge%period*[2, 1], self%edge%period(1), numbers)
          else
             call trace_edges(self%edge, curves, numbers=numbers, with_images=surface%mirrored)
          end if
          do i = 1, size(curves)
-            call shift_curve(curves(i), self%edge%period, edge_offset)
+            call shift_contour(curves(i), self%edge%period, edge_offset)
          end do
-         if (self%turned) call turn_curves(curves, factor=0.5_dp)
+         if (self%rotated) call rotate_contours(curves, factor=0.5_dp)
          call spot_loads(self%edge, numbers, loads)
       else
          call grid_strip_edges(self%edge, edges)
@@ -123,7 +126,7 @@ contains
          end if
          call strip_loads(self%edge, size(curves), loads)
       end if
-   end subroutine edge_curves
+   end subroutine contact_contours
 
    !> The stresses of the series that interpolates the pressures at the points. Their error is that of the peak pressure
    !> and the part of the series' last octave; it is unknown where that of the peak is. Without the memory for the
@@ -157,15 +160,15 @@ contains
       call transform%start(shape(values), self%edge%even, whole=.true.)
       call transform%series(values, pressure)
       deallocate (values)
-      if (self%turned) pressure = to_difference_angles(pressure)
+      if (self%rotated) pressure = to_difference_angles(pressure)
       call start_series_stress(own, surface, pressure, record%pbar_over_pstar, &
                                pressure_error=error, is_sampled=.true.)
       call move_alloc(own, answer)
    end subroutine stresses
 
-   !> What a checkpoint keeps: the imprint, the stiffness of `edge`, the points along x and y, the first of the own
-   !> columns, whether the cell is turned, whether the grid covers a quarter of it, and the pressures and gaps at the own
-   !> columns.
+   !> What a checkpoint keeps: the residual_indentation, the stiffness of `edge`, the points along x and y, the first of
+   !> the own columns, whether the cell is turned, whether the grid covers a quarter of it, and the pressures and gaps
+   !> at the own columns.
    pure subroutine pack_source(self, values)
       class(grid_source), intent(in) :: self
       real(dp), allocatable, intent(out) :: values(:)   !! not allocated if there is not enough memory
@@ -177,8 +180,8 @@ contains
          rows = size(edge%pressure_or_gap, 1)
          allocate (values(own_values + size(edge%pressure_or_gap, kind=int64)), stat=status)
          if (status /= 0) return
-         values(:own_values) = [self%imprint, edge%stiffness, real([slab%points, slab%first], dp), &
-                                merge(1.0_dp, 0.0_dp, [self%turned, edge%even])]
+         values(:own_values) = [self%residual_indentation, edge%stiffness, real([slab%points, slab%first], dp), &
+                                merge(1.0_dp, 0.0_dp, [self%rotated, edge%even])]
          do j = 1, size(edge%pressure_or_gap, 2)
             values(own_values + (j - 1)*rows + 1:own_values + j*rows) = edge%pressure_or_gap(:, j)
          end do
@@ -209,8 +212,8 @@ contains
       understood = columns <= points(2) - first + 1 .and. rows*columns == size(values, kind=int64) - own_values
       if (.not. understood) return
       if (.not. allocated(self%edge)) then
-         self%imprint = values(1)
-         self%turned = values(7) > 0.0_dp
+         self%residual_indentation = values(1)
+         self%rotated = values(7) > 0.0_dp
          call slab%start(points, whole)
          allocate (field(rows, slab%columns()), source=ieee_value(1.0_dp, ieee_quiet_nan))
          allocate (edge)

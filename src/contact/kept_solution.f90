@@ -38,11 +38,11 @@ contains
       if (allocated(values)) words = [words_of_record(solution), transfer(values, [0_int64])]
    end subroutine pack_solution
 
-   !> Restores what pack_solution made. A grid that is spread is restored by the words of all ranks that had columns
-   !> of it: called for one after the other, in any order.
+   !> Restores what pack_solution made. A grid that is distributed is restored by the words of all ranks that had
+   !> columns of it: called for one after the other, in any order.
    subroutine unpack_solution(words, whole, solution, complete, understood)
       integer(int64), intent(in) :: words(:)
-      logical, intent(in) :: whole                       !! whether this rank needs all columns of a grid that was spread
+      logical, intent(in) :: whole   !! whether this rank needs all columns of a grid that was spread
       type(contact_solution), intent(inout) :: solution  !! without a source at first
       logical, intent(out) :: complete                   !! whether nothing is missing any more
       logical, intent(out) :: understood                 !! .false. if these are not the words of a solution

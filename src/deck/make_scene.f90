@@ -48,9 +48,9 @@ contains
       scene%method = deck%method
       scene%output = deck%output
       call deck%output%set('directory', '')
-      scene%essence = resolved_deck_text(deck)
+      scene%fingerprint = resolved_deck_text(deck)
       ! The first line has the path of the deck.
-      scene%essence = scene%essence(index(scene%essence, newline):)
+      scene%fingerprint = scene%fingerprint(index(scene%fingerprint, newline):)
       call deck%output%set('directory', scene%directory)
       ! A copy of the resolved deck in another directory must find the map. A map that was made has no file.
       if (allocated(scene%map)) then

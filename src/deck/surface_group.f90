@@ -76,8 +76,8 @@ contains
          short_number(largest_ratio)//' times is allowed. Are '//keys//' in one unit?')
    end subroutine check_sides
 
-   !> Makes the surface. Errors: exit_file_trouble for a height map that cannot be read, exit_bad_input for a bad one and
-   !> for heights of a kind that has no file.
+   !> Makes the surface. Errors: exit_file_trouble for a height map that cannot be read, exit_bad_input for a bad one
+   !> and for heights of a kind that has no file.
    subroutine make_surface(values, surface, map, error, heights)
       !> Without problems. Keys that have no effect beside what a file says are left out of the resolved deck.
       type(group_values), intent(inout) :: values

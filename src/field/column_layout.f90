@@ -17,11 +17,11 @@ module wavycon_column_layout
    integer, parameter, public :: most_reach = 8
 
    !> Grids with fewer points are whole on each rank.
-   integer(int64), parameter, public :: least_spread_points = 65536_int64
+   integer(int64), parameter, public :: least_distributed_points = 65536_int64
 
    type :: column_layout
       integer :: points(2) = 0          !! M, N of the grid
-      logical :: is_spread = .false.    !! whether other ranks have the other columns
+      logical :: is_distributed = .false.    !! whether other ranks have the other columns
       integer :: width = 0              !! columns of each rank but the last ones, a multiple of strip_columns
       integer :: first = 1, last = 0    !! the own columns; last = first - 1: none
    contains
@@ -54,7 +54,7 @@ contains
          if (whole) return
       end if
       ranks = ranks_at_work()
-      if (ranks == 1 .or. product(int(points, int64)) < least_spread_points) return
+      if (ranks == 1 .or. product(int(points, int64)) < least_distributed_points) return
       width = strip_columns*(((points(2) - 1)/strip_columns)/ranks + 1)
       ! The last rank with columns has enough of them for its neighbours.
       do while (modulo(points(2) - 1, width) + 1 < most_reach)
@@ -78,7 +78,7 @@ contains
       class(column_layout), intent(inout) :: self
       integer, intent(in) :: width
 
-      self%is_spread = .true.
+      self%is_distributed = .true.
       self%width = width
       self%first = min(this_rank()*width, self%points(2)) + 1
       self%last = min((this_rank() + 1)*width, self%points(2))
@@ -150,7 +150,7 @@ contains
       integer, intent(in) :: column   !! of the grid or its continuation
 
       place = 0
-      if (.not. self%is_spread .or. (even .and. (column < 1 .or. column > self%points(2)))) &
+      if (.not. self%is_distributed .or. (even .and. (column < 1 .or. column > self%points(2)))) &
          place = image_of_point(column, self%points(2), even) - self%first + 1
    end function place_of_image
 

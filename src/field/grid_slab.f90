@@ -10,7 +10,7 @@
 !> `strip_columns` columns, and the sums of all columns or strips are added in the order of the grid.
 module wavycon_grid_slab
    use, intrinsic :: iso_fortran_env, only: int64
-   use wavycon_column_layout, only: column_layout, least_spread_points, most_reach, strip_columns
+   use wavycon_column_layout, only: column_layout, least_distributed_points, most_reach, strip_columns
    use wavycon_grid_points, only: image_of_point
    use wavycon_kinds, only: dp, sp
    use wavycon_ranks, only: add_over_ranks, any_rank, exchange_columns, gather_columns, largest_over_ranks, &
@@ -18,7 +18,7 @@ module wavycon_grid_slab
    implicit none (type, external)
    private
 
-   public :: grid_slab, least_spread_points, most_reach, row_exchange, strip_columns
+   public :: grid_slab, least_distributed_points, most_reach, row_exchange, strip_columns
 
    type, extends(column_layout) :: grid_slab
    contains
@@ -88,7 +88,7 @@ contains
       real(dp), allocatable :: every(:)
       integer :: sums
 
-      if (.not. slab%is_spread) then
+      if (.not. slab%is_distributed) then
          totals = sum(parts, dim=2)
          return
       end if
@@ -103,14 +103,14 @@ contains
       class(grid_slab), intent(in) :: self
       real(dp), intent(inout), contiguous :: values(:)
 
-      if (self%is_spread) call add_over_ranks(values)
+      if (self%is_distributed) call add_over_ranks(values)
    end subroutine add_reals
 
    subroutine add_integers(self, values)
       class(grid_slab), intent(in) :: self
       integer(int64), intent(inout), contiguous :: values(:)
 
-      if (self%is_spread) call add_over_ranks(values)
+      if (self%is_distributed) call add_over_ranks(values)
    end subroutine add_integers
 
    !> The largest over the ranks that have different columns, element by element, in place.
@@ -118,7 +118,7 @@ contains
       class(grid_slab), intent(in) :: self
       real(dp), intent(inout), contiguous :: values(:)
 
-      if (self%is_spread) call largest_over_ranks(values)
+      if (self%is_distributed) call largest_over_ranks(values)
    end subroutine largest
 
    !> The largest number of a field and the first of the points that have it, over the whole grid.
@@ -162,7 +162,7 @@ contains
 
       reach = size(low, 2)
       if (self%columns() < 1) return
-      if (self%is_spread) then
+      if (self%is_distributed) then
          call self%find_neighbours(even, before, behind)
          allocate (first_columns, source=field(:, :reach))
          allocate (last_columns, source=field(:, self%columns() - reach + 1:))
@@ -189,7 +189,7 @@ contains
 
       reach = size(low, 2)
       if (self%columns() < 1) return
-      if (self%is_spread) then
+      if (self%is_distributed) then
          call self%find_neighbours(even, before, behind)
          allocate (first_columns, source=field(:, :reach))
          allocate (last_columns, source=field(:, self%columns() - reach + 1:))
@@ -218,7 +218,7 @@ contains
 
       last = ubound(wanted, 2)
       associate (n => self%points(2), rank => this_rank())
-         if (.not. self%is_spread) then
+         if (.not. self%is_distributed) then
             do j = first, last
                wanted(:, j) = field(:, image_of_point(j, n, even))
             end do
@@ -259,7 +259,7 @@ contains
       real(dp), intent(in), contiguous :: own(:, :)         !! shape (any, columns())
       real(dp), intent(inout), contiguous :: whole(:, :)    !! shape (any, N)
 
-      if (self%is_spread) then
+      if (self%is_distributed) then
          call gather_columns(size(own, 1)*storage_size(own)/8, self%columns_of_ranks(), own, whole, first_only=.false.)
       else
          whole = own
@@ -271,7 +271,7 @@ contains
       real(sp), intent(in), contiguous :: own(:, :)
       real(sp), intent(inout), contiguous :: whole(:, :)
 
-      if (self%is_spread) then
+      if (self%is_distributed) then
          call gather_columns(size(own, 1)*storage_size(own)/8, self%columns_of_ranks(), own, whole, first_only=.false.)
       else
          whole = own
@@ -285,7 +285,7 @@ contains
       !> Shape (M, N); not allocated on the other ranks if the grid is distributed.
       real(dp), allocatable, intent(out) :: whole(:, :)
 
-      if (.not. self%is_spread) then
+      if (.not. self%is_distributed) then
          allocate (whole, source=own)
          return
       end if

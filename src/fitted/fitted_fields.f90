@@ -182,7 +182,7 @@ contains
    subroutine prepare_map(self, accuracy, places)
       class(fitted_fields), intent(inout) :: self
       real(dp), intent(in) :: accuracy            !! that the solution was asked for, relative
-      integer, intent(in) :: places               !! spread over the cell, >= 0
+      integer, intent(in) :: places               !! distributed over the cell, >= 0
 
       !> Error over the accuracy that was asked for, and the least one over the fields' scale.
       real(dp), parameter :: share = 1e-3_dp, least = 1e-11_dp

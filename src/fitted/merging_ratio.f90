@@ -39,8 +39,8 @@ contains
       complex(dp) :: direction
 
       direction = midpoint/abs(midpoint)
-      associate (turned => direction**shape%fold)
-         if (abs(turned%im) < rounding) then
+      associate (rotated => direction**shape%fold)
+         if (abs(rotated%im) < rounding) then
             ! On an axis of symmetry the edge's nearest point is that of the same angle in the disc.
             ratio = abs(shape%place(direction))/abs(midpoint)
          else

@@ -38,7 +38,8 @@ contains
       real(dp), intent(in) :: x(n), y(n)                      !! the place as seen from the sources [s]
       real(dp), intent(in) :: z                               !! depth >= 0 [s]
       real(dp), intent(in) :: strength_x(n), strength_y(n)
-         !! times area: a spot's pressure, or an island's gap for surface_field, and 0; the gap's gradient for all_fields
+         !! times area: a spot's pressure, or an island's gap for surface_field, and 0; the gap's gradient for
+         !! all_fields
       real(dp), intent(inout) :: fields(stress_fields)        !! of surface_field the first one
 
       if (kernel == all_fields .and. gap) then

@@ -33,8 +33,8 @@ module wavycon_session_fields
 
 contains
 
-   !> Fields at n points. Pressure is exactly 0 outside contact and the gap exactly 0 in contact, but for solver 'beale',
-   !> whose series is shown as it is.
+   !> Fields at n points. Pressure is exactly 0 outside contact and the gap exactly 0 in contact, but for solver
+   !> 'beale', whose series is shown as it is.
    subroutine fields_at(session, solved, n, x, y, error, pressure, gap, displacement)
       type(deck_session), intent(in) :: session
       type(solved_load), intent(inout) :: solved
@@ -89,8 +89,8 @@ contains
       end if
    end subroutine fields_on_grid
 
-   !> The grid that the load was solved on, as arguments of fields_on_grid, which shows the solution's own numbers there.
-   !> Zeros if there is none.
+   !> The grid that the load was solved on, as arguments of fields_on_grid, which shows the solution's own numbers
+   !> there. Zeros if there is none.
    subroutine own_points(session, solved, points, offset, error)
       type(deck_session), intent(in) :: session
       type(solved_load), intent(inout) :: solved

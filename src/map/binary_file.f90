@@ -185,12 +185,12 @@ contains
          if (.not. allocated(error)) call read_rows(self, start, slab, map%height, error)
       else
          call lines%start(points(2:1:-1), whole=.true.)
-         if (slab%is_spread) call lines%divide(points(2:1:-1))
+         if (slab%is_distributed) call lines%divide(points(2:1:-1))
          if (.not. allocated(error)) call read_columns(self, start, lines, map%height, error)
       end if
       call slab%share_error(error)
-      if (allocated(error) .or. .not. slab%is_spread) return
-      call map%spread_over(slab)
+      if (allocated(error) .or. .not. slab%is_distributed) return
+      call map%distribute_over(slab)
       if (.not. by_columns) return
       allocate (height(points(1), slab%columns()))
       call slab%exchange_rows(points(1), 1, dp, exchange)

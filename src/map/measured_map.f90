@@ -23,7 +23,7 @@ module wavycon_measured_map
       type(grid_slab), private :: slab             !! of the points of a map that is distributed
    contains
       procedure :: set_units
-      procedure :: spread_over
+      procedure :: distribute_over
       procedure :: columns
       procedure :: points
       procedure :: keep_own_columns
@@ -44,21 +44,21 @@ contains
    end subroutine set_units
 
    !> Declares that `height` has, or will have, the own columns of a map.
-   pure subroutine spread_over(self, slab)
+   pure subroutine distribute_over(self, slab)
       class(measured_map), intent(inout) :: self
       type(grid_slab), intent(in) :: slab
 
       self%slab = slab
-   end subroutine spread_over
+   end subroutine distribute_over
 
    !> The columns that `height` has: the whole grid, unless the map is distributed.
    pure type(grid_slab) function columns(self)
       class(measured_map), intent(in) :: self
 
       columns = self%slab
-      if (columns%is_spread) return
+      if (columns%is_distributed) return
       associate (n => size(self%height, 2))
-         columns = grid_slab(points=shape(self%height), is_spread=.false., width=n, first=1, last=n)
+         columns = grid_slab(points=shape(self%height), is_distributed=.false., width=n, first=1, last=n)
       end associate
    end function columns
 
@@ -68,7 +68,7 @@ contains
       integer :: points(2)
 
       points = shape(self%height)
-      if (self%slab%is_spread) points = self%slab%points
+      if (self%slab%is_distributed) points = self%slab%points
    end function points
 
    !> Distributes a whole map if it is large.
@@ -77,9 +77,9 @@ contains
 
       real(dp), allocatable :: own(:, :)
 
-      if (self%slab%is_spread) return
+      if (self%slab%is_distributed) return
       call self%slab%start(shape(self%height))
-      if (.not. self%slab%is_spread) return
+      if (.not. self%slab%is_distributed) return
       allocate (own, source=self%height(:, self%slab%first:self%slab%last))
       call move_alloc(own, self%height)
       if (allocated(self%missing)) self%missing = self%missing(:, self%slab%first:self%slab%last)

@@ -21,7 +21,7 @@ module wavycon_checkpoint
    use wavycon_system, only: file_size, path_absent, path_file, path_kind, process_id, remove_file, &
       remove_when_interrupted, rename_file
    use wavycon_version, only: revision, version
-   use wavycon_work_sharing, only: spread_grids
+   use wavycon_work_sharing, only: distributed_grids
    implicit none (type, external)
    private
 
@@ -310,7 +310,8 @@ contains
       if (.not. understood) return
       load = int(words(1))
       if (known(load) .or. .not. results%sharing%is_own_load(load)) return
-      call unpack_solution(words(2:), results%sharing%kind /= spread_grids, results%loads(load), known(load), understood)
+      call unpack_solution(words(2:), results%sharing%kind /= distributed_grids, results%loads(load), known(load), &
+            understood)
    end subroutine take_solution
 
    !> A text that identifies what is solved: version, surface, and the resolved deck without the paths of deck and
@@ -322,7 +323,8 @@ contains
       character(20) :: number
 
       write (number, '(i0)') surface_checksum(results)
-      text = 'wavycon '//version//' ('//revision//')'//newline//'surface '//trim(number)//newline//results%scene%essence
+      text = 'wavycon '//version//' ('//revision//')'//newline//'surface '//trim(number)//newline// &
+            results%scene%fingerprint
    end function description
 
    !> Compares the descriptions of two runs. Errors: exit_bad_input if they differ.
@@ -413,8 +415,8 @@ contains
       total = modulo(total*factor + shiftr(word, 32), prime)
    end function with_word
 
-   !> Checksum of a surface: amplitude, cell and Fourier coefficients. It does not depend on how these are spread over
-   !> the ranks.
+   !> Checksum of a surface: amplitude, cell and Fourier coefficients. It does not depend on how these are distributed
+   !> over the ranks.
    integer(int64) function surface_checksum(results) result(total)
       type(results_type), intent(in) :: results
 
@@ -425,7 +427,7 @@ contains
          sums(1) = sum_over_waves(shape%c, lbound(shape%c, 1))
          if (.not. shape%is_even()) sums(2:) = [sum_over_waves(shape%cs, lbound(shape%c, 1)), &
             sum_over_waves(shape%sc, lbound(shape%c, 1)), sum_over_waves(shape%ss, lbound(shape%c, 1))]
-         if (results%sharing%kind == spread_grids .and. surface%is_spread()) call results%sharing%add(sums)
+         if (results%sharing%kind == distributed_grids .and. surface%is_distributed()) call results%sharing%add(sums)
          total = checksum([transfer([surface%amplitude, surface%length], sums(:0)), sums])
       end associate
    end function surface_checksum

@@ -5,7 +5,7 @@
 !> of the two ends of a strip.
 module wavycon_contour_table
    use wavycon_constants, only: pi
-   use wavycon_edge_curves, only: edge_curve, keep_curves_of_quarter
+   use wavycon_contact_contours, only: contact_contour, keep_curves_of_quarter
    use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
    use wavycon_results, only: results_type
@@ -33,12 +33,12 @@ contains
       integer, intent(in) :: load
       type(output_file), intent(inout) :: file
 
-      type(edge_curve), allocatable :: curves(:)   ! in X and Y
+      type(contact_contour), allocatable :: curves(:)   ! in X and Y
       integer :: i, k
       real(dp), allocatable :: places(:, :)
 
       associate (surface => results%solver%surface)
-         call results%loads(load)%edge_curves(surface, curves)
+         call results%loads(load)%contact_contours(surface, curves)
          if (surface%mirrored) call keep_curves_of_quarter(curves)
          if (size(curves) > 0) call results%begin_block(file, load)
          do i = 1, size(curves)

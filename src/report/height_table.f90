@@ -34,11 +34,11 @@ contains
       table%write_all => write_height_table
    end function height_table
 
-   !> All ranks write the heights of a map that is spread over them.
+   !> All ranks write the heights of a map that is distributed over them.
    logical function is_written_by_all(results)
       type(results_type), intent(in) :: results
 
-      is_written_by_all = results%solver%surface%is_spread()
+      is_written_by_all = results%solver%surface%is_distributed()
    end function is_written_by_all
 
    !> Writes rows of heights along x, over their mean [length]: of a map at its own points, of waves at those of maps.
@@ -52,7 +52,7 @@ contains
       integer :: points(2)
       real(dp) :: first
 
-      if (results%solver%surface%is_spread()) then
+      if (results%solver%surface%is_distributed()) then
          call write_by_all(results, error)
          return
       end if
@@ -92,7 +92,7 @@ contains
       end do
    end subroutine put_places
 
-   !> Writes the heights at the points of a map that is spread over the ranks. Errors: exit_file_trouble.
+   !> Writes the heights at the points of a map that is distributed over the ranks. Errors: exit_file_trouble.
    subroutine write_by_all(results, error)
       type(results_type), intent(in) :: results
       type(error_type), allocatable, intent(out) :: error

@@ -55,9 +55,9 @@ contains
          is_written_by_all = all(points == grid .or. points == 2*grid)
          return
       end if
-      number = results%loads(1)%spread_points()
+      number = results%loads(1)%distributed_points()
       is_written_by_all = number > 0 .and. &
-         all([(results%loads(load)%spread_points() == number, load=1, size(results%loads))])
+         all([(results%loads(load)%distributed_points() == number, load=1, size(results%loads))])
       if (.not. is_written_by_all) return
       call results%loads(1)%fields(results%solver%surface, fields)
       is_written_by_all = all(points == fields%own_points)
@@ -73,7 +73,7 @@ contains
       real(dp), allocatable :: gap(:, :), p(:, :), shape(:, :), u(:, :), values(:, :)
       integer :: l, load
 
-      if (results%loads(1)%spread_points() > 0) then
+      if (results%loads(1)%distributed_points() > 0) then
          call write_by_all(results, map_points(results), error)
          return
       end if

@@ -108,8 +108,8 @@ contains
       if (allocated(self%names)) column = findloc(self%names == name, .true., dim=1)
    end function find_column
 
-   !> Lines, without a newline behind the last: 'columns', name[unit] of each, the unit of a column of words being 'word';
-   !> 'words', the list of words. Not allocated for another name.
+   !> Lines, without a newline behind the last: 'columns', name[unit] of each, the unit of a column of words being
+   !> 'word'; 'words', the list of words. Not allocated for another name.
    pure subroutine text(self, name, lines)
       class(memory_table), intent(in) :: self
       character(*), intent(in) :: name

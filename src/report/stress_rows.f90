@@ -40,10 +40,10 @@ contains
       type(results_type), intent(in) :: results
       integer, intent(in) :: load
       real(dp), intent(in) :: pbar_over_pstar         !! of the stresses
-      real(dp), intent(in) :: places(:, :, :)         !! of the columns before the stresses, shape (columns, points, rows)
+      real(dp), intent(in) :: places(:, :, :)   !! of the columns before the stresses, shape (columns, points, rows)
       real(dp), intent(in) :: parts(:, :, :, :)       !! as of `stress_fields`, shape (6, 2, points, rows)
       real(dp), intent(in) :: errors(:, :)            !! of the stresses [p*], shape (points, rows)
-      type(output_file), intent(inout) :: file        !! with the columns 'load', 'body', those of the places, and stresses
+      type(output_file), intent(inout) :: file   !! with the columns 'load', 'body', those of the places, and stresses
 
       real(dp), allocatable :: rows(:, :)
       integer :: body, i, k

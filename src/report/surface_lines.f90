@@ -54,8 +54,8 @@ contains
       end associate
    end subroutine start_surface_line
 
-   !> Writes a row for each point of a line: load, line, distance, x, y, mean pressure and values. A blank line is between
-   !> the lines of a load.
+   !> Writes a row for each point of a line: load, line, distance, x, y, mean pressure and values. A blank line is
+   !> between the lines of a load.
    subroutine put_surface_line(line, results, load, values, file)
       type(surface_line), intent(in) :: line
       type(results_type), intent(in) :: results

@@ -126,7 +126,7 @@ contains
       if (associated(self%refuse)) call self%refuse(traits, surface, words)
    end function refusal
 
-   !> Whether all ranks write the table together, each from its columns of grids that are spread; called before the
+   !> Whether all ranks write the table together, each from its columns of grids that are distributed; called before the
    !> loads are solved and after.
    logical function is_written_by_all(self, results)
       class(table_type), intent(in) :: self

@@ -17,7 +17,7 @@ module wavycon_run_scene
    use wavycon_system, only: has_memory_for, make_directories
    use wavycon_table, only: table_type
    use wavycon_tables, only: add_table, all_tables
-   use wavycon_work_sharing, only: choose_sharing, spread_grids
+   use wavycon_work_sharing, only: choose_sharing, distributed_grids
    implicit none (type, external)
    private
 
@@ -70,7 +70,7 @@ contains
       integer :: i
       logical :: by_first(size(tables))
 
-      if (results%sharing%kind /= spread_grids) return
+      if (results%sharing%kind /= distributed_grids) return
       by_first = [(.not. tables(i)%is_written_by_all(results), i=1, size(tables))]
       points = 0
       if (any(tables%needs_fields .and. by_first) .or. asks_for_largest(results%scene)) &
@@ -113,8 +113,9 @@ contains
       call sum_up(results, log, status)
    end subroutine solve_and_write
 
-   !> Finds the largest stresses and writes the tables. Where grids are spread over the ranks some tables are written by
-   !> all ranks; for the others the first rank takes the fields of all and works alone. Errors: exit_file_trouble.
+   !> Finds the largest stresses and writes the tables. Where grids are distributed over the ranks some tables are
+   !> written by all ranks; for the others the first rank takes the fields of all and works alone. Errors:
+   !> exit_file_trouble.
    subroutine write_results(results, tables, log, error)
       type(results_type), intent(inout) :: results   !! with a solution for each load
       type(table_type), intent(in) :: tables(:)
@@ -124,7 +125,7 @@ contains
       logical :: by_all(size(tables)), by_first
       integer :: i
 
-      by_first = results%sharing%kind == spread_grids
+      by_first = results%sharing%kind == distributed_grids
       by_all = .false.
       if (by_first) by_all = [(tables(i)%is_written_by_all(results), i=1, size(tables))]
       call write_tables(results, tables, by_all, error)
@@ -177,7 +178,7 @@ contains
                                           scene%loads_by == by_yield)
       end associate
       deallocate (results%scene%surface)
-      if (results%sharing%kind /= spread_grids) &
+      if (results%sharing%kind /= distributed_grids) &
          call whole_surface(results%solver%surface, first_only=.not. results%sharing%is_shared())
    end subroutine start_results
 
@@ -221,7 +222,7 @@ contains
       ranks_that_know = merge(1, 0, known)
       call results%sharing%add(ranks_that_know)
       ! Of a load that was interrupted some ranks may have their columns, others not.
-      if (results%sharing%kind == spread_grids) then
+      if (results%sharing%kind == distributed_grids) then
          ranks_that_know = ranks_that_know/results%sharing%ranks
          known = ranks_that_know > 0
       end if
@@ -272,7 +273,7 @@ contains
       end do
    end subroutine write_tables
 
-   !> Brings what is spread over the ranks to the first one: the fields load by load, the surface. Errors:
+   !> Brings what is distributed over the ranks to the first one: the fields load by load, the surface. Errors:
    !> exit_file_trouble if it has not the memory.
    subroutine collect(results, fields, surface, error)
       type(results_type), intent(inout) :: results
@@ -283,7 +284,7 @@ contains
       integer :: load
 
       points = 0
-      if (fields) points = sum([(results%loads(load)%spread_points(), load=1, size(results%loads))])
+      if (fields) points = sum([(results%loads(load)%distributed_points(), load=1, size(results%loads))])
       call check_memory(results, points, surface, error)
       if (allocated(error)) return
       if (fields) then
@@ -294,8 +295,8 @@ contains
       if (surface) call whole_surface(results%solver%surface, first_only=.true.)
    end subroutine collect
 
-   !> Checks that the first rank has the memory for what is spread over the ranks. Its error is that of all. Errors:
-   !> exit_file_trouble.
+   !> Checks that the first rank has the memory for what is distributed over the ranks. Its error is that of all.
+   !> Errors: exit_file_trouble.
    subroutine check_memory(results, points, surface, error)
       type(results_type), intent(in) :: results
       integer(int64), intent(in) :: points   !! of the grids of all loads whose fields are needed
@@ -307,7 +308,7 @@ contains
 
       numbers = points
       ! The series, and twice as much while it is gathered.
-      if (surface .and. results%solver%surface%is_spread()) &
+      if (surface .and. results%solver%surface%is_distributed()) &
          numbers = numbers + 3*product(int(results%solver%surface%points, int64)/results%solver%surface%parts())
       if (results%sharing%is_first()) then
          if (.not. has_memory_for(numbers)) call fatal_error(error, exit_file_trouble, &

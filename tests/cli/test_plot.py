@@ -374,7 +374,7 @@ class Numbers(unittest.TestCase):
             if max(loads, default=0) > 0:
                 self.assertLess(high, 1.4*max(loads))
         self.assertEqual(1.0, axis([0.01, 0.9], up_to=1.0)[1])
-        # Many light loads: logarithmic; loads spread over the range are not.
+        # Many light loads: logarithmic; loads distributed over the range are not.
         self.assertTrue(axis([1e-6, 1e-5, 1e-4, 1e-3])[-1])
         self.assertFalse(axis([1e-3, 0.2, 0.5, 0.9])[-1])
 

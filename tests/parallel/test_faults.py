@@ -17,7 +17,7 @@ RANKS = 3
 SOON = 20.0  # of processes that share a processor [s]
 SURFACE = ("&surface kind = 'sum', length_x = 2, length_y = 1, amplitudes = 1, 0.4, 0.15, waves_x = 1, 0, 3, "
            "waves_y = 0, 1, 2, phases = 0, 0, 60 /\n")
-# Grids that are spread over the ranks, also those of many loads as a table needs their fields. The loads of the first
+# Grids that are distributed over the ranks, also those of many loads as a table needs their fields. The loads of the first
 # deck take some seconds.
 LONG_DECK = (SURFACE + "&load sweep_from = 0.01, sweep_to = 0.5, sweep_steps = 40 /\n"
              "&method solver = 'grid', grid_points = 512 /\n&output histograms = t /\n")

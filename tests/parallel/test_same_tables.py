@@ -20,7 +20,7 @@ TABLES = "map = t, contours = t, spots = t, histograms = t, lines = t, map_point
 NONE = 0.0
 # Heights of spread surfaces and their roughness are rounded in another order: some differ in their last digit.
 LAST_DIGIT = 1e-15
-# Loads that are spread over the ranks are solved in blocks: the first load of each is not started from the one before.
+# Loads that are distributed over the ranks are solved in blocks: the first load of each is not started from the one before.
 # The expansions end within some 1e-9 of their limit, Beale's method within the rounding of its matrices.
 OTHER_START_OF_EXPANSIONS, OTHER_START_OF_BEALE = 1e-8, 1e-11
 OF_THE_START = "iterations|residual|.*_error"
@@ -33,7 +33,7 @@ ALL_RANKS, SEVERAL_RANKS, SOME_RANKS = range(1, 100), range(2, 100), (2, 5)
 Case = collections.namedtuple("Case", "deck spread ranks rounding left_out", defaults=(SOME_RANKS, NONE, ""))
 SURFACE = "&surface kind = "
 CASES = {
-    # Waves on grids: an even one on a quarter of the cell, one on the turned cell, one with periods.
+    # Waves on grids: an even one on a quarter of the cell, one on the rotated cell, one with periods.
     "quarter": Case(f"{SURFACE}'wave_2d', wavelength_y = 2 /\n&load pbar_over_pstar = 0.02, 0.3, 0.8 /\n"
                     f"&method solver = 'grid', grid_points = 640 /\n&output {TABLES} /\n", GRIDS, ALL_RANKS),
     "turned": Case(f"{SURFACE}'wave_2d' /\n&load pbar_over_pstar = 0.1, 0.6 /\n"
@@ -45,7 +45,7 @@ CASES = {
     "phases": Case(f"{SURFACE}'sum', length_x = 2, length_y = 1, amplitudes = 1, 0.4, 0.15, waves_x = 1, 0, 3, "
                    "waves_y = 0, 1, 2, phases = 0, 0, 60 /\n&load pbar_over_pstar = 0.1, 0.5 /\n"
                    f"&method solver = 'grid', grid_points = 600, 256 /\n&output {TABLES} /\n", GRIDS, SEVERAL_RANKS),
-    # One load each, so that its grids are spread, not the loads.
+    # One load each, so that its grids are distributed, not the loads.
     **{name: Case(f"{SURFACE}'wave_2d', wavelength_y = 2 /\n&load {load} /\n"
                   f"&method solver = 'grid', grid_points = 768 /\n{material}", GRIDS)
        for name, load, material in (("gap", "mean_gap_over_amplitude = 0.1", ""),
@@ -64,7 +64,7 @@ CASES = {
                   f"&load pbar_over_pstar = {loads} /\n&output map = t, {output} /\n", GRIDS, ranks, LAST_DIGIT)
        for name, loads, output, ranks in (("made", "0.01, 0.1", "contours = t, spots = t, spectrum = t", SEVERAL_RANKS),
                                           ("npy", "0.05", "map_format = 'npy'", SOME_RANKS))},
-    # What is not spread over the ranks.
+    # What is not distributed over the ranks.
     "expansions": Case(f"{SURFACE}'wave_2d' /\n&load sweep_from = 0.1, sweep_to = 0.9, sweep_steps = 3 /\n"
                        f"&method solver = 'fitted' /\n&output {TABLES}, details = t /\n", FIRST),
     "paper": Case(f"{SURFACE}'wave_2d' /\n&load sweep_from = 0.1, sweep_to = 0.9, sweep_steps = 5 /\n"

@@ -41,7 +41,7 @@ class SharedWork(ProgramTest):
                 with self.subTest(solver=solver, ranks=ranks):
                     outcome = self.solve(deck, ranks, f"ranks-{ranks}")
                     self.assertEqual((0, ""), (outcome.status, outcome.stderr))
-                    self.assertIn("the loads are spread over them", outcome.stdout)
+                    self.assertIn("the loads are distributed over them", outcome.stdout)
                     text = (self.folder/f"ranks-{ranks}"/"deck.summary.dat").read_text()
                     first = first or text
                     self.assertEqual(first, text)
@@ -59,7 +59,7 @@ class SharedWork(ProgramTest):
         for ranks in self.several():
             outcome = self.solve(deck, ranks, f"ranks-{ranks}")
             self.assertEqual((0, ""), (outcome.status, outcome.stderr))
-            self.assertIn("the loads are spread over them", outcome.stdout)
+            self.assertIn("the loads are distributed over them", outcome.stdout)
             for name in "deck.summary.dat", "deck.stress_largest.dat":
                 self.assertEqual((self.folder/"serial"/name).read_bytes(),
                                  (self.folder/f"ranks-{ranks}"/name).read_bytes())

@@ -186,7 +186,7 @@ class Spots(ProgramTest):
 
     def test_a_turned_cell_has_half_of_them(self):
         crossed = "&surface kind = 'crossed_1d', amplitude1 = 1, amplitude2 = 1, wavelength1 = 2, wavelength2 = 2 /\n"
-        for name, method in (("turned_grid", "solver = 'grid', accuracy = 1e-2"), ("turned_series", "solver = 'beale'"),
+        for name, method in (("turned_grid", "solver = 'grid', accuracy = 1e-2"), ("rotated_series", "solver = 'beale'"),
                              ("turned_expansion", "solver = 'fitted'")):
             self.run_spots(name, crossed + f"&method {method} /\n", (0.1, 0.5), "spots = t")
             found = [[row["spots"], row["closed_pools"]] for row in self.table(name, "spots")]

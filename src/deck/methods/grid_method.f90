@@ -115,9 +115,11 @@ contains
       type(problem_list_type), intent(inout) :: problems
 
       call values%forbid(problems, 'accuracy', 'grid_points', 'give the one or the other')
-      call values%forbid(problems, 'accuracy', 'residual', 'grids solved to an accuracy have the residual that it takes')
+      call values%forbid(problems, 'accuracy', 'residual', &
+            'grids solved to an accuracy have the residual that it takes')
       if (values%has('residual') .and. .not. values%has('accuracy') .and. all(points_of_grid(values, surface) == 0)) &
-         call values%complain(problems, 'residual', 'residual needs grid_points, or a height map on its own points: '// &
+         call values%complain(problems, 'residual', 'residual needs grid_points, '// &
+               'or a height map on its own points: '// &
                               'other grids have the residual that their accuracy takes')
       if (.not. surface%mirrored .and. any(mod(values%integers('grid_points'), 2) /= 0)) &
          call values%complain(problems, 'grid_points', &
@@ -137,7 +139,8 @@ contains
          words = 'a grid of '//integer_text(points(1))
          if (surface%dimension == 2) words = words//' x '//integer_text(points(2))
          words = words//' points'
-         if (values%real('residual') > 0.0_dp) words = words//' to a residual of '//short_number(values%real('residual'))
+         if (values%real('residual') > 0.0_dp) words = words//' to a residual of '// &
+               short_number(values%real('residual'))
       else
          words = 'grids refined until mean gap, area and peak pressure are within '// &
                  short_number(values%real('accuracy'))

@@ -32,8 +32,8 @@ module wavycon_solver_method
          character(:), allocatable, intent(out) :: words
       end subroutine refusal_interface
 
-      !> `set_defaults`: sets the defaults that depend on the surface and leaves keys without a meaning for it out of the
-      !> resolved deck.
+      !> `set_defaults`: sets the defaults that depend on the surface and leaves keys without a meaning for it out of
+      !> the resolved deck.
       subroutine defaults_interface(values, surface)
          import :: group_values, surface_type
          type(group_values), intent(inout) :: values   !! of &method

@@ -73,8 +73,8 @@ contains
    end subroutine check
 
    !> Reads the map. Errors: exit_file_trouble if the file cannot be read, exit_bad_input if it is not a map, its holes
-   !> are not to be filled, its heights are out of range, its unit is unknown, or the deck gives sides of the cell beside
-   !> those of the file, which may be in another unit.
+   !> are not to be filled, its heights are out of range, its unit is unknown, or the deck gives sides of the cell
+   !> beside those of the file, which may be in another unit.
    subroutine make(values, surface, map, error)
       type(group_values), intent(inout) :: values
       type(surface_type), intent(out) :: surface
@@ -101,11 +101,12 @@ contains
       if (allocated(heights%length_unit)) map%length_unit = heights%length_unit
    end subroutine make
 
-   !> The surface of heights in memory in place of those of the file, whose name messages use. Errors: exit_bad_input for
-   !> another kind of surface, for keys that only a file can have, and as of `make`; exit_file_trouble without memory.
+   !> The surface of heights in memory in place of those of the file, whose name messages use. Errors: exit_bad_input
+   !> for another kind of surface, for keys that only a file can have, and as of `make`; exit_file_trouble without
+   !> memory.
    subroutine surface_of_heights(values, heights, surface, map, error)
       type(group_values), intent(inout) :: values     !! of &surface, as for `make`
-      real(dp), intent(in) :: heights(:, :)           !! upwards to the other body, NaN: missing; x first, one column: a profile
+      real(dp), intent(in) :: heights(:, :)   !! upwards to the other body, NaN: missing; x first, one column: a profile
       type(surface_type), intent(out) :: surface
       type(map_statistics), allocatable, intent(out) :: map
       type(error_type), allocatable, intent(out) :: error
@@ -116,7 +117,8 @@ contains
       type(measured_map) :: measured
 
       if (values%text('kind') /= 'file') then
-         call fatal_error(error, exit_bad_input, "heights in memory are for kind = 'file', not '"//values%text('kind')//"'")
+         call fatal_error(error, exit_bad_input, "heights in memory are for kind = 'file', not '"// &
+               values%text('kind')//"'")
          return
       end if
       do i = 1, size(of_files)
@@ -155,7 +157,8 @@ contains
       call take_sides(values, source, heights, length, assumed_sides, error)
       if (.not. allocated(error)) call surface_of_map(source, &
          map_preparation(values%text('detrend'), values%text('fill_missing'), values%text('edges'), &
-                         values%real('window_width')), values%real('height_scale'), length, heights, surface, map, error)
+                         values%real('window_width')), values%real('height_scale'), length, heights, surface, map, &
+                               error)
       if (.not. allocated(error)) map%assumed_sides = assumed_sides
    end subroutine make_of
 

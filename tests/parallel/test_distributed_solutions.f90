@@ -1,9 +1,9 @@
-!> Edges, measures and solutions of grids that are spread over the ranks beside those of the same grids whole on each
-!> rank: equal to the last bit. Grids solved to an accuracy, loads by area and gap and a hardness are in
+!> Edges, measures and solutions of grids that are distributed over the ranks beside those of the same grids whole on
+!> each rank: equal to the last bit. Grids solved to an accuracy, loads by area and gap and a hardness are in
 !> test_same_tables.py.
 !>
-!> `mpirun -n N test_spread_solutions` prints a line for each subject, and ends with status 1 if one of them fails.
-program test_spread_solutions
+!> `mpirun -n N test_distributed_solutions` prints a line for each subject, and ends with status 1 if one of them fails.
+program test_distributed_solutions
    use, intrinsic :: iso_fortran_env, only: int64
    use rank_checks, only: check, end_checks, report
    use wavycon_constants, only: pi
@@ -15,7 +15,7 @@ program test_spread_solutions
    use wavycon_grid_error, only: unresolved_errors
    use wavycon_grid_peak, only: grid_peak_pressure
    use wavycon_grid_plan, only: fits_memory
-   use wavycon_grid_slab, only: grid_slab, least_spread_points
+   use wavycon_grid_slab, only: grid_slab, least_distributed_points
    use wavycon_grid_source, only: grid_source
    use wavycon_kept_solution, only: pack_solution, unpack_solution
    use wavycon_kinds, only: dp
@@ -26,7 +26,7 @@ program test_spread_solutions
    use wavycon_wave_sum, only: wave_sum
    implicit none (type, external)
 
-   !> Grids that are spread over two ranks or more.
+   !> Grids that are distributed over two ranks or more.
    integer, parameter :: grids(2, 4) = reshape([256, 256, 509, 257, 2048, 40, 1024, 160], [2, 4])
 
    call start_mpi()
@@ -51,7 +51,7 @@ contains
       surface = wave_2d(1.0_dp, 1.0_dp, 1.0_dp)
       do k = 1, size(grids, 2)
          call slab%start(grids(:, k))
-         call check(slab%is_spread .eqv. rank_count() > 1)
+         call check(slab%is_distributed .eqv. rank_count() > 1)
          do i = 1, size(levels)
             do even = 0, 1
                field = rough_field(grids(:, k)) - levels(i)
@@ -191,13 +191,13 @@ contains
                               pi/180*[10.0_dp, 50.0_dp, 30.0_dp])
    end function tilted_waves
 
-   !> Solves a load on grids that are whole and on grids that are spread, compares numbers and fields, and sends the
-   !> fields through a checkpoint.
+   !> Solves a load on grids that are whole and on grids that are distributed, compares numbers and fields, and sends
+   !> the fields through a checkpoint.
    subroutine compare(surface, load, points, spread_surface)
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: load
       integer, intent(in) :: points(2)
-      type(surface_type), intent(in), optional :: spread_surface   !! the same surface, if it is spread too
+      type(surface_type), intent(in), optional :: spread_surface   !! the same surface, if it is distributed too
 
       type(grid_contact) :: solver
       type(contact_solution) :: again
@@ -221,23 +221,23 @@ contains
       call check_spread(spread_solution, whole_solution)
       call check_spread(again, whole_solution)
       call again%collect_fields()
-      call check(again%spread_points() == 0)
-      if (is_first_rank() .or. spread_solution%spread_points() == 0) then
+      call check(again%distributed_points() == 0)
+      if (is_first_rank() .or. spread_solution%distributed_points() == 0) then
          call check(same_fields(field_of(again), field_of(whole_solution)))
       else
          call check(.not. allocated(again%source))
       end if
    end subroutine compare
 
-   !> Checks the columns that this rank has of a grid that is spread, if it is large enough to be.
+   !> Checks the columns that this rank has of a grid that is distributed, if it is large enough to be.
    subroutine check_spread(solution, whole_solution)
       type(contact_solution), intent(in) :: solution, whole_solution
 
       real(dp), allocatable :: whole(:, :)
 
       whole = field_of(whole_solution)
-      call check((solution%spread_points() > 0) .eqv. &
-                 (rank_count() > 1 .and. size(whole, kind=int64) >= least_spread_points))
+      call check((solution%distributed_points() > 0) .eqv. &
+                 (rank_count() > 1 .and. size(whole, kind=int64) >= least_distributed_points))
       select type (source => solution%source)
       type is (grid_source)
          associate (slab => source%edge%slab)
@@ -290,4 +290,4 @@ contains
       end do
    end function same_fields
 
-end program test_spread_solutions
+end program test_distributed_solutions
