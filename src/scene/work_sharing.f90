@@ -125,9 +125,9 @@ contains
       if (self%ranks == 1) return
       select case (self%kind)
       case (distributed_grids)
-         words = ', the columns of large grids are spread over them'
+         words = ', the columns of large grids are distributed over them'
       case (distributed_loads)
-         words = ', the loads are spread over them'
+         words = ', the loads are distributed over them'
       case default
          words = ', the first one works alone: there is nothing to share'
       end select
