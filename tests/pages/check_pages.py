@@ -169,6 +169,10 @@ class Pages(ProgramTest):
 
     def test_columns(self):
         page = read("outputs/README.md")
+        tables = {name for path in (ROOT/"src/report").glob("*_table.f90")
+                  for name in re.findall(r"table%file = '(\w+)'", path.read_text(encoding="utf-8"))}
+        # The heights have no columns but x, y and one more.
+        self.assertEqual(tables - {"height"}, set(SECTIONS))
         for kind, columns in self.columns().items():
             self.assertGreater(len(columns), 0, kind)
             self.assertEqual(columns, explained_columns(section(page, SECTIONS[kind])), kind)
