@@ -1,4 +1,4 @@
-!> The contact of a wave on its lattice by boundary-fitted expansions, to a given accuracy.
+!> The contact of a wave on its lattice by collocation fitted to the edge, to a given accuracy.
 module wavycon_fitted_solver
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_contact_equations, only: contact_equations, start_equations

@@ -115,7 +115,7 @@ contains
       end do
       if (unreached > 0) call log%say('note: '//integer_text(unreached)//' of '//integer_text(size(results%loads))// &
          limit//' where its highest points just touch: no load has them. Give more grid_points or a smaller '// &
-         "accuracy; expansions, solver = 'fitted', have no such limit")
+         "accuracy; solver = 'fitted' has no such limit")
    end subroutine note_unreached
 
    !> Says which values have no error estimate and which are no larger than theirs, and what helps.

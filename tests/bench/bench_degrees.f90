@@ -1,4 +1,4 @@
-!> Measures how the errors of the boundary-fitted expansions fall with the degree of their polynomials, and what a
+!> Measures how the errors of the collocation fitted to the edge fall with the degree of their polynomials, and what a
 !> degree costs.
 !>
 !> N.B. The degree of a solution is not an input. The accuracy is tightened by steps, and each degree is listed once, at

@@ -1,4 +1,4 @@
-!> Measures the boundary-fitted expansions of the two-dimensional and of the hexagonal wave: time and errors of one
+!> Measures the collocation fitted to the edge of the two-dimensional and of the hexagonal wave: time and errors of one
 !> load, without a start, to six and to ten digits; and the time of a sweep.
 program bench_expansions
    use, intrinsic :: iso_fortran_env, only: output_unit

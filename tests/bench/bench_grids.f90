@@ -66,7 +66,7 @@ contains
          times%least(), errors
    end subroutine measure
 
-   !> Root mean square errors over nine loads, against Westergaard's solution and boundary-fitted expansions, on
+   !> Root mean square errors over nine loads, against Westergaard's solution and collocation fitted to the edge, on
    !> grids of ever more points; and the slopes of straight lines through their logarithms.
    subroutine measure_orders(dimension)
       integer, intent(in) :: dimension   !! 1 or 2

@@ -7,7 +7,7 @@ SECONDS: approximate time of a solver for a load. BENCH_DIRECTORY has the built 
 the other programs are installed in ENVIRONMENTS. The table goes to TABLE, as blocks for gnuplot (one for each load and
 solver), a summary to standard output.
 
-Errors are relative to the values of the boundary-fitted expansions, accurate to some 1e-13, which must agree with all
+Errors are relative to the values of the collocation fitted to the edge, accurate to some 1e-13, which must agree with all
 digits of REFERENCE, values of other programs. The effective error of a run is the largest of its own error and those
 of all finer runs of the same solver, as an error that passes through zero is small by chance. The finest run has no
 finer one.

@@ -1,4 +1,4 @@
-!> Measures time against error for the two-dimensional wave: the grids and the boundary-fitted expansions to ever
+!> Measures time against error for the two-dimensional wave: the grids and the collocation fitted to the edge to ever
 !> smaller accuracies, and the paper's method with ever more harmonics.
 !>
 !>    time_error_wave SECONDS LOAD...

@@ -4,7 +4,7 @@ module wavycon_auto_method
       points_are_given, points_are_of_the_map
    use wavycon_closed_form_method, only: closed_form_in_words
    use wavycon_contact_solver, only: contact_solver, solver_traits
-   use wavycon_fitted_method, only: expansions_in_words
+   use wavycon_fitted_method, only: fitted_in_words
    use wavycon_grid_method, only: check_grid_points, grid_in_words, grid_keys, set_grid_defaults, start_on_grids
    use wavycon_group_values, only: group_values
    use wavycon_solver_method, only: solver_method
@@ -20,7 +20,7 @@ contains
       type(auto_contact) :: solver
 
       method%name = 'auto'
-      method%meaning = "the closed form where there is one, otherwise 'fitted' where its expansions exist, with "// &
+      method%meaning = "the closed form where there is one, otherwise 'fitted' where it applies, with "// &
                        "'grid' for loads at which these are not accurate enough, otherwise and with a hardness 'grid'"
       allocate (method%keys, source=grid_keys())
       method%traits = solver%traits()
@@ -47,7 +47,7 @@ contains
       case (has_closed_form)
          description = closed_form_in_words
       case (has_expansions)
-         description = expansions_in_words(values)//', grids where these cannot'
+         description = fitted_in_words(values)//', grids where it cannot'
       case default
          description = grid_in_words(values, surface)
       end select
@@ -62,11 +62,12 @@ contains
       case (has_closed_form)
          words = 'the surface is the 1-D wave, which has a closed form'
       case (has_expansions)
-         words = 'the surface has expansions; grids solve the loads for which these are not accurate enough'
+         words = "the surface has a lattice of equal spots; grids solve the loads for which 'fitted' is not "// &
+                 'accurate enough'
       case (has_neither)
-         words = 'the surface has neither a closed form nor expansions'
+         words = 'the surface has neither a closed form nor a lattice of equal spots'
       case (has_a_hardness)
-         words = 'neither closed form nor expansions have a hardness'
+         words = "neither the closed form nor 'fitted' has a hardness"
       case (points_are_given)
          words = 'the points of the grid are given'
       case (points_are_of_the_map)

@@ -29,7 +29,8 @@ contains
       type(qp_options) :: default
 
       method%name = 'beale'
-      method%meaning = "the paper's truncated series by Beale's method, for its waves; their default"
+      method%meaning = "the paper's truncated Fourier series, for its waves; their default. The key minimiser "// &
+         "says how its quadratic programme is solved: by default not by Beale's method"
       allocate (method%keys, source=[ &
             integer_key('harmonics', '9 (2-D), 10 (1-D)', 'highest harmonic of the pressure, in each direction.', &
                1, most_harmonics), &

@@ -13,7 +13,7 @@ module wavycon_fitted_method
    implicit none (type, external)
    private
 
-   public :: fitted_method, expansions_in_words
+   public :: fitted_method, fitted_in_words
 
 contains
 
@@ -21,7 +21,7 @@ contains
       type(fitted_contact) :: solver
 
       method%name = 'fitted'
-      method%meaning = 'expansions fitted to the edge of contact, of spots or of open islands'
+      method%meaning = 'collocation fitted to the edge of contact, of spots or of closed pools of gap'
       allocate (method%keys, source=[accuracy_key()])
       method%traits = solver%traits()
       method%lacks(1) = 'grid_points'
@@ -41,7 +41,7 @@ contains
       if (surface%has_hardness()) words = 'has no solution with a hardness'
       ! A flat surface is in full contact at every load: no expansion is needed.
       if (.not. frame%is_found() .and. surface%amplitude > 0.0_dp) words = &
-         "has expansions for the paper's wave, also with two wavelengths up to "//short_number(largest_aspect_ratio)// &
+         "is for the paper's wave, also with two wavelengths up to "//short_number(largest_aspect_ratio)// &
          ':1, for crossed waves with crest curvatures up to '//short_number(largest_curvature_ratio)// &
          ':1 and for three equal waves at 60 degrees'
    end subroutine refusal
@@ -58,15 +58,15 @@ contains
       allocate (own)
       call own%start(surface, fitted_options(values%real('accuracy')), keep_fields)
       call move_alloc(own, solver)
-      description = expansions_in_words(values)
+      description = fitted_in_words(values)
    end subroutine make
 
    !> The expansions in words.
-   pure function expansions_in_words(values) result(words)
+   pure function fitted_in_words(values) result(words)
       type(group_values), intent(in) :: values   !! of &method
       character(:), allocatable :: words
 
-      words = 'boundary-fitted expansions to within '//short_number(values%real('accuracy'))
-   end function expansions_in_words
+      words = 'collocation fitted to the edge to within '//short_number(values%real('accuracy'))
+   end function fitted_in_words
 
 end module wavycon_fitted_method

@@ -49,7 +49,7 @@ contains
    pure type(key_type) function accuracy_key() result(key)
       key = real_key('accuracy', short_number(default_accuracy), '-', &
          'largest error allowed of mean gap [amplitude], contact area fraction and peak pressure [p*]; of '// &
-         'expansions with lines, map, contours, spots, histograms or details also of the gap at a trough. A load '// &
+         '''fitted'' with lines, map, contours, spots, histograms or details also of the gap at a trough. A load '// &
          'that misses it has the status not_accurate.', least=1.0e-12_dp, most=0.1_dp, way=1)
    end function accuracy_key
 
@@ -64,8 +64,8 @@ contains
          'multiples of 4 from 64 points a side; those of others are unknown.', 8, 1048576, most_values=2, way=2)
       keys(3) = real_key('residual', '', '-', &
          'with grid_points or a height map on its own points: largest root mean square over the grid of gaps in '// &
-         'contact and of overlaps, over the mean gap, for comparisons with other programs. By default it is so '// &
-         'large that it changes the results by less than a tenth of their error estimates.', &
+         'contact and of overlaps, over the mean gap, for comparisons with other programs. The default keeps the '// &
+         'iteration error below a tenth of the error estimates.', &
          least=1.0e-13_dp, most=0.1_dp)
    end function grid_keys
 
