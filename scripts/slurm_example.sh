@@ -4,7 +4,7 @@
 #
 # Deck: inputs/challenge.nml, the kind of surface of the contact-mechanics challenge, on 32768 x 32768 points.
 #
-# Memory: 66 bytes a point were measured on two ranks (tests/README.md, "Past one machine"). For 1.07e9 points these are
+# Memory: 66 bytes a point were measured on two ranks (tests/evidence.md, "Past one machine"). For 1.07e9 points these are
 # 71 GB, 4.4 GB for each of 16 ranks of 8 processors, and 0.4 GB are left for MPI.
 # Ranks: they have whole strips of 32 columns, so at most points/32 of them have any, here 1024. Few ranks with some
 # threads each send fewer and larger messages than a rank for each processor.

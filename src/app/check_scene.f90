@@ -10,8 +10,8 @@ module wavycon_check_scene
    use wavycon_run_log, only: run_log
    use wavycon_run_scene, only: keep_fields, start_results
    use wavycon_scene, only: scene_type
-   use wavycon_tables, only: table_item
-   use wavycon_work_sharing, only: spread_grids, spread_loads
+   use wavycon_table, only: table_type
+   use wavycon_work_sharing, only: distributed_grids, distributed_loads
    implicit none (type, external)
    private
 
@@ -26,7 +26,7 @@ contains
 
       type(results_type) :: results
       type(run_log) :: log
-      type(table_item), allocatable :: tables(:)
+      type(table_type), allocatable :: tables(:)
 
       call log%start(quiet)
       call start_results(scene, results, tables)
@@ -64,10 +64,10 @@ contains
       own = points
       loads = size(results%scene%target)
       associate (sharing => results%sharing)
-         if (sharing%kind == spread_grids) then
+         if (sharing%kind == distributed_grids) then
             call slab%start(points)
             own(2) = slab%width
-         else if (sharing%kind == spread_loads) then
+         else if (sharing%kind == distributed_loads) then
             loads = (loads - 1)/sharing%ranks + 1
          end if
          bytes = bytes_of_grid(own)
@@ -103,15 +103,14 @@ contains
 
    !> The tables by their keys, such as "summary, lines, map".
    function names_of(tables) result(words)
-      type(table_item), intent(in) :: tables(:)
+      type(table_type), intent(in) :: tables(:)
       character(:), allocatable :: words
 
       integer :: i
 
       words = 'summary'
       do i = 1, size(tables)
-         if (tables(i)%table%key() == '') cycle
-         words = words//', '//tables(i)%table%name()
+         if (tables(i)%key /= '') words = words//', '//trim(tables(i)%name())
       end do
    end function names_of
 

@@ -1,9 +1,8 @@
 !> The table of --table: a row for each load of each deck, with the columns of the summary.
 module wavycon_collected_table
-   use wavycon_column_text, only: column_name, column_unit
-   use wavycon_deck_keys, only: deck_key, longest_key_name
+   use wavycon_deck_keys, only: deck_key
    use wavycon_error, only: error_type, exit_file_trouble, fatal_error
-   use wavycon_memory_table, only: memory_table
+   use wavycon_memory_table, only: column_name, column_unit, memory_table
    use wavycon_output_file, only: output_file
    use wavycon_plain_text, only: escaped
    use wavycon_results, only: results_type
@@ -21,7 +20,7 @@ module wavycon_collected_table
    !> The rows of one deck.
    type :: deck_rows
       character(:), allocatable :: deck, case
-      type(deck_key), allocatable :: keys(:)
+      type(deck_key), allocatable :: keys(:)   !! the same of each deck
       character(longest_unit) :: units(size(summary_columns)) = ''
       type(memory_table) :: summary
    end type deck_rows
@@ -37,12 +36,6 @@ module wavycon_collected_table
       procedure :: note_failure
       procedure :: write => write_table
    end type collected_table
-
-   !> A column of a key.
-   type :: key_column
-      character(longest_key_name) :: name = ''
-      logical :: is_number = .true.
-   end type key_column
 
 contains
 
@@ -109,7 +102,7 @@ contains
       type(setting_type), intent(in) :: settings(:)   !! of the command line
       type(error_type), allocatable, intent(out) :: error
 
-      type(key_column), allocatable :: columns(:)
+      integer, allocatable :: columns(:)
       type(output_file) :: file
       integer :: d, i, k
 
@@ -117,14 +110,13 @@ contains
       call file%open(directory_of(path), path(index(path, '/', back=.true.) + 1:))
       call file%put('# wavycon '//version//' ('//revision//')'//self%failed)
       call put_columns(self, columns, file)
-      call file%put_names()
       do d = 1, self%number
          associate (rows => self%decks(d))
             do i = 1, rows%summary%rows
                call file%add(rows%deck)
                call file%add(rows%case)
                do k = 1, size(columns)
-                  call file%add(word_in(rows, columns(k)))
+                  call file%add(rows%keys(columns(k))%word)
                end do
                call file%add_row_of(rows%summary, i)
                call file%end_row()
@@ -137,7 +129,7 @@ contains
    !> Sets the names, units and widths of all columns.
    subroutine put_columns(table, columns, file)
       type(collected_table), intent(in) :: table
-      type(key_column), intent(in) :: columns(:)   !! of the keys
+      integer, intent(in) :: columns(:)   !! the keys that have one
       type(output_file), intent(inout) :: file
 
       integer, parameter :: before = 2   !! columns before those of the keys
@@ -149,7 +141,7 @@ contains
       units = '-'
       longest = 0
       do k = 1, size(columns)
-         names(before + k) = columns(k)%name
+         names(before + k) = table%decks(1)%keys(columns(k))%name
       end do
       do k = 1, size(summary_columns)
          names(before + size(columns) + k) = column_name(summary_columns(k))
@@ -159,17 +151,17 @@ contains
          longest(1) = max(longest(1), len(table%decks(d)%deck))
          longest(2) = max(longest(2), len(table%decks(d)%case))
          do k = 1, size(columns)
-            longest(before + k) = max(longest(before + k), len(word_in(table%decks(d), columns(k))))
+            longest(before + k) = max(longest(before + k), len(table%decks(d)%keys(columns(k))%word))
          end do
       end do
       call file%put_columns(names, units, longest)
    end subroutine put_columns
 
-   !> The columns of keys, in the order of the first deck that has them.
+   !> The keys that have a column, in the order of the first deck in which they have an effect.
    subroutine choose_columns(table, settings, columns)
       type(collected_table), intent(in) :: table
       type(setting_type), intent(in) :: settings(:)
-      type(key_column), allocatable, intent(out) :: columns(:)
+      integer, allocatable, intent(out) :: columns(:)
 
       integer :: d, k
 
@@ -177,9 +169,8 @@ contains
       do d = 1, table%number
          do k = 1, size(table%decks(d)%keys)
             associate (key => table%decks(d)%keys(k))
-               if (any(columns%name == key%name)) cycle
-               if (is_set(key%name, settings) .or. (key%given .and. differs(table, key))) &
-                  columns = [columns, key_column(key%name, key%is_number)]
+               if (any(columns == k) .or. .not. key%in_effect) cycle
+               if (is_set(key%name, settings) .or. (key%given .and. differs(table, k))) columns = [columns, k]
             end associate
          end do
       end do
@@ -198,33 +189,18 @@ contains
       end do
    end function is_set
 
-   !> Whether any deck has another value of a key, or none.
-   logical function differs(table, key)
+   !> Whether the decks have different values of a key.
+   pure logical function differs(table, k)
       type(collected_table), intent(in) :: table
-      type(deck_key), intent(in) :: key
+      integer, intent(in) :: k
 
       integer :: d
 
       differs = .false.
-      do d = 1, table%number
-         differs = differs .or. word_in(table%decks(d), key_column(key%name, key%is_number)) /= key%word
+      do d = 2, table%number
+         differs = differs .or. table%decks(d)%keys(k)%word /= table%decks(1)%keys(k)%word
       end do
    end function differs
-
-   !> The value of a deck's key; 'NaN' or '-' if it has none.
-   pure function word_in(rows, column) result(word)
-      type(deck_rows), intent(in) :: rows
-      type(key_column), intent(in) :: column
-      character(:), allocatable :: word
-
-      integer :: k
-
-      word = '-'
-      if (column%is_number) word = 'NaN'
-      do k = 1, size(rows%keys)
-         if (rows%keys(k)%name == column%name) word = rows%keys(k)%word
-      end do
-   end function word_in
 
    !> The unit of a column: as the decks name it if they agree, otherwise 'length' or the like.
    pure function common_unit(table, column) result(unit)

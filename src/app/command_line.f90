@@ -45,11 +45,13 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       character(:), allocatable :: given, trouble, value, word
-      type(setting_type) :: setting
-      integer :: equals, i, near
+      type(path_type) :: deck(command_argument_count())
+      type(setting_type) :: setting(size(deck))
+      integer :: decks, equals, i, near, settings
       logical :: options_over
 
-      allocate (command_line%decks(0), command_line%settings(0))
+      decks = 0
+      settings = 0
       options_over = .false.
       i = 0
       do while (i < command_argument_count())
@@ -58,7 +60,8 @@ contains
          if (options_over .or. index(word, '-') /= 1) then
             if (word == '') call fatal_error(error, exit_bad_input, 'the name of a deck is empty')
             if (allocated(error)) return
-            call add_deck(command_line%decks, word)
+            decks = decks + 1
+            deck(decks)%path = word
             cycle
          end if
          equals = index(word, '=')
@@ -85,24 +88,18 @@ contains
             command_line%help = .true.
          case ('--set')
             call take_value(value)
-            call read_setting(value, setting, trouble)
+            settings = settings + 1
+            call read_setting(value, setting(settings), trouble)
             if (allocated(trouble)) call fatal_error(error, exit_bad_input, trouble)
-            if (allocated(error)) return
-            call add_setting(command_line%settings, setting)
          case ('--output')
-            call take_value(value)
-            command_line%output = value
-            call check_path(word, 'a directory', value, error)
-            if (allocated(error)) return
+            call take_value(command_line%output)
+            call check_path(word, 'a directory', command_line%output, error)
          case ('--table')
-            call take_value(value)
-            command_line%table = value
-            call check_path(word, 'a file', value, error)
-            if (allocated(error)) return
+            call take_value(command_line%table)
+            call check_path(word, 'a file', command_line%table, error)
          case ('--threads')
             call take_value(value)
             call read_threads(value, command_line%threads, error)
-            if (allocated(error)) return
          case default
             near = nearest_name(word, options)
             if (near > 0) then
@@ -111,10 +108,12 @@ contains
             else
                call fatal_error(error, exit_bad_input, "unknown option '"//escaped(word)//"'")
             end if
-            return
          end select
+         if (allocated(error)) return
       end do
-      if (size(command_line%decks) == 0 .and. .not. (command_line%version .or. command_line%help)) &
+      allocate (command_line%decks, source=deck(:decks))
+      allocate (command_line%settings, source=setting(:settings))
+      if (decks == 0 .and. .not. (command_line%version .or. command_line%help)) &
          call fatal_error(error, exit_bad_input, 'no deck is given')
 
    contains
@@ -152,40 +151,6 @@ contains
                           integer_text(most_threads)//", got '"//escaped(text)//"'")
    end subroutine read_threads
 
-   !> Adds the path of a deck.
-   !>
-   !> N.B. decks = [decks, path_type(word)] leaks memory: gfortran 12 does not free the paths of the temporary array.
-   pure subroutine add_deck(decks, path)
-      type(path_type), allocatable, intent(inout) :: decks(:)
-      character(*), intent(in) :: path
-
-      type(path_type), allocatable :: longer(:)
-      integer :: i
-
-      allocate (longer(size(decks) + 1))
-      do i = 1, size(decks)
-         call move_alloc(decks(i)%path, longer(i)%path)
-      end do
-      longer(size(longer))%path = path
-      call move_alloc(longer, decks)
-   end subroutine add_deck
-
-   !> Adds a setting. N.B. As in add_deck, settings = [settings, setting] would leak memory.
-   pure subroutine add_setting(settings, setting)
-      type(setting_type), allocatable, intent(inout) :: settings(:)
-      type(setting_type), intent(in) :: setting
-
-      type(setting_type), allocatable :: longer(:)
-      integer :: i
-
-      allocate (longer(size(settings) + 1))
-      do i = 1, size(settings)
-         longer(i) = settings(i)
-      end do
-      longer(size(longer)) = setting
-      call move_alloc(longer, settings)
-   end subroutine add_setting
-
    !> Checks a path given to an option as the key `directory` of a deck is checked. Errors: exit_bad_input.
    subroutine check_path(option, what, path, error)
       character(*), intent(in) :: option, what   !! such as '--output', 'a directory'
@@ -213,7 +178,8 @@ contains
 
       note = ''
       if (is_parallel) &
-         note = 'The RANKS processes share the work: large grids are divided among them, or else the loads.'//newline// &
+         note = 'The RANKS processes share the work: large grids are divided among them, or else the loads.'// &
+               newline// &
                 'Each needs the memory of its part, and has N threads of its own. The results are those of'//newline// &
                 'wavycon.'//newline//newline
       text = 'wavycon: elastic contact of regular wavy surfaces, from namelist decks to tables.'//newline// &

@@ -1,11 +1,11 @@
 !> The processes that work on a run together. They are called ranks, as in MPI, and are numbered from zero.
 !>
-!> All ranks run the same program on the same decks. What a rank does alone, every rank does; what they share they
-!> exchange by the procedures of this module, which all ranks must call in the same order. The serial program is one
-!> rank: its procedures return at once, and nothing of it depends on MPI. The parallel program calls `use_team` first.
+!> All ranks run the same program on the same decks. They exchange what they share by the procedures of this module,
+!> which all ranks must call in the same order. The serial program is one rank: its procedures return at once, and
+!> nothing of it depends on MPI. The parallel program calls `use_communicator` first.
 !>
-!> Few modules use this one: wavycon_grid_slab, through which all that solves contacts exchanges, wavycon_work_sharing
-!> for the steps of a run, and one of each room that reads or writes files.
+!> Few modules use this one: wavycon_grid_slab, through which the solvers exchange, wavycon_work_sharing for the steps
+!> of a run, and one module of each room that reads or writes files.
 module wavycon_ranks
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_error, only: error_type
@@ -13,15 +13,16 @@ module wavycon_ranks
    implicit none (type, external)
    private
 
-   public :: rank_team, row_exchange, use_team
+   public :: communicator, row_exchange, use_communicator
    public :: this_rank, rank_count, ranks_at_work, is_first_rank, work_alone, ranks_on_this_machine, rank_library
    public :: add_over_ranks, add_integers_over_ranks, largest_over_ranks, any_rank
    public :: exchange_columns, gather_columns, move_columns, new_row_exchange
    public :: share_error, share_text, write_shared_columns, end_ranks
 
-   !> Exchanges a matrix whose columns are spread over the ranks for the same matrix with its rows spread, and back. In
-   !> both the elements of a column follow each other. An element has one or two real numbers of one precision. Ranks have
-   !> adjacent columns: all the same number, `width`, but the last ones; likewise rows.
+   !> Exchanges a matrix whose columns are distributed over the ranks for the same matrix with its rows distributed, and
+   !> back. In both the elements of a column follow each other. An element has one or two real numbers of one precision.
+   !> Each rank has adjacent columns; all ranks but the last ones have the same number, `width`. The same holds for
+   !> rows.
    type, abstract :: row_exchange
       integer :: columns = 0      !! of the matrix
       integer :: rows = 0         !! of the matrix
@@ -35,8 +36,8 @@ module wavycon_ranks
       procedure(exchange_rows_and_columns), deferred :: to_columns
    end type row_exchange
 
-   !> What the ranks exchange; the extension of the parallel program does it by MPI.
-   type, abstract :: rank_team
+   !> What the ranks exchange; the parallel program extends the type and does it by MPI.
+   type, abstract :: communicator
    contains
       procedure(get_number), deferred :: rank                  !! of this process, from 0
       procedure(get_number), deferred :: ranks                 !! their number
@@ -52,7 +53,7 @@ module wavycon_ranks
       procedure(put_columns), deferred :: write_columns
       procedure(end_run), deferred :: finish
       procedure(get_text), deferred :: library                 !! name and version
-   end type rank_team
+   end type communicator
 
    abstract interface
       subroutine exchange_rows_and_columns(self, from, to)
@@ -63,31 +64,31 @@ module wavycon_ranks
       end subroutine exchange_rows_and_columns
 
       pure integer function get_number(self)
-         import :: rank_team
-         class(rank_team), intent(in) :: self
+         import :: communicator
+         class(communicator), intent(in) :: self
       end function get_number
 
       subroutine add_real_numbers(self, values)
-         import :: dp, rank_team
-         class(rank_team), intent(in) :: self
+         import :: dp, communicator
+         class(communicator), intent(in) :: self
          real(dp), intent(inout), contiguous :: values(:)
       end subroutine add_real_numbers
 
       subroutine add_whole_numbers(self, values)
-         import :: int64, rank_team
-         class(rank_team), intent(in) :: self
+         import :: int64, communicator
+         class(communicator), intent(in) :: self
          integer(int64), intent(inout), contiguous :: values(:)
       end subroutine add_whole_numbers
 
       subroutine find_largest(self, values)
-         import :: dp, rank_team
-         class(rank_team), intent(in) :: self
+         import :: dp, communicator
+         class(communicator), intent(in) :: self
          real(dp), intent(inout), contiguous :: values(:)
       end subroutine find_largest
 
       subroutine exchange_two_blocks(self, low, high, bytes, to_low, to_high, from_low, from_high)
-         import :: rank_team
-         class(rank_team), intent(in) :: self
+         import :: communicator
+         class(communicator), intent(in) :: self
          integer, intent(in) :: low, high     !! ranks; -1: there is none
          integer, intent(in) :: bytes         !! of each block
          type(*), intent(in), target :: to_low(*), to_high(*)
@@ -95,8 +96,8 @@ module wavycon_ranks
       end subroutine exchange_two_blocks
 
       subroutine gather_blocks(self, column_bytes, columns, own, whole, first_only)
-         import :: rank_team
-         class(rank_team), intent(in) :: self
+         import :: communicator
+         class(communicator), intent(in) :: self
          integer, intent(in) :: column_bytes
          integer, intent(in) :: columns(0:)              !! of each rank
          type(*), intent(in), target :: own(*)
@@ -105,8 +106,8 @@ module wavycon_ranks
       end subroutine gather_blocks
 
       subroutine move_blocks(self, column_bytes, have, own, want, wanted)
-         import :: rank_team
-         class(rank_team), intent(in) :: self
+         import :: communicator
+         class(communicator), intent(in) :: self
          integer, intent(in) :: column_bytes
          integer, intent(in) :: have(:, 0:), want(:, 0:)   !! first and last column of each rank, shape (2, ranks)
          type(*), intent(in), target :: own(*)
@@ -114,22 +115,22 @@ module wavycon_ranks
       end subroutine move_blocks
 
       subroutine make_row_exchange(self, columns, rows, width, numbers, precision, exchange)
-         import :: rank_team, row_exchange
-         class(rank_team), intent(in) :: self
+         import :: communicator, row_exchange
+         class(communicator), intent(in) :: self
          integer, intent(in) :: columns, rows, width, numbers, precision
          class(row_exchange), allocatable, intent(out) :: exchange
       end subroutine make_row_exchange
 
       subroutine send_text(self, from, text)
-         import :: rank_team
-         class(rank_team), intent(in) :: self
+         import :: communicator
+         class(communicator), intent(in) :: self
          integer, intent(in) :: from
          character(:), allocatable, intent(inout) :: text
       end subroutine send_text
 
       subroutine put_columns(self, path, start, number_bytes, rows, first, columns, values, failure)
-         import :: int64, rank_team
-         class(rank_team), intent(in) :: self
+         import :: int64, communicator
+         class(communicator), intent(in) :: self
          character(*), intent(in) :: path
          integer(int64), intent(in) :: start       !! bytes before the first column of all
          integer, intent(in) :: number_bytes       !! of a number
@@ -140,14 +141,14 @@ module wavycon_ranks
       end subroutine put_columns
 
       subroutine end_run(self, status)
-         import :: rank_team
-         class(rank_team), intent(in) :: self
+         import :: communicator
+         class(communicator), intent(in) :: self
          integer, intent(in) :: status
       end subroutine end_run
 
       function get_text(self) result(text)
-         import :: rank_team
-         class(rank_team), intent(in) :: self
+         import :: communicator
+         class(communicator), intent(in) :: self
          character(:), allocatable :: text
       end function get_text
    end interface
@@ -158,28 +159,28 @@ module wavycon_ranks
       procedure :: add_reals_over_ranks, add_integers_over_ranks
    end interface add_over_ranks
 
-   class(rank_team), allocatable :: team   !! not allocated: this process is the only one
+   class(communicator), allocatable :: comm   !! not allocated: this process is the only one
    logical :: is_alone = .false.           !! whether each rank works on something else, see work_alone
 
 contains
 
-   !> Makes the processes of a parallel program known.
-   subroutine use_team(new)
-      class(rank_team), allocatable, intent(inout) :: new   !! not allocated afterwards
+   !> Sets the processes of a parallel program.
+   subroutine use_communicator(new)
+      class(communicator), allocatable, intent(inout) :: new   !! not allocated afterwards
 
-      call move_alloc(new, team)
-   end subroutine use_team
+      call move_alloc(new, comm)
+   end subroutine use_communicator
 
    !> The number of this process, from zero.
    integer function this_rank()
       this_rank = 0
-      if (allocated(team)) this_rank = team%rank()
+      if (allocated(comm)) this_rank = comm%rank()
    end function this_rank
 
    !> The number of processes.
    integer function rank_count()
       rank_count = 1
-      if (allocated(team)) rank_count = team%ranks()
+      if (allocated(comm)) rank_count = comm%ranks()
    end function rank_count
 
    !> The number of processes that share the present work: one while each has work of its own.
@@ -196,19 +197,19 @@ contains
    !> The processes that share the memory of this machine.
    integer function ranks_on_this_machine() result(number)
       number = 1
-      if (allocated(team)) number = team%ranks_on_machine()
+      if (allocated(comm)) number = comm%ranks_on_machine()
    end function ranks_on_this_machine
 
-   !> Name and version of the library by which the ranks exchange; empty in the serial program.
+   !> Name and version of the library that the ranks exchange data with; empty in the serial program.
    function rank_library() result(text)
       character(:), allocatable :: text
 
       text = ''
-      if (allocated(team)) text = team%library()
+      if (allocated(comm)) text = comm%library()
    end function rank_library
 
-   !> From now on each rank works on something else: no grid is spread, and nothing is exchanged until the ranks work
-   !> together again.
+   !> From now on each rank works on something else: no grid is distributed, and nothing is exchanged until the ranks
+   !> work together again.
    subroutine work_alone(alone)
       logical, intent(in) :: alone
 
@@ -218,20 +219,20 @@ contains
    subroutine add_reals_over_ranks(values)
       real(dp), intent(inout), contiguous :: values(:)
 
-      if (ranks_at_work() > 1) call team%add_reals(values)
+      if (ranks_at_work() > 1) call comm%add_reals(values)
    end subroutine add_reals_over_ranks
 
    subroutine add_integers_over_ranks(values)
       integer(int64), intent(inout), contiguous :: values(:)
 
-      if (ranks_at_work() > 1) call team%add_integers(values)
+      if (ranks_at_work() > 1) call comm%add_integers(values)
    end subroutine add_integers_over_ranks
 
    !> The largest over the ranks, element by element, in place.
    subroutine largest_over_ranks(values)
       real(dp), intent(inout), contiguous :: values(:)
 
-      if (ranks_at_work() > 1) call team%largest(values)
+      if (ranks_at_work() > 1) call comm%largest(values)
    end subroutine largest_over_ranks
 
    !> Whether something is true on any rank.
@@ -245,40 +246,40 @@ contains
       any_rank = number(1) > 0
    end function any_rank
 
-   !> Sends columns to the neighbours and takes theirs. More than one rank.
+   !> Sends columns to the neighbours and receives theirs. Only for more than one rank.
    subroutine exchange_columns(low, high, bytes, to_low, to_high, from_low, from_high)
       integer, intent(in) :: low, high    !! ranks that have the columns before and after the own ones; -1: none
       integer, intent(in) :: bytes        !! of the columns for one neighbour
       type(*), intent(in), target :: to_low(*), to_high(*)            !! the own first and last columns
       type(*), intent(inout), target :: from_low(*), from_high(*)     !! theirs; unchanged where there is none
 
-      call team%exchange(low, high, bytes, to_low, to_high, from_low, from_high)
+      call comm%exchange(low, high, bytes, to_low, to_high, from_low, from_high)
    end subroutine exchange_columns
 
-   !> Gathers the columns that the ranks have into whole matrices, on all ranks or on the first alone. More than one
+   !> Gathers the columns of all ranks into whole matrices, on all ranks or on rank 0 alone. Only for more than one
    !> rank.
    subroutine gather_columns(column_bytes, columns, own, whole, first_only)
       integer, intent(in) :: column_bytes                !! of a column
       integer, intent(in) :: columns(0:)                 !! of each rank
       type(*), intent(in), target :: own(*)              !! columns(this_rank()) columns
       type(*), intent(inout), target :: whole(*)         !! sum(columns) columns; of any size where not needed
-      logical, intent(in) :: first_only                  !! whether the first rank alone needs it
+      logical, intent(in) :: first_only                  !! whether rank 0 alone needs it
 
-      call team%gather(column_bytes, columns, own, whole, first_only)
+      call comm%gather(column_bytes, columns, own, whole, first_only)
    end subroutine gather_columns
 
-   !> Moves columns of a matrix from the ranks that have them to those that want them. More than one rank.
+   !> Moves columns of a matrix from the ranks that have them to those that want them. Only for more than one rank.
    !>
-   !> N.B. Every rank knows what all others have and want: nothing but the columns is sent.
+   !> N.B. Every rank knows what all others have and want, so that only the columns are sent.
    subroutine move_columns(column_bytes, have, own, want, wanted)
       integer, intent(in) :: column_bytes                  !! of a column
       integer, intent(in) :: have(:, 0:)                   !! first and last column of each rank, shape (2, ranks);
                                                            !! last < first: none. No column is there twice
       type(*), intent(in), target :: own(*)                !! the own columns
-      integer, intent(in) :: want(:, 0:)                   !! likewise what each wants; some may be wanted by several
+      integer, intent(in) :: want(:, 0:)                   !! what each wants; several may want the same
       type(*), intent(inout), target :: wanted(*)          !! what this rank wants
 
-      call team%move(column_bytes, have, own, want, wanted)
+      call comm%move(column_bytes, have, own, want, wanted)
    end subroutine move_columns
 
    !> Prepares the exchange of columns and rows of a matrix.
@@ -289,11 +290,11 @@ contains
       integer, intent(in) :: precision       !! kind of the numbers: dp or sp
       class(row_exchange), allocatable, intent(out) :: exchange
 
-      call team%new_row_exchange(columns, rows, width, numbers, precision, exchange)
+      call comm%new_row_exchange(columns, rows, width, numbers, precision, exchange)
    end subroutine new_row_exchange
 
-   !> Makes an error of any rank that of all: the message is that of the lowest rank that has one. Without errors nothing
-   !> happens.
+   !> Reports an error of any rank to all ranks, with the message of the lowest rank that has one. Without errors
+   !> nothing happens.
    subroutine share_error(error)
       type(error_type), allocatable, intent(inout) :: error
 
@@ -321,16 +322,16 @@ contains
       error%message = message
    end subroutine share_error
 
-   !> Makes a text of one rank known to all.
+   !> Sends a text of one rank to all others.
    subroutine share_text(from, text)
       integer, intent(in) :: from                              !! the rank
       character(:), allocatable, intent(inout) :: text         !! allocated
 
-      if (ranks_at_work() > 1) call team%share_text(from, text)
+      if (ranks_at_work() > 1) call comm%share_text(from, text)
    end subroutine share_text
 
-   !> Writes the own columns of a matrix to a file that exists, all ranks at a time: columns follow each other. More than
-   !> one rank.
+   !> All ranks write their columns of a matrix, one after the other, to a file that exists. Only for more than one
+   !> rank.
    subroutine write_shared_columns(path, start, number_bytes, rows, first, columns, values, failure)
       character(*), intent(in) :: path
       integer(int64), intent(in) :: start            !! bytes of the file before the first column of all
@@ -340,14 +341,14 @@ contains
       type(*), intent(inout), target :: values(*)    !! shape (rows, columns)
       character(:), allocatable, intent(out) :: failure   !! the system's words, on the ranks that failed
 
-      call team%write_columns(path, start, number_bytes, rows, first, columns, values, failure)
+      call comm%write_columns(path, start, number_bytes, rows, first, columns, values, failure)
    end subroutine write_shared_columns
 
    !> Ends the work of all ranks, before the program ends; it need not be called by all of them.
    subroutine end_ranks(status)
       integer, intent(in) :: status   !! exit status
 
-      if (allocated(team)) call team%finish(status)
+      if (allocated(comm)) call comm%finish(status)
    end subroutine end_ranks
 
 end module wavycon_ranks

@@ -274,8 +274,8 @@ void wavycon_use_one_thread_for_matrices(void)
     dlclose(program);
 }
 
-/* Lets OpenMP's threads sleep while they wait, unless the environment says how they wait. On Linux they spin by default,
-   for milliseconds before each loop and after it, and take the processor from threads that work, also of other programs.
+/* Lets OpenMP's threads sleep while they wait, unless the environment says how they wait. By default on Linux they spin
+   for milliseconds before and after each loop, and take the processor from working threads, also of other programs.
    OpenMP reads this when the program starts, so a program with the option --threads starts itself again. */
 void wavycon_let_waiting_threads_sleep(void)
 {

@@ -114,7 +114,7 @@ contains
 
    !> Size of a file [byte]; -1 if there is no file.
    !>
-   !> N.B. Of a file that it has open, `inquire` of gfortran 12 includes bytes that are not written yet.
+   !> N.B. For an open file `inquire` of gfortran 12 includes bytes that are not written yet.
    integer(int64) function file_size(path)
       character(*), intent(in) :: path
 
@@ -177,9 +177,9 @@ contains
       call c_outlive_file_size_limit()
    end subroutine outlive_file_size_limit
 
-   !> Memory that this process may still allocate and use without swapping [byte]: what is free of the machine's, or can
-   !> be freed, and at most what limits leave: those of a container or a batch job (control groups of Linux) and that on
-   !> the address space (ulimit -v). -1 if the system does not say.
+   !> Memory that this process may still allocate and use without swapping [byte]: memory of the machine that is free or
+   !> can be freed, but at most what is left by the limits of a container or a batch job (control groups of Linux) and
+   !> by that on the address space (ulimit -v). -1 if the system does not say.
    integer(int64) function available_memory()
       available_memory = int(c_available_memory(), int64)
    end function available_memory
@@ -196,8 +196,8 @@ contains
    logical function has_memory_for(numbers)
       integer(int64), intent(in) :: numbers
 
-      !> So few, 8 MB, are always granted: asking the system means to read a dozen files of it, which takes as long as
-      !> to solve a grid of 32 x 32 points.
+      !> So few numbers, 8 MB, are granted without asking the system, which means to read a dozen of its files and takes
+      !> as long as to solve a grid of 32 x 32 points.
       integer(int64), parameter :: few = 1000000_int64
       integer(int64) :: available
       real(dp), allocatable :: probe(:)

@@ -1,4 +1,4 @@
-!> Threads: how many work on a grid and how they wait; those of BLAS and LAPACK.
+!> How many threads work on a grid, how they wait, and the threads of BLAS and LAPACK.
 module wavycon_threads
    implicit none (type, external)
    private
@@ -14,14 +14,14 @@ module wavycon_threads
    interface
       !> Lets threads that wait for the others sleep, not spin, unless the environment says how they wait.
       !>
-      !> N.B. For programs, as their first statement: with the option --threads it starts the program anew.
+      !> N.B. A program must call it as its first statement: with the option --threads it starts the program anew.
       subroutine let_waiting_threads_sleep() bind(c, name='wavycon_let_waiting_threads_sleep')
       end subroutine let_waiting_threads_sleep
 
-      !> Makes BLAS and LAPACK use one thread, if they are OpenBLAS or MKL. By default these take all processors, also
-      !> for the small matrices here, which other threads do not make faster.
+      !> Makes BLAS and LAPACK use one thread, if they are OpenBLAS or MKL. By default these libraries use all
+      !> processors, also for the small matrices here, where more threads save no time.
       !>
-      !> N.B. It acts on the whole process: for programs, not for procedures of a library.
+      !> N.B. It acts on the whole process: programs may call it, procedures of a library must not.
       subroutine use_one_thread_for_matrices() bind(c, name='wavycon_use_one_thread_for_matrices')
       end subroutine use_one_thread_for_matrices
    end interface

@@ -1,6 +1,6 @@
-!> Chooses among the solvers: the closed form where there is one, otherwise fitted expansions where these exist for the
-!> surface, with grids for loads at which they are not accurate enough, otherwise grids. The grid alone if its points are
-!> given or the pressure is bounded by a hardness.
+!> Chooses among the solvers: the closed form where there is one; otherwise collocation fitted to the edge of contact,
+!> if the surface has a lattice, with grids for loads at which it is not accurate enough; otherwise grids. Only the grid
+!> is used if its points are given or a hardness bounds the pressure.
 module wavycon_auto_contact
    use wavycon_closed_form_contact, only: closed_form_contact, closed_form_exists
    use wavycon_contact_solution, only: contact_solution
@@ -18,7 +18,7 @@ module wavycon_auto_contact
 
    public :: auto_contact
 
-   !> Why its solvers were taken: the closed form, expansions with grids where these are not accurate enough, or grids.
+   !> Why its solvers were taken: the closed form, collocation with grids where it is not accurate enough, or grids.
    integer, parameter, public :: has_closed_form = 1, has_expansions = 2, has_neither = 3, has_a_hardness = 4, &
       points_are_given = 5, points_are_of_the_map = 6
 
@@ -36,7 +36,7 @@ module wavycon_auto_contact
 
 contains
 
-   !> Selects and starts the solvers. Expansions have the accuracy of the grids.
+   !> Selects and starts the solvers. Collocation and grids have the same accuracy.
    subroutine start(self, surface, options, keep_fields)
       class(auto_contact), intent(out) :: self
       type(surface_type), intent(in) :: surface
@@ -69,8 +69,8 @@ contains
    end subroutine start
 
    !> Without a good solution of the first solver the load is solved on grids, and the better of the two solutions is
-   !> returned. The digits of the first solution may differ between the machines that have slabs of the grids: one
-   !> decision is taken for all slabs.
+   !> returned. The digits of the first solution may differ between machines, so that one decision is taken for all
+   !> slabs of the grid.
    subroutine solve_partial_contact(self, pbar_over_pstar, solution)
       class(auto_contact), intent(inout) :: self
       real(dp), intent(in) :: pbar_over_pstar
@@ -93,7 +93,7 @@ contains
                    on_grids%largest_error() <= solution%largest_error())) call on_grids%move_to(solution)
    end subroutine solve_partial_contact
 
-   !> Those of the first solver, and the finest grid of both.
+   !> The traits of the first solver, with the finest grid of both.
    type(solver_traits) function traits(self)
       class(auto_contact), intent(in) :: self
 
@@ -114,8 +114,8 @@ contains
       if (allocated(self%first)) call self%first%forget_last_load()
    end subroutine forget_last_load
 
-   !> The expansion of the next load starts from the expansion of this one. Only loads solved on grids are in
-   !> checkpoints, so that the expansion is computed again.
+   !> The collocation of the next load starts from that of this load. Checkpoints have only loads solved on grids, so
+   !> that the collocation is computed again.
    subroutine skip_load(self, pbar_over_pstar)
       class(auto_contact), intent(inout) :: self
       real(dp), intent(in) :: pbar_over_pstar

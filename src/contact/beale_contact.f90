@@ -16,7 +16,7 @@ module wavycon_beale_contact
    use wavycon_qp_problem, only: qp_problem, qp_solution
    use wavycon_series_source, only: series_source
    use wavycon_solution_record, only: by_series
-   use wavycon_surface, only: surface_type, turned_paper_wave
+   use wavycon_surface, only: surface_type, rotated_paper_wave
    implicit none (type, external)
    private
 
@@ -48,8 +48,8 @@ module wavycon_beale_contact
 
 contains
 
-   !> As many points to a harmonic as the paper has: 27 for 9 harmonics of the 2-D wave, 26 (25 intervals) for 10 of the
-   !> 1-D wave. Always more than harmonics.
+   !> The number of points, in the paper's proportion to harmonics: 27 for 9 harmonics of the 2-D wave, 26 (25
+   !> intervals) for 10 of the 1-D wave. Always more than harmonics.
    pure integer function paper_constraint_points(dimension, harmonics) result(points)
       integer, intent(in) :: dimension   !! 1 or 2
       integer, intent(in) :: harmonics   !! >= 1
@@ -71,7 +71,7 @@ contains
       self%is_started = surface%is_paper_wave()
       self%by_beale = options%by_beale
       self%series%edge_level = options%edge_level
-      self%series%turned = surface%paper_wave() == turned_paper_wave
+      self%series%rotated = surface%paper_wave() == rotated_paper_wave
       self%series%terms = choose_terms(surface%dimension, options%harmonics, options%symmetry)
       self%problem = energy_problem(self%series%terms, options%constraint_points, options%symmetry, &
                                     surface%has_hardness())
@@ -84,7 +84,7 @@ contains
 
       type(qp_solution) :: programme
       type(series_source), allocatable :: source
-      real(dp) :: imprint, open_gap
+      real(dp) :: residual_indentation, open_gap
 
       call self%solve_programme(pbar_over_pstar, programme)
       solution%pbar_over_pstar = pbar_over_pstar
@@ -93,7 +93,7 @@ contains
       solution%iterations = programme%pivots
       solution%residual = programme%kkt_residual
       open_gap = 0.0_dp
-      imprint = 0.0_dp
+      residual_indentation = 0.0_dp
       if (allocated(programme%x)) then
          solution%active_constraints = size(programme%active)
          if (self%surface%has_hardness()) then
@@ -101,7 +101,7 @@ contains
             associate (at_hardness => programme%active > size(self%problem%bounds)/2, &
                        gaps => programme%multipliers/2**self%surface%dimension)
                open_gap = sum(gaps, .not. at_hardness)
-               imprint = sum(gaps, at_hardness)
+               residual_indentation = sum(gaps, at_hardness)
             end associate
          end if
       else
@@ -110,13 +110,13 @@ contains
       allocate (source)
       source = self%series
       call move_alloc(programme%x, source%x)
-      ! Without an imprint no point is at H, although a peak between the points may come close.
+      ! Without residual indentation no point is at H, although a peak between the points may come close.
       call measure_series(source%pressure(pbar_over_pstar), source%displacement(), self%series%edge_level, &
-                          solution%measures, merge(self%surface%hardness, huge(1.0_dp), imprint > 0.0_dp))
+                          solution%measures, merge(self%surface%hardness, huge(1.0_dp), residual_indentation > 0.0_dp))
       ! The crest, from which the approach follows otherwise, is then not in elastic contact.
-      if (imprint > 0.0_dp) then
+      if (residual_indentation > 0.0_dp) then
          solution%measures%mean_gap_over_amplitude = open_gap
-         solution%measures%approach_over_amplitude = 1.0_dp - open_gap + imprint
+         solution%measures%approach_over_amplitude = 1.0_dp - open_gap + residual_indentation
       end if
       call move_alloc(source, solution%source)
    end subroutine solve_partial_contact

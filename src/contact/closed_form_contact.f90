@@ -7,7 +7,7 @@ module wavycon_closed_form_contact
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_contact_status, only: closed_form
-   use wavycon_edge_curves, only: edge_curve, strip_ends
+   use wavycon_contact_contours, only: contact_contour, strip_ends
    use wavycon_field_source, only: field_source
    use wavycon_kinds, only: dp
    use wavycon_kuznetsov, only: kuznetsov_mean_gap_over_amplitude
@@ -32,7 +32,7 @@ module wavycon_closed_form_contact
    type, extends(field_source) :: closed_form_source
    contains
       procedure :: fields
-      procedure :: edge_curves
+      procedure :: contact_contours
       procedure :: stresses
    end type closed_form_source
 
@@ -127,17 +127,17 @@ contains
       gap = spread(gap(:, 1), 2, points(2))
    end subroutine on_grid
 
-   subroutine edge_curves(self, record, surface, curves, loads)
+   subroutine contact_contours(self, record, surface, curves, loads)
       class(closed_form_source), intent(in) :: self
       type(solution_record), intent(in) :: record
       type(surface_type), intent(in) :: surface
-      type(edge_curve), allocatable, intent(out) :: curves(:)
+      type(contact_contour), allocatable, intent(out) :: curves(:)
       real(dp), allocatable, intent(out) :: loads(:)
 
       associate (unused => self, unused_too => surface); end associate
       call strip_ends([pi*record%measures%contact_area_fraction], .true., curves)
       loads = [1.0_dp]
-   end subroutine edge_curves
+   end subroutine contact_contours
 
    subroutine stresses(self, record, surface, answer)
       class(closed_form_source), intent(in) :: self

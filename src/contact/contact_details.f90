@@ -13,9 +13,9 @@ module wavycon_contact_details
       real(dp) :: saddle_pressure = 0.0_dp, saddle_pressure_error = 0.0_dp
       !> Strain energy per nominal area, the mean of p u/2 [p* Delta].
       real(dp) :: energy = 0.0_dp, energy_error = 0.0_dp
-      !> Length of the edge of one contact spot or, once the spots have merged, of one open island [length].
+      !> Length of the edge of one contact spot or, once the spots have merged, of one closed pool [length].
       real(dp) :: perimeter = 0.0_dp, perimeter_error = 0.0_dp
-      integer :: degree = 0                                                   !! degree of the expansion's polynomials
+      integer :: degree = 0                                                   !! degree of the polynomials
    end type contact_details
 
 end module wavycon_contact_details

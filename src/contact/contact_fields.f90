@@ -17,7 +17,7 @@ module wavycon_contact_fields
       !> if there is none.
       integer :: own_points(2) = 0
       real(dp) :: own_offset(2) = 0.0_dp
-      !> The columns of that grid, of the part of the cell that was solved, that are here.
+      !> The own columns of that grid, of the part of the cell that was solved.
       type(grid_slab) :: own_slab = grid_slab()
    contains
       procedure(fields_at_point), deferred :: at
@@ -50,7 +50,7 @@ module wavycon_contact_fields
 
 contains
 
-   !> The fields at the points of one of the columns of own_slab; NaN here, where there are none.
+   !> The fields at the points of one of the columns of own_slab. Default: NaN.
    subroutine at_own_column(self, column, shape, pressure, displacement, gap)
       class(contact_fields), intent(in) :: self
       integer, intent(in) :: column                  !! of own_slab, first .. last

@@ -27,11 +27,11 @@ module wavycon_contact_region
       integer :: threads = 1                   !! for loops over its points
       integer :: chunks = 0
       integer, allocatable :: chunk(:)         !! place in vectors where each chunk begins, and one more, (chunks+1)
-      integer, allocatable :: strip(:)         !! likewise of each strip of columns, shape (strips+1)
+      integer, allocatable :: strip(:)         !! where each strip of columns begins in vectors, shape (strips+1)
       !> Runs of adjacent points: run r has the points first(r) to last(r) of its column, and point i of it has the
       !> place i + offset(r) in vectors. A run belongs to one chunk.
       integer, allocatable, private :: first(:), last(:), offset(:)
-      integer, allocatable, private :: run(:)  !! first run of each column, and one more than the last of all, shape (N+1)
+      integer, allocatable, private :: run(:)  !! first run of each column, then last run + 1, shape (N+1)
       integer, allocatable, private :: chunk_run(:)      !! first run of each chunk, and one more, shape (chunks+1)
       integer, allocatable, private :: chunk_column(:)   !! column of that run, shape (chunks)
       integer, allocatable, private :: strip_chunk(:)    !! first chunk of each strip, and one more, shape (strips+1)
@@ -69,7 +69,7 @@ contains
          ! Runs that would be longer than a chunk are split.
          counts(j) = counts(j) + points(j)/longest_chunk
       end do
-      ! Of two adjacent chunks of a strip the numbers are more than one could hold.
+      ! Two adjacent chunks of a strip together have more numbers than one chunk can hold.
       most_chunks = 2*(sum(points)/longest_chunk) + strips
       allocate (self%run(n + 1), self%first(sum(counts)), self%last(sum(counts)), self%offset(sum(counts)))
       allocate (self%chunk(most_chunks + 1), self%chunk_run(most_chunks + 1), self%chunk_column(most_chunks))
@@ -141,7 +141,7 @@ contains
       end do
    end subroutine gather
 
-   !> Likewise of a field in double precision, over a scale.
+   !> The values of a field in double precision at the points of the region, divided by a scale.
    subroutine gather_scaled(self, field, scale, vector)
       class(contact_region), intent(in) :: self
       real(dp), intent(in) :: field(:, :)     !! shape (M, N)
@@ -255,7 +255,7 @@ contains
       end do
    end subroutine correct
 
-   !> Sets the other points of the columns that have points of the region to zero.
+   !> In columns with points of the region, sets the field to zero at the other points.
    subroutine clear_outside(self, field)
       class(contact_region), intent(in) :: self
       real(sp), intent(inout) :: field(:, :)   !! shape (M, N)

@@ -8,7 +8,7 @@ module wavycon_contact_solution
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_spots, only: contact_spots, find_spots, no_spots, one_region
    use wavycon_contact_status, only: full_contact, is_good_status, no_load
-   use wavycon_edge_curves, only: edge_curve
+   use wavycon_contact_contours, only: contact_contour
    use wavycon_edgeless_fields, only: edgeless_fields, start_edgeless_fields
    use wavycon_field_source, only: field_source
    use wavycon_fourier_series, only: fourier_series
@@ -26,20 +26,21 @@ module wavycon_contact_solution
    real(dp), parameter :: rounding = 1e-14_dp
 
    type, extends(solution_record) :: contact_solution
-      !> Of a partial contact. Not allocated if the solver was started without keep_fields, if another rank has solved
-      !> the load or has the collected fields, or if there is no solution. Full contact and no load need none.
+      !> The source of a partial contact. Not allocated if the solver was started without keep_fields, if another rank
+      !> has solved the load or has the collected fields, or if there is no solution. Full contact and no load need
+      !> none.
       class(field_source), allocatable :: source
    contains
       procedure :: move_to
       procedure :: is_good
       procedure :: largest_error
       procedure :: fields
-      procedure :: edge_curves
+      procedure :: contact_contours
       procedure :: stresses
       procedure :: spots
       procedure :: coefficients
       procedure :: details
-      procedure :: spread_points
+      procedure :: distributed_points
       procedure :: collect_fields
    end type contact_solution
 
@@ -87,22 +88,22 @@ contains
 
    !> The edge of contact: closed curves in 2-D, the two ends of each strip in 1-D. There are no curves for full
    !> contact, for no load, and without a source.
-   subroutine edge_curves(self, surface, curves, loads)
+   subroutine contact_contours(self, surface, curves, loads)
       class(contact_solution), intent(in) :: self
       type(surface_type), intent(in) :: surface             !! that was solved
-      type(edge_curve), allocatable, intent(out) :: curves(:)
-      !> What each spot carries of the load, by their numbers; of no size if that is not known.
+      type(contact_contour), allocatable, intent(out) :: curves(:)
+      !> The part of the load that each spot carries, by the numbers of the spots; of size 0 if not known.
       real(dp), allocatable, intent(out), optional :: loads(:)
 
       real(dp), allocatable :: loads_of_spots(:)
 
       if (allocated(self%source)) then
-         call self%source%edge_curves(self%solution_record, surface, curves, loads_of_spots)
+         call self%source%contact_contours(self%solution_record, surface, curves, loads_of_spots)
       else
          allocate (curves(0), loads_of_spots(0))
       end if
       if (present(loads)) call move_alloc(loads_of_spots, loads)
-   end subroutine edge_curves
+   end subroutine contact_contours
 
    !> The stresses below the surface: of full contact to rounding, zero without load. They do not exist for a partial
    !> contact without a source.
@@ -126,18 +127,18 @@ contains
       end if
    end subroutine stresses
 
-   !> The spots of contact and the pools of gap; of a mirrored height map those of the map. Not known for a partial
+   !> The spots of contact and the pools of gap; for a mirrored height map those of the map. Not known for a partial
    !> contact without a source.
    subroutine spots(self, surface, answer)
       class(contact_solution), intent(in) :: self
       type(surface_type), intent(in) :: surface      !! that was solved
       type(contact_spots), intent(out) :: answer
 
-      type(edge_curve), allocatable :: curves(:)
+      type(contact_contour), allocatable :: curves(:)
       real(dp), allocatable :: loads(:)
       logical :: is_full
 
-      call self%edge_curves(surface, curves, loads)
+      call self%contact_contours(surface, curves, loads)
       is_full = self%measures%contact_area_fraction > 0.5_dp
       if (size(curves) > 0) then
          call find_spots(curves, self%measures%contact_area_fraction, surface%dimension, surface%length, loads, &
@@ -176,16 +177,16 @@ contains
       if (found) call self%source%details(answer, found)
    end subroutine details
 
-   !> The points of the grid if its columns are spread over the ranks, otherwise 0.
-   pure integer(int64) function spread_points(self)
+   !> The points of the grid if its columns are distributed over the ranks, otherwise 0.
+   pure integer(int64) function distributed_points(self)
       class(contact_solution), intent(in) :: self
 
-      spread_points = 0
-      if (allocated(self%source)) spread_points = self%source%spread_points
-   end function spread_points
+      distributed_points = 0
+      if (allocated(self%source)) distributed_points = self%source%distributed_points
+   end function distributed_points
 
-   !> Brings fields whose columns are spread over the ranks to the first rank: afterwards it has them whole, the others
-   !> have none. All ranks call it.
+   !> Gathers fields whose columns are distributed over the ranks on rank 0; the others then have none. All ranks call
+   !> it.
    subroutine collect_fields(self)
       class(contact_solution), intent(inout) :: self
 

@@ -1,5 +1,5 @@
-!> The type that all solvers extend. src/README.md describes how to add a solver, README.md in this directory how solvers
-!> and solutions work together.
+!> The type that all solvers extend. src/README.md describes how to add a solver, and README.md in this directory how
+!> solvers and solutions work together.
 module wavycon_contact_solver
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_contact_measures, only: full_contact_measures
@@ -17,8 +17,8 @@ module wavycon_contact_solver
    !> Accuracy of the solvers that have one, unless another is asked for.
    real(dp), parameter, public :: default_accuracy = 1e-3_dp
 
-   !> What is known of a solver and its solutions without a load. Of a solver that was not started grids and levels are
-   !> zero.
+   !> Properties of a solver and its solutions that need no load. Grids and levels are zero before the solver is
+   !> started.
    type :: solver_traits
       integer :: solver = no_solver            !! of its solutions without numbers
       logical :: has_errors = .true.           !! whether the measures of its solutions have error estimates
@@ -39,7 +39,8 @@ module wavycon_contact_solver
    type, abstract :: contact_solver
       type(surface_type) :: surface
       logical :: is_started = .false.   !! on a surface that it can solve
-      !> At which the next loads are solved: 0, the accuracy requested, to traits%coarser_levels, the coarsest.
+      !> The level at which the next loads are solved: 0, the accuracy requested, to traits%coarser_levels, the
+      !> coarsest.
       integer :: level = 0
       class(solver_progress), pointer :: progress => null()   !! called within each load, if associated
    contains
@@ -70,8 +71,8 @@ module wavycon_contact_solver
 
 contains
 
-   !> Solves one load and measures the solution. Some loads need no solver. The status is not_found if the solver was not
-   !> started on a surface that it can solve, and interrupted if self%progress says that it shall stop.
+   !> Solves one load and measures the solution. Some loads need no solver. The status is not_found if the solver was
+   !> not started on a surface that it can solve, interrupted if self%progress asks it to stop.
    subroutine solve(self, pbar_over_pstar, solution)
       class(contact_solver), intent(inout) :: self
       real(dp), intent(in) :: pbar_over_pstar             !! P; the status is not_finite if it is no number
@@ -128,15 +129,15 @@ contains
       end if
    end subroutine solve_trivial_load
 
-   !> Makes the next load start as the first one does.
+   !> Forgets the last solution: the next load starts as the first one does.
    subroutine forget_last_load(self)
       class(contact_solver), intent(inout) :: self
 
       associate (unused => self); end associate
    end subroutine forget_last_load
 
-   !> Makes the state of the solver that which it would have after solving a load. Called for loads whose solutions were
-   !> read from the checkpoint of an interrupted run.
+   !> Sets the state that the solver would have after solving a load. Called for loads whose solutions were read from
+   !> the checkpoint of an interrupted run.
    subroutine skip_load(self, pbar_over_pstar)
       class(contact_solver), intent(inout) :: self
       real(dp), intent(in) :: pbar_over_pstar        !! P

@@ -2,7 +2,7 @@
 !> them; numbers (C..) are its equations.
 module wavycon_correction_preconditioner
    use wavycon_compliance_operator, only: compliance_operator
-   use wavycon_contact_extension, only: contact_extension
+   use wavycon_multilevel_preconditioner, only: multilevel_preconditioner
    use wavycon_contact_region, only: longest_chunk
    use wavycon_contact_tuning, only: largest_growth, settled_part, stencil_fraction
    use wavycon_correction_state, only: correction_state
@@ -19,11 +19,11 @@ module wavycon_correction_preconditioner
    type :: correction_preconditioner
       type(local_stiffness) :: stencil
       integer :: local_iterations = 0           !! those by the stencil
-      integer :: plain_iterations = 0           !! those without extension
+      integer :: plain_iterations = 0           !! those without the multilevel preconditioner or the stencil
       integer, private :: kind = extended
       logical, private :: has_resumed = .false. !! whether the kind was `restricted` and is `extended` again
-      real(sp), allocatable, private :: contact_field(:, :)   !! K on the grid, if the extension is used
-      type(contact_extension), private :: extension
+      real(sp), allocatable, private :: contact_field(:, :)   !! K on the grid, for the multilevel preconditioner
+      type(multilevel_preconditioner), private :: extension
    contains
       procedure :: select
       procedure :: apply
@@ -31,9 +31,9 @@ module wavycon_correction_preconditioner
 
 contains
 
-   !> Selects a weaker preconditioner when the residual grows: on grids that hardly resolve the surface the extension
-   !> reaches so far that the points which then leave the contact undo the step. Once in a correction the extension
-   !> resumes when the contact has settled. The search restarts when the preconditioner changes.
+   !> Selects a weaker preconditioner when the residual grows: on grids that hardly resolve the surface the multilevel
+   !> preconditioner couples such distant points that those which leave the contact undo the step. It is used again,
+   !> once in a correction, when the contact has settled. The search restarts when the preconditioner changes.
    subroutine select(self, state, last_residual, restarts)
       class(correction_preconditioner), intent(inout) :: self
       type(correction_state), intent(in) :: state
@@ -52,7 +52,7 @@ contains
       end if
    end subroutine select
 
-   !> Computes z of the residual r, but for its mean (C4).
+   !> Computes z of (C4) from the residual r, without subtracting its mean.
    subroutine apply(self, half_space, state, field)
       class(correction_preconditioner), intent(inout) :: self
       type(compliance_operator), intent(inout) :: half_space
@@ -87,7 +87,7 @@ contains
       end if
    end subroutine apply
 
-   !> Starts the extension when it is first needed, and sets the points in contact.
+   !> Starts the multilevel preconditioner when it is first needed, and sets its points in contact.
    subroutine set_contact(self, state)
       type(correction_preconditioner), intent(inout) :: self
       type(correction_state), intent(in) :: state

@@ -55,8 +55,8 @@ contains
       class(correction_state), intent(out) :: self
       type(grid_slab), intent(in) :: slab         !! of the grid
       logical(c_bool), intent(in) :: inside(:, :) !! the points in and near the contact, shape (M, slab%columns())
-      real(dp), intent(in) :: pressure(:, :)      !! p/p*, 0 <= p <= H, likewise; 0 or H outside the region
-      real(dp), intent(in) :: gap(:, :)           !! its gap/Delta, likewise
+      real(dp), intent(in) :: pressure(:, :)      !! p/p*, 0 <= p <= H, own columns; 0 or H outside the region
+      real(dp), intent(in) :: gap(:, :)           !! its gap/Delta, own columns
       real(dp), intent(in) :: residual            !! root mean square of the violated conditions [Delta], > 0
       real(dp), intent(in) :: hardness            !! H/p*, huge if there is none
 
@@ -197,8 +197,8 @@ contains
    !> Adds to the free points those that overlap (C8), changes the approach so that the mean gap over the free points is
    !> zero (C3), and computes the residual (C9) times G.
    !>
-   !> The squares of gaps are those about the mean before points enter; about the mean over all free points they are
-   !> less by their number times the square of the shift. Overlaps at other points are left as they were before it.
+   !> The sum of squares of gaps is taken about the mean before points enter. About the mean over all free points it is
+   !> smaller by their number times the square of the shift. Overlaps at other points are not updated.
    subroutine update_contact(self, sums)
       class(correction_state), intent(inout) :: self
       real(dp), intent(in) :: sums(gap_sums)   !! of `measure_gap`

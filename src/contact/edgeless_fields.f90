@@ -1,4 +1,4 @@
-!> The fields of a contact without an edge: full contact or no load. Of a load without a solution they are NaN.
+!> The fields of a contact without an edge: full contact or no load. For a load without a solution they are NaN.
 module wavycon_edgeless_fields
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use wavycon_contact_fields, only: contact_fields

@@ -46,7 +46,7 @@ contains
       self%has_second_crest = crests == 2 .and. all(mod(points, 2) == 0)
    end subroutine start
 
-   !> Of all points equivalent to this one, the one that a loop over X within one over Y reaches first.
+   !> The first of all points equivalent to this one, in the order of a loop over X within one over Y.
    pure type(point_image) function first_of(self, point) result(first)
       class(equivalent_points), intent(in) :: self
       integer, intent(in) :: point(2)      !! from 0
@@ -76,7 +76,7 @@ contains
       if (first%exchanged) first%point = first%point([2, 1])
    end function reflected
 
-   !> The number of points that are the first of theirs.
+   !> The number of points that are not equivalent to an earlier one.
    pure integer function number_of_first(self) result(number)
       class(equivalent_points), intent(in) :: self
 

@@ -6,7 +6,7 @@ module wavycon_field_source
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_details, only: contact_details
    use wavycon_contact_fields, only: contact_fields
-   use wavycon_edge_curves, only: edge_curve
+   use wavycon_contact_contours, only: contact_contour
    use wavycon_fourier_series, only: fourier_series
    use wavycon_kinds, only: dp
    use wavycon_solution_record, only: solution_record
@@ -20,10 +20,11 @@ module wavycon_field_source
    !> All that the procedures need besides the record of the solution and the surface. Of the procedures the deferred
    !> ones must be written; the others have defaults.
    type, abstract :: field_source
-      integer(int64) :: spread_points = 0   !! of the grid if its columns are spread over the ranks, otherwise 0
+      !> of the grid if its columns are distributed over the ranks, otherwise 0
+      integer(int64) :: distributed_points = 0
    contains
       procedure(fields_of_source), deferred :: fields
-      procedure(edge_of_source), deferred :: edge_curves
+      procedure(edge_of_source), deferred :: contact_contours
       procedure(stresses_of_source), deferred :: stresses
       procedure :: coefficients
       procedure :: details
@@ -42,11 +43,11 @@ module wavycon_field_source
 
       !> The edge of contact: closed curves in 2-D, the two ends of each strip in 1-D.
       subroutine edge_of_source(self, record, surface, curves, loads)
-         import :: dp, edge_curve, field_source, solution_record, surface_type
+         import :: dp, contact_contour, field_source, solution_record, surface_type
          class(field_source), intent(in) :: self
          type(solution_record), intent(in) :: record           !! of the solution
          type(surface_type), intent(in) :: surface             !! that was solved
-         type(edge_curve), allocatable, intent(out) :: curves(:)
+         type(contact_contour), allocatable, intent(out) :: curves(:)
          !> What each spot carries of the load, by their numbers; of no size if that is not known.
          real(dp), allocatable, intent(out) :: loads(:)
       end subroutine edge_of_source
@@ -82,7 +83,7 @@ contains
       found = .false.
    end subroutine details
 
-   !> Brings what is spread over the ranks to the first rank. All ranks call it. Here nothing is spread.
+   !> Brings what is distributed over the ranks to the first rank. All ranks call it. Here nothing is distributed.
    subroutine collect(self, is_here)
       class(field_source), intent(inout) :: self
       logical, intent(out) :: is_here                !! whether this rank has all of it afterwards

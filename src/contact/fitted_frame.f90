@@ -4,7 +4,7 @@ module wavycon_fitted_frame
    use wavycon_contact_tuning, only: largest_aspect_ratio, largest_curvature_ratio
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: short_number
-   use wavycon_surface, only: no_paper_wave, surface_type, turned_paper_wave
+   use wavycon_surface, only: no_paper_wave, surface_type, rotated_paper_wave
    use wavycon_wave_lattice, only: hexagonal_lattice, rectangular_lattice, rhombic_lattice, square_lattice, &
       wave_lattice
    implicit none (type, external)
@@ -48,7 +48,7 @@ contains
          if (surface%paper_wave() /= no_paper_wave) then
             frame%lattice = square
             frame%side = length(1)
-            if (surface%paper_wave() /= turned_paper_wave) then
+            if (surface%paper_wave() /= rotated_paper_wave) then
                frame%side = length(1)/sqrt2
                frame%turn = exp(cmplx(0.0_dp, -pi/4, dp))
                frame%crests = 2

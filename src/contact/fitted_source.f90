@@ -3,11 +3,11 @@ module wavycon_fitted_source
    use wavycon_constants, only: pi
    use wavycon_contact_details, only: contact_details
    use wavycon_contact_fields, only: contact_fields
-   use wavycon_edge_curves, only: edge_curve
+   use wavycon_contact_contours, only: contact_contour
    use wavycon_equivalent_points, only: equivalent_points, point_image
    use wavycon_field_source, only: field_source
    use wavycon_fitted_answer, only: fitted_answer
-   use wavycon_fitted_details, only: find_fitted_details, fitted_details
+   use wavycon_fitted_details, only: find_fitted_details
    use wavycon_fitted_fields, only: fitted_fields, start_fitted_fields
    use wavycon_fitted_frame, only: fitted_frame
    use wavycon_fitted_stress_fields, only: fitted_stress_fields, start_fitted_stress_fields
@@ -28,7 +28,7 @@ module wavycon_fitted_source
       real(dp) :: accuracy = 0.0_dp     !! that it was asked for, relative
    contains
       procedure :: fields
-      procedure :: edge_curves
+      procedure :: contact_contours
       procedure :: stresses
       procedure :: details
    end type fitted_source
@@ -144,16 +144,16 @@ contains
    end subroutine on_grid
 
    !> A closed curve about each crest or, once the spots have merged, about each trough.
-   subroutine edge_curves(self, record, surface, curves, loads)
+   subroutine contact_contours(self, record, surface, curves, loads)
       class(fitted_source), intent(in) :: self
       type(solution_record), intent(in) :: record
       type(surface_type), intent(in) :: surface
-      type(edge_curve), allocatable, intent(out) :: curves(:)
+      type(contact_contour), allocatable, intent(out) :: curves(:)
       real(dp), allocatable, intent(out) :: loads(:)
 
       complex(dp) :: centre, edge(edge_points), to_surface
       type(fitted_fields) :: fields
-      integer :: i, k, turned
+      integer :: i, k, rotated
 
       call start_fitted_fields(fields, self%lattice, self%answer)
       to_surface = self%frame%side/self%frame%turn
@@ -164,12 +164,12 @@ contains
       ! translated.
       allocate (curves(self%frame%crests*fields%places))
       do k = 1, size(curves)
-         turned = merge(-1, 1, k > self%frame%crests)
-         centre = turned*fields%centre*to_surface
+         rotated = merge(-1, 1, k > self%frame%crests)
+         centre = rotated*fields%centre*to_surface
          associate (length => surface%length, places => [(mod(i, edge_points) + 1, i=0, edge_points)], &
                     half_cells => modulo(k - 1, self%frame%crests))
-            curves(k)%phi = in_cell(2*pi*centre%re/length(1) + pi*half_cells) + 2*pi*turned*edge(places)%re/length(1)
-            curves(k)%theta = in_cell(2*pi*centre%im/length(2) + pi*half_cells) + 2*pi*turned*edge(places)%im/length(2)
+            curves(k)%phi = in_cell(2*pi*centre%re/length(1) + pi*half_cells) + 2*pi*rotated*edge(places)%re/length(1)
+            curves(k)%theta = in_cell(2*pi*centre%im/length(2) + pi*half_cells) + 2*pi*rotated*edge(places)%im/length(2)
          end associate
          ! All are alike: the area is that of the expansion itself, not that of polygons.
          curves(k)%turns = merge(-1, 1, self%answer%island)
@@ -195,24 +195,23 @@ contains
          in_cell = angle - 2*pi*floor(angle/(2*pi) + rounding)
       end function in_cell
 
-   end subroutine edge_curves
+   end subroutine contact_contours
 
    subroutine details(self, answer, found)
       class(fitted_source), intent(in) :: self
       type(contact_details), intent(out) :: answer
       logical, intent(out) :: found
 
-      type(fitted_details) :: own
-      real(dp) :: energy_unit
+      real(dp) :: energy_unit, errors(3), values(3)
 
       found = .true.
-      call find_fitted_details(self%lattice, self%answer, own)
+      call find_fitted_details(self%lattice, self%answer, values, errors)
       energy_unit = self%frame%pressure_unit/self%lattice%area
       answer = contact_details( &
-               trough_gap=own%trough_gap, trough_gap_error=own%trough_gap_error, &
-               saddle_gap=own%saddle_gap, saddle_gap_error=own%saddle_gap_error, &
-               saddle_pressure=own%saddle_pressure*self%frame%pressure_unit, &
-               saddle_pressure_error=own%saddle_pressure_error*self%frame%pressure_unit, &
+               trough_gap=values(1), trough_gap_error=errors(1), &
+               saddle_gap=values(2), saddle_gap_error=errors(2), &
+               saddle_pressure=values(3)*self%frame%pressure_unit, &
+               saddle_pressure_error=errors(3)*self%frame%pressure_unit, &
                energy=self%answer%energy*energy_unit, energy_error=self%answer%energy_error*energy_unit, &
                perimeter=self%answer%perimeter*self%frame%side, &
                perimeter_error=self%answer%perimeter_error*self%frame%side, degree=self%answer%degree)

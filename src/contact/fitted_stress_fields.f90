@@ -67,7 +67,7 @@ contains
          call self%fitted%at(place, z, parts, error)
       end associate
       do i = 1, 2
-         parts(:, i) = self%frame%pressure_unit*turned(parts(:, i), conjg(self%frame%turn))
+         parts(:, i) = self%frame%pressure_unit*rotated(parts(:, i), conjg(self%frame%turn))
       end do
       if (present(error)) error = self%frame%pressure_unit*error
    end subroutine at
@@ -120,10 +120,10 @@ contains
    end function from_image
 
    !> A stress after a rotation about the z axis.
-   pure function turned(stress, turn)
+   pure function rotated(stress, turn)
       real(dp), intent(in) :: stress(6)
       complex(dp), intent(in) :: turn     !! of modulus 1
-      real(dp) :: turned(6)
+      real(dp) :: rotated(6)
 
       complex(dp) :: deviator, shear
       real(dp) :: mean
@@ -132,8 +132,8 @@ contains
       mean = 0.5_dp*(stress(xx) + stress(yy))
       deviator = cmplx(0.5_dp*(stress(xx) - stress(yy)), stress(xy), dp)*turn**2
       shear = cmplx(stress(xz), stress(yz), dp)*turn
-      turned = [mean + deviator%re, mean - deviator%re, stress(zz), deviator%im, shear%re, shear%im]
-   end function turned
+      rotated = [mean + deviator%re, mean - deviator%re, stress(zz), deviator%im, shear%re, shear%im]
+   end function rotated
 
    !> Places below the spot or, above merging, below the crest and about the island, on the lines of symmetry of the
    !> lattice.

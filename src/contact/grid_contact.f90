@@ -1,7 +1,7 @@
 !> Contact on grids, refined to an accuracy or with a given number of points.
 !>
 !> An even surface is solved on a quarter of its cell. The wave (21), and any surface with the same symmetry, is also
-!> periodic on a square of half the area turned by 45 degrees; a quarter of that square is then enough, unless
+!> periodic on a square of half the area rotated by 45 degrees; a quarter of that square is then enough, unless
 !> the number of points, which refers to the user's cell, is given.
 module wavycon_grid_contact
    use, intrinsic :: iso_fortran_env, only: int64
@@ -11,7 +11,7 @@ module wavycon_grid_contact
    use wavycon_contact_solver, only: contact_solver, default_accuracy, solver_traits
    use wavycon_contact_status, only: converged, interrupted, iteration_limit, no_memory, not_accurate, unresolved
    use wavycon_contact_tuning, only: largest_spot, least_search_points, worst_search_accuracy
-   use wavycon_grid_cascade, only: cascade_answer, solve_by_cascade
+   use wavycon_grid_sequence, only: sequence_answer, solve_by_sequence
    use wavycon_grid_edge, only: grid_edge
    use wavycon_grid_plan, only: grid_plan, plan_grids
    use wavycon_grid_source, only: grid_source
@@ -37,7 +37,7 @@ module wavycon_grid_contact
    type, extends(contact_solver) :: grid_contact
       type(grid_options), private :: options
       logical, private :: keep_fields = .true.
-      !> The surface on its smaller cell, if that is solved: turned by 45 degrees.
+      !> The surface on its smaller cell, if that is solved: rotated by 45 degrees.
       type(surface_type), allocatable, private :: smaller
    contains
       procedure :: start
@@ -105,13 +105,13 @@ contains
       if (all(self%options%points > 0)) traits%given_grid = plan%last
    end function traits
 
-   !> Solves one load by solve_by_cascade.
+   !> Solves one load by solve_by_sequence.
    subroutine solve_partial_contact(self, pbar_over_pstar, solution)
       class(grid_contact), intent(inout) :: self
       real(dp), intent(in) :: pbar_over_pstar
       type(contact_solution), intent(out) :: solution
 
-      type(cascade_answer) :: answer
+      type(sequence_answer) :: answer
       type(grid_source), allocatable :: source
 
       if (allocated(self%smaller)) then
@@ -165,8 +165,8 @@ contains
       end if
       if (.not. self%keep_fields) return
       allocate (source)
-      source%turned = allocated(self%smaller)
-      source%imprint = answer%state%imprint
+      source%rotated = allocated(self%smaller)
+      source%residual_indentation = answer%state%residual_indentation
       call source%take_edge(answer%edge)
       call move_alloc(source, solution%source)
    end subroutine solve_partial_contact
@@ -176,14 +176,14 @@ contains
       class(grid_contact), intent(in) :: self
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: pbar_over_pstar
-      type(cascade_answer), intent(out) :: answer
+      type(sequence_answer), intent(out) :: answer
 
       associate (accuracy => self%options%accuracy*10.0_dp**self%level, points => self%options%points/2**self%level, &
                  residual => self%options%residual)
          if (associated(self%progress)) then
-            call solve_by_cascade(surface, pbar_over_pstar, accuracy, points, answer, self%progress, residual)
+            call solve_by_sequence(surface, pbar_over_pstar, accuracy, points, answer, self%progress, residual)
          else
-            call solve_by_cascade(surface, pbar_over_pstar, accuracy, points, answer, residual=residual)
+            call solve_by_sequence(surface, pbar_over_pstar, accuracy, points, answer, residual=residual)
          end if
       end associate
    end subroutine solve_cell

@@ -19,8 +19,8 @@ module wavycon_grid_error
 
    public :: change_history, estimate_errors, implied_errors, unresolved_errors
 
-   !> Mean gap, contact area and peak pressure on the last grid, and their last two changes: of fewer than three grids
-   !> estimates are unknown.
+   !> Mean gap, contact area and peak pressure on the last grid, and their last two changes; with fewer than three grids
+   !> the estimates are unknown.
    type :: change_history
       real(dp) :: values(3) = unknown
       real(dp) :: change(3) = unknown
@@ -92,7 +92,7 @@ contains
    !> Number of points in contact, with no open point beside them, whose pressure is so far below that of a neighbour
    !> that a gap may lie between them, o of (C15).
    integer(int64) function possible_openings(edge) result(openings)
-      type(grid_edge), intent(in) :: edge   !! with the columns of the neighbours, if the grid is spread
+      type(grid_edge), intent(in) :: edge   !! with the columns of the neighbours, if the grid is distributed
 
       real(dp), dimension(0:edge%slab%points(1) + 1) :: before, here, next
       integer(int64) :: total(1)

@@ -1,5 +1,5 @@
-!> The fields of a solution on a grid: at the points of the grid those of the solution, between them interpolated by
-!> (C19), (C20) of README.md so that contact and gap exclude each other.
+!> The fields of a solution on a grid. At its points they are those of the solution. Between the points (C19), (C20) of
+!> README.md interpolate them so that contact and gap exclude each other.
 !>
 !> One function has the signs and the places of both: p^2 in contact and -(a gap)^(2/3) elsewhere fall in proportion to
 !> the distance from the edge on either side of it, and the factor a makes the slopes the same on the average.
@@ -22,7 +22,7 @@ module wavycon_grid_fields
       type(fourier_series) :: shape          !! of the surface: 1 - h/Delta
       real(dp) :: mean_gap = 1.0_dp          !! 1 - approach
       real(dp) :: hardness = huge(1.0_dp)    !! H, upper bound of the pressure [p*]
-      logical :: turned = .false.            !! whether the angles of the grid are X + Y and X - Y
+      logical :: rotated = .false.            !! whether the angles of the grid are X + Y and X - Y
       integer :: parts(2) = 1                !! of the surface: how often the points of on_grid fit into the cell
       real(dp) :: scale = 1.0_dp             !! a^(2/3) [p*^2/Delta^(2/3)]
       !> psi [p*^2] at the points of the grid and at two more beyond each side, shape (-1:M+2, -1:N+2). Not allocated
@@ -34,27 +34,28 @@ module wavycon_grid_fields
       procedure :: at_own_column
    end type grid_fields
 
-   !> Points that are nearer than this to a point of the grid, in steps, are that point: positions are rounded.
+   !> A position that is nearer than this to a point of the grid, in steps, counts as that point, as positions are
+   !> rounded.
    real(dp), parameter :: rounding = 1e-9_dp
 
 contains
 
-   subroutine start_grid_fields(fields, surface, edge, mean_gap, turned)
+   subroutine start_grid_fields(fields, surface, edge, mean_gap, rotated)
       type(grid_fields), intent(out) :: fields
       type(surface_type), intent(in) :: surface
       type(grid_edge), intent(in) :: edge       !! pressure [p*] and gap [Delta] at the points
       real(dp), intent(in) :: mean_gap          !! 1 - approach
-      logical, intent(in) :: turned             !! whether the angles of the grid are X + Y and X - Y
+      logical, intent(in) :: rotated             !! whether the angles of the grid are X + Y and X - Y
 
       fields%shape = surface%shape
       fields%edge = edge
       fields%mean_gap = mean_gap
       fields%hardness = surface%hardness
-      fields%turned = turned
+      fields%rotated = rotated
       fields%parts = surface%parts()
       fields%own_slab = edge%slab
-      ! The points of a turned grid are only every other one of any grid of the cell.
-      if (turned) return
+      ! The points of a rotated grid are every other point of a grid of the cell.
+      if (rotated) return
       fields%own_points = edge%slab%points
       if (.not. edge%even) return
       associate (are_halved => edge%slab%points > 1)
@@ -181,7 +182,7 @@ contains
       integer :: node(2)
 
       s = [x, y]
-      if (fields%turned) s = [x + y, x - y]
+      if (fields%rotated) s = [x + y, x - y]
       call locate(s(1), size(fields%edge%pressure_or_gap, 1), fields%edge%even, node(1), t(1))
       call locate(s(2), size(fields%edge%pressure_or_gap, 2), fields%edge%even, node(2), t(2))
       psi = cubic(fields%psi(node(1) - 1:node(1) + 2, node(2) - 1:node(2) + 2), t(1), t(2))
@@ -237,7 +238,7 @@ contains
                + slope_s(i)*value_t(j)*slope(psi(i - 1:i + 1, j)) + value_s(i)*slope_t(j)*slope(psi(i, j - 1:j + 1))
          end do
       end do
-      ! Between four points in contact there is no gap, and no contact between four others.
+      ! Between four points in contact there is no gap, and between four points outside no contact.
       linear = (1.0_dp - t)*((1.0_dp - s)*psi(0, 0) + s*psi(1, 0)) + t*((1.0_dp - s)*psi(0, 1) + s*psi(1, 1))
       if (all(psi(0:1, 0:1) > 0.0_dp)) then
          cubic = max(cubic, 0.5_dp*linear)

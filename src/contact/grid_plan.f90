@@ -14,8 +14,8 @@ module wavycon_grid_plan
 
    public :: bytes_of_grid, fast_size, finer_grid, fits_memory, grid_plan, plan_grids
 
-   !> Real numbers for each point besides the surface: pressure, undeformed gap, and what a correction or the measures
-   !> take. On maps of 2048 x 2048 points they were 5.5, with a hardness 6.5.
+   !> Real numbers for each point besides the surface: pressure, undeformed gap, and the memory of a correction or of
+   !> the measures. On maps of 2048 x 2048 points 5.5 were measured, with a hardness 6.5.
    integer, parameter :: numbers_of_point = 7
 
    type :: grid_plan
@@ -28,8 +28,8 @@ contains
 
    !> Plans the grids of a surface.
    !>
-   !> N.B. The shortest waves of a height map have two steps of its own grid. Coarser grids leave them out, and its
-   !> own grid has only two points to each: the changes from grid to grid do not show their error before the step is
+   !> N.B. The shortest waves of a height map have two steps of its own grid. Coarser grids lack these waves, and the
+   !> map's own grid has only two points to each: changes from grid to grid do not show their error before the step is
    !> halved once more. So the first trusted grid has half the step of the map's.
    pure type(grid_plan) function plan_grids(surface, points) result(plan)
       type(surface_type), intent(in) :: surface
@@ -121,8 +121,8 @@ contains
       if (power >= number) fast_size = power
    end function fast_size
 
-   !> Whether the memory that the system has available is enough to solve on a grid. The answer is the same wherever it
-   !> is asked for a slab of the grid.
+   !> Whether the available memory is enough to solve on a grid. The answer is the same on all ranks that have a slab of
+   !> the grid.
    logical function fits_memory(grid)
       integer, intent(in) :: grid(2)   !! points of the part of the cell that is solved
 

@@ -15,7 +15,7 @@ contains
       real(dp), intent(in), contiguous :: coarse(:, :)   !! own columns, shape (M, coarse_slab%columns())
       type(grid_slab), intent(in) :: coarse_slab         !! of M x N points; N = 1 in 1-D
       logical, intent(in) :: even                        !! whether the points are those of a quarter of the cell
-      type(grid_slab), intent(in) :: fine_slab           !! of 2M x 2N or 2M x 1 points; spread if coarse_slab is
+      type(grid_slab), intent(in) :: fine_slab           !! of 2M x 2N or 2M x 1 points; distributed if coarse_slab is
       real(dp), allocatable, intent(out) :: fine(:, :)   !! own columns, shape (2M, fine_slab%columns())
 
       real(dp), allocatable :: needed(:, :)
@@ -76,8 +76,8 @@ contains
       fine(2*m) = fine(2*m) + (1.0_dp - parts(2, even))*coarse(image_of_point(m + 1, m, even))
    end subroutine refine_line
 
-   !> The part of the nearest coarse point in the first or second of its fine points: on a quarter of the cell it lies
-   !> midway between both, on a whole cell at the first.
+   !> The weight of the nearest coarse point in the first or second of its two fine points: on a quarter of the cell it
+   !> lies midway between both, on a whole cell at the first.
    pure real(dp) function parts(k, even)
       integer, intent(in) :: k
       logical, intent(in) :: even

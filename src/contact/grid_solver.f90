@@ -23,23 +23,23 @@ module wavycon_grid_solver
 
    public :: grid_state, solve_on_grid
 
-   !> Residuals below the first, over Delta, are rounding. Those below the second are if a step does not halve them: how
-   !> far gaps are rounded depends on the depth of the surface and on its longest wave.
+   !> Residuals below the first, over Delta, are rounding. Those below the second are rounding if a step does not halve
+   !> them: the rounding of gaps depends on the depth of the surface and on its longest wave.
    real(dp), parameter :: rounding = 32*epsilon(1.0_dp), most_rounding = 1e-12_dp
 
    type :: grid_state
       type(grid_slab) :: slab                   !! of the grid
       real(dp), allocatable :: pressure(:, :)   !! p/p*, 0 <= p <= H, shape (M, slab%columns())
-      !> gap/Delta, negative where the surfaces overlap: at free points its deviation from zero, likewise
+      !> gap/Delta, negative where the surfaces overlap: at free points its deviation from zero; own columns
       real(dp), allocatable :: gap(:, :)
       real(dp) :: hardness = huge(1.0_dp)       !! H/p*, huge if there is none
       real(dp) :: mean_gap = 1.0_dp             !! 1 - approach; without a hardness G
-      real(dp) :: imprint = 0.0_dp              !! mean over the cell of the overlap where p = H [Delta] (C22)
+      real(dp) :: residual_indentation = 0.0_dp   !! mean over the cell of the overlap where p = H [Delta] (C22)
       real(dp) :: residual = huge(1.0_dp)       !! root mean square of the violated conditions on the gap, over G (C9)
       integer :: corrections = 0                !! steps
       integer :: iterations = 0                 !! of all corrections
       integer :: local_iterations = 0           !! those of them preconditioned by the stencil
-      integer :: plain_iterations = 0           !! those without extension of the gap
+      integer :: plain_iterations = 0           !! those without the multilevel preconditioner or the stencil
       logical :: converged = .false.
       logical :: interrupted = .false.          !! by `progress`: the gap is not allocated
       logical, private :: is_open = .true.      !! whether any point has no pressure; only with a hardness
@@ -52,11 +52,12 @@ contains
    !> Solves (C1) on a grid. If it does not converge in most_iterations, state%converged is false.
    subroutine solve_on_grid(half_space, stencil, undeformed_gap, residual, most_iterations, state, progress)
       type(compliance_operator), intent(inout) :: half_space   !! S, started on the grid
-      type(local_stiffness), intent(in) :: stencil   !! likewise
+      type(local_stiffness), intent(in) :: stencil   !! S^-1 up to some steps, started on the grid
       real(dp), intent(in) :: undeformed_gap(:, :)   !! h/Delta, shape (M, state%slab%columns())
       real(dp), intent(in) :: residual               !! the largest allowed (C9), > 0; 0: that of (C10)
       integer, intent(in) :: most_iterations
-      !> On entry `slab` and `hardness` are set and `pressure` is the start, 0 <= p <= H; its mean P in (0, H) stays.
+      !> On entry `slab` and `hardness` are set and `pressure` is the start, 0 <= p <= H, whose mean P in (0, H) is
+      !> kept.
       type(grid_state), intent(inout) :: state
       class(solver_progress), intent(in), optional :: progress   !! is asked before each iteration
 
@@ -85,7 +86,7 @@ contains
       state%residual = state%residual/max(size_of_gaps(state), rounding)
    end subroutine solve_on_grid
 
-   !> Corrects the pressure until the residual is a part of what it is.
+   !> Corrects the pressure until the residual has fallen to a given part.
    subroutine correct_pressure(half_space, stencil, part, most_iterations, state, progress)
       type(compliance_operator), intent(inout) :: half_space
       type(local_stiffness), intent(in) :: stencil
@@ -111,11 +112,11 @@ contains
       state%plain_iterations = state%plain_iterations + correction%preconditioner%plain_iterations
    end subroutine correct_pressure
 
-   !> The mean gap of surfaces that touch where they overlap, G [Delta]: zero if no point is open.
+   !> The mean gap G [Delta], where overlaps count as zero; zero if no point is open.
    pure real(dp) function open_gap(self)
       class(grid_state), intent(in) :: self   !! solved
 
-      open_gap = self%mean_gap + self%imprint
+      open_gap = self%mean_gap + self%residual_indentation
       if (self%hardness >= huge(self%hardness)) return
       if (.not. self%is_open) open_gap = 0.0_dp
    end function open_gap
@@ -124,7 +125,7 @@ contains
    pure real(dp) function size_of_gaps(state)
       type(grid_state), intent(in) :: state
 
-      size_of_gaps = abs(state%open_gap() + state%imprint)
+      size_of_gaps = abs(state%open_gap() + state%residual_indentation)
    end function size_of_gaps
 
    !> Whether a pressure lies between its bounds: the gap is zero there.
@@ -194,13 +195,13 @@ contains
          sums = state%slab%column_totals(violations)
       end associate
       state%residual = sqrt(sums(1)/points)
-      state%imprint = sums(2)/points
+      state%residual_indentation = sums(2)/points
       state%is_open = sums(3) > 0.0_dp
       state%mean_gap = 1.0_dp - (approach + change)
    end subroutine compute_gap
 
-   !> Changes the approach to that of the least residual: the mean over the free points and those that it violates. A
-   !> few free points alone may have a gap that makes many others violate their conditions.
+   !> Changes the approach to that of the least residual: the mean over the free points and the points that violate
+   !> their conditions. The mean over a few free points alone might make many others violate theirs.
    subroutine reduce_violation(slab, gap, pressure, hardness, change)
       type(grid_slab), intent(in) :: slab
       real(dp), intent(in) :: gap(:, :), pressure(:, :), hardness
@@ -254,7 +255,7 @@ contains
          free(:, j) = 0.0_sp
          if (touched(j)) free(:, j) = merge(1.0_sp, 0.0_sp, is_free(state%pressure(:, j), state%hardness))
       end do
-      ! The edge across the rim of a whole cell is left out: mirror images at the rim are no neighbours.
+      ! The edge across the border of a whole cell is left out, because mirror images at the border are no neighbours.
       call state%slab%halo(free, .true., low, high)
       do j = 1, n
          beside = .false.
@@ -272,8 +273,8 @@ contains
       gap = sqrt(sums(1)/max(sums(2), 1.0_dp)*sums(3)/product(real(state%slab%points, dp)))
    end function gap_at_edge
 
-   !> The points that may be free after the next correction: those that are free or whose gap has the wrong sign, and
-   !> those within some steps of them.
+   !> The points that may be free after the next correction: points that are free or whose gap has the wrong sign, and
+   !> points within some steps of these.
    subroutine find_region(state, inside)
       type(grid_state), intent(in) :: state
       logical(c_bool), allocatable, intent(out) :: inside(:, :)   !! shape (M, slab%columns())

@@ -1,9 +1,12 @@
-!> The source of fields, edge curves and stresses of a load that was solved on a grid: pressures and gaps at its points.
+!> The source of fields, contact contours and stresses of a load that was solved on a grid: pressures and gaps at its
+!> points.
 module wavycon_grid_source
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_measures, only: or_nan
-   use wavycon_edge_curves, only: edge_curve, shift_curve, strip_ends, trace_edges, turn_curves, whole_strips
+   use wavycon_contact_contours, only: contact_contour, shift_contour, strip_ends, trace_edges, rotate_contours, &
+         whole_strips
    use wavycon_field_source, only: field_source
    use wavycon_fourier_series, only: fourier_series
    use wavycon_grid_area, only: grid_strip_edges
@@ -19,7 +22,7 @@ module wavycon_grid_source
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type
    use wavycon_system, only: has_memory_for
-   use wavycon_turned_series, only: to_difference_angles
+   use wavycon_rotated_series, only: to_difference_angles
    implicit none (type, external)
    private
 
@@ -27,20 +30,21 @@ module wavycon_grid_source
 
    type, extends(field_source) :: grid_source
       type(grid_edge), allocatable :: edge    !! pressure and gap at the grid points; always allocated
-      logical :: turned = .false.             !! the grid's cell is the smaller one, turned by 45 degrees
-      real(dp) :: imprint = 0.0_dp            !! mean overlap where p = H [Delta] (C22)
+      logical :: rotated = .false.             !! the grid's cell is the smaller one, rotated by 45 degrees
+      real(dp) :: residual_indentation = 0.0_dp            !! mean overlap where p = H [Delta] (C22)
    contains
       procedure :: take_edge
       procedure :: fields
-      procedure :: edge_curves
+      procedure :: contact_contours
       procedure :: stresses
       procedure :: collect
       procedure :: pack => pack_source
       procedure :: unpack => unpack_source
+      procedure :: has_all_columns
    end type grid_source
 
    !> Numbers in the array of pack_source before the field.
-   integer, parameter :: own_values = 9
+   integer, parameter :: own_values = 8
 
 contains
 
@@ -50,10 +54,11 @@ contains
       type(grid_edge), allocatable, intent(inout) :: edge   !! not allocated afterwards
 
       call move_alloc(edge, self%edge)
-      self%spread_points = merge(product(int(self%edge%slab%points, int64)), 0_int64, self%edge%slab%is_spread)
+      self%distributed_points = merge(product(int(self%edge%slab%points, int64)), 0_int64, &
+            self%edge%slab%is_distributed)
    end subroutine take_edge
 
-   !> Gathers the pressures and gaps of a grid that is spread where the tables are written.
+   !> Gathers the pressures and gaps of a distributed grid on the rank that writes the tables.
    subroutine collect(self, is_here)
       class(grid_source), intent(inout) :: self
       logical, intent(out) :: is_here
@@ -62,7 +67,7 @@ contains
       real(dp), allocatable :: values(:, :)
 
       is_here = .true.
-      if (self%spread_points == 0) return
+      if (self%distributed_points == 0) return
       associate (slab => self%edge%slab)
          call slab%gather_to_first(self%edge%pressure_or_gap, values)
       end associate
@@ -82,16 +87,17 @@ contains
       type(grid_fields), allocatable :: own
 
       allocate (own)
-      call start_grid_fields(own, surface, self%edge, record%measures%mean_gap_over_amplitude - self%imprint, &
-                             self%turned)
+      call start_grid_fields(own, surface, self%edge, &
+            record%measures%mean_gap_over_amplitude - self%residual_indentation, &
+                             self%rotated)
       call move_alloc(own, answer)
    end subroutine fields
 
-   subroutine edge_curves(self, record, surface, curves, loads)
+   subroutine contact_contours(self, record, surface, curves, loads)
       class(grid_source), intent(in) :: self
       type(solution_record), intent(in) :: record
       type(surface_type), intent(in) :: surface
-      type(edge_curve), allocatable, intent(out) :: curves(:)
+      type(contact_contour), allocatable, intent(out) :: curves(:)
       real(dp), allocatable, intent(out) :: loads(:)
 
       type(region_numbers) :: numbers
@@ -100,16 +106,16 @@ contains
 
       associate (unused => record); end associate
       if (surface%dimension == 2) then
-         if (self%turned) then
-            ! The surface's cell is two of the grid's.
+         if (self%rotated) then
+            ! The surface's cell consists of two cells of the grid.
             call trace_edges(self%edge, curves, self%edge%period*[2, 1], self%edge%period(1), numbers)
          else
             call trace_edges(self%edge, curves, numbers=numbers, with_images=surface%mirrored)
          end if
          do i = 1, size(curves)
-            call shift_curve(curves(i), self%edge%period, edge_offset)
+            call shift_contour(curves(i), self%edge%period, edge_offset)
          end do
-         if (self%turned) call turn_curves(curves, factor=0.5_dp)
+         if (self%rotated) call rotate_contours(curves, factor=0.5_dp)
          call spot_loads(self%edge, numbers, loads)
       else
          call grid_strip_edges(self%edge, edges)
@@ -120,11 +126,11 @@ contains
          end if
          call strip_loads(self%edge, size(curves), loads)
       end if
-   end subroutine edge_curves
+   end subroutine contact_contours
 
-   !> Of the series that interpolates the pressures at the points. Its error is that of the peak pressure and the part
-   !> of the series' last octave, or unknown as that of the peak is. Without the memory for the series there are no
-   !> stresses.
+   !> The stresses of the series that interpolates the pressures at the points. Their error is that of the peak pressure
+   !> and the part of the series' last octave; it is unknown where that of the peak is. Without the memory for the
+   !> series there are no stresses.
    subroutine stresses(self, record, surface, answer)
       class(grid_source), intent(in) :: self
       type(solution_record), intent(in) :: record
@@ -134,7 +140,7 @@ contains
       type(fourier_series) :: pressure
       type(grid_transform) :: transform
       type(series_stress), allocatable :: own
-      !> Of the whole cell: pressures, series, waves; twice as many from a turned cell.
+      !> Numbers on the whole cell: pressures, series, waves; twice as many from a rotated cell.
       integer(int64), parameter :: numbers_a_point = 8
       real(dp) :: error
       real(dp), allocatable :: values(:, :)
@@ -146,22 +152,23 @@ contains
          return
       end if
       values = max(self%edge%pressure_or_gap, 0.0_dp)
-      ! If all points are in contact below full contact, they miss a gap; with it closed the pressure there is P - 1.
+      ! If all points are in contact at P < 1, the grid misses a gap. If that gap were closed the pressure there would
+      ! be P - 1.
       error = record%measures%peak_pressure_error
       if (all(values > 0.0_dp)) error = max(error, 1.0_dp - record%pbar_over_pstar)
       error = or_nan(error)
       call transform%start(shape(values), self%edge%even, whole=.true.)
       call transform%series(values, pressure)
       deallocate (values)
-      if (self%turned) pressure = to_difference_angles(pressure)
+      if (self%rotated) pressure = to_difference_angles(pressure)
       call start_series_stress(own, surface, pressure, record%pbar_over_pstar, &
                                pressure_error=error, is_sampled=.true.)
       call move_alloc(own, answer)
    end subroutine stresses
 
-   !> What a checkpoint keeps: the imprint, the stiffness of `edge`, the points along x and y, the width of the slabs
-   !> and the first column of this rank's, whether the cell is turned, whether the grid covers a quarter of it, and the
-   !> pressures and gaps at the own columns.
+   !> What a checkpoint keeps: the residual_indentation, the stiffness of `edge`, the points along x and y, the first of
+   !> the own columns, whether the cell is turned, whether the grid covers a quarter of it, and the pressures and gaps
+   !> at the own columns.
    pure subroutine pack_source(self, values)
       class(grid_source), intent(in) :: self
       real(dp), allocatable, intent(out) :: values(:)   !! not allocated if there is not enough memory
@@ -173,46 +180,62 @@ contains
          rows = size(edge%pressure_or_gap, 1)
          allocate (values(own_values + size(edge%pressure_or_gap, kind=int64)), stat=status)
          if (status /= 0) return
-         values(:own_values) = [self%imprint, edge%stiffness, real([slab%points, slab%width, slab%first], dp), &
-                                merge(1.0_dp, 0.0_dp, [self%turned, edge%even])]
+         values(:own_values) = [self%residual_indentation, edge%stiffness, real([slab%points, slab%first], dp), &
+                                merge(1.0_dp, 0.0_dp, [self%rotated, edge%even])]
          do j = 1, size(edge%pressure_or_gap, 2)
             values(own_values + (j - 1)*rows + 1:own_values + j*rows) = edge%pressure_or_gap(:, j)
          end do
       end associate
    end subroutine pack_source
 
-   !> Restores what pack_source made. N.B. Without exchange: other slabs may have numbers that are not understood.
-   pure subroutine unpack_source(self, values, understood)
-      class(grid_source), intent(inout) :: self
+   !> Takes the columns that pack_source has put into an array on any rank, as far as they are own ones here. Called for
+   !> the arrays of all ranks, it restores the source: has_all_columns.
+   subroutine unpack_source(self, values, whole, understood)
+      class(grid_source), intent(inout) :: self   !! empty at first
       real(dp), intent(in) :: values(:)
-      logical, intent(out) :: understood                !! .false. if these are not the numbers of a grid
+      logical, intent(in) :: whole                !! whether the own columns are all columns
+      logical, intent(out) :: understood          !! .false. if these are not the numbers of a grid, or of another one
 
-      integer :: columns, j, layout(4)
-      integer(int64) :: rows
+      integer :: columns, first, j, points(2)
+      integer(int64) :: before, rows
       real(dp), allocatable :: field(:, :)
       type(grid_edge), allocatable :: edge
       type(grid_slab) :: slab
 
       understood = size(values) >= own_values
-      if (understood) understood = all(values(4:7) >= 0.0_dp .and. values(4:7) <= huge(layout))
+      if (understood) understood = all(values(4:6) >= 1.0_dp .and. values(4:6) <= huge(points))
       if (.not. understood) return
-      layout = nint(values(4:7))
-      slab = grid_slab(points=layout(:2), width=layout(3), first=layout(4), is_spread=layout(3) < layout(2))
-      slab%last = min(slab%first - 1 + slab%width, slab%points(2))
-      columns = slab%columns()
-      rows = slab%points(1)
-      understood = columns >= 0 .and. rows > 0 .and. rows*columns == size(values, kind=int64) - own_values
+      points = nint(values(4:5))
+      first = nint(values(6))
+      rows = points(1)
+      columns = int((size(values, kind=int64) - own_values)/rows)
+      understood = columns <= points(2) - first + 1 .and. rows*columns == size(values, kind=int64) - own_values
       if (.not. understood) return
-      self%imprint = values(1)
-      self%turned = values(8) > 0.0_dp
-      allocate (field(rows, columns))
-      do j = 1, columns
-         field(:, j) = values(own_values + (j - 1)*rows + 1:own_values + j*rows)
-      end do
-      allocate (edge)
-      call make_grid_edge(edge, field, values(9) > 0.0_dp, values(2:3), slab)
-      call self%take_edge(edge)
+      if (.not. allocated(self%edge)) then
+         self%residual_indentation = values(1)
+         self%rotated = values(7) > 0.0_dp
+         call slab%start(points, whole)
+         allocate (field(rows, slab%columns()), source=ieee_value(1.0_dp, ieee_quiet_nan))
+         allocate (edge)
+         call make_grid_edge(edge, field, values(8) > 0.0_dp, values(2:3), slab)
+         call self%take_edge(edge)
+      end if
+      associate (own => self%edge%slab)
+         understood = all(own%points == points)
+         if (.not. understood) return
+         do j = max(first, own%first), min(first + columns - 1, own%last)
+            before = own_values + (j - first)*rows
+            self%edge%pressure_or_gap(:, j - own%first + 1) = values(before + 1:before + rows)
+         end do
+      end associate
    end subroutine unpack_source
+
+   !> Whether unpack has found all own columns.
+   pure logical function has_all_columns(self)
+      class(grid_source), intent(in) :: self
+
+      has_all_columns = .not. any(ieee_is_nan(self%edge%pressure_or_gap(1, :)))
+   end function has_all_columns
 
    !> What each spot carries of the load: the pressures at its points.
    pure subroutine spot_loads(edge, numbers, loads)
@@ -233,7 +256,7 @@ contains
       if (numbers%spots > 0) loads = loads/sum(loads)
    end subroutine spot_loads
 
-   !> The same of the strips of a 1-D contact, which begin with the one of the first point.
+   !> The part of the load that each strip of a 1-D contact carries; the first strip is that of the first point.
    pure subroutine strip_loads(edge, strips, loads)
       type(grid_edge), intent(in) :: edge
       integer, intent(in) :: strips   !! their number

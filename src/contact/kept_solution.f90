@@ -38,21 +38,27 @@ contains
       if (allocated(values)) words = [words_of_record(solution), transfer(values, [0_int64])]
    end subroutine pack_solution
 
-   !> Restores what pack_solution made.
-   subroutine unpack_solution(words, solution, understood)
+   !> Restores what pack_solution made. A grid that is distributed is restored by the words of all ranks that had
+   !> columns of it: called for one after the other, in any order.
+   subroutine unpack_solution(words, whole, solution, complete, understood)
       integer(int64), intent(in) :: words(:)
-      type(contact_solution), intent(out) :: solution
-      logical, intent(out) :: understood                       !! .false. if these are not the words of a solution
+      logical, intent(in) :: whole   !! whether this rank needs all columns of a grid that was spread
+      type(contact_solution), intent(inout) :: solution  !! without a source at first
+      logical, intent(out) :: complete                   !! whether nothing is missing any more
+      logical, intent(out) :: understood                 !! .false. if these are not the words of a solution
 
-      type(grid_source), allocatable :: source
-
+      complete = .false.
       understood = size(words) >= record_words
       if (.not. understood) return
       solution%solution_record = record_of_words(words(:record_words))
-      if (size(words) == record_words) return
-      allocate (source)
-      call source%unpack(transfer(words(record_words + 1:), [0.0_dp]), understood)
-      call move_alloc(source, solution%source)
+      complete = size(words) == record_words
+      if (complete) return
+      if (.not. allocated(solution%source)) allocate (grid_source :: solution%source)
+      select type (source => solution%source)
+      type is (grid_source)
+         call source%unpack(transfer(words(record_words + 1:), [0.0_dp]), whole, understood)
+         if (understood) complete = source%has_all_columns()
+      end select
    end subroutine unpack_solution
 
 end module wavycon_kept_solution

@@ -17,8 +17,9 @@ module wavycon_pressure_step
 
 contains
 
-   !> Moves pressure and gap by a step. Points whose pressure would not stay positive leave the free ones; the others
-   !> are then multiplied by a factor that restores the mean pressure (C7). Where points pass H, (C24) takes its place.
+   !> Moves pressure and gap by a step. Points whose pressure would not stay positive are removed from the active set;
+   !> the others are then multiplied by a factor that restores the mean pressure (C7). Where points pass H, (C24) takes
+   !> its place.
    subroutine take_step(state, direction, step, field, sums, has_met_bounds)
       type(correction_state), intent(inout) :: state
       real(sp), intent(in), contiguous :: direction(:)   !! d, shape (region%points)

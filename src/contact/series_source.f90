@@ -3,7 +3,7 @@ module wavycon_series_source
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_measures, only: measuring_intervals
-   use wavycon_edge_curves, only: edge_curve, strip_ends, trace_edges, turn_curves
+   use wavycon_contact_contours, only: contact_contour, strip_ends, trace_edges, rotate_contours
    use wavycon_field_source, only: field_source
    use wavycon_fourier_series, only: fourier_series
    use wavycon_fourier_terms, only: fourier_terms
@@ -15,7 +15,7 @@ module wavycon_series_source
    use wavycon_solution_record, only: solution_record
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type
-   use wavycon_turned_series, only: to_sum_angles
+   use wavycon_rotated_series, only: to_sum_angles
    implicit none (type, external)
    private
 
@@ -23,14 +23,14 @@ module wavycon_series_source
 
    type, extends(field_source) :: series_source
       type(fourier_terms) :: terms
-      logical :: turned = .false.          !! phi and theta are the cell's angles turned by 45 degrees
+      logical :: rotated = .false.          !! phi and theta are the cell's angles rotated by 45 degrees
       real(dp) :: edge_level = 0.0_dp      !! isobar taken as the edge of contact [p*]
       real(dp), allocatable :: x(:)        !! amplitudes of the terms of (p - pbar)/p*
    contains
       procedure :: pressure
       procedure :: displacement
       procedure :: fields
-      procedure :: edge_curves
+      procedure :: contact_contours
       procedure :: stresses
       procedure :: coefficients
    end type series_source
@@ -94,15 +94,15 @@ contains
       type(fourier_series), intent(out) :: series
 
       series = self%pressure(record%pbar_over_pstar)
-      if (self%turned) series = to_sum_angles(series)
+      if (self%rotated) series = to_sum_angles(series)
    end subroutine coefficients
 
    !> The isobar p = edge_level p*.
-   subroutine edge_curves(self, record, surface, curves, loads)
+   subroutine contact_contours(self, record, surface, curves, loads)
       class(series_source), intent(in) :: self
       type(solution_record), intent(in) :: record
       type(surface_type), intent(in) :: surface
-      type(edge_curve), allocatable, intent(out) :: curves(:)
+      type(contact_contour), allocatable, intent(out) :: curves(:)
       real(dp), allocatable, intent(out) :: loads(:)
 
       type(fourier_series) :: series
@@ -113,10 +113,10 @@ contains
       associate (level => self%edge_level, harmonics => self%terms%harmonics)
          if (surface%dimension == 2) then
             call start_isobar_grid(grid, series, level, measuring_intervals(harmonics))
-            if (self%turned) then
+            if (self%rotated) then
                ! A period of phi and theta is two cells.
                call trace_edges(grid, curves, cell=grid%period/[1, 2], skew=grid%period(1)/2)
-               call turn_curves(curves, factor=1.0_dp)
+               call rotate_contours(curves, factor=1.0_dp)
             else
                call trace_edges(grid, curves)
             end if
@@ -128,6 +128,6 @@ contains
          ! The part outside the isobar is not known.
          allocate (loads(0))
       end associate
-   end subroutine edge_curves
+   end subroutine contact_contours
 
 end module wavycon_series_source

@@ -1,4 +1,5 @@
-!> The numbers of a solution as one plain record: what tables without fields, checkpoints and other processes need of it.
+!> The numbers of a solution as one plain record: what tables without fields, checkpoints and other processes need of
+!> it.
 module wavycon_solution_record
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_measures, only: contact_measures, unmeasured

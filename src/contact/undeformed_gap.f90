@@ -12,7 +12,7 @@ module wavycon_undeformed_gap
 contains
 
    !> h/Delta at the points of a grid. Waves of the surface beyond the grid's highest wave number are left out. The
-   !> digits do not depend on how the grid and the surface are spread.
+   !> digits do not depend on how the grid and the surface are distributed.
    subroutine sample_undeformed_gap(surface, slab, h)
       type(surface_type), intent(in) :: surface
       type(grid_slab), intent(in) :: slab                !! of the grid, of a quarter of the cell if the surface is even

@@ -1,6 +1,6 @@
 !> Matches the groups and keys of a scanned deck with the tables, and reads the values.
 module wavycon_deck_groups
-   use wavycon_deck_scanner, only: entry_type, scan_type
+   use wavycon_deck_scanner, only: entry_type, scan_deck, scan_type
    use wavycon_deck_text, only: deck_text_type
    use wavycon_deck_tokens, only: is_broken_word, is_word
    use wavycon_group_values, only: group_values
@@ -8,12 +8,12 @@ module wavycon_deck_groups
    use wavycon_key_values, only: read_value, word_value
    use wavycon_kinds, only: dp
    use wavycon_nearest_name, only: did_you_mean, nearest_name
-   use wavycon_plain_text, only: excerpt, integer_text, listed, lower_case
+   use wavycon_plain_text, only: excerpt, integer_text, listed, lower_case, newline
    use wavycon_problems, only: problem_list_type
    implicit none (type, external)
    private
 
-   public :: group_name, take_groups, word_of
+   public :: group_name, read_group_text, take_groups, word_of
 
 contains
 
@@ -40,6 +40,27 @@ contains
          call report_missing(groups(i), problems)
       end do
    end subroutine take_groups
+
+   !> Reads the keys of one group from a text that holds nothing else, without '&name' and '/', and checks them against
+   !> the table, as those of a deck.
+   subroutine read_group_text(table, keys, values, text, problems)
+      type(key_group_type), intent(in) :: table
+      character(*), intent(in) :: keys                     !! such as "solver = 'grid', accuracy = 1e-4"
+      type(group_values), intent(out) :: values
+      type(deck_text_type), intent(out) :: text            !! to which the places of the problems refer
+      type(problem_list_type), intent(inout) :: problems
+
+      type(group_values) :: groups(1)
+      type(key_group_type) :: tables(1)
+      type(scan_type) :: scan
+
+      ! The keys may end in a comment, so that the '/' needs a line of its own.
+      text = deck_text_type('&'//trim(table%name), '&'//trim(table%name)//' '//keys//newline//'/')
+      tables(1) = table
+      call scan_deck(text, scan, problems)
+      call take_groups(text, scan, tables, groups, problems)
+      values = groups(1)
+   end subroutine read_group_text
 
    !> Finds the table of each group of the deck. It is 0 for an unknown group and for one that is given twice; both are
    !> reported.
@@ -115,7 +136,7 @@ contains
       type(group_values), intent(inout) :: values
       type(problem_list_type), intent(inout) :: problems
 
-      character(:), allocatable :: key
+      character(:), allocatable :: first, key
       integer :: e, i, k
 
       do i = 1, size(entries)
@@ -124,10 +145,11 @@ contains
          k = key_index(values%table%keys, key)
          if (k == 0) cycle
          if (values%has(key)) then
-            call problems%add(place(e), key//' is given twice, first '//where_is(text, values%place_of(key)))
-            call values%note_bad(key)
+            first = 'in line '//integer_text(text%line_of(values%place_of(key)))
+            if (text%is_in_option(values%place_of(key))) first = 'by '//excerpt(text%option_at(values%place_of(key)))
+            call problems%add(place(e), key//' is given twice, first '//first)
+            call values%take(key, values%place_of(key))
          else
-            call values%note_key(key, place(e))
             call take_value(text, scan, scan%entries(e), values%table%keys(k), values, problems)
          end if
       end do
@@ -141,9 +163,7 @@ contains
          k = nearest_name(key, key_names(values%table%keys))
          if (k == 0) cycle
          key = trim(values%table%keys(k)%name)
-         if (values%has(key)) cycle
-         call values%note_key(key, place(e))
-         call values%note_bad(key)
+         if (.not. values%has(key)) call values%take(key, place(e))
       end do
 
    contains
@@ -155,16 +175,6 @@ contains
       end function place
 
    end subroutine take_keys
-
-   !> "in line N", or "by" an option.
-   pure function where_is(text, place) result(words)
-      type(deck_text_type), intent(in) :: text
-      integer, intent(in) :: place
-      character(:), allocatable :: words
-
-      words = 'in line '//integer_text(text%line_of(place))
-      if (text%is_in_option(place)) words = 'by '//excerpt(text%option_at(place))
-   end function where_is
 
    !> The message for a key that the group does not have.
    pure function unknown_key(key, table, tables) result(words)
@@ -230,9 +240,10 @@ contains
       character(:), allocatable :: trouble
       logical :: is_good
       real(dp) :: numbers(key%most_values)
-      integer :: repeats, t, used
+      integer :: place, repeats, t, used
       type(word_value) :: value
 
+      place = scan%tokens(entry%key)%first
       is_good = .true.
       used = 0
       do t = entry%first_value, entry%last_value
@@ -258,12 +269,12 @@ contains
             used = used + repeats
          end associate
       end do
-      if (entry%last_value < entry%first_value) call problems%add(scan%tokens(entry%key)%first, trim(key%name)// &
+      if (entry%last_value < entry%first_value) call problems%add(place, trim(key%name)// &
          ' has no value: it must be '//allowed_values(key))
       if (is_good .and. used > 0) then
-         call values%take(trim(key%name), value, numbers(:used))
+         call values%take(trim(key%name), place, numbers(:used), value%text)
       else
-         call values%note_bad(trim(key%name))
+         call values%take(trim(key%name), place)
       end if
    end subroutine take_value
 

@@ -2,66 +2,60 @@
 module wavycon_deck_keys
    use wavycon_deck, only: deck_type
    use wavycon_group_values, only: group_values
-   use wavycon_key_table, only: choice_value, integer_value, key_type, logical_value, real_value, text_value
-   use wavycon_plain_text, only: exact_number, integer_text
+   use wavycon_key_table, only: integer_value, key_type, logical_value, number_text, real_value
    implicit none (type, external)
    private
 
    public :: deck_key, list_keys
 
    !> Bytes of a name.
-   integer, parameter, public :: longest_key_name = 49
+   integer, parameter :: longest_key_name = 49
 
    type :: deck_key
       character(longest_key_name) :: name = ''   !! 'group_key'
-      character(:), allocatable :: word   !! the value in effect, without blanks; '-' for an empty text
-      logical :: is_number = .false.      !! whether the key has numbers for values
+      !> The value in effect, without blanks; '-' for an empty text. Without an effect 'NaN' of a number, '-' of a word.
+      character(:), allocatable :: word
+      logical :: in_effect = .false.
       logical :: given = .false.          !! whether the deck or the command line gives it
    end type deck_key
 
 contains
 
-   !> Lists the keys of &material, &surface, &load, &stress and &method that have an effect. Left out are lists of
-   !> loads: a table has a row for each.
+   !> Lists the keys of &material, &surface, &load, &stress and &method, the same for all decks. Lists of loads have no
+   !> effect here: a table has a row for each.
    subroutine list_keys(deck, keys)
       type(deck_type), intent(in) :: deck   !! without problems
       type(deck_key), allocatable, intent(out) :: keys(:)
 
-      type(deck_key), allocatable :: room(:)
-      integer :: i, number
+      integer :: number
 
-      allocate (room(size(deck%material%table%keys) + size(deck%surface_values%table%keys) + &
-                     size(deck%load%table%keys) + size(deck%stress%table%keys) + &
-                     size(deck%method%table%keys)))
+      allocate (keys(size(deck%material%table%keys) + size(deck%surface_values%table%keys) + &
+                     size(deck%load%table%keys) + size(deck%stress%table%keys) + size(deck%method%table%keys)))
       number = 0
-      call add_group(deck%material)
-      call add_group(deck%surface_values)
-      call add_group(deck%load)
-      if (deck%stress%place > 0) call add_group(deck%stress)
-      call add_group(deck%method)
-      allocate (keys(number))
-      do i = 1, number
-         keys(i) = room(i)
-      end do
+      call add_group(deck%material, .true.)
+      call add_group(deck%surface_values, .true.)
+      call add_group(deck%load, .true.)
+      call add_group(deck%stress, deck%stress%place > 0)
+      call add_group(deck%method, .true.)
 
    contains
 
-      subroutine add_group(values)
+      subroutine add_group(values, is_asked_for)
          type(group_values), intent(in) :: values
+         logical, intent(in) :: is_asked_for
 
-         character(:), allocatable :: name
          integer :: k
 
          do k = 1, size(values%table%keys)
-            associate (key => values%table%keys(k))
-               name = trim(key%name)
-               if (.not. values%in_effect(name)) cycle
-               if (values%table%name == 'load' .and. key%most_values > 1) cycle
-               number = number + 1
-               room(number)%name = trim(values%table%name)//'_'//name
-               room(number)%word = word_of(values, key)
-               room(number)%is_number = any(key%kind == [real_value, integer_value])
-               room(number)%given = values%has(name)
+            number = number + 1
+            associate (key => values%table%keys(k), listed => keys(number))
+               listed%name = trim(values%table%name)//'_'//key%name
+               listed%given = values%has(trim(key%name))
+               listed%in_effect = is_asked_for .and. values%in_effect(trim(key%name)) .and. &
+                                  .not. (values%table%name == 'load' .and. key%most_values > 1)
+               listed%word = '-'
+               if (any(key%kind == [real_value, integer_value])) listed%word = 'NaN'
+               if (listed%in_effect) listed%word = word_of(values, key)
             end associate
          end do
       end subroutine add_group
@@ -75,29 +69,20 @@ contains
       character(:), allocatable :: word
 
       integer :: i
-      logical :: are_equal
 
-      word = ''
       select case (key%kind)
-      case (real_value)
-         associate (numbers => values%reals(trim(key%name)))
-            are_equal = .not. maxval(numbers) > minval(numbers)
-            do i = 1, merge(1, size(numbers), are_equal)
-               word = word//','//exact_number(numbers(i))
-            end do
+      case (real_value, integer_value)
+         associate (numbers => values%numbers(trim(key%name)))
+            word = number_text(key, numbers(1))
+            if (maxval(numbers) > minval(numbers)) then
+               do i = 2, size(numbers)
+                  word = word//','//number_text(key, numbers(i))
+               end do
+            end if
          end associate
-         word = word(2:)
-      case (integer_value)
-         associate (numbers => values%integers(trim(key%name)))
-            are_equal = .not. maxval(numbers) > minval(numbers)
-            do i = 1, merge(1, size(numbers), are_equal)
-               word = word//','//integer_text(numbers(i))
-            end do
-         end associate
-         word = word(2:)
       case (logical_value)
          word = trim(merge('.true. ', '.false.', values%logical(trim(key%name))))
-      case (choice_value, text_value)
+      case default
          word = values%text(trim(key%name))
          do i = 1, len(word)
             if (word(i:i) == ' ') word(i:i) = '_'

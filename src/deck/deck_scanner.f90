@@ -44,7 +44,7 @@ contains
       do while (t <= size(scan%tokens) .and. .not. problems%is_full())
          if (scan%tokens(t)%kind /= is_group .or. is_old_end(text, scan%tokens(t))) then
             call report_outside(text, scan%tokens, t, problems)
-            t = next_group(scan%tokens, t + 1)
+            t = next_start(scan%tokens, t + 1, in_group=.false.)
          else if (size(scan%groups) == most_groups) then
             call problems%add(scan%tokens(t)%first, 'a deck has at most '//integer_text(most_groups)// &
                ' groups: what follows is not read')
@@ -106,7 +106,7 @@ contains
             else
                call problems%add(token%first, "expected 'key = value', found '"//shown(text, token)//"'")
                quote_is_open = quote_is_open .or. token%kind == is_broken_word
-               t = next_in_group(scan%tokens, t + 1)
+               t = next_start(scan%tokens, t + 1, in_group=.true.)
             end if
          end associate
       end do
@@ -189,25 +189,18 @@ contains
          "' stands outside of any group: a group begins with &name and ends with '/'")
    end subroutine report_outside
 
-   !> The first token, from t on, that names a group; one behind the last if there is none.
-   pure integer function next_group(tokens, t) result(next)
+   !> The first token, from t on, that names a group or, within a group, begins an entry or ends it; one behind the last
+   !> if there is none.
+   pure integer function next_start(tokens, t, in_group) result(next)
       type(token_type), intent(in) :: tokens(:)
       integer, intent(in) :: t
+      logical, intent(in) :: in_group
 
       do next = t, size(tokens)
          if (tokens(next)%kind == is_group) exit
+         if (in_group .and. (tokens(next)%kind == is_slash .or. starts_entry(tokens, next))) exit
       end do
-   end function next_group
-
-   !> The first token, from t on, that begins an entry or ends the group; one behind the last if there is none.
-   pure integer function next_in_group(tokens, t) result(next)
-      type(token_type), intent(in) :: tokens(:)
-      integer, intent(in) :: t
-
-      do next = t, size(tokens)
-         if (any(tokens(next)%kind == [is_group, is_slash]) .or. starts_entry(tokens, next)) exit
-      end do
-   end function next_in_group
+   end function next_start
 
    !> Whether a token is '&end', which closed a namelist group before Fortran 90. Decks do not allow it.
    pure logical function is_old_end(text, token)

@@ -9,7 +9,7 @@ module wavycon_load_group
    implicit none (type, external)
    private
 
-   public :: load_table, check_load_group, check_loads_of_surface, given_loads, is_another_way
+   public :: load_table, check_load_group, check_loads_of_surface, given_loads
 
    !> Largest load accepted. Contact is full from 1 on: a load far above it is most likely a mistake of units.
    real(dp), parameter :: largest_pbar_over_pstar = 1.0e6_dp
@@ -30,33 +30,32 @@ contains
    function load_table() result(table)
       type(key_group_type) :: table
 
+      integer, parameter :: by_sweep = size(lists) + 1
+
       table = key_group('load', 'the loads to solve for: a list of one kind, or a sweep', [ &
          real_key('pbar_over_pstar', '', '-', &
             'Mean pressures over p*, the mean pressure that just closes the gap everywhere.', &
-            least=0.0_dp, most=largest_pbar_over_pstar, most_values=most_loads), &
+            least=0.0_dp, most=largest_pbar_over_pstar, most_values=most_loads, way=1), &
          real_key('mean_pressure', '', 'unit of e_star', 'Mean pressures, over the nominal area.', &
-            least=0.0_dp, most_values=most_loads), &
+            least=0.0_dp, most_values=most_loads, way=2), &
          real_key('mean_gap_over_amplitude', '', '-', &
             'Mean gaps over the mean gap before load, which is the amplitude of a wave; the program finds their '// &
-            'loads.', &
-            least=0.0_dp, most=1.0_dp, most_values=most_loads), &
+            'loads.', least=0.0_dp, most=1.0_dp, most_values=most_loads, way=3), &
          real_key('mean_gap', '', 'length', 'Mean gaps; the program finds their loads.', least=0.0_dp, &
-            most_values=most_loads), &
+            most_values=most_loads, way=4), &
          real_key('contact_area_fraction', '', '-', &
             'Fractions of the nominal area in contact; the program finds their loads.', &
-            least=0.0_dp, most=1.0_dp, most_values=most_loads), &
+            least=0.0_dp, most=1.0_dp, most_values=most_loads, way=5), &
          real_key('yield', '', '-', &
             'Largest equivalent stresses in the bodies over the yield stress of &stress; the program finds the '// &
-               'least '// &
-            'loads that reach them. 1 is first yield.', &
-            above=0.0_dp, most_values=most_loads), &
+            'least loads that reach them. 1 is first yield.', above=0.0_dp, most_values=most_loads, way=6), &
          real_key('sweep_from', '', '-', 'First mean pressure over p* of a sweep in equal steps.', &
-            least=0.0_dp, most=largest_pbar_over_pstar), &
+            least=0.0_dp, most=largest_pbar_over_pstar, way=by_sweep), &
          real_key('sweep_to', '', '-', 'Last mean pressure over p* of the sweep, above or below the first.', &
-            least=0.0_dp, most=largest_pbar_over_pstar), &
+            least=0.0_dp, most=largest_pbar_over_pstar, way=by_sweep), &
          integer_key('sweep_steps', '', &
             'Number of loads of the sweep, both ends included; 1 only if the ends are equal.', &
-            1, most_loads)], required=.true.)
+            1, most_loads, way=by_sweep)], required=.true.)
    end function load_table
 
    !> Reports loads that are not given, given in more than one way, or given by an incomplete sweep.
@@ -111,17 +110,6 @@ contains
             '. Do the units of the lengths agree?')
       end if
    end subroutine check_loads_of_surface
-
-   !> Whether two keys of &load give the loads in different ways: two lists, or a list and a sweep.
-   pure logical function is_another_way(key, other)
-      character(*), intent(in) :: key, other
-
-      if (any(lists == key)) then
-         is_another_way = key /= other
-      else
-         is_another_way = any(sweep_keys == key) .and. any(lists == other)
-      end if
-   end function is_another_way
 
    !> The loads in the deck's order; a sweep is a list of pbar_over_pstar.
    pure subroutine given_loads(values, key, loads_by, loads)

@@ -6,7 +6,7 @@ module wavycon_make_scene
    use wavycon_kinds, only: dp
    use wavycon_load_group, only: given_loads
    use wavycon_plain_text, only: newline
-   use wavycon_resolved_deck, only: resolved_deck_text, with_text
+   use wavycon_resolved_deck, only: resolved_deck_text
    use wavycon_scene, only: scene_type
    use wavycon_stress_group, only: make_stress_setting
    implicit none (type, external)
@@ -18,7 +18,8 @@ contains
 
    !> Makes the scene.
    subroutine make_scene(deck, scene)
-      type(deck_type), intent(inout) :: deck   !! read without errors; surface and map, which may be large, are moved
+      !> Read without errors. Surface and map, which may be large, are moved; the key `file` gets the whole path.
+      type(deck_type), intent(inout) :: deck
       type(scene_type), intent(out) :: scene
 
       call move_alloc(deck%surface, scene%surface)
@@ -46,14 +47,16 @@ contains
       scene%surface_kind = deck%surface_values%text('kind')
       scene%method = deck%method
       scene%output = deck%output
-      scene%resolved_deck = resolved_deck_text(deck)
-      ! Its first line has the path of the deck.
-      scene%essence = scene%resolved_deck(index(scene%resolved_deck, newline):)
-      scene%essence = with_text(scene%essence, 'directory', scene%directory, '')
+      call deck%output%set('directory', '')
+      scene%fingerprint = resolved_deck_text(deck)
+      ! The first line has the path of the deck.
+      scene%fingerprint = scene%fingerprint(index(scene%fingerprint, newline):)
+      call deck%output%set('directory', scene%directory)
       ! A copy of the resolved deck in another directory must find the map. A map that was made has no file.
-      if (.not. allocated(scene%map)) return
-      if (scene%map%path /= '') scene%resolved_deck = &
-         with_text(scene%resolved_deck, 'file', deck%surface_values%text('file'), scene%map%path)
+      if (allocated(scene%map)) then
+         if (scene%map%path /= '') call deck%surface_values%set('file', scene%map%path)
+      end if
+      scene%resolved_deck = resolved_deck_text(deck)
    end subroutine make_scene
 
    !> Converts loads to the program's normalisation.

@@ -9,7 +9,7 @@ module wavycon_material_group
    implicit none (type, external)
    private
 
-   public :: material_table, check_material_group, is_another_way
+   public :: material_table, check_material_group
 
    !> The keys that give the stiffness in place of e_star.
    character(3), parameter :: moduli(*) = ['e1 ', 'nu1', 'e2 ', 'nu2']
@@ -25,12 +25,13 @@ contains
 
       table = key_group('material', 'how stiff the two bodies are: e_star, or e1 and nu1 (and e2, nu2)', [ &
          real_key('e_star', '1.0', 'pressure', &
-            'Plane-strain modulus E* of the pair, 1/E* = (1 - nu1^2)/e1 + (1 - nu2^2)/e2.', above=0.0_dp), &
-         real_key('e1', '', 'pressure', "Young's modulus of the first body; needs nu1.", above=0.0_dp), &
-         real_key('nu1', '', '-', "Poisson's ratio of the first body.", above=-1.0_dp, most=0.5_dp), &
+            'Plane-strain modulus E* of the pair, 1/E* = (1 - nu1^2)/e1 + (1 - nu2^2)/e2.', above=0.0_dp, way=1), &
+         real_key('e1', '', 'pressure', "Young's modulus of the first body; needs nu1.", above=0.0_dp, way=2), &
+         real_key('nu1', '', '-', "Poisson's ratio of the first body.", above=-1.0_dp, most=0.5_dp, way=2), &
          real_key('e2', '', 'pressure', &
-            "Young's modulus of the second body; needs nu2. Without it the second body is rigid.", above=0.0_dp), &
-         real_key('nu2', '', '-', "Poisson's ratio of the second body.", above=-1.0_dp, most=0.5_dp), &
+            "Young's modulus of the second body; needs nu2. Without it the second body is rigid.", above=0.0_dp, &
+            way=2), &
+         real_key('nu2', '', '-', "Poisson's ratio of the second body.", above=-1.0_dp, most=0.5_dp, way=2), &
          real_key('hardness', '', 'unit of e_star', &
             'Largest contact pressure: where it is reached the softer body flows and is left with an imprint. '// &
             'Without it the bodies stay elastic. Mean pressures must be lower.', above=0.0_dp)])
@@ -86,13 +87,6 @@ contains
             '. Do its unit and that of e_star agree, and those of the lengths?')
       end if
    end subroutine take_hardness
-
-   !> Whether two keys of &material give the stiffness in different ways: e_star, or the moduli of the bodies.
-   pure logical function is_another_way(key, other)
-      character(*), intent(in) :: key, other
-
-      is_another_way = (key == 'e_star' .and. any(moduli == other)) .or. (any(moduli == key) .and. other == 'e_star')
-   end function is_another_way
 
    !> E* of the pair [pressure]: as given, or from 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2, without the second term if
    !> the second body is rigid.

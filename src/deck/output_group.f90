@@ -1,15 +1,16 @@
 !> The &output group: which files are written, and where.
 module wavycon_output_group
-   use wavycon_grid_keys, only: points_of_grid
+   use wavycon_cell_file, only: text_side
+   use wavycon_grid_method, only: points_of_grid
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: choice_key, integer_key, key_group, key_group_type, key_type, logical_key, text_key
-   use wavycon_map_table, only: text_side
    use wavycon_method_list, only: method_of
    use wavycon_plain_text, only: integer_text
    use wavycon_problems, only: problem_list_type
    use wavycon_solver_method, only: solver_method
    use wavycon_surface, only: surface_type
-   use wavycon_tables, only: all_tables, table_item
+   use wavycon_table, only: table_type
+   use wavycon_tables, only: all_tables
    implicit none (type, external)
    private
 
@@ -33,15 +34,15 @@ contains
    function output_table() result(table)
       type(key_group_type) :: table
 
-      type(table_item), allocatable :: tables(:)
+      type(table_type), allocatable :: tables(:)
       type(key_type), allocatable :: rows(:)
       integer :: i
 
       call all_tables(tables)
       allocate (rows(0))
       do i = 1, size(tables)
-         if (tables(i)%table%key() == '' .or. tables(i)%table%group() /= 'output') cycle
-         rows = [rows, logical_key(tables(i)%table%key(), '.false.', tables(i)%table%meaning())]
+         if (tables(i)%key == '' .or. tables(i)%group /= 'output') cycle
+         rows = [rows, logical_key(trim(tables(i)%key), '.false.', tables(i)%meaning)]
       end do
       table = key_group('output', 'which files are written, and where', [ &
          text_key('directory', "'outputs/<case>'", &
@@ -72,56 +73,46 @@ contains
       type(problem_list_type), intent(inout) :: problems
 
       type(solver_method) :: chosen
-      type(table_item), allocatable :: tables(:)
+      type(table_type), allocatable :: tables(:)
       character(:), allocatable :: key, refusal
       integer :: i
 
       call values%set_default('directory', 'outputs/'//case)
       call values%set('directory', plain_directory(values%text('directory')))
       if (.not. allocated(surface)) return
-      if (.not. method%is_bad('grid_points')) call set_points(values, given_points(method, surface), surface%dimension)
+      if (.not. method%is_bad('grid_points')) call set_points(values, method, surface)
       chosen = method_of(method)
       if (chosen%name == '') return
       call all_tables(tables)
       do i = 1, size(tables)
-         key = tables(i)%table%key()
-         if (key == '' .or. tables(i)%table%group() /= 'output') cycle
+         key = trim(tables(i)%key)
+         if (key == '' .or. tables(i)%group /= 'output') cycle
          if (.not. values%logical(key)) cycle
-         refusal = tables(i)%table%refusal(chosen%traits, surface)
+         refusal = tables(i)%refusal(chosen%traits, surface)
          if (refusal /= '') call values%complain(problems, key, key//' cannot be written: '//refusal)
       end do
    end subroutine check_output_group
 
-   !> The points along x and y of the grid to solve or, if the deck gives none, of the height map, on the part of the
-   !> cell that decks refer to; zeros without both.
-   pure function given_points(method, surface) result(points)
-      type(group_values), intent(in) :: method
-      type(surface_type), intent(in) :: surface
-      integer :: points(2)
-
-      points = points_of_grid(method, surface)
-      if (all(points == 0)) points = surface%points
-      points = points/surface%parts()
-   end function given_points
-
-   !> Sets the points of maps in full and those of lines: as given or, by default, from those of the grid.
-   subroutine set_points(values, grid, dimension)
+   !> Sets the points of maps in full and those of lines: as given or, by default, from those of the grid to solve or,
+   !> if the deck gives none, of the height map, on the part of the cell that decks refer to.
+   subroutine set_points(values, method, surface)
       type(group_values), intent(inout) :: values
-      integer, intent(in) :: grid(2)      !! its points along x and y; zeros if there is none
-      integer, intent(in) :: dimension    !! of the contact
+      type(group_values), intent(in) :: method   !! &method, after its check
+      type(surface_type), intent(in) :: surface
 
-      integer :: finest, points(2)
+      integer :: finest, grid(2), points(2)
 
+      grid = points_of_grid(method, surface)
+      if (all(grid == 0)) grid = surface%points
+      grid = grid/surface%parts()
       ! A multiple of the grid's points: lines on a square height map pass through its points and do not cut peaks.
       finest = max(1, maxval(grid))
-      call values%set_default('line_points', finest*((max(usual_points, finest) + finest - 1)/finest))
+      call values%set_default('line_points', [finest*((max(usual_points, finest) + finest - 1)/finest)])
       if (values%is_bad('map_points')) return
       points = grid
       if (all(grid == 0)) points = usual_points
-      associate (given => values%integers('map_points'))
-         if (values%has('map_points')) points = given([1, size(given)])
-      end associate
-      call values%set('map_points', points(:dimension))
+      if (values%has('map_points')) points = nint(values%pair('map_points'))
+      call values%set('map_points', points(:surface%dimension))
    end subroutine set_points
 
    !> The path of a directory without superfluous './' and '/', so that equal paths are equal texts.
@@ -129,30 +120,20 @@ contains
       character(*), intent(in) :: name
       character(:), allocatable :: plain
 
+      character(*), parameter :: superfluous(*) = ['// ', '/./']   ! each is a '/'
+      integer :: i, k
+
       plain = trim(name)//'/'
-      call drop('//', 1, plain)
-      call drop('/./', 2, plain)
+      do k = 1, size(superfluous)
+         do
+            i = index(plain, trim(superfluous(k)))
+            if (i == 0) exit
+            plain = plain(:i)//plain(i + len_trim(superfluous(k)):)
+         end do
+      end do
       if (index(plain, './') == 1) plain = plain(3:)
       if (plain == '') plain = './'
       if (len(plain) > 1) plain = plain(:len(plain) - 1)
-
-   contains
-
-      !> Removes the first `bytes` bytes of each occurrence of a text in a path.
-      pure subroutine drop(text, bytes, path)
-         character(*), intent(in) :: text
-         integer, intent(in) :: bytes
-         character(:), allocatable, intent(inout) :: path
-
-         integer :: i
-
-         i = index(path, text)
-         do while (i > 0)
-            path = path(:i - 1)//path(i + bytes:)
-            i = index(path, text)
-         end do
-      end subroutine drop
-
    end function plain_directory
 
 end module wavycon_output_group

@@ -2,15 +2,13 @@
 module wavycon_resolved_deck
    use wavycon_deck, only: deck_type
    use wavycon_group_values, only: group_values
-   use wavycon_key_table, only: allowed_values, integer_value, key_type, logical_value, real_value
+   use wavycon_key_table, only: allowed_values, integer_value, key_type, logical_value, number_text, real_value
    use wavycon_kinds, only: dp
-   use wavycon_plain_text, only: escaped, exact_number, integer_text, newline, quoted
+   use wavycon_plain_text, only: escaped, newline, quoted
    implicit none (type, external)
    private
 
-   public :: resolved_deck_text, with_text
-
-   character(*), parameter :: margin = '   '   !! before a key
+   public :: resolved_deck_text
 
 contains
 
@@ -26,20 +24,6 @@ contains
       if (deck%stress%place > 0) text = text//group_text(deck%stress)
       text = text//group_text(deck%method)//group_text(deck%output)
    end function resolved_deck_text
-
-   !> A resolved deck with another value of a key.
-   pure function with_text(deck_text, key, old, new) result(text)
-      character(*), intent(in) :: deck_text
-      character(*), intent(in) :: key        !! of texts, in one group alone
-      character(*), intent(in) :: old, new   !! the value that it has, and gets
-      character(:), allocatable :: text
-
-      integer :: first
-
-      text = newline//margin//key//' = '
-      first = index(deck_text, text) + len(text)
-      text = deck_text(:first - 1)//quoted(new)//deck_text(first + len(quoted(old)):)
-   end function with_text
 
    !> A group, each line with a newline before it.
    function group_text(values) result(text)
@@ -70,14 +54,11 @@ contains
       comment = '   ! '
       if (key%unit /= '') comment = comment//'['//trim(key%unit)//'] '
       comment = comment//allowed_values(key)
-      text = newline//margin//name//' = '
+      text = newline//'   '//name//' = '
       select case (key%kind)
-      case (real_value)
-         numbers = values%reals(name)
-         text = text//exact_number(numbers(1))//comment//further_lines(numbers, .false.)
-      case (integer_value)
-         numbers = real(values%integers(name), dp)
-         text = text//integer_text(nint(numbers(1)))//comment//further_lines(numbers, .true.)
+      case (real_value, integer_value)
+         numbers = values%numbers(name)
+         text = text//number_text(key, numbers(1))//comment//further_lines(key, numbers)
       case (logical_value)
          text = text//trim(merge('.true. ', '.false.', values%logical(name)))//comment
       case default
@@ -86,9 +67,9 @@ contains
    end function key_text
 
    !> All numbers but the first, each on a line of its own.
-   pure function further_lines(numbers, are_integers) result(text)
+   pure function further_lines(key, numbers) result(text)
+      type(key_type), intent(in) :: key
       real(dp), intent(in) :: numbers(:)
-      logical, intent(in) :: are_integers
       character(:), allocatable :: text
 
       integer, parameter :: most_bytes = 32   !! of a line
@@ -99,11 +80,7 @@ contains
       allocate (character(most_bytes*size(numbers)) :: room)
       used = 0
       do i = 2, size(numbers)
-         if (are_integers) then
-            line = newline//'      '//integer_text(nint(numbers(i)))
-         else
-            line = newline//'      '//exact_number(numbers(i))
-         end if
+         line = newline//'      '//number_text(key, numbers(i))
          room(used + 1:used + len(line)) = line
          used = used + len(line)
       end do

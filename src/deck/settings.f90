@@ -5,20 +5,10 @@ module wavycon_settings
    use wavycon_deck_text, only: deck_text_type
    use wavycon_deck_tokens, only: is_group, is_word, quotes, token_type, tokenise
    use wavycon_group_values, only: group_values
-   use wavycon_key_alternatives, only: alternative_type
    use wavycon_key_table, only: choice_value, key_group_type, key_index, text_value
-   use wavycon_load_group, only: is_another_load => is_another_way
-   use wavycon_material_group, only: is_another_stiffness => is_another_way
    use wavycon_plain_text, only: excerpt, integer_text, is_printable, lower_case, quoted, unquoted
    use wavycon_problems, only: problem_list_type
    use wavycon_scene_group, only: longest_name, name_letters
-   use wavycon_self_affine_kind, only: is_another_roughness => is_another_way
-   use wavycon_grid_keys, only: is_another_grid => is_another_way
-   use wavycon_method_list, only: get_methods, number_of_methods
-   use wavycon_stress_group, only: is_another_depth => is_another_way
-   use wavycon_solver_method, only: solver_method
-   use wavycon_surface_kind, only: surface_kind
-   use wavycon_surface_kinds, only: get_surface_kinds, number_of_kinds
    implicit none (type, external)
    private
 
@@ -71,7 +61,7 @@ contains
             associate (entry => scan%entries(e))
                if (entry%group == 0) cycle
                if (group_name(text, scan, entry%group) /= settings(i)%group) cycle
-               if (replaces(settings(i), word_of(text, scan, entry%key))) entry%group = 0
+               if (replaces(settings(i), word_of(text, scan, entry%key), tables)) entry%group = 0
             end associate
          end do
          call add_entry(settings(i), tables, text, scan, problems)
@@ -140,57 +130,30 @@ contains
       if (scan(value, quotes) /= 1) value = quoted(value)
    end function deck_value
 
-   !> Whether a setting takes the place of a key of the same group: of itself; of other ways to give the loads, the
-   !> stiffness, the roughness or the depths; of accuracy or grid_points; of the keys that another kind of surface or
-   !> another solver has.
-   logical function replaces(setting, key)
+   !> Whether a setting takes the place of a key of the same group: of itself; of a key that gives the same in another
+   !> way; where it selects a kind of surface or a solver, of the keys that others read. Misspelt keys of the deck stay
+   !> and are reported.
+   pure logical function replaces(setting, key, tables)
       type(setting_type), intent(in) :: setting
       character(*), intent(in) :: key
+      type(key_group_type), intent(in) :: tables(:)
 
-      type(solver_method) :: methods(number_of_methods)
-      type(surface_kind) :: kinds(number_of_kinds)
+      integer :: chosen, g, k, own
 
       replaces = key == setting%key
-      if (replaces) return
-      select case (setting%group//'.'//setting%key)
-      case ('surface.kind')
-         call get_surface_kinds(kinds)
-         replaces = is_key_of_others(kinds%alternative_type)
-      case ('method.solver')
-         call get_methods(methods)
-         replaces = is_key_of_others(methods%alternative_type)
-      case default
-         select case (setting%group)
-         case ('load')
-            replaces = is_another_load(setting%key, key)
-         case ('material')
-            replaces = is_another_stiffness(setting%key, key)
-         case ('surface')
-            replaces = is_another_roughness(setting%key, key)
-         case ('stress')
-            replaces = is_another_depth(setting%key, key)
-         case ('method')
-            replaces = is_another_grid(setting%key, key)
-         end select
-      end select
-
-   contains
-
-      !> Whether other alternatives read the key and the one that is set does not. Misspelt keys of the deck stay and
-      !> are reported.
-      logical function is_key_of_others(alternatives)
-         type(alternative_type), intent(in) :: alternatives(:)
-
-         integer :: i
-         logical :: has_key(size(alternatives)), is_set(size(alternatives))
-
-         do i = 1, size(alternatives)
-            has_key(i) = key_index(alternatives(i)%keys, key) > 0
-            is_set(i) = alternatives(i)%name == plain_value(setting)
-         end do
-         is_key_of_others = any(is_set) .and. any(has_key) .and. .not. any(has_key .and. is_set)
-      end function is_key_of_others
-
+      g = findloc(tables%name == setting%group, .true., dim=1)
+      if (replaces .or. g == 0) return
+      associate (keys => tables(g)%keys)
+         own = key_index(keys, setting%key)
+         k = key_index(keys, key)
+         if (own == 0 .or. k == 0) return
+         if (setting%key == tables(g)%selector) then
+            chosen = findloc(keys(own)%choices(:keys(own)%number_of_choices) == plain_value(setting), .true., dim=1)
+            if (chosen > 0) replaces = any(keys(k)%read_by) .and. .not. keys(k)%read_by(chosen)
+         else
+            replaces = min(keys(own)%way, keys(k)%way) > 0 .and. keys(own)%way /= keys(k)%way
+         end if
+      end associate
    end function replaces
 
    !> The value without quotes.

@@ -10,14 +10,10 @@ module wavycon_stress_group
    implicit none (type, external)
    private
 
-   public :: stress_table, check_stress_group, is_another_way, make_stress_setting
+   public :: stress_table, check_stress_group, make_stress_setting
 
    !> Most depths of a list or a range.
    integer, parameter :: most_depths = 10000
-
-   !> The keys of a range of depths, and the two that give a list of them.
-   character(18), parameter :: range_keys(*) = [character(18) :: 'depth_from', 'depth_to', 'depth_steps']
-   character(18), parameter :: lists(*) = [character(18) :: 'depths', 'depths_over_cell_x']
 
 contains
 
@@ -29,35 +25,29 @@ contains
          logical_key('largest', '.true.', 'A table of the largest von Mises stress and the largest shear stress of '// &
             'each load, and where they are.'), &
          logical_key('line', '.false.', 'A table of the stresses on the line below the crest.'), &
-         choice_key('section', "'none'", "a table of the stresses on a vertical section through the crest, "// &
-            "along 'x', "// &
-            "'y' or the 'diagonal' of the cell.", [character(8) :: 'none', 'x', 'y', 'diagonal']), &
-         logical_key('planes', '.false.', 'A table of the stresses on the planes at the given depths, with the '// &
-            'points '// &
-            'and in the format of maps.'), &
-         real_key('depths', '', 'length', 'Depths of the planes; also of the points of line and section unless '// &
-            'a range '// &
-            'is given.', least=0.0_dp, &
-            most_values=most_depths), &
-         real_key('depths_over_cell_x', '', '-', 'The same over the side of the cell along x, which is the '// &
-            'wavelength '// &
-            'of a wave.', least=0.0_dp, most_values=most_depths), &
+         choice_key('section', "'none'", "a table of the stresses on a vertical section through the crest, along "// &
+            "'x', 'y' or the 'diagonal' of the cell.", [character(8) :: 'none', 'x', 'y', 'diagonal']), &
+         logical_key('planes', '.false.', &
+            'A table of the stresses on the planes at the given depths, with the points and in the format of maps.'), &
+         real_key('depths', '', 'length', &
+            'Depths of the planes; also of the points of line and section unless a range is given.', least=0.0_dp, &
+            most_values=most_depths, way=1), &
+         real_key('depths_over_cell_x', '', '-', &
+            'The same over the side of the cell along x, which is the wavelength of a wave.', least=0.0_dp, &
+            most_values=most_depths, way=2), &
          real_key('depth_from', '0.0', '-', 'First depth of a range in equal steps, over the side of the cell '// &
-            'along x, for '// &
-            'line and section; also for the planes unless depths are given.', &
-            least=0.0_dp), &
+            'along x, for line and section; also for the planes unless depths are given.', least=0.0_dp), &
          real_key('depth_to', '1.0', '-', 'Last depth of the range.', least=0.0_dp), &
          integer_key('depth_steps', '65', 'Number of depths of the range, both ends included.', 1, most_depths), &
-         real_key('nu', 'nu1, nu2', '-', "Poisson's ratios of the first and the second body; one number: of "// &
-            "both. The "// &
-            'default is that of &material. Where they differ the stresses of both bodies are computed.', &
+         real_key('nu', 'nu1, nu2', '-', "Poisson's ratios of the first and the second body; one number: of both. "// &
+            'The default is that of &material. Where they differ the stresses of both bodies are computed.', &
             above=-1.0_dp, most=0.5_dp, most_values=2), &
          choice_key('lateral', "'constrained'", "the lateral stresses of the mean pressure pbar. 'constrained': no "// &
             "lateral strain, -nu pbar/(1 - nu); 'free': 0; 'hydrostatic': -pbar.", &
             [character(11) :: 'constrained', 'free', 'hydrostatic']), &
-         real_key('yield_stress', '', 'unit of e_star', 'Yield stresses of the first and the second body in '// &
-            'uniaxial '// &
-            'tension; one number: of both.', above=0.0_dp, most_values=2), &
+         real_key('yield_stress', '', 'unit of e_star', &
+            'Yield stresses of the first and the second body in uniaxial tension; one number: of both.', above=0.0_dp, &
+            most_values=2), &
          choice_key('yield_criterion', "'von_mises'", "which stress reaches the yield stress: 'von_mises', the von "// &
             "Mises stress; 'tresca', twice the largest shear stress.", [character(9) :: 'von_mises', 'tresca'])])
    end function stress_table
@@ -70,7 +60,6 @@ contains
       type(surface_type), intent(in), optional :: surface   !! absent if it is not known, or its keys are bad
 
       logical :: has_range
-      integer :: k
 
       if (load%has('yield') .and. values%place == 0) then
          call load%complain(problems, 'yield', 'yield needs yield_stress in a group &stress')
@@ -78,12 +67,12 @@ contains
          call load%complain(problems, 'yield', 'yield needs yield_stress in &stress')
       end if
       if (values%place == 0) return
-      has_range = gives_range(values)
-      call values%forbid(problems, trim(lists(1)), trim(lists(2)), 'give one of them')
-      if (.not. has_range .and. any([(values%has(trim(lists(k))), k=1, size(lists))])) then
-         do k = 1, size(range_keys)
-            call values%leave_out(trim(range_keys(k)))
-         end do
+      has_range = values%has('depth_from') .or. values%has('depth_to') .or. values%has('depth_steps')
+      call values%forbid(problems, 'depths', 'depths_over_cell_x', 'give one of them')
+      if (.not. has_range .and. (values%has('depths') .or. values%has('depths_over_cell_x'))) then
+         call values%leave_out('depth_from')
+         call values%leave_out('depth_to')
+         call values%leave_out('depth_steps')
       else if (values%logical('planes') .and. .not. has_range) then
          call values%complain(problems, 'planes', 'planes needs depths, depths_over_cell_x or a range of depths')
       end if
@@ -93,19 +82,9 @@ contains
             call values%complain(problems, 'section', &
             "the surface does not change along y: section must be 'none' or 'x'")
       end if
-      if (values%has('yield_criterion') .and. .not. values%has('yield_stress')) call values%complain(problems, &
-         'yield_criterion', 'yield_criterion needs yield_stress beside it')
+      call values%require(problems, 'yield_criterion', 'yield_stress')
       if (.not. values%has('yield_stress')) call values%leave_out('yield_criterion')
    end subroutine check_stress_group
-
-   !> Whether the deck gives a range of depths.
-   pure logical function gives_range(values)
-      type(group_values), intent(in) :: values
-
-      integer :: k
-
-      gives_range = any([(values%has(trim(range_keys(k))), k=1, size(range_keys))])
-   end function gives_range
 
    !> Sets Poisson's ratios to those of &material, or reports that there are none or that they contradict each other.
    subroutine take_ratios(values, material, problems)
@@ -121,16 +100,9 @@ contains
       else if (material%has('nu2')) then
          call values%set_default('nu', [material%real('nu1'), material%real('nu2')])
       else
-         call values%set_default('nu', material%real('nu1'))
+         call values%set_default('nu', [material%real('nu1')])
       end if
    end subroutine take_ratios
-
-   !> Whether two keys of &stress give a list of depths in different ways.
-   pure logical function is_another_way(key, other)
-      character(*), intent(in) :: key, other
-
-      is_another_way = any(lists == key) .and. any(lists == other) .and. key /= other
-   end function is_another_way
 
    !> What the group asks for. A rigid body has no stresses, and a body that is like the other is left out.
    subroutine make_stress_setting(values, material, p_star, setting)
@@ -141,12 +113,11 @@ contains
 
       real(dp) :: nu(2)
       integer :: lateral
+      logical :: are_alike
 
       if (values%place == 0) return
       allocate (setting)
-      associate (given => values%reals('nu'))
-         nu = given([1, size(given)])
-      end associate
+      nu = values%pair('nu')
       select case (values%text('lateral'))
       case ('free')
          lateral = laterally_free
@@ -157,29 +128,15 @@ contains
       end select
       allocate (setting%body, source=[elastic_body(nu(1), lateral), elastic_body(nu(2), lateral)])
       setting%by_shear = values%text('yield_criterion') == 'tresca'
-      if (values%has('yield_stress') .and. p_star > 0.0_dp) then
-         associate (given => values%reals('yield_stress'))
-            allocate (setting%yield_stress, source=given([1, size(given)])/p_star)
-         end associate
-      end if
-      if (is_rigid() .or. is_like_the_first()) then
+      if (values%has('yield_stress') .and. p_star > 0.0_dp) setting%yield_stress = values%pair('yield_stress')/p_star
+      are_alike = abs(nu(2) - nu(1)) <= 0.0_dp
+      if (allocated(setting%yield_stress)) are_alike = are_alike .and. &
+         abs(setting%yield_stress(2) - setting%yield_stress(1)) <= 0.0_dp
+      ! Without e2 the second body is rigid.
+      if (are_alike .or. (material%has('e1') .and. .not. material%has('e2'))) then
          setting%body = setting%body(:1)
          if (allocated(setting%yield_stress)) setting%yield_stress = setting%yield_stress(:1)
       end if
-
-   contains
-
-      !> Whether the second body is rigid.
-      logical function is_rigid()
-         is_rigid = material%has('e1') .and. .not. material%has('e2')
-      end function is_rigid
-
-      logical function is_like_the_first()
-         is_like_the_first = abs(nu(2) - nu(1)) <= 0.0_dp
-         if (allocated(setting%yield_stress)) is_like_the_first = is_like_the_first .and. &
-            abs(setting%yield_stress(2) - setting%yield_stress(1)) <= 0.0_dp
-      end function is_like_the_first
-
    end subroutine make_stress_setting
 
 end module wavycon_stress_group

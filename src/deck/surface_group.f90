@@ -3,16 +3,15 @@ module wavycon_surface_group
    use wavycon_error, only: error_type
    use wavycon_group_values, only: group_values
    use wavycon_height_map_kind, only: surface_of_heights
-   use wavycon_key_alternatives, only: is_misplaced, leave_out_other_keys, merged_keys, names_reading, &
-      report_missing_keys, selector_key
-   use wavycon_key_table, only: key_group, key_group_type, key_index, key_type
+   use wavycon_key_alternatives, only: alternative_group, check_alternatives
+   use wavycon_key_table, only: key_group_type
    use wavycon_kinds, only: dp
    use wavycon_map_statistics, only: map_statistics
    use wavycon_plain_text, only: escaped, short_number
    use wavycon_problems, only: problem_list_type
    use wavycon_surface, only: surface_type
    use wavycon_surface_kind, only: surface_kind
-   use wavycon_surface_kinds, only: get_surface_kinds, number_of_kinds
+   use wavycon_surface_kinds, only: get_surface_kinds, kind_of, number_of_kinds
    implicit none (type, external)
    private
 
@@ -32,11 +31,8 @@ contains
       type(surface_kind) :: kinds(number_of_kinds)
 
       call get_surface_kinds(kinds)
-      associate (alternatives => kinds%alternative_type)
-         table = key_group('surface', 'which waves or heights the bodies carry', &
-                           [selector_key('kind', '', alternatives, required=.true.), merged_keys(alternatives)], &
-                           required=.true.)
-      end associate
+      table = alternative_group('surface', 'which waves or heights the bodies carry', 'kind', '', &
+                                kinds%alternative_type, required=.true.)
    end function surface_table
 
    !> Checks the keys against the kind and sets the defaults that depend on it.
@@ -44,38 +40,14 @@ contains
       type(group_values), intent(inout) :: values
       type(problem_list_type), intent(inout) :: problems
 
-      type(surface_kind) :: kinds(number_of_kinds)
-      character(:), allocatable :: key
-      integer :: chosen, k
+      type(surface_kind) :: kind
 
-      call get_surface_kinds(kinds)
-      chosen = findloc(kinds%name == values%text('kind'), .true., dim=1)
-      if (chosen == 0) return
-      associate (alternatives => kinds%alternative_type, kind => kinds(chosen))
-         call report_missing_keys(alternatives(chosen), 'kind', values, problems)
-         do k = 1, size(values%table%keys)
-            key = trim(values%table%keys(k)%name)
-            if (is_misplaced(alternatives, chosen, key, values)) call values%complain(problems, key, &
-               key//' is a key of '//names_reading(alternatives, key)//", not of '"//values%text('kind')//"'"// &
-               advice(kind%keys, key))
-         end do
-         call leave_out_other_keys(alternatives, chosen, values)
-         if (associated(kind%set_defaults)) call kind%set_defaults(values)
-         if (associated(kind%check)) call kind%check(values, problems)
-      end associate
+      kind = kind_of(values)
+      if (kind%name == '') return
+      call check_alternatives(kind%alternative_type, values, problems, before='')
+      if (associated(kind%set_defaults)) call kind%set_defaults(values)
+      if (associated(kind%check)) call kind%check(values, problems)
    end subroutine check_surface_group
-
-   !> What to give instead of a key of other kinds, as the end of a sentence: the keys of this kind that are its plural,
-   !> or have a number behind it. Empty if there are none.
-   pure function advice(keys, key) result(words)
-      type(key_type), intent(in) :: keys(:)   !! of this kind
-      character(*), intent(in) :: key         !! that other kinds read
-      character(:), allocatable :: words
-
-      words = ''
-      if (key_index(keys, key//'s') > 0) words = ': give '//key//'s'
-      if (key_index(keys, key//'1') > 0) words = ': give '//key//'1 and '//key//'2'
-   end function advice
 
    !> Reports a cell that is so long that loads would take too many iterations.
    subroutine check_sides(values, surface, problems)
@@ -104,8 +76,8 @@ contains
          short_number(largest_ratio)//' times is allowed. Are '//keys//' in one unit?')
    end subroutine check_sides
 
-   !> Makes the surface. Errors: exit_file_trouble for a height map that cannot be read, exit_bad_input for a bad one and
-   !> for heights of a kind that has no file.
+   !> Makes the surface. Errors: exit_file_trouble for a height map that cannot be read, exit_bad_input for a bad one
+   !> and for heights of a kind that has no file.
    subroutine make_surface(values, surface, map, error, heights)
       !> Without problems. Keys that have no effect beside what a file says are left out of the resolved deck.
       type(group_values), intent(inout) :: values
@@ -114,17 +86,15 @@ contains
       type(error_type), allocatable, intent(out) :: error
       real(dp), intent(in), optional :: heights(:, :)   !! in place of those of the file, as of surface_of_heights
 
-      type(surface_kind) :: kinds(number_of_kinds)
-      integer :: chosen
+      type(surface_kind) :: kind
 
-      call get_surface_kinds(kinds)
-      chosen = findloc(kinds%name == values%text('kind'), .true., dim=1)
-      if (chosen == 0) return
+      kind = kind_of(values)
+      if (kind%name == '') return
       allocate (surface)
       if (present(heights)) then
          call surface_of_heights(values, heights, surface, map, error)
       else
-         call kinds(chosen)%make(values, surface, map, error)
+         call kind%make(values, surface, map, error)
       end if
       if (allocated(error)) deallocate (surface)
    end subroutine make_surface

@@ -1,7 +1,7 @@
 !> Kalker's principle for a wavy surface, as a quadratic programme.
 !>
-!> The pressure p >= 0 of the given mean minimises the complementary energy (Johnson, Greenwood & Higginson 1985,
-!> eqs. 1, 2). But for a constant and a factor it is, in the amplitudes x_k of the Fourier terms (E6), (E7),
+!> The pressure p >= 0 of the given mean minimises the complementary energy (Johnson, Greenwood & Higginson 1985, eqs.
+!> 1, 2). Up to a constant and a factor this energy is, in the amplitudes x_k of the Fourier terms (E6), (E7),
 !>
 !>     f' = 1/2 sum_k w_k c_k x_k^2 - x_1    (eqs. 17, 26)   with   sum_k x_k t_k >= -P at the points (18, 27),
 !>
@@ -25,7 +25,7 @@ module wavycon_complementary_energy
 contains
 
    !> The quadratic programme of some terms at zero load. Its bounds are b = 0, at the load P they are b = -P. With a
-   !> hardness as many constraints follow, with b = P - H: `bounds_at` has them all.
+   !> hardness as many more constraints follow, with b = P - H: `bounds_at` has all bounds.
    type(qp_problem) function energy_problem(terms, points_per_side, symmetry, has_hardness) result(problem)
       type(fourier_terms), intent(in) :: terms
       integer, intent(in) :: points_per_side   !! N >= 2 constraint points on [0, pi]

@@ -15,7 +15,7 @@ module wavycon_compliance_operator
 
    type :: compliance_operator
       integer :: transform_pairs = 0               !! number of applications so far to fields in double precision
-      integer :: single_pairs = 0                  !! likewise in single precision
+      integer :: single_pairs = 0                  !! the same in single precision
       type(convolution_dp), private :: in_double
       type(convolution_sp), private :: in_single
    contains
@@ -64,7 +64,7 @@ contains
       class(compliance_operator), intent(inout) :: self
       real(dp), intent(inout), contiguous :: field(:, :)   !! the own columns of the slab
       logical, intent(in), optional :: nonzero(:)   !! own columns that may not be zero; default: all
-      logical, intent(in), optional :: wanted(:)    !! own columns of the result that are needed; the others are undefined
+      logical, intent(in), optional :: wanted(:)    !! own columns of the result that are needed, others are undefined
 
       call self%in_double%apply(field, -1, threads_for(size(field)), nonzero, wanted)
       self%transform_pairs = self%transform_pairs + 1

@@ -1,6 +1,6 @@
-!> The pressure at the constraint points from the amplitudes of the terms, by the sums over one direction after the
-!> other. For n harmonics and N points a side these take of the order of n N^2 operations; the matrix of terms and
-!> points takes n^2 N^2.
+!> Computes the pressure at the constraint points from the amplitudes of the terms, by sums over one direction after the
+!> other. For n harmonics and N points a side they take of the order of n N^2 operations; the product with the matrix of
+!> terms and points takes n^2 N^2.
 module wavycon_cosine_rows
    use wavycon_fourier_series, only: fourier_series
    use wavycon_fourier_terms, only: fourier_terms

@@ -13,13 +13,12 @@ module wavycon_fourier_series
    type :: fourier_series
       real(dp), allocatable :: c(:, :)   !! shape (0:m, 0:n)
       real(dp), allocatable :: cs(:, :), sc(:, :), ss(:, :)   !! of the same shape; not allocated for an even field
-      !> m + 1 of a series that is spread as grids are: the own ones are some of the first indices, see
-      !> wavycon_grid_transform.
-      !> 0: it is whole.
-      integer :: spread_waves = 0
+      !> m + 1 for a series that is distributed as grids are, where the rank has some of the first indices only, see
+      !> wavycon_grid_transform. 0: it is whole.
+      integer :: distributed_waves = 0
    contains
       procedure :: is_even
-      procedure :: is_spread
+      procedure :: is_distributed
       procedure :: at
       procedure :: evaluate_on_grid
    end type fourier_series
@@ -32,11 +31,11 @@ contains
       is_even = .not. allocated(self%ss)
    end function is_even
 
-   pure logical function is_spread(self)
+   pure logical function is_distributed(self)
       class(fourier_series), intent(in) :: self
 
-      is_spread = self%spread_waves > 0
-   end function is_spread
+      is_distributed = self%distributed_waves > 0
+   end function is_distributed
 
    !> The field at a point. The series is whole.
    pure real(dp) function at(self, x, y)

@@ -14,9 +14,9 @@ module wavycon_grid_convolution_dp
 
    public :: grid_convolution
 
-   !> Whether the rows of a spectrum that is spread over ranks keep their memory between convolutions. A solution applies
-   !> those in double precision between its corrections, which need the memory, and those in single precision many times
-   !> in each correction.
+   !> Whether the rows of a spectrum that is distributed over ranks keep their memory between convolutions. A solution
+   !> applies those in double precision between its corrections, which need the memory, and those in single precision
+   !> many times in each correction.
    logical, parameter :: keeps_lines = .false.
 
    include 'grid_convolution.inc'

@@ -14,7 +14,7 @@ module wavycon_grid_convolution_sp
 
    public :: grid_convolution
 
-   !> As in the module for double precision.
+   !> Whether rows keep their memory: see the module for double precision.
    logical, parameter :: keeps_lines = .true.
 
    include 'grid_convolution.inc'

@@ -1,16 +1,16 @@
 !> The own columns of a grid that may be distributed over processes, its ranks. Code that solves contacts knows this
 !> type and not the ranks.
 !>
-!> Large grids are spread over the ranks: each has a slab of adjacent columns, all rows of them. Small grids are whole
-!> on each rank, and each computes all of it: then nothing is exchanged. In the serial program every grid is whole. Code
-!> that works on a slab and takes its sums, neighbours and columns by the procedures here does not ask which of the two
-!> it is. All ranks that work on a grid call them in the same order.
+!> Large grids are distributed over the ranks: each has a slab of adjacent columns, all rows of them. Small grids are
+!> whole on each rank, and each computes all of it: then nothing is exchanged. In the serial program every grid is
+!> whole. Code that works on a slab and takes its sums, neighbours and columns by the procedures here does not ask which
+!> of the two it is. All ranks that work on a grid call them in the same order.
 !>
 !> Sums do not depend on the number of ranks to the last digit: each rank sums its columns, or strips of
 !> `strip_columns` columns, and the sums of all columns or strips are added in the order of the grid.
 module wavycon_grid_slab
    use, intrinsic :: iso_fortran_env, only: int64
-   use wavycon_column_layout, only: column_layout, least_spread_points, most_reach, strip_columns
+   use wavycon_column_layout, only: column_layout, least_distributed_points, most_reach, strip_columns
    use wavycon_grid_points, only: image_of_point
    use wavycon_kinds, only: dp, sp
    use wavycon_ranks, only: add_over_ranks, any_rank, exchange_columns, gather_columns, largest_over_ranks, &
@@ -18,7 +18,7 @@ module wavycon_grid_slab
    implicit none (type, external)
    private
 
-   public :: grid_slab, least_spread_points, most_reach, row_exchange, strip_columns
+   public :: grid_slab, least_distributed_points, most_reach, row_exchange, strip_columns
 
    type, extends(column_layout) :: grid_slab
    contains
@@ -32,7 +32,7 @@ module wavycon_grid_slab
       procedure :: find_largest
       !> Whether something is true on any rank at work, also if each has the whole grid.
       procedure, nopass :: any => any_rank
-      !> Makes an error of any rank at work that of all, also if each has the whole grid.
+      !> Reports an error of any rank at work to all, also if each has the whole grid.
       procedure, nopass :: share_error
       !> Columns beside the own ones.
       generic :: halo => halo_dp, halo_sp
@@ -46,10 +46,10 @@ module wavycon_grid_slab
 
 contains
 
-   !> The grid of half the points each way, on the ranks as this one: each has the means of its own columns. A rank may
-   !> have as little as one column for its neighbours.
+   !> The grid of half the points each way, distributed like this one: each rank has the means of its own columns. It
+   !> may have as little as one column for its neighbours.
    pure type(grid_slab) function coarser(self)
-      class(grid_slab), intent(in) :: self   !! of even numbers of points, but N may be 1, and of even width if spread
+      class(grid_slab), intent(in) :: self   !! even numbers of points, but N may be 1; even width if distributed
 
       coarser = self
       coarser%points = max(self%points/2, 1)
@@ -88,7 +88,7 @@ contains
       real(dp), allocatable :: every(:)
       integer :: sums
 
-      if (.not. slab%is_spread) then
+      if (.not. slab%is_distributed) then
          totals = sum(parts, dim=2)
          return
       end if
@@ -103,14 +103,14 @@ contains
       class(grid_slab), intent(in) :: self
       real(dp), intent(inout), contiguous :: values(:)
 
-      if (self%is_spread) call add_over_ranks(values)
+      if (self%is_distributed) call add_over_ranks(values)
    end subroutine add_reals
 
    subroutine add_integers(self, values)
       class(grid_slab), intent(in) :: self
       integer(int64), intent(inout), contiguous :: values(:)
 
-      if (self%is_spread) call add_over_ranks(values)
+      if (self%is_distributed) call add_over_ranks(values)
    end subroutine add_integers
 
    !> The largest over the ranks that have different columns, element by element, in place.
@@ -118,7 +118,7 @@ contains
       class(grid_slab), intent(in) :: self
       real(dp), intent(inout), contiguous :: values(:)
 
-      if (self%is_spread) call largest_over_ranks(values)
+      if (self%is_distributed) call largest_over_ranks(values)
    end subroutine largest
 
    !> The largest number of a field and the first of the points that have it, over the whole grid.
@@ -148,7 +148,7 @@ contains
       point = point + 1
    end subroutine find_largest
 
-   !> The columns before and after the own ones: columns of other ranks, or at the rim of the grid the images that
+   !> The columns before and after the own ones: columns of other ranks, or at the border of the grid the images that
    !> continue it. A rank without columns gets none.
    subroutine halo_dp(self, field, even, low, high)
       class(grid_slab), intent(in) :: self
@@ -162,7 +162,7 @@ contains
 
       reach = size(low, 2)
       if (self%columns() < 1) return
-      if (self%is_spread) then
+      if (self%is_distributed) then
          call self%find_neighbours(even, before, behind)
          allocate (first_columns, source=field(:, :reach))
          allocate (last_columns, source=field(:, self%columns() - reach + 1:))
@@ -177,7 +177,7 @@ contains
       end do
    end subroutine halo_dp
 
-   !> As halo_dp.
+   !> As halo_dp, in single precision.
    subroutine halo_sp(self, field, even, low, high)
       class(grid_slab), intent(in) :: self
       real(sp), intent(in) :: field(:, :)
@@ -189,7 +189,7 @@ contains
 
       reach = size(low, 2)
       if (self%columns() < 1) return
-      if (self%is_spread) then
+      if (self%is_distributed) then
          call self%find_neighbours(even, before, behind)
          allocate (first_columns, source=field(:, :reach))
          allocate (last_columns, source=field(:, self%columns() - reach + 1:))
@@ -218,7 +218,7 @@ contains
 
       last = ubound(wanted, 2)
       associate (n => self%points(2), rank => this_rank())
-         if (.not. self%is_spread) then
+         if (.not. self%is_distributed) then
             do j = first, last
                wanted(:, j) = field(:, image_of_point(j, n, even))
             end do
@@ -259,7 +259,7 @@ contains
       real(dp), intent(in), contiguous :: own(:, :)         !! shape (any, columns())
       real(dp), intent(inout), contiguous :: whole(:, :)    !! shape (any, N)
 
-      if (self%is_spread) then
+      if (self%is_distributed) then
          call gather_columns(size(own, 1)*storage_size(own)/8, self%columns_of_ranks(), own, whole, first_only=.false.)
       else
          whole = own
@@ -271,7 +271,7 @@ contains
       real(sp), intent(in), contiguous :: own(:, :)
       real(sp), intent(inout), contiguous :: whole(:, :)
 
-      if (self%is_spread) then
+      if (self%is_distributed) then
          call gather_columns(size(own, 1)*storage_size(own)/8, self%columns_of_ranks(), own, whole, first_only=.false.)
       else
          whole = own
@@ -282,10 +282,10 @@ contains
    subroutine gather_to_first(self, own, whole)
       class(grid_slab), intent(in) :: self
       real(dp), intent(in), contiguous :: own(:, :)   !! shape (M, columns())
-      !> Shape (M, N); not allocated on the other ranks if the grid is spread.
+      !> Shape (M, N); not allocated on the other ranks if the grid is distributed.
       real(dp), allocatable, intent(out) :: whole(:, :)
 
-      if (.not. self%is_spread) then
+      if (.not. self%is_distributed) then
          allocate (whole, source=own)
          return
       end if
@@ -294,8 +294,8 @@ contains
       if (this_rank() > 0) deallocate (whole)
    end subroutine gather_to_first
 
-   !> Prepares the exchange of the own columns for own rows, of a grid that is spread. The elements may be complex
-   !> numbers, and each column may have another number of them than M.
+   !> Prepares the exchange of own columns for own rows of a distributed grid. The elements may be complex numbers, and
+   !> each column may have another number of them than M.
    subroutine exchange_rows(self, rows, numbers, precision, exchange)
       class(grid_slab), intent(in) :: self
       integer, intent(in) :: rows         !! elements of a column

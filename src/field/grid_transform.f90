@@ -1,10 +1,10 @@
-!> Fourier series of fields on the points of a grid that may be spread, by FFTW's transforms of its lines.
+!> Fourier series of fields on the points of a grid that may be distributed, by FFTW's transforms of its lines.
 !>
 !> The points are those of wavycon_grid_points. The values of an even field on a quarter of its cell are a sum of
 !> cosines (DCT-II and III), those of any other field a sum of waves. Columns are transformed along x, then rows of the
-!> spectrum along y. Of a grid that is spread the field has the own columns, and the series the coefficients of own wave
-!> numbers in X: a series of the shape c(first:last, 0:n), whose component `spread_waves` is the number of all wave
-!> numbers in X. The digits of the coefficients and of the values do not depend on how the grid is spread.
+!> spectrum along y. On a distributed grid the field has the own columns, and the series the coefficients of own wave
+!> numbers in X: a series of the shape c(first:last, 0:n), whose component `distributed_waves` is the number of all wave
+!> numbers in X. The digits of the coefficients and of the values do not depend on how the grid is distributed.
 module wavycon_grid_transform
    use, intrinsic :: iso_c_binding, only: c_double, c_double_complex, c_ptr
    use wavycon_assertion, only: assert
@@ -47,7 +47,7 @@ contains
       class(grid_transform), intent(out) :: self
       integer, intent(in) :: points(2)         !! M, N >= 1
       logical, intent(in) :: even
-      logical, intent(in), optional :: whole   !! whether the grid is not spread however large it is; .false. if absent
+      logical, intent(in), optional :: whole   !! whether no grid, however large, is distributed; .false. if absent
 
       self%points = points
       self%even = even
@@ -59,12 +59,12 @@ contains
    !> A series of zeros with the coefficients that the points determine, of the own wave numbers.
    subroutine new_series(self, answer)
       class(grid_transform), intent(in) :: self
-      type(fourier_series), intent(out) :: answer    !! spread if the grid is
+      type(fourier_series), intent(out) :: answer    !! distributed if the grid is
 
       type(grid_slab) :: rows
 
-      if (self%slab%is_spread) answer%spread_waves = self%waves
-      rows = slab_of_waves(self%waves, self%slab%is_spread)
+      if (self%slab%is_distributed) answer%distributed_waves = self%waves
+      rows = slab_of_waves(self%waves, self%slab%is_distributed)
       associate (first => rows%first - 1, last => rows%last - 1, &
                  last_y => merge(self%points(2) - 1, self%points(2)/2, self%even))
          allocate (answer%c(first:last, 0:last_y), source=0.0_dp)
@@ -78,7 +78,7 @@ contains
    subroutine series(self, field, answer)
       class(grid_transform), intent(in) :: self
       real(dp), intent(in) :: field(:, :)            !! shape (M, slab%columns())
-      type(fourier_series), intent(out) :: answer    !! spread if the grid is
+      type(fourier_series), intent(out) :: answer    !! distributed if the grid is
 
       real(c_double), allocatable :: block(:, :, :), own_rows(:, :, :), spectrum(:, :, :)
       class(row_exchange), allocatable :: exchange
@@ -90,7 +90,7 @@ contains
       last = ubound(answer%c, 1)
       allocate (spectrum(self%numbers, self%waves, self%slab%columns()))
       call columns_to_waves(self, field, spectrum)
-      if (self%slab%is_spread) then
+      if (self%slab%is_distributed) then
          call self%slab%exchange_rows(self%waves, self%numbers, dp, exchange)
          allocate (own_rows(self%numbers, last - first + 1, self%points(2)))
          call exchange%to_rows(spectrum, own_rows)
@@ -131,14 +131,14 @@ contains
       call assert(all(shape(field) == [self%points(1), self%slab%columns()]), 'the field has the columns of the slab')
       computed = self%slab
       kept = self%slab
-      if (from%is_spread()) then
+      if (from%is_distributed()) then
          call computed%start(self%points, whole=.true.)
-         if (.not. self%slab%is_spread) call kept%divide(self%points)
+         if (.not. self%slab%is_distributed) call kept%divide(self%points)
       end if
       first = lbound(from%c, 1)
       last = min(self%waves - 1, ubound(from%c, 1))
-      allocate (spectrum(self%numbers, merge(size(from%c, 1), last + 1, from%is_spread()), computed%columns()))
-      if (from%is_spread()) spectrum(:, max(last - first + 2, 1):, :) = 0.0_dp
+      allocate (spectrum(self%numbers, merge(size(from%c, 1), last + 1, from%is_distributed()), computed%columns()))
+      if (from%is_distributed()) spectrum(:, max(last - first + 2, 1):, :) = 0.0_dp
       allocate (block(self%numbers, self%points(2), block_rows))
       do k = first, last, block_rows
          number = min(block_rows, last - k + 1)
@@ -152,14 +152,14 @@ contains
             spectrum(:, k - first + 1:k - first + number, j) = block(:, computed%first - 1 + j, :number)
          end do
       end do
-      if (from%is_spread()) then
-         call kept%exchange_rows(from%spread_waves, self%numbers, dp, exchange)
+      if (from%is_distributed()) then
+         call kept%exchange_rows(from%distributed_waves, self%numbers, dp, exchange)
          call assert(size(from%c, 1) == exchange%own_rows, 'the series is spread over the same ranks')
-         allocate (own_columns(self%numbers, from%spread_waves, kept%columns()))
+         allocate (own_columns(self%numbers, from%distributed_waves, kept%columns()))
          call exchange%to_columns(spectrum, own_columns)
          call move_alloc(own_columns, spectrum)
       end if
-      if (kept%is_spread .and. .not. self%slab%is_spread) then
+      if (kept%is_distributed .and. .not. self%slab%is_distributed) then
          allocate (own_values(self%points(1), kept%columns()))
          call waves_to_columns(self, spectrum, own_values)
          call kept%gather(own_values, field)
@@ -168,7 +168,7 @@ contains
       end if
    end subroutine sample
 
-   !> The values of waves at the points of a whole cell, in a grid that is not spread:
+   !> The values of waves at the points of a whole cell, in a grid that is not distributed:
    !> f = sum_kl w_kl e^(i(kX + lY)), k = -M/2 .. M/2, l = 0 .. N - 1, where w_-k,N-l is the conjugate of w_kl.
    subroutine sample_waves(self, waves, field)
       class(grid_transform), intent(in) :: self                 !! even is .false.

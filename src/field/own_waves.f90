@@ -1,4 +1,4 @@
-!> The own waves of a Fourier series: all of them or, of a series that is spread, those of some wave numbers in X.
+!> The own waves of a Fourier series: all waves or, if the series is distributed, those of some wave numbers in X.
 module wavycon_own_waves
    use wavycon_fourier_series, only: fourier_series
    use wavycon_grid_slab, only: grid_slab
@@ -14,21 +14,22 @@ contains
    type(grid_slab) function wave_slab(series)
       type(fourier_series), intent(in) :: series
 
-      wave_slab = slab_of_waves(merge(series%spread_waves, size(series%c, 1), series%is_spread()), series%is_spread())
+      wave_slab = slab_of_waves(merge(series%distributed_waves, size(series%c, 1), series%is_distributed()), &
+            series%is_distributed())
    end function wave_slab
 
-   type(grid_slab) function slab_of_waves(number, is_spread) result(slab)
+   type(grid_slab) function slab_of_waves(number, is_distributed) result(slab)
       integer, intent(in) :: number       !! of wave numbers
-      logical, intent(in) :: is_spread
+      logical, intent(in) :: is_distributed
 
-      if (is_spread) then
+      if (is_distributed) then
          call slab%divide([1, number])
       else
          call slab%start([1, number], whole=.true.)
       end if
    end function slab_of_waves
 
-   !> Makes a series that is spread whole, where tables are written or everywhere; elsewhere it stays as it is.
+   !> Gathers a distributed series, on the rank that writes the tables or on all; on other ranks it stays as it is.
    subroutine gather_series(series, first_only)
       type(fourier_series), intent(inout) :: series
       logical, intent(in) :: first_only   !! whether only where tables are written
@@ -37,14 +38,14 @@ contains
       type(grid_slab) :: rows
 
       rows = wave_slab(series)
-      if (.not. rows%any(rows%is_spread .and. rows%first == 1)) return
+      if (.not. rows%any(rows%is_distributed .and. rows%first == 1)) return
       call gather_array(series%c)
       if (.not. series%is_even()) then
          call gather_array(series%cs)
          call gather_array(series%sc)
          call gather_array(series%ss)
       end if
-      if (is_whole) series%spread_waves = 0
+      if (is_whole) series%distributed_waves = 0
 
    contains
 

@@ -3,7 +3,7 @@ module wavycon_series_peak
    use wavycon_constants, only: pi
    use wavycon_fourier_series, only: fourier_series
    use wavycon_grid_transform, only: grid_transform
-   use wavycon_hill, only: hill
+   use wavycon_newton_maximiser, only: newton_maximiser
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
@@ -12,19 +12,19 @@ module wavycon_series_peak
 
    !> Points to the shortest wave. Newton's method climbs from the highest.
    integer, parameter :: points_per_wave = 16
-   !> Crests are tried until no other can be higher: between the points the largest modulus of a series of two
-   !> variables may be larger by this factor (Ehlich & Zeller, Math. Z. 86 (1964) 41-44). Of many equal crests, as along
-   !> a line, at most so many are tried.
+   !> Crests are tried until no other can be higher: between the points the largest modulus of a series of two variables
+   !> may be larger by this factor (Ehlich & Zeller, Math. Z. 86 (1964) 41-44). If many crests are equal, as along a
+   !> line, at most so many are tried.
    real(dp), parameter :: most_between = 1.0_dp/cos(pi/points_per_wave)**2
    integer, parameter :: most_crests = 10
 
    !> A series as the field in which Newton's method climbs.
-   type, extends(hill) :: series_hill
+   type, extends(newton_maximiser) :: series_maximiser
       type(fourier_series) :: series
    contains
       procedure :: height
       procedure :: derivatives
-   end type series_hill
+   end type series_maximiser
 
 contains
 
@@ -38,7 +38,7 @@ contains
       real(dp), parameter :: rounding = 1e-12_dp
 
       type(grid_transform) :: transform
-      type(series_hill) :: field
+      type(series_maximiser) :: field
       real(dp), allocatable :: values(:, :)
       real(dp) :: crest(2), found, hidden, largest
       integer :: best(2), i, points(2)
@@ -57,7 +57,7 @@ contains
       place = 0.0_dp
       do i = 1, most_crests
          crest = [transform%x_angle(best(1)), transform%y_angle(best(2))]
-         call field%climb(crest)
+         call field%maximise(crest)
          found = field%height(crest)
          if (found > peak + rounding*largest) then
             peak = found
@@ -85,14 +85,14 @@ contains
    end subroutine remove_crest
 
    pure real(dp) function height(self, place)
-      class(series_hill), intent(in) :: self
+      class(series_maximiser), intent(in) :: self
       real(dp), intent(in) :: place(2)
 
       height = self%series%at(place(1), place(2))
    end function height
 
    pure subroutine derivatives(self, place, gradient, hessian)
-      class(series_hill), intent(in) :: self
+      class(series_maximiser), intent(in) :: self
       real(dp), intent(in) :: place(2)
       real(dp), intent(out) :: gradient(2), hessian(3)
 

@@ -110,14 +110,14 @@ contains
             do j = 0, ubound(series%c, 2)
                l = modulo(sign_y*j, points(2))
                do i = 0, ubound(series%c, 1)
-                  ! The transform takes the other half of the spectrum from this one.
+                  ! The transform derives the other half of the spectrum from this one.
                   k = modulo(sign_x*i, points(1))
                   if (2*k > points(1)) cycle
                   wave = series%c(i, j)
                   if (.not. series%is_even()) wave = wave &
                      - cmplx(sign_x*sign_y*series%ss(i, j), sign_y*series%cs(i, j) + sign_x*series%sc(i, j), dp)
                   waves(k + 1, l + 1) = waves(k + 1, l + 1) &
-                     + 0.25_dp*wave*turned(turn_x(i + 1), sign_x)*turned(turn_y(j + 1), sign_y)
+                     + 0.25_dp*wave*rotated(turn_x(i + 1), sign_x)*rotated(turn_y(j + 1), sign_y)
                end do
             end do
          end do
@@ -137,12 +137,12 @@ contains
                    wave_number=0, last)]
       end function turns
 
-      elemental complex(dp) function turned(turn, direction)
+      elemental complex(dp) function rotated(turn, direction)
          complex(dp), intent(in) :: turn
          integer, intent(in) :: direction   !! 1 or -1
 
-         turned = cmplx(turn%re, direction*turn%im, dp)
-      end function turned
+         rotated = cmplx(turn%re, direction*turn%im, dp)
+      end function rotated
 
    end subroutine sample_whole
 

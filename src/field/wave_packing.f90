@@ -1,5 +1,5 @@
-!> The coefficients of a Fourier series in the spectrum of its values on a grid: rows of cosines of an even field, rows of
-!> waves of any other. The grids are those of wavycon_grid_points.
+!> Converts between the coefficients of a Fourier series and the spectrum of its values on a grid of
+!> wavycon_grid_points. The rows of the spectrum are cosines for an even field, waves for any other.
 module wavycon_wave_packing
    use wavycon_fourier_series, only: fourier_series
    use wavycon_kinds, only: dp
@@ -58,7 +58,7 @@ contains
       end associate
    end subroutine take_waves
 
-   !> The inverse of `take_cosines`, for another number of points too.
+   !> The inverse of `take_cosines`; the number of points may differ.
    pure subroutine give_cosines(points, from, first, block, power, per_wave)
       integer, intent(in) :: points(2)                  !! M, N
       type(fourier_series), intent(in) :: from
@@ -78,7 +78,7 @@ contains
       end do
    end subroutine give_cosines
 
-   !> The inverse of `take_waves`, for another number of points too.
+   !> The inverse of `take_waves`; the number of points may differ.
    pure subroutine give_waves(points, from, first, block, power, per_wave)
       integer, intent(in) :: points(2)                  !! M, N
       type(fourier_series), intent(in) :: from
@@ -117,7 +117,7 @@ contains
       end associate
    end subroutine give_waves
 
-   !> A power of the frequency of a harmonic: 1 without a power, and 0 of the mean.
+   !> A power of the frequency of a harmonic: 1 without a power, and 0 for the mean.
    pure real(dp) function factor(k, l, power, per_wave)
       integer, intent(in) :: k, l                         !! wave numbers, >= 0
       integer, intent(in), optional :: power

@@ -14,11 +14,11 @@ module wavycon_contact_equations
    use wavycon_chord_rule, only: chord_rule, start_chord_rule
    use wavycon_constants, only: pi
    use wavycon_disc_rule, only: disc_rule, start_disc_rule
+   use wavycon_disc_sources, only: linearise_sources
    use wavycon_expansion, only: expansion
-   use wavycon_fitted_tuning, only: chords_per_degree, degree_per_near_disc_extra, extra_chord_points, extra_chords, &
-      extra_disc_angles, extra_disc_radii, extra_sharp_chords, island_extra_angles, island_extra_radii, &
-      near_disc_extra, near_images_ratio, sharp_chords_per_degree, sharp_collocation_factor, &
-      sharp_collocation_ratio, sharp_disc_extra, sharp_quadrature_ratio, spot_extra_angles, spot_extra_radii
+   use wavycon_fitted_tuning, only: chords_per_degree, extra_chord_points, extra_disc_angles, island_extra_angles, &
+      island_extra_radii, near_images_ratio, sharp_chords_per_degree, sharp_collocation_factor, &
+      sharp_collocation_ratio, sharp_quadrature_ratio, spot_extra_angles, spot_extra_radii
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgemv
    use wavycon_lattice_images, only: lattice_images
@@ -82,16 +82,17 @@ contains
       fold = like%basis%fold
       associate (degree => like%basis%degree, b => like%shape%b)
          ! Sharp tips make the quotient on the chords less smooth, near neighbours the kernel.
-         angles = int(chords_per_degree*degree) + extra_chords
+         angles = int(chords_per_degree*degree) + 4
          if (merging_ratio > sharp_quadrature_ratio) &
-            angles = int(sharp_chords_per_degree*degree) + min(extra_sharp_chords, degree)
+            angles = int(sharp_chords_per_degree*degree) + min(20, degree)
          ! On an ellipse the coefficients of 1/|Q| in the angle fall as the powers of b_1/b_0.
          if (fold == 2) angles = angles + ceiling(-log(epsilon(1.0_dp))/log(b(0)/max(abs(b(1)), epsilon(1.0_dp))))
          call start_chord_rule(equations%chords, like%basis, ubound(b, 1), angles, degree/2 + extra_chord_points)
+         ! Low degrees are not accurate enough to need many more.
          finer = 0
-         if (merging_ratio > sharp_quadrature_ratio) finer = sharp_disc_extra
-         if (merging_ratio > near_images_ratio) finer = min(near_disc_extra, degree/degree_per_near_disc_extra)
-         call start_disc_rule(equations%rule, like%basis%power, fold, degree/2 + extra_disc_radii + finer, &
+         if (merging_ratio > sharp_quadrature_ratio) finer = 1
+         if (merging_ratio > near_images_ratio) finer = min(6, degree/4)
+         call start_disc_rule(equations%rule, like%basis%power, fold, degree/2 + 2 + finer, &
                               degree/fold + extra_disc_angles + finer)
       end associate
    end subroutine choose_rules
@@ -185,19 +186,13 @@ contains
       class(contact_equations), intent(inout) :: self
       type(expansion), intent(in) :: now
 
-      real(dp) :: density(size(self%rule%point)), jacobian, slope(0:ubound(now%shape%b, 1))
-      integer :: i, n
+      real(dp), dimension(size(self%rule%point), 0:ubound(now%shape%b, 1)) :: moment_x, moment_y, strength_slope
+      real(dp) :: weighted(size(self%rule%point), now%basis%terms)
 
-      n = size(self%rule%point)
-      call dgemv('N', n, now%basis%terms, 1.0_dp, self%values, n, now%c, 1, 0.0_dp, density, 1)
-      self%load_row = 0.0_dp
-      associate (terms => now%basis%terms, first => self%before_shape + 1, weight => self%rule%weight)
-         do i = 1, n
-            call now%shape%linearise_jacobian(self%rule%point(i), jacobian, slope)
-            self%load_row(:terms) = self%load_row(:terms) + weight(i)*jacobian*self%values(i, :)
-            self%load_row(first:) = self%load_row(first:) + weight(i)*density(i)*slope
-         end do
-      end associate
+      call linearise_sources(now%shape, self%rule, self%values, now%c, weighted, strength_slope, moment_x, moment_y)
+      self%load_row(:now%basis%terms) = sum(weighted, 1)
+      self%load_row(now%basis%terms + 1) = 0.0_dp
+      self%load_row(self%before_shape + 1:) = sum(strength_slope, 1)
    end subroutine linearise_load
 
    !> Integral over the spot or island of an expansion, p or g, times a function of the place.

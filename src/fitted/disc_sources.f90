@@ -1,65 +1,114 @@
-!> A spot or an island as many point sources: the points of a rule over the whole disc.
+!> Sources at the points of a rule over the mapped disc, and the copies of them that the symmetry makes.
 module wavycon_disc_sources
    use wavycon_constants, only: pi
    use wavycon_disc_rule, only: disc_rule, start_disc_rule
    use wavycon_expansion, only: expansion
    use wavycon_kinds, only: dp
+   use wavycon_shape_map, only: shape_map
+   use wavycon_source_density, only: find_density
+   use wavycon_stress_kernel, only: add_sources, stress_fields
    implicit none (type, external)
    private
 
-   public :: disc_sources, start_disc_sources
+   public :: copies, disc_sources, linearise_sources, start_disc_sources
 
+   !> A whole spot or island as point sources.
    type :: disc_sources
-      complex(dp), allocatable :: place(:)               !! from the centre, shape (n) [s]
-      real(dp), allocatable :: strength(:)               !! of the expansion there, with area and weight, shape (n)
+      logical :: island = .false.
+      real(dp), allocatable :: x(:), y(:)          !! from the centre, shape (n) [s]
+      real(dp), allocatable :: strength(:, :)
+         !! times area, shape (n, 2): a spot's pressure or an island's gap, and 0; or the gap's gradient
    contains
-      procedure :: sum_at
+      procedure :: add_at
    end type disc_sources
 
 contains
 
    !> Sets the sources of a rule over the whole disc.
-   subroutine start_disc_sources(sources, solution, radii, angles)
+   subroutine start_disc_sources(sources, solution, gradient, radii, angles)
       type(disc_sources), intent(out) :: sources
       type(expansion), intent(in) :: solution
+      logical, intent(in) :: gradient      !! whether the gradient of an island's gap is wanted; false for a spot
       integer, intent(in) :: radii         !! points per radius, >= 1
       integer, intent(in) :: angles        !! and per turn, rounded up to a multiple of 2 fold
 
       type(disc_rule) :: rule
-      real(dp), allocatable :: density(:), values(:, :)
-      complex(dp) :: turn
-      integer :: fold, g, n
+      complex(dp), allocatable :: density(:), strength(:), z(:)
 
-      fold = solution%basis%fold
-      call start_disc_rule(rule, solution%basis%power, fold, radii, (angles + 2*fold - 1)/(2*fold))
-      n = size(rule%point)
-      allocate (values(n, solution%basis%terms), density(n))
-      call solution%basis%evaluate(n, rule%point, values)
-      density = matmul(values, solution%c)*rule%weight/(2*fold)*solution%shape%jacobian(rule%point)
-      allocate (sources%place(2*fold*n), sources%strength(2*fold*n))
-      do g = 0, fold - 1
-         turn = exp(cmplx(0.0_dp, 2*pi*g/fold, dp))
-         sources%place(2*g*n + 1:(2*g + 1)*n) = solution%shape%place(turn*rule%point)
-         sources%place((2*g + 1)*n + 1:(2*g + 2)*n) = solution%shape%place(turn*conjg(rule%point))
-         sources%strength(2*g*n + 1:(2*g + 1)*n) = density
-         sources%strength((2*g + 1)*n + 1:(2*g + 2)*n) = density
-      end do
+      sources%island = solution%island
+      associate (fold => solution%basis%fold)
+         ! The gradient behaves as the root of 1 - |w|^2, as a pressure does.
+         call start_disc_rule(rule, merge(0.5_dp, solution%basis%power, gradient), fold, radii, &
+                              (angles + 2*fold - 1)/(2*fold))
+         allocate (density(size(rule%point)))
+         call find_density(solution, gradient, size(density), rule%point, &
+                           (1.0_dp - abs(rule%point))*(1.0_dp + abs(rule%point)), density)
+         density = density*rule%weight/(2*fold)
+         z = copies(fold, solution%shape%place(rule%point))
+         ! A gradient is turned and mirrored with its place.
+         if (gradient) strength = copies(fold, density)
+         if (.not. gradient) strength = reshape(density, [size(z)], pad=density)
+      end associate
+      sources%x = z%re
+      sources%y = z%im
+      sources%strength = reshape([strength%re, strength%im], [size(z), 2])
    end subroutine start_disc_sources
 
-   !> The sum of strength/r^power at z.
-   pure real(dp) function sum_at(self, z, power)
+   !> Adds the fields at a place.
+   pure subroutine add_at(self, kernel, place, depth, fields)
       class(disc_sources), intent(in) :: self
-      complex(dp), intent(in) :: z         !! from the centre of the spot or island [s]
-      integer, intent(in) :: power         !! 1 or 3
+      integer, intent(in) :: kernel                     !! as of add_sources, for which the sources were set
+      complex(dp), intent(in) :: place                  !! from the centre [s]
+      real(dp), intent(in) :: depth                     !! >= 0 [s]
+      real(dp), intent(inout) :: fields(stress_fields)
 
-      real(dp), dimension(size(self%place)) :: inverse_square
+      call add_sources(kernel, self%island, size(self%x), place%re - self%x, place%im - self%y, depth, &
+                       self%strength(:, 1), self%strength(:, 2), fields)
+   end subroutine add_at
 
-      inverse_square = 1.0_dp/((z%re - self%place%re)**2 + (z%im - self%place%im)**2)
-      if (power == 1) then
-         sum_at = dot_product(self%strength, sqrt(inverse_square))
-      else
-         sum_at = dot_product(self%strength, sqrt(inverse_square)*inverse_square)
-      end if
-   end function sum_at
+   !> All copies of n places or vectors. For each turn by 2 pi g/fold, g = 0, .., fold-1, come first the n turned ones,
+   !> then those mirrored at the x axis before the turn.
+   pure function copies(fold, z) result(all)
+      integer, intent(in) :: fold                  !! of the symmetry
+      complex(dp), intent(in) :: z(:)              !! x + i y, shape (n)
+      complex(dp) :: all(2*fold*size(z))
+
+      complex(dp) :: turn
+      integer :: g, n
+
+      n = size(z)
+      do g = 0, fold - 1
+         turn = exp(cmplx(0.0_dp, 2*pi*g/fold, dp))
+         all(2*n*g + 1:2*n*g + n) = turn*z
+         all(2*n*g + n + 1:2*n*(g + 1)) = turn*conjg(z)
+      end do
+   end function copies
+
+   !> Strengths of the sources of one sector, which are the terms of an expansion times weight and area, and how
+   !> strengths and places change with the shape.
+   pure subroutine linearise_sources(shape, rule, values, c, weighted, strength_slope, moment_x, moment_y)
+      type(shape_map), intent(in) :: shape
+      type(disc_rule), intent(in) :: rule              !! with the weight of the expansion
+      real(dp), intent(in) :: values(:, :)             !! of the basis at the rule's points, shape (n, N)
+      real(dp), intent(in) :: c(:)                     !! coefficients of the expansion, shape (N)
+      real(dp), intent(out) :: weighted(:, :)          !! strength of each term, shape (n, N) [s^2]
+      real(dp), intent(out) :: strength_slope(:, 0:)   !! d(strength of the expansion)/d b_k, shape (n, 0:K) [s]
+      real(dp), intent(out), dimension(:, 0:) :: moment_x, moment_y
+         !! strength of the expansion times dz/d b_k, real and imaginary part, shape (n, 0:K) [s^2]
+
+      complex(dp) :: place_slope(0:ubound(shape%b, 1))
+      real(dp) :: density(size(rule%point)), jacobian, jacobian_slope(0:ubound(shape%b, 1))
+      integer :: i
+
+      density = rule%weight*matmul(values, c)
+      do i = 1, size(rule%point)
+         call shape%linearise_jacobian(rule%point(i), jacobian, jacobian_slope)
+         call shape%linearise_place(rule%point(i), place_slope)
+         weighted(i, :) = rule%weight(i)*jacobian*values(i, :)
+         strength_slope(i, :) = density(i)*jacobian_slope
+         moment_x(i, :) = density(i)*jacobian*place_slope%re
+         moment_y(i, :) = density(i)*jacobian*place_slope%im
+      end do
+   end subroutine linearise_sources
 
 end module wavycon_disc_sources

@@ -5,7 +5,6 @@
 !> Coefficients below rounding are dropped, and the rest is turned into powers of u and v, evaluated by Horner's scheme.
 module wavycon_even_polynomial
    use wavycon_chebyshev, only: chebyshev_coefficients, chebyshev_node
-   use wavycon_fitted_tuning, only: kernel_fit_degree
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
@@ -20,7 +19,8 @@ module wavycon_even_polynomial
       procedure :: evaluate
    end type even_polynomial
 
-   integer, parameter, public :: fit_degree = kernel_fit_degree
+   !> In the square of either coordinate: the first term left out is below rounding.
+   integer, parameter, public :: fit_degree = 12
 
 contains
 

@@ -112,20 +112,8 @@ contains
    pure real(dp) function origin_remainder(x) result(value)
       real(dp), intent(in) :: x             !! >= 0
 
-      real(dp) :: power
-      integer :: n
-
-      if (x < 1.0_dp) then
-         ! The sum over n of -2/sqrt(pi) (-x^2)^n/(n! (2n+1)), as erf(x)/x has no value at 0.
-         power = -2/sqrt(pi)
-         value = power
-         do n = 1, series_terms
-            power = -power*x**2/n
-            value = value + power/(2*n + 1)
-         end do
-      else
-         value = -erf(x)/x
-      end if
+      value = -2/sqrt(pi)
+      if (x > 0.0_dp) value = -erf(x)/x
    end function origin_remainder
 
    !> The Laplacian in the plane of -erf(x)/x; with 1/r^3 taken out of README.md (F21).
@@ -136,7 +124,8 @@ contains
       integer :: n
 
       if (x < 1.0_dp) then
-         ! The series above, differentiated: the closed form loses digits to cancellation.
+         ! The closed form loses digits to cancellation: the series of -erf(x)/x, the sum over n of
+         ! -2/sqrt(pi) (-x^2)^n/(n! (2n+1)), differentiated.
          power = -2/sqrt(pi)
          value = 0.0_dp
          do n = 1, series_terms

@@ -64,10 +64,7 @@ contains
    real(dp) function at_centre(self)
       class(expansion), intent(in) :: self
 
-      real(dp) :: values(1, self%basis%terms)
-
-      call self%basis%evaluate(1, [(0.0_dp, 0.0_dp)], values)
-      at_centre = dot_product(values(1, :), self%c)
+      at_centre = self%at((0.0_dp, 0.0_dp))
    end function at_centre
 
    !> The value at a point of the disc; 0 outside.

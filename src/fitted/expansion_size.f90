@@ -1,9 +1,8 @@
 !> How large an expansion is: its sequence of degrees, its number of shape terms, and the clustering of its map.
 module wavycon_expansion_size
    use wavycon_fitted_tuning, only: degree_per_shape_term, degree_per_shape_term_twofold, degree_step, first_degree, &
-      full_shape_degree, full_step_degree, full_step_degree_round, island_clustering, island_clustering_power, &
-      least_clustering, least_clustering_change, longest_clustering_step, round_shape_ratio, spot_clustering, &
-      spot_clustering_power
+      full_step_degree, island_clustering, island_clustering_power, least_clustering, round_shape_ratio, &
+      spot_clustering, spot_clustering_power
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
@@ -25,7 +24,7 @@ contains
 
       half = degree < first_degree
       if (fold == 4) half = degree < full_step_degree &
-         .or. (degree < full_step_degree_round .and. merging_ratio < round_shape_ratio)
+         .or. (degree < 12 .and. merging_ratio < round_shape_ratio)
       next_degree = degree + merge(degree_step/2, degree_step, half)
    end function next_degree
 
@@ -41,7 +40,7 @@ contains
       end if
       shape_terms = degree/degree_per_shape_term + 1
       ! Low degrees do not determine as many.
-      if (degree < full_shape_degree) shape_terms = (degree + 1)/degree_per_shape_term
+      if (degree < 12) shape_terms = (degree + 1)/degree_per_shape_term
       ! The highest power of conj(w) is about the same for all symmetries. More terms of six-fold shapes are not
       ! determined, but for sharp tips.
       if (fold < 4 .or. merging_ratio < round_shape_ratio) shape_terms = nint(4.0_dp*shape_terms/fold)
@@ -59,8 +58,8 @@ contains
                                  spot_clustering*ratio**spot_clustering_power, island)
       end associate
       if (next_clustering < least_clustering) next_clustering = 0.0_dp
-      if (abs(next_clustering - tau) < least_clustering_change*next_clustering) next_clustering = tau
-      next_clustering = min(next_clustering, tau + longest_clustering_step)
+      if (abs(next_clustering - tau) < 0.2_dp*next_clustering) next_clustering = tau
+      next_clustering = min(next_clustering, tau + 0.02_dp)
    end function next_clustering
 
 end module wavycon_expansion_size

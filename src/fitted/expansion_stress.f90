@@ -4,14 +4,14 @@
 !> rule over the disc or, next to it, along rays, and those of all others, which are smooth, by a table.
 module wavycon_expansion_stress
    use wavycon_constants, only: pi
-   use wavycon_disc_rule, only: disc_rule, start_disc_rule
+   use wavycon_disc_sources, only: disc_sources, start_disc_sources
    use wavycon_expansion, only: expansion
    use wavycon_far_stress, only: far_nodes, far_stress, set_far_values, start_far_stress
    use wavycon_fitted_tuning, only: far_bottom, far_top, near_clearance, series_depth
    use wavycon_kinds, only: dp
-   use wavycon_shape_search, only: distance_from_edge
+   use wavycon_shape_search, only: distance_from_edge, edge_points
    use wavycon_spot_integral, only: spot_integral, start_spot_integral
-   use wavycon_stress_kernel, only: add_gap, add_pressure, all_fields, stress_fields
+   use wavycon_stress_kernel, only: add_gap, all_fields, stress_fields
    use wavycon_stress_series, only: add_wave, start_stress_series, stress_series
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
@@ -24,6 +24,7 @@ module wavycon_expansion_stress
       type(spot_integral) :: spot                            !! one of the spots or islands
       complex(dp), allocatable, private :: centre(:)         !! of the spots or islands near the cell [s]
       real(dp), allocatable, private :: half_turn(:)         !! 1, or -1 if turned by half a turn
+      complex(dp), allocatable, private :: edge(:)           !! edge_points of the shape
       ! Made when first needed.
       type(stress_series), allocatable, private :: series
       type(far_stress), allocatable, private :: far
@@ -44,6 +45,7 @@ contains
 
       stress%lattice = lattice
       call start_spot_integral(stress%spot, solution, accuracy, all_fields)
+      stress%edge = edge_points(solution%shape)
       call find_centres(stress)
    end subroutine start_expansion_stress
 
@@ -97,37 +99,28 @@ contains
       distance = huge(distance)
       do i = 1, size(self%centre)
          if (abs(z - self%centre(i)) - self%spot%radius > distance) cycle
-         distance = min(distance, abs(distance_from_edge(self%spot%solution%shape, &
+         distance = min(distance, abs(distance_from_edge(self%spot%solution%shape, self%edge, &
                                                          self%half_turn(i)*(z - self%centre(i)))))
       end do
    end function distance_from_edges
 
-   !> Centres of the spots or islands within a distance of the rectangle that places are reduced to.
+   !> Finds the spots or islands near the rectangle that places are reduced to.
    subroutine find_centres(stress)
       type(expansion_stress), intent(inout) :: stress
 
-      real(dp), allocatable :: point(:, :)
-      real(dp) :: next, off, reach, width(2)
-      complex(dp) :: centre
-      integer :: i, island
+      complex(dp), allocatable :: second(:)
 
-      associate (rows => stress%lattice%rows, lattice => stress%lattice)
-         width = [0.5_dp, 0.5_dp*rows%spacing]
-         if (rows%along_y) width = width([2, 1])
-         reach = hypot(width(1), width(2)) + near_clearance + stress%spot%radius + abs(lattice%trough)
-         call rows%points_within(reach, point, next)
-         allocate (stress%centre(0), stress%half_turn(0))
-         do island = 1, merge(lattice%troughs, 1, stress%spot%solution%island)
-            do i = 0, size(point, 2)
-               centre = 0.0_dp
-               if (i > 0) centre = cmplx(point(1, i), point(2, i), dp)
-               if (stress%spot%solution%island) centre = centre + merge(1, -1, island == 1)*lattice%trough
-               off = hypot(max(abs(centre%re) - width(1), 0.0_dp), max(abs(centre%im) - width(2), 0.0_dp))
-               if (off > near_clearance + stress%spot%radius) cycle
-               stress%centre = [stress%centre, centre]
-               stress%half_turn = [stress%half_turn, merge(1.0_dp, -1.0_dp, island == 1)]
-            end do
-         end do
+      associate (lattice => stress%lattice, reach => near_clearance + stress%spot%radius)
+         if (.not. stress%spot%solution%island) then
+            stress%centre = lattice%rows%points_about(reach, (0.0_dp, 0.0_dp))
+         else
+            stress%centre = lattice%rows%points_about(reach, lattice%trough)
+         end if
+         allocate (stress%half_turn(size(stress%centre)), source=1.0_dp)
+         if (lattice%troughs == 1 .or. .not. stress%spot%solution%island) return
+         second = lattice%rows%points_about(reach, -lattice%trough)
+         stress%centre = [stress%centre, second]
+         stress%half_turn = [stress%half_turn, spread(-1.0_dp, 1, size(second))]
       end associate
    end subroutine find_centres
 
@@ -135,71 +128,52 @@ contains
    subroutine prepare_series(self)
       class(expansion_stress), intent(inout) :: self
 
-      complex(dp), allocatable :: place(:)
-      real(dp), allocatable :: strength(:)
-      integer :: turns
+      type(disc_sources) :: sources
+      real(dp) :: waves
 
-      turns = ceiling(self%spot%digits/series_depth*self%spot%radius)
-      call plain_sources(self, 10 + ceiling(0.5_dp*(turns + self%spot%digits + self%spot%solution%basis%degree)), &
-                         ceiling(turns + self%spot%digits + self%spot%solution%basis%degree), place, strength)
+      waves = ceiling(self%spot%digits/series_depth*self%spot%radius) + self%spot%digits &
+         + self%spot%solution%basis%degree
+      call start_disc_sources(sources, self%spot%solution, .false., 10 + ceiling(0.5_dp*waves), ceiling(waves))
       allocate (self%series)
-      call start_stress_series(self%series, self%lattice%rows, place%re, place%im, strength, &
-                               self%spot%solution%island, series_depth, self%spot%digits)
+      call start_series(self, self%series, sources, series_depth, self%spot%digits)
    end subroutine prepare_series
 
-   !> Point sources of all spots or islands in a cell, from a crest: pressure or gap.
-   subroutine plain_sources(stress, radii, angles, place, strength)
+   !> Starts the series of all spots or islands from the sources of one of them: pressure or gap.
+   subroutine start_series(stress, series, sources, depth, digits)
       type(expansion_stress), intent(in) :: stress
-      integer, intent(in) :: radii, angles
-      complex(dp), allocatable, intent(out) :: place(:)
-      real(dp), allocatable, intent(out) :: strength(:)
+      type(stress_series), intent(out) :: series
+      type(disc_sources), intent(in) :: sources
+      real(dp), intent(in) :: depth, digits                   !! as of start_stress_series
 
-      type(disc_rule) :: rule
-      real(dp), allocatable :: density(:), values(:, :)
-      complex(dp) :: turn
-      integer :: fold, g, n
+      complex(dp) :: centre
+      integer :: count
 
-      associate (solution => stress%spot%solution)
-         fold = solution%basis%fold
-         call start_disc_rule(rule, solution%basis%power, fold, radii, (angles + 2*fold - 1)/(2*fold))
-         n = size(rule%point)
-         allocate (values(n, solution%basis%terms), density(n), place(0), strength(0))
-         call solution%basis%evaluate(n, rule%point, values)
-         density = matmul(values, solution%c)*rule%weight/(2*fold)*solution%shape%jacobian(rule%point)
-         do g = 0, fold - 1
-            turn = exp(cmplx(0.0_dp, 2*pi*g/fold, dp))
-            place = [place, turn*solution%shape%place(rule%point), turn*conjg(solution%shape%place(rule%point))]
-            strength = [strength, density, density]
-         end do
-         if (solution%island) then
-            place = place + stress%lattice%trough
-            ! The half-turn of an island about a crest has the same even terms.
-            strength = stress%lattice%troughs*strength
-         end if
-      end associate
-   end subroutine plain_sources
+      centre = 0.0_dp
+      count = 1
+      if (stress%spot%solution%island) then
+         centre = stress%lattice%trough
+         ! The half-turn of an island about a crest has the same even terms.
+         count = stress%lattice%troughs
+      end if
+      call start_stress_series(series, stress%lattice%rows, centre%re + sources%x, centre%im + sources%y, &
+                               count*sources%strength(:, 1), stress%spot%solution%island, depth, digits)
+   end subroutine start_series
 
    !> Makes the table: at its nodes the series of all, less the sum of the near ones, of the same point sources.
    subroutine prepare_far(self)
       class(expansion_stress), intent(inout) :: self
 
+      type(disc_sources) :: sources
       type(stress_series) :: series
-      complex(dp), allocatable :: place(:)
       complex(dp) :: at
-      real(dp), allocatable :: strength(:), values(:, :, :, :), x(:), y(:), z(:)
+      real(dp), allocatable :: values(:, :, :, :), x(:), y(:), z(:)
       real(dp) :: fields(stress_fields), mean, sides(2)
       integer :: i, j, k, m, terms(3)
 
       associate (rows => self%lattice%rows)
-         call plain_sources(self, self%spot%radii(1), self%spot%angles(1), place, strength)
-         call start_stress_series(series, rows, place%re, place%im, strength, self%spot%solution%island, far_top, &
-                                  self%spot%digits + 9.0_dp)
-         mean = -sum(strength)/rows%spacing
-         ! Of one spot or island from its centre.
-         if (self%spot%solution%island) then
-            place = place - self%lattice%trough
-            strength = strength/self%lattice%troughs
-         end if
+         call start_disc_sources(sources, self%spot%solution, .false., self%spot%radii(1), self%spot%angles(1))
+         call start_series(self, series, sources, far_top, self%spot%digits + 9.0_dp)
+         mean = -sum(sources%strength(:, 1))/rows%spacing
          sides = [0.5_dp, 0.5_dp*rows%spacing]
          if (rows%along_y) sides = sides([2, 1])
          terms = far_sizes(sides, self%spot%digits - 1.0_dp)
@@ -215,9 +189,10 @@ contains
                      at = self%half_turn(m)*(cmplx(x(i), y(j), dp) - self%centre(m))
                      fields(7:8) = self%half_turn(m)*fields(7:8)
                      if (self%spot%solution%island) then
-                        call add_gap(size(strength), at%re - place%re, at%im - place%im, z(k), strength, fields)
+                        call add_gap(size(sources%x), at%re - sources%x, at%im - sources%y, z(k), &
+                                     sources%strength(:, 1), fields)
                      else
-                        call add_pressure(size(strength), at%re - place%re, at%im - place%im, z(k), strength, fields)
+                        call sources%add_at(all_fields, at, z(k), fields)
                      end if
                      fields(7:8) = self%half_turn(m)*fields(7:8)
                   end do

@@ -7,10 +7,10 @@
 module wavycon_exterior_series
    use wavycon_chebyshev, only: chebyshev_coefficients, chebyshev_node, chebyshev_polynomials
    use wavycon_constants, only: pi
-   use wavycon_exterior_map, only: exterior_place, find_exterior
    use wavycon_expansion, only: expansion
    use wavycon_kinds, only: dp
    use wavycon_shape_map, only: shape_map
+   use wavycon_shape_search, only: find_preimage
    use wavycon_spot_integral, only: spot_integral, start_spot_integral
    use wavycon_stress_kernel, only: stress_fields, surface_field
    implicit none (type, external)
@@ -81,7 +81,7 @@ contains
             do i = 1, terms(1)
                v = exp(cmplx(0.0_dp, pi*(i - 0.5_dp)/(terms(1)*shape%fold), dp))/((1.0_dp - s)*(1.0_dp + s))
                fields = 0.0_dp
-               call spot%add_at(exterior_place(shape, v), 0.0_dp, fields)
+               call spot%add_at(shape%place_outside(v), 0.0_dp, fields)
                values(i, j) = fields(1)
             end do
          end do
@@ -102,7 +102,7 @@ contains
       real(dp) :: of_angle(size(self%c, 1)), of_radius(size(self%c, 2))
 
       value = 0.0_dp
-      call find_exterior(shape, z, v, found)
+      call find_preimage(shape, z, v, found)
       if (.not. found) return
       of_angle = chebyshev_polynomials(real((v/abs(v))**shape%fold, dp), size(of_angle))
       of_radius = chebyshev_polynomials(2*sqrt(max(1.0_dp - 1.0_dp/abs(v), 0.0_dp)) - 1.0_dp, size(of_radius))

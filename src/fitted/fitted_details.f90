@@ -11,41 +11,30 @@ module wavycon_fitted_details
    implicit none (type, external)
    private
 
-   public :: fitted_details, find_fitted_details
-
-   !> Gaps in Delta, pressure in the unit of the lattice's, pi E* Delta/s.
-   type :: fitted_details
-      real(dp) :: trough_gap = 0.0_dp
-      real(dp) :: saddle_gap = 0.0_dp               !! 0 above merging
-      real(dp) :: saddle_pressure = 0.0_dp          !! 0 below merging
-      real(dp) :: trough_gap_error = huge(1.0_dp)   !! estimated errors
-      real(dp) :: saddle_gap_error = huge(1.0_dp)
-      real(dp) :: saddle_pressure_error = huge(1.0_dp)
-   end type fitted_details
+   public :: find_fitted_details
 
 contains
 
-   subroutine find_fitted_details(lattice, answer, details)
+   subroutine find_fitted_details(lattice, answer, values, error)
       type(wave_lattice), intent(in) :: lattice    !! the answer's
       type(fitted_answer), intent(in) :: answer    !! with a solution, status <= fitted_less_exact
-      type(fitted_details), intent(out) :: details
+      real(dp), intent(out) :: values(3)           !! as of fitted_separations: trough gap, saddle gap, saddle pressure
+      real(dp), intent(out) :: error(3)            !! estimates of their errors
 
       !> Accuracy of the second evaluation.
       real(dp), parameter :: finer = 1e-15_dp
-      !> Trough gap, saddle gap, saddle pressure.
-      integer, parameter :: values = 3
-      real(dp) :: at(values, 0:most_previous), by_finer_rules(values)
-      real(dp), dimension(values) :: difference, error, previous_difference, scale
+      real(dp) :: at(3, 0:most_previous)
+      real(dp), dimension(3) :: difference, previous_difference, scale
       type(fitted_answer) :: older
       integer :: i, k
 
-      call separations(lattice, answer, at(:, 0))
-      call separations(lattice, answer, by_finer_rules, accuracy=finer)
+      values = fitted_separations(lattice, answer)
+      at(:, 0) = values
       older = answer
       do k = 1, size(answer%previous)
          older%solution = answer%previous(k)
          if (.not. answer%island) older%mean_gap = 1.0_dp - older%solution%approach
-         call separations(lattice, older, at(:, k))
+         at(:, k) = fitted_separations(lattice, older)
       end do
       difference = abs(at(:, 0) - at(:, 1))
       previous_difference = huge(1.0_dp)
@@ -54,7 +43,7 @@ contains
       scale = 1.0_dp
       if (answer%island) scale(1) = at(1, 0)
       ! One by one: the saddle may be about to close while the trough is wide open.
-      do i = 1, values
+      do i = 1, size(values)
          call error_estimate(difference(i:i), previous_difference(i:i), answer%misfit_decay, scale(i:i), error(i:i))
       end do
       if (answer%island) then
@@ -65,20 +54,9 @@ contains
          ! The approach is part of both gaps.
          error(:2) = max(error(:2), answer%mean_gap_error)
       end if
-      error = error + abs(by_finer_rules - at(:, 0))
-      details = fitted_details(at(1, 0), at(2, 0), at(3, 0), error(1), error(2), error(3))
+      error = error + abs(fitted_separations(lattice, answer, finer) - values)
       ! A gap in contact and a pressure outside of it are 0 by definition.
-      if (answer%island) details%saddle_gap_error = 0.0_dp
-      if (.not. answer%island) details%saddle_pressure_error = 0.0_dp
+      error(merge(2, 3, answer%island)) = 0.0_dp
    end subroutine find_fitted_details
-
-   subroutine separations(lattice, answer, values, accuracy)
-      type(wave_lattice), intent(in) :: lattice
-      type(fitted_answer), intent(in) :: answer
-      real(dp), intent(out) :: values(:)             !! trough gap, saddle gap, saddle pressure, shape (3)
-      real(dp), intent(in), optional :: accuracy   !! of the integrals
-
-      call fitted_separations(lattice, answer, values(1), values(2), values(3), accuracy)
-   end subroutine separations
 
 end module wavycon_fitted_details

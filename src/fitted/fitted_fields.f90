@@ -9,10 +9,9 @@ module wavycon_fitted_fields
    use wavycon_even_polynomial, only: even_polynomial, fit_degree, fit_nodes, start_even_polynomial
    use wavycon_exterior_series, only: exterior_series, start_exterior_series
    use wavycon_fitted_answer, only: fitted_answer
-   use wavycon_fitted_tuning, only: field_accuracy, field_angles, field_angles_per_degree, field_radii, &
-      field_radii_per_degree, least_map
+   use wavycon_fitted_tuning, only: field_accuracy, least_map
    use wavycon_kinds, only: dp
-   use wavycon_spot_integral, only: spot_integral, start_spot_integral
+   use wavycon_spot_integral, only: far_level, spot_integral, start_spot_integral
    use wavycon_stress_kernel, only: stress_fields, surface_field
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
@@ -27,8 +26,7 @@ module wavycon_fitted_fields
       integer :: places = 1                              !! in a cell: the centre and, if there are two, -centre
       complex(dp), allocatable, private :: image(:)      !! centres of the spot or island, 0, and of its near images [s]
       type(spot_integral), private :: spot
-      integer, private :: angles = 0, radii = 0          !! points of the coarse rule
-      type(disc_sources), private :: sources             !! and its sources
+      type(disc_sources), private :: sources             !! those of its rule at far_level
       ! For maps.
       type(exterior_series), allocatable :: series       !! of the spot or island
       type(even_polynomial), private :: far(2)           !! of all but the near images: even in x, and odd over x
@@ -61,13 +59,12 @@ contains
          fields%centre = lattice%trough
          fields%places = lattice%troughs
       end if
-      associate (near => lattice%displacement_kernel%near_points(), degree => answer%solution%basis%degree)
+      associate (near => lattice%displacement_kernel%near_points())
          fields%image = [(0.0_dp, 0.0_dp), cmplx(near(1, :), near(2, :), dp)]
-         fields%angles = max(field_angles, ceiling(field_angles_per_degree*degree))
-         fields%radii = max(field_radii, ceiling(field_radii_per_degree*degree))
       end associate
       call start_spot_integral(fields%spot, answer%solution, asked, surface_field)
-      call start_disc_sources(fields%sources, answer%solution, fields%radii, fields%angles)
+      call start_disc_sources(fields%sources, answer%solution, .false., fields%spot%radii(far_level), &
+                              fields%spot%angles(far_level))
    end subroutine start_fitted_fields
 
    !> The fields at a place.
@@ -142,7 +139,7 @@ contains
          total = self%quick_sum(z)
          return
       end if
-      far = [(self%spot%is_resolved(self%angles, self%radii, z - self%image(k)), k=1, size(far))]
+      far = [(self%spot%is_resolved(z - self%image(k)), k=1, size(far))]
       total = self%coarse_sum(z, far)
       exact = 0.0_dp
       do k = 1, size(far)
@@ -157,25 +154,27 @@ contains
       complex(dp), intent(in) :: z                           !! from the centre, reduced [s]
       logical, intent(in) :: counted(:)                      !! the near images that are part of it
 
-      real(dp), dimension(size(self%sources%place)) :: value, x, y
-      integer :: k, n, power
+      real(dp), dimension(size(self%sources%x)) :: value, x, y
+      real(dp), dimension(stress_fields) :: of_centre, removed
+      integer :: k
 
-      n = size(self%sources%place)
-      power = merge(3, 1, self%answer%island)
-      x = z%re - self%sources%place%re
-      y = z%im - self%sources%place%im
+      x = z%re - self%sources%x
+      y = z%im - self%sources%y
       if (self%answer%island) then
-         call self%lattice%pressure_kernel%evaluate(n, x, y, value)
+         call self%lattice%pressure_kernel%evaluate(size(x), x, y, value)
+         value = -value/(4*pi**2)
       else
-         call self%lattice%displacement_kernel%evaluate(n, x, y, value)
+         call self%lattice%displacement_kernel%evaluate(size(x), x, y, value)
       end if
-      total = dot_product(self%sources%strength, value)
-      ! The kernels' smooth part has the terms 1/r^power of all images but not that of the one at the origin.
-      if (counted(1)) total = total + self%sources%sum_at(z, power)
+      total = dot_product(self%sources%strength(:, 1), value)
+      ! The kernel's smooth part has the terms of all images but not that of the one at the origin.
+      of_centre = 0.0_dp
+      removed = 0.0_dp
+      if (counted(1)) call self%sources%add_at(surface_field, z, 0.0_dp, of_centre)
       do k = 2, size(counted)
-         if (.not. counted(k)) total = total - self%sources%sum_at(z - self%image(k), power)
+         if (.not. counted(k)) call self%sources%add_at(surface_field, z - self%image(k), 0.0_dp, removed)
       end do
-      if (self%answer%island) total = -total/(4*pi**2)
+      total = total + of_centre(1) - removed(1)
    end function coarse_sum
 
    !> Prepares for many places: a series of the spot or island itself and of its near images, and a polynomial of the
@@ -183,7 +182,7 @@ contains
    subroutine prepare_map(self, accuracy, places)
       class(fitted_fields), intent(inout) :: self
       real(dp), intent(in) :: accuracy            !! that the solution was asked for, relative
-      integer, intent(in) :: places               !! spread over the cell, >= 0
+      integer, intent(in) :: places               !! distributed over the cell, >= 0
 
       !> Error over the accuracy that was asked for, and the least one over the fields' scale.
       real(dp), parameter :: share = 1e-3_dp, least = 1e-11_dp
@@ -249,22 +248,21 @@ contains
       total = total + exact(1)
    end function quick_sum
 
-   !> Gaps at the trough and at the lattice's saddle, and the pressure at the saddle.
-   subroutine fitted_separations(lattice, answer, trough_gap, saddle_gap, saddle_pressure, accuracy)
+   !> Gaps at the trough and at the lattice's saddle [Delta], and the pressure at the saddle [pi E* Delta/s]. Above
+   !> merging the gap at the saddle is 0, below the pressure there.
+   function fitted_separations(lattice, answer, accuracy) result(values)
       type(wave_lattice), intent(in) :: lattice    !! the answer's
       type(fitted_answer), intent(in) :: answer    !! with a solution, status <= fitted_less_exact
-      real(dp), intent(out) :: trough_gap          !! [Delta]
-      real(dp), intent(out) :: saddle_gap          !! 0 above merging [Delta]
-      real(dp), intent(out) :: saddle_pressure     !! 0 below merging [p*]
       real(dp), intent(in), optional :: accuracy   !! as of start_fitted_fields
+      real(dp) :: values(3)
 
       type(fitted_fields) :: fields
       real(dp) :: displacement, pressure
 
       call start_fitted_fields(fields, lattice, answer, accuracy)
-      call fields%at(lattice%trough, pressure, displacement, trough_gap)
-      call fields%at(lattice%saddle, saddle_pressure, displacement, saddle_gap)
-   end subroutine fitted_separations
+      call fields%at(lattice%trough, pressure, displacement, values(1))
+      call fields%at(lattice%saddle, values(3), displacement, values(2))
+   end function fitted_separations
 
    !> Points of the edge, once around the spot or island.
    function edge(self, points) result(z)

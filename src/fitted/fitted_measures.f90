@@ -2,10 +2,10 @@
 module wavycon_fitted_measures
    use wavycon_constants, only: pi
    use wavycon_contact_equations, only: contact_equations
-   use wavycon_disc_rule, only: disc_rule
+   use wavycon_disc_sources, only: copies
    use wavycon_expansion, only: expansion
    use wavycon_kinds, only: dp
-   use wavycon_periodic_kernel, only: whole_kernel
+   use wavycon_periodic_kernel, only: periodic_kernel
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
    private
@@ -52,54 +52,35 @@ contains
       end if
    end function mean_gap
 
-   !> Pressure at a crest, where it is highest.
+   !> Pressure at a crest, where it is highest. Between islands it is that of full contact less 1/(4 pi^2) times the
+   !> integral of the Laplacian of Gp and the gap, README.md (F45). The islands of a cell are mirror images about the
+   !> crest, so that each contributes the same.
    real(dp) function peak_pressure(equations, lattice, load, now)
       type(contact_equations), intent(in) :: equations
       type(wave_lattice), intent(in) :: lattice
       real(dp), intent(in) :: load
       type(expansion), intent(in) :: now
 
-      if (now%island) then
-         peak_pressure = crest_pressure(lattice, equations%rule, load, now)
-      else
+      type(periodic_kernel) :: kernel
+      complex(dp), allocatable :: from_crest(:)
+      real(dp), allocatable :: value(:)
+
+      if (.not. now%island) then
          peak_pressure = now%at_centre()
+         return
       end if
+      kernel = lattice%pressure_kernel
+      kernel%whole = .true.
+      associate (points => equations%rule%point, copies_of_each => 2*now%basis%fold)
+         from_crest = lattice%trough + copies(now%basis%fold, now%shape%place(points))
+         allocate (value(size(from_crest)))
+         call kernel%evaluate(size(value), from_crest%re, from_crest%im, value)
+         ! The rule's points are those of one sector: the mean over their copies is taken.
+         value = sum(reshape(value, [size(points), copies_of_each]), 2)/copies_of_each
+      end associate
+      peak_pressure = load - lattice%closing_pressure + lattice%pressure_rise(-lattice%trough) &
+         - lattice%troughs*equations%integral(now, value)/(4*pi**2)
    end function peak_pressure
-
-   !> Pressure at a crest between islands, README.md (F45): that of full contact less 1/(4 pi^2) times the integral of
-   !> the Laplacian of Gp and the gap. The islands of a cell are mirror images about the crest, so that each contributes
-   !> the same.
-   real(dp) function crest_pressure(lattice, rule, load, now) result(pressure)
-      type(wave_lattice), intent(in) :: lattice
-      type(disc_rule), intent(in) :: rule       !! with the weight of the expansion
-      real(dp), intent(in) :: load              !! P
-      type(expansion), intent(in) :: now        !! an island's gap
-
-      type(whole_kernel) :: kernel
-      complex(dp), dimension(size(rule%point)) :: z
-      real(dp), dimension(size(rule%point)) :: strength, value, x, y
-      real(dp) :: values(size(rule%point), now%basis%terms), total
-      complex(dp) :: turn
-      integer :: g, mirrored
-
-      kernel%smooth = lattice%pressure_kernel
-      call now%basis%evaluate(size(rule%point), rule%point, values)
-      strength = rule%weight*now%shape%jacobian(rule%point)*matmul(values, now%c)
-      z = now%shape%place(rule%point)
-      total = 0.0_dp
-      do mirrored = 1, 2
-         do g = 0, now%basis%fold - 1
-            turn = exp(cmplx(0.0_dp, 2*pi*g/now%basis%fold, dp))
-            x = lattice%trough%re + real(turn*z, dp)
-            y = lattice%trough%im + aimag(turn*z)
-            call kernel%evaluate(size(z), x, y, value)
-            total = total + sum(strength*value)
-         end do
-         z = conjg(z)
-      end do
-      pressure = load - lattice%closing_pressure + lattice%pressure_rise(-lattice%trough) &
-         - lattice%troughs*total/(2*now%basis%fold)/(4*pi**2)
-   end function crest_pressure
 
    !> Half the integral of p u over a cell [Delta s^2]: README.md (F46) of a spot, (F47) above merging.
    !>

@@ -10,9 +10,7 @@ module wavycon_fitted_solver
    use wavycon_fitted_fields, only: fitted_fields, fitted_separations, start_fitted_fields
    use wavycon_fitted_measures, only: all_measures, area_measure, centre_measure, energy_measure, gap_measure, &
       measure_expansion, peak_measure, perimeter_measure
-   use wavycon_fitted_tuning, only: degree_step, first_degree, largest_change, largest_remaining, last_degree, &
-      least_remaining, linear_convergence_ratio, loosest_series_accuracy, remaining_of_accuracy, round_shape_ratio, &
-      series_error_of_accuracy, series_growth
+   use wavycon_fitted_tuning, only: degree_step, first_degree, last_degree, round_shape_ratio, series_growth
    use wavycon_gauss_newton, only: solve_equations
    use wavycon_kinds, only: dp
    use wavycon_lattice_images, only: lattice_images
@@ -96,7 +94,8 @@ contains
       answer%iterations = 0
       required = peak_measure
       if (present(fields)) required = merge(centre_measure, peak_measure, fields .and. island)
-      tolerance = min(max(remaining_of_accuracy*accuracy, least_remaining), largest_remaining)
+      ! Of the shape. Smaller ones are rounding; larger ones show in the differences of degrees.
+      tolerance = min(max(0.1_dp*accuracy, 1e-13_dp), 1e-7_dp)
       call start_at_load(lattice, answer%pbar_over_pstar, island, now, degree, answer%iterations, valid, merged, start)
       if (merged) answer%status = fitted_merged
       if (.not. valid) return
@@ -104,11 +103,12 @@ contains
       ! A lower degree gives the estimates of round shapes one more difference; it cannot represent sharp ones.
       if (degree == first_degree .and. ratio < round_shape_ratio) degree = first_degree - degree_step/2
       failed = 0
-      contraction = merge(1.0_dp, 0.0_dp, ratio > linear_convergence_ratio)
+      ! Next to merging convergence is less than quadratic: a second step at the first degree measures it.
+      contraction = merge(1.0_dp, 0.0_dp, ratio > 0.7_dp)
       do
          call resize(lattice, degree, now)
-         call images%prepare(lattice, now, series_growth, &
-                             series_error_of_accuracy*min(accuracy, loosest_series_accuracy))
+         ! Looser series are hardly quicker.
+         call images%prepare(lattice, now, series_growth, 1e-2_dp*min(accuracy, 1e-4_dp))
          ratio = merging_ratio(lattice, now)
          call start_equations(equations, now, ratio, images)
          call solve_equations(equations, lattice, answer%pbar_over_pstar, now, tolerance, contraction, change, &
@@ -118,7 +118,7 @@ contains
          if (.not. valid .or. merged) exit
          ! Without convergence there is nothing to compare, but the next degree may converge.
          failed = failed + 1
-         if (change <= largest_change .or. remaining <= tolerance) then
+         if (change <= 1e-4_dp .or. remaining <= tolerance) then
             failed = 0
             call measure_expansion(equations, lattice, answer%pbar_over_pstar, now, measures)
             if (.not. all(measures(:peak_measure) > 0.0_dp)) exit

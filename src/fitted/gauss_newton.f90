@@ -3,7 +3,7 @@ module wavycon_gauss_newton
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use wavycon_contact_equations, only: contact_equations
    use wavycon_expansion, only: expansion
-   use wavycon_fitted_tuning, only: change_per_square, longest_shape_change
+   use wavycon_fitted_tuning, only: longest_shape_change
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgels, dgglse
    use wavycon_wave_lattice, only: wave_lattice
@@ -11,6 +11,9 @@ module wavycon_gauss_newton
    private
 
    public :: gauss_newton_step, solve_equations
+
+   !> Change of a step over the square of the one before, while convergence is quadratic.
+   real(dp), parameter, public :: change_per_square = 10.0_dp
 
    !> Safety limit: most steps at one degree. The loads of scripts/constants take at most half as many. At the limit the
    !> change of the last step is above the tolerance, and the caller decides whether the solution is of use.

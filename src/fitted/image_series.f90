@@ -11,13 +11,13 @@ module wavycon_image_series
    use wavycon_constants, only: pi
    use wavycon_disc_polynomials, only: disc_polynomials, start_disc_polynomials
    use wavycon_disc_rule, only: disc_rule, start_disc_rule
+   use wavycon_disc_sources, only: copies, linearise_sources
    use wavycon_fitted_tuning, only: most_near_points, series_clearance
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgemm
    use wavycon_periodic_kernel, only: periodic_kernel
    use wavycon_point_sources, only: point_sources
    use wavycon_shape_map, only: shape_map
-   use wavycon_symmetric_sources, only: evaluate_copies, linearise_sources
    implicit none (type, external)
    private
 
@@ -92,24 +92,24 @@ contains
       complex(dp), intent(in) :: point(:)                     !! of the disc, shape (n)
       real(dp), allocatable, intent(out) :: nodes(:, :)       !! shape (n, n)
 
-      real(dp) :: near(2*fold*size(point)), value(2*fold*size(point))
-      integer :: copies, i, j, k, n
+      complex(dp) :: source(size(point), 2*fold)
+      real(dp), allocatable, dimension(:) :: near, value, x, y
+      integer :: j, k, n
 
       n = size(point)
+      source = reshape(copies(fold, series%radius*point), shape(source))
       allocate (nodes(n, n))
       do j = 1, n
          ! F is symmetric in target and source: only the sources from the target on are needed.
-         k = n - j + 1
-         copies = 2*fold*k
-         call evaluate_copies(kernel, fold, series%radius*point(j), series%radius*point(j:), value(:copies))
-         if (size(series%near%point, 2) > 0) then
-            call evaluate_copies(series%near, fold, series%radius*point(j), series%radius*point(j:), near(:copies))
-            value(:copies) = value(:copies) - near(:copies)
-         end if
-         do i = 1, k
-            nodes(j - 1 + i, j) = sum(value(i:copies:k))/(2*fold)
-            nodes(j, j - 1 + i) = nodes(j - 1 + i, j)
-         end do
+         k = 2*fold*(n - j + 1)
+         x = reshape(series%radius*point(j)%re - source(j:, :)%re, [k])
+         y = reshape(series%radius*point(j)%im - source(j:, :)%im, [k])
+         allocate (near(k), value(k))
+         call kernel%evaluate(k, x, y, value)
+         call series%near%evaluate(k, x, y, near)
+         nodes(j:, j) = sum(reshape(value - near, [n - j + 1, 2*fold]), 2)/(2*fold)
+         nodes(j, j:) = nodes(j:, j)
+         deallocate (near, value)
       end do
    end subroutine evaluate_nodes
 

@@ -2,11 +2,11 @@
 module wavycon_image_sum
    use wavycon_constants, only: pi
    use wavycon_disc_rule, only: disc_rule
+   use wavycon_disc_sources, only: copies, linearise_sources
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgemm
-   use wavycon_pair_kernel, only: pair_kernel
+   use wavycon_point_sources, only: point_sources
    use wavycon_shape_map, only: shape_map
-   use wavycon_symmetric_sources, only: evaluate_copies, linearise_sources
    implicit none (type, external)
    private
 
@@ -19,7 +19,7 @@ contains
    !>
    !> N.B. The derivatives are at fixed w_t: the targets move with the shape.
    subroutine add_image_sum(kernel, shape, rule, values, c, target, rows, shape_rows, opposite)
-      class(pair_kernel), intent(in) :: kernel
+      class(point_sources), intent(in) :: kernel
       type(shape_map), intent(in) :: shape             !! with the symmetry of the lattice, or less
       type(disc_rule), intent(in) :: rule              !! with the weight of the expansion
       real(dp), intent(in) :: values(:, :)             !! of the basis at the rule's points, shape (n, N)
@@ -36,14 +36,14 @@ contains
       real(dp), dimension(size(target), size(rule%point)) :: folded, gradient_x, gradient_y
       real(dp), dimension(size(rule%point), 0:ubound(shape%b, 1)) :: moment_x, moment_y, strength_slope
       real(dp) :: strength(size(rule%point)), weighted(size(rule%point), size(c))
-      complex(dp) :: gradient, place_slope(0:ubound(shape%b, 1)), source(size(rule%point)), to_centre
+      complex(dp) :: gradient, place_slope(0:ubound(shape%b, 1)), source(size(value)), to_centre, z
       integer :: columns, direction, m, n, t, terms
 
       m = size(target)
       n = size(rule%point)
       terms = size(c)
       columns = size(shape%b)
-      source = shape%place(rule%point)
+      source = copies(shape%fold, shape%place(rule%point))
       to_centre = 0.0_dp
       direction = 1
       if (present(opposite)) then
@@ -54,7 +54,8 @@ contains
       call linearise_sources(shape, rule, values, c, weighted, strength_slope, moment_x, moment_y)
       strength = matmul(weighted, c)/(2*shape%fold)
       do t = 1, m
-         call evaluate_copies(kernel, shape%fold, shape%place(target(t)) + to_centre, source, value, slope_x, slope_y)
+         z = shape%place(target(t)) + to_centre
+         call kernel%evaluate(size(source), z%re - source%re, z%im - source%im, value, slope_x, slope_y)
          call fold_copies(shape%fold, strength, value, slope_x, slope_y, folded(t, :), gradient_x(t, :), &
                           gradient_y(t, :), gradient)
          call shape%linearise_place(target(t), place_slope)
@@ -75,34 +76,24 @@ contains
    pure subroutine fold_copies(fold, strength, value, slope_x, slope_y, folded, gradient_x, gradient_y, gradient)
       integer, intent(in) :: fold
       real(dp), intent(in) :: strength(:)                                !! of the sources, shape (n)
-      real(dp), intent(in), dimension(:) :: value, slope_x, slope_y      !! as of evaluate_copies, shape (2 fold n)
+      real(dp), intent(in), dimension(:) :: value, slope_x, slope_y      !! as of copies, shape (2 fold n)
       real(dp), intent(out), dimension(:) :: folded                      !! kernel, shape (n)
       real(dp), intent(out), dimension(:) :: gradient_x, gradient_y      !! in the source's sector, shape (n)
       complex(dp), intent(out) :: gradient     !! of the sum with respect to the target's place
 
-      complex(dp) :: turn
-      real(dp) :: across, along
-      integer :: copy, g, i, mirrored, n
+      complex(dp) :: back(size(strength)), slope(size(strength), 2, 0:fold - 1), turn
+      integer :: g
 
-      n = size(strength)
-      folded = 0.0_dp
-      gradient_x = 0.0_dp
-      gradient_y = 0.0_dp
-      gradient = 0.0_dp
+      folded = sum(reshape(value, [size(strength), 2*fold]), 2)
+      slope = reshape(cmplx(slope_x, slope_y, dp), shape(slope))
+      gradient = sum(strength*sum(sum(slope, 3), 2))
+      back = 0.0_dp
       do g = 0, fold - 1
          turn = exp(cmplx(0.0_dp, -2*pi*g/fold, dp))
-         do i = 1, n
-            copy = 2*n*g + i
-            mirrored = copy + n
-            along = slope_x(copy) + slope_x(mirrored)
-            across = slope_y(copy) + slope_y(mirrored)
-            gradient = gradient + strength(i)*cmplx(along, across, dp)
-            folded(i) = folded(i) + value(copy) + value(mirrored)
-            gradient_x(i) = gradient_x(i) + (turn%re*along - turn%im*across)
-            gradient_y(i) = gradient_y(i) + (turn%re*(slope_y(copy) - slope_y(mirrored)) &
-                                             + turn%im*(slope_x(copy) - slope_x(mirrored)))
-         end do
+         back = back + turn*slope(:, 1, g) + conjg(turn*slope(:, 2, g))
       end do
+      gradient_x = back%re
+      gradient_y = back%im
    end subroutine fold_copies
 
 end module wavycon_image_sum

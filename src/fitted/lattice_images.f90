@@ -9,7 +9,7 @@ module wavycon_lattice_images
    use wavycon_image_series, only: image_series, start_image_series
    use wavycon_image_sum, only: add_image_sum
    use wavycon_kinds, only: dp
-   use wavycon_periodic_kernel, only: whole_kernel
+   use wavycon_periodic_kernel, only: periodic_kernel
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
    private
@@ -66,7 +66,7 @@ contains
       real(dp), intent(inout) :: rows(:, :)            !! integrals, shape (m, N)
       real(dp), intent(inout) :: shape_rows(:, 0:)     !! d(integral of the sum)/d b_k, shape (m, 0:K)
 
-      type(whole_kernel) :: whole
+      type(periodic_kernel) :: whole
 
       if (self%series%holds_for(now%shape)) then
          call self%series%add_rows(now%shape, rule, values, now%c, target, rows, shape_rows)
@@ -79,7 +79,8 @@ contains
       end if
       if (two_in_a_cell(lattice, now)) then
          ! None of the second islands is the target's own.
-         whole%smooth = lattice%pressure_kernel
+         whole = lattice%pressure_kernel
+         whole%whole = .true.
          call add_image_sum(whole, now%shape, rule, values, now%c, target, rows, shape_rows, opposite=2*lattice%trough)
       end if
    end subroutine add_rows

@@ -3,9 +3,8 @@ module wavycon_load_continuation
    use wavycon_contact_equations, only: contact_equations, start_equations
    use wavycon_expansion, only: expansion
    use wavycon_fitted_answer, only: fitted_answer, fitted_less_exact
-   use wavycon_fitted_tuning, only: change_per_square, degree_step, first_degree, heavy_load_start, light_load_start, &
-      load_step_ratio, restart_degree_steps, start_series_growth, start_shape_change
-   use wavycon_gauss_newton, only: solve_equations
+   use wavycon_fitted_tuning, only: degree_step, first_degree, heavy_load_start, load_step_ratio
+   use wavycon_gauss_newton, only: change_per_square, solve_equations
    use wavycon_kinds, only: dp
    use wavycon_lattice_images, only: lattice_images
    use wavycon_merging_ratio, only: merging_ratio
@@ -15,6 +14,10 @@ module wavycon_load_continuation
    private
 
    public :: is_start, load_steps, start_at_load
+
+   !> Relative change of the shape at which Newton's method stops during continuation: the next load makes smaller ones
+   !> useless.
+   real(dp), parameter :: start_shape_change = 1e-2_dp
 
 contains
 
@@ -43,7 +46,7 @@ contains
          if (found) then
             now = scaled_to_load(lattice, start%solution, start%pbar_over_pstar, load)
             ! Degrees below the last load's, or a sweep would never come down to lower ones again.
-            degree = max(first_degree, start%degree - restart_degree_steps*degree_step)
+            degree = max(first_degree, start%degree - 3*degree_step)
             return
          end if
       end if
@@ -51,7 +54,8 @@ contains
          first_load = max(load, heavy_load_start*lattice%closing_pressure)
          now = crack_island(lattice, first_load)
       else
-         first_load = min(load, light_load_start)
+         ! From heavier ones Newton's method would start too far off.
+         first_load = min(load, 0.06_dp)
          now = hertz_spot(lattice, first_load)
       end if
       call follow_load(lattice, first_load, load, now, iterations, found, merged)
@@ -87,7 +91,7 @@ contains
       load = first_load
       merged = .false.
       do
-         call images%prepare(lattice, now, start_series_growth, start_shape_change**2)
+         call images%prepare(lattice, now, 1.1_dp, start_shape_change**2)
          call start_equations(equations, now, 0.0_dp, images)
          contraction = 0.0_dp
          call solve_equations(equations, lattice, load, now, change_per_square*start_shape_change**2, contraction, &

@@ -3,7 +3,7 @@ module wavycon_merging_ratio
    use wavycon_expansion, only: expansion
    use wavycon_kinds, only: dp
    use wavycon_shape_map, only: shape_map
-   use wavycon_shape_search, only: distance_from_edge
+   use wavycon_shape_search, only: distance_from_edge, edge_points
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
    private
@@ -18,18 +18,15 @@ contains
       type(wave_lattice), intent(in) :: lattice
       type(expansion), intent(in) :: now
 
+      complex(dp), allocatable :: midpoints(:)
       integer :: i
 
-      ratio = 0.0_dp
       if (now%island) then
-         do i = 1, size(lattice%to_next_trough)
-            ratio = max(ratio, ratio_towards(now%shape, lattice%to_next_trough(i)))
-         end do
+         allocate (midpoints, source=lattice%to_next_trough)
       else
-         do i = 1, size(lattice%to_next_crest)
-            ratio = max(ratio, ratio_towards(now%shape, lattice%to_next_crest(i)))
-         end do
+         allocate (midpoints, source=lattice%to_next_crest)
       end if
+      ratio = maxval([(ratio_towards(now%shape, midpoints(i)), i=1, size(midpoints))])
    end function merging_ratio
 
    !> The same towards one midpoint.
@@ -42,13 +39,13 @@ contains
       complex(dp) :: direction
 
       direction = midpoint/abs(midpoint)
-      associate (turned => direction**shape%fold)
-         if (abs(turned%im) < rounding) then
+      associate (rotated => direction**shape%fold)
+         if (abs(rotated%im) < rounding) then
             ! On an axis of symmetry the edge's nearest point is that of the same angle in the disc.
             ratio = abs(shape%place(direction))/abs(midpoint)
          else
             ! Tips off the axes, as long spots have, come to the midpoint from the side.
-            ratio = 1.0_dp - distance_from_edge(shape, midpoint)/abs(midpoint)
+            ratio = 1.0_dp - distance_from_edge(shape, edge_points(shape), midpoint)/abs(midpoint)
          end if
       end associate
    end function ratio_towards

@@ -12,40 +12,29 @@
 module wavycon_periodic_kernel
    use wavycon_even_polynomial, only: even_polynomial, fit_degree, fit_nodes, start_even_polynomial
    use wavycon_ewald_sum, only: ewald_sum
-   use wavycon_fitted_tuning, only: kernel_near_distance, kernel_near_per_side
    use wavycon_kinds, only: dp
-   use wavycon_pair_kernel, only: pair_kernel
    use wavycon_point_sources, only: point_sources
    use wavycon_row_lattice, only: row_lattice
    implicit none (type, external)
    private
 
-   public :: periodic_kernel, start_periodic_kernels, whole_kernel
+   public :: periodic_kernel, start_periodic_kernels
 
-   type, extends(pair_kernel) :: periodic_kernel
-      integer :: power = 1              !! of 1/r: 1 for Gp, 3 for its Laplacian
+   !> Of the point sources, the lattice points near the origin that are summed one by one, x is along the rows. Power 1
+   !> is Gp, power 3 its Laplacian.
+   type, extends(point_sources) :: periodic_kernel
       type(row_lattice) :: rows
-      type(point_sources) :: near       !! lattice points summed one by one, but the origin; x along the rows
       type(even_polynomial) :: fit      !! of the smooth part without them; x along the rows
+      logical :: whole = .false.        !! with the origin's own term, for places that are on none of the lattice points
    contains
       procedure :: evaluate
       procedure :: near_points
    end type periodic_kernel
 
-   !> A periodic kernel with the origin's own term, for a target that is on none of the lattice points.
-   type, extends(pair_kernel) :: whole_kernel
-      type(periodic_kernel) :: smooth
-   contains
-      procedure :: evaluate => evaluate_whole
-   end type whole_kernel
-
    !> Rounding of Ewald's sum, whose terms are of order ten, and of its Laplacian.
    real(dp), parameter :: rounding(2) = [32, 320]*epsilon(1.0_dp)
    !> Least square of a distance. The inverse powers of a place and of the same place reduced must be equal and finite.
    real(dp), parameter :: least_square = 1e-100_dp
-   !> Rows and points of a row in which near lattice points are looked for: enough for the spacings in use, 1/2 to 3.
-   integer, parameter :: most_rows = 4, most_columns = 6
-
 contains
 
    !> Fits both kernels of a lattice.
@@ -56,10 +45,15 @@ contains
 
       integer, parameter :: n = fit_degree
       real(dp), dimension(0:n, 0:n) :: distance, value, value_of_laplacian, x, y
+      complex(dp), allocatable :: z(:)
       real(dp), allocatable :: near(:, :)
       integer :: k
 
-      call find_near_points(rows, near)
+      ! Fewer would take a fit of higher degree.
+      z = rows%points_about(0.75_dp + 0.6_dp*max(rows%spacing, 1.0_dp), (0.0_dp, 0.0_dp))
+      z = pack(z, abs(z) > 0.0_dp)
+      near = reshape([z%re, z%im], [2, size(z)], order=[2, 1])
+      if (rows%along_y) near = near([2, 1], :)
       call fit_nodes(rows%spacing, x, y)
       call ewald_sum(rows, size(x), x, y, value, value_of_laplacian)
       do k = 1, size(near, 2)
@@ -68,45 +62,24 @@ contains
          value_of_laplacian = value_of_laplacian - 1.0_dp/distance**3
       end do
       displacement%rows = rows
-      displacement%near%point = near
+      displacement%point = near
       call start_even_polynomial(displacement%fit, rows%spacing, value, rounding(1))
       laplacian%power = 3
       laplacian%rows = rows
-      laplacian%near%power = 3
-      laplacian%near%point = near
+      laplacian%point = near
       call start_even_polynomial(laplacian%fit, rows%spacing, value_of_laplacian, rounding(2))
    end subroutine start_periodic_kernels
-
-   !> The lattice points near the rectangle about the origin, but the origin.
-   pure subroutine find_near_points(rows, near)
-      type(row_lattice), intent(in) :: rows
-      real(dp), allocatable, intent(out) :: near(:, :)    !! along and across the rows, shape (2, m) [s]
-
-      real(dp) :: farthest, point(2)
-      integer :: i, j
-
-      farthest = kernel_near_distance + kernel_near_per_side*max(rows%spacing, 1.0_dp)
-      allocate (near(2, 0))
-      do j = -most_rows, most_rows
-         do i = -most_columns, most_columns
-            point = [i + rows%shift*j, rows%spacing*j]
-            if (i == 0 .and. j == 0) cycle
-            if (norm2(max(abs(point) - 0.5_dp*[1.0_dp, rows%spacing], 0.0_dp)) > farthest) cycle
-            near = reshape([near, point], [2, size(near, 2) + 1])
-         end do
-      end do
-   end subroutine find_near_points
 
    !> The near lattice points by their x and y.
    pure function near_points(self) result(point)
       class(periodic_kernel), intent(in) :: self
       real(dp), allocatable :: point(:, :)     !! shape (2, m) [s]
 
-      point = self%near%point
+      point = self%point
       if (self%rows%along_y) point = point([2, 1], :)
    end function near_points
 
-   !> The smooth part, which is the kernel less the origin's own term 1/r^power.
+   !> The smooth part, which is the kernel less the origin's own term 1/r^power; or the whole kernel.
    pure subroutine evaluate(self, n, x, y, value, slope_x, slope_y)
       class(periodic_kernel), intent(in) :: self
       integer, intent(in) :: n
@@ -136,12 +109,12 @@ contains
 
       call self%rows%reduce_along_rows(n, x, y, xr, yr, moved)
       call self%fit%evaluate(n, xr, yr, value, slope_x, slope_y)
-      call self%near%add(n, xr, yr, value, slope_x, slope_y)
-      if (.not. moved) return
+      call self%add(n, xr, yr, value, slope_x, slope_y)
+      if (.not. (moved .or. self%whole)) return
       ! The origin's term is taken out at the place itself, not at the reduced place; for most places they are the same.
       do i = 1, n
          at_reduced = 1.0_dp/max(xr(i)**2 + yr(i)**2, least_square)
-         at_place = 1.0_dp/max(x(i)**2 + y(i)**2, least_square)
+         at_place = merge(0.0_dp, 1.0_dp/max(x(i)**2 + y(i)**2, least_square), self%whole)
          value(i) = value(i) + (inverse_power(self%power, at_reduced) - inverse_power(self%power, at_place))
          if (present(slope_x)) then
             at_reduced = self%power*at_reduced*inverse_power(self%power, at_reduced)
@@ -151,21 +124,6 @@ contains
          end if
       end do
    end subroutine evaluate_by_rows
-
-   pure subroutine evaluate_whole(self, n, x, y, value, slope_x, slope_y)
-      class(whole_kernel), intent(in) :: self
-      integer, intent(in) :: n
-      real(dp), intent(in) :: x(n), y(n)
-      real(dp), intent(out) :: value(n)
-      real(dp), intent(out), optional :: slope_x(n), slope_y(n)
-
-      type(point_sources) :: origin
-
-      origin%power = self%smooth%power
-      allocate (origin%point(2, 1), source=0.0_dp)
-      call self%smooth%evaluate(n, x, y, value, slope_x, slope_y)
-      call origin%add(n, x, y, value, slope_x, slope_y)
-   end subroutine evaluate_whole
 
    !> 1/r or 1/r^3.
    pure real(dp) function inverse_power(power, inverse_square)

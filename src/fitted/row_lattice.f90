@@ -19,6 +19,7 @@ module wavycon_row_lattice
       procedure :: reduce_along_rows
       procedure :: reduced
       procedure :: points_within
+      procedure :: points_about
    end type row_lattice
 
 contains
@@ -90,5 +91,31 @@ contains
       end do
       if (self%along_y) point = point([2, 1], :)
    end subroutine points_within
+
+   !> The lattice points, all moved by an offset, that are not farther than `distance` from the rectangle about the
+   !> origin: the cell of places that are reduced.
+   pure function points_about(self, distance, offset) result(point)
+      class(row_lattice), intent(in) :: self
+      real(dp), intent(in) :: distance             !! >= 0 [s]
+      complex(dp), intent(in) :: offset            !! x + i y [s]
+      complex(dp), allocatable :: point(:)         !! x + i y [s]
+
+      complex(dp) :: half, z
+      integer :: columns, i, j, rows
+
+      half = 0.5_dp*cmplx(1.0_dp, self%spacing, dp)
+      rows = ceiling((distance + abs(offset))/self%spacing + 0.5_dp)
+      columns = ceiling(distance + abs(offset) + 0.5_dp + self%shift*rows)
+      if (self%along_y) half = cmplx(half%im, half%re, dp)
+      allocate (point(0))
+      do j = -rows, rows
+         do i = -columns, columns
+            z = cmplx(i + self%shift*j, self%spacing*j, dp)
+            if (self%along_y) z = cmplx(z%im, z%re, dp)
+            z = z + offset
+            if (norm2(max(abs([z%re, z%im]) - [half%re, half%im], 0.0_dp)) <= distance) point = [point, z]
+         end do
+      end do
+   end function points_about
 
 end module wavycon_row_lattice

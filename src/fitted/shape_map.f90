@@ -6,15 +6,19 @@
 !> Spots and islands are very nearly such curves up to the load at which they merge, so that a few terms suffice. A
 !> small tau, with b_1 larger by tau b_0, leaves the edge nearly as it is and clusters the images of the disc's points
 !> towards the tips, which become sharp near merging.
+!>
+!> Outside of the disc a map of its own, README.md (F48), continues it from the circle. It does not fold where (F15)
+!> does: with tau = 0 it is conformal.
 module wavycon_shape_map
    use wavycon_constants, only: pi
-   use wavycon_fitted_tuning, only: least_edge_points, radius_points
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
 
    public :: shape_map
 
+   !> Intervals of a half sector in which a shape's radius is looked for, and least points for the length of an edge.
+   integer, parameter :: radius_points = 8, least_edge_points = 16
    !> Safety limit: most points of a half sector for the length of an edge. Only an edge that is within some 7 % of
    !> cusps needs more; its length is less exact.
    integer, parameter :: most_edge_points = 512
@@ -27,13 +31,14 @@ module wavycon_shape_map
       procedure :: place
       procedure :: linearise_place
       procedure :: analytic_part
-      procedure :: analytic_slope
-      procedure :: conjugate_slope
+      procedure :: slopes
       procedure :: jacobian
       procedure :: linearise_jacobian
       procedure :: tangent
       procedure :: area
       procedure :: radius
+      procedure :: place_outside
+      procedure :: linearise_outside
       procedure :: perimeter
    end type shape_map
 
@@ -83,42 +88,40 @@ contains
       if (self%clustering > 0.0_dp) analytic_part = w*(1.0_dp - self%clustering*w**self%fold)
    end function analytic_part
 
-   !> Its derivative: (dz/dw)/b_0.
-   elemental complex(dp) function analytic_slope(self, w) result(slope)
+   !> dz/dw and dz/d conj(w) [s] at n points.
+   pure subroutine slopes(self, n, w, slope, conjugate_slope)
       class(shape_map), intent(in) :: self
-      complex(dp), intent(in) :: w
+      integer, intent(in) :: n
+      complex(dp), intent(in) :: w(n)
+      complex(dp), intent(out) :: slope(n), conjugate_slope(n)
 
-      slope = 1.0_dp
-      if (self%clustering > 0.0_dp) slope = slope - (self%fold + 1)*self%clustering*w**self%fold
-   end function analytic_slope
-
-   !> dz/d conj(w) [s].
-   elemental complex(dp) function conjugate_slope(self, w) result(slope)
-      class(shape_map), intent(in) :: self
-      complex(dp), intent(in) :: w
-
-      complex(dp) :: power, step
+      complex(dp), dimension(n) :: lower, step
       integer :: k
 
-      slope = 0.0_dp
-      step = conjg(w)**self%fold
-      power = conjg(w)**(self%fold - 2)
-      do k = 1, ubound(self%b, 1)
-         slope = slope + (self%fold*k - 1)*self%b(k)*power
-         power = power*step
+      lower = 1.0_dp
+      do k = 1, self%fold - 2
+         lower = lower*conjg(w)
       end do
-   end function conjugate_slope
+      ! Horner's scheme in conj(w)^fold.
+      step = lower*conjg(w)**2
+      conjugate_slope = 0.0_dp
+      do k = ubound(self%b, 1), 1, -1
+         conjugate_slope = conjugate_slope*step + (self%fold*k - 1)*self%b(k)
+      end do
+      conjugate_slope = conjugate_slope*lower
+      slope = self%b(0)
+      if (self%clustering > 0.0_dp) slope = self%b(0)*(1.0_dp - (self%fold + 1)*self%clustering*conjg(step))
+   end subroutine slopes
 
    !> The Jacobian |dz/dw|^2 - |dz/d conj(w)|^2, README.md (F16): the area of the image over that of the disc [s^2].
    elemental real(dp) function jacobian(self, w)
       class(shape_map), intent(in) :: self
       complex(dp), intent(in) :: w
 
-      complex(dp) :: analytic, slope
+      complex(dp) :: slope(1), conjugate_slope(1)
 
-      analytic = self%b(0)*self%analytic_slope(w)
-      slope = self%conjugate_slope(w)
-      jacobian = analytic%re**2 + analytic%im**2 - (slope%re**2 + slope%im**2)
+      call self%slopes(1, [w], slope, conjugate_slope)
+      jacobian = slope(1)%re**2 + slope(1)%im**2 - (conjugate_slope(1)%re**2 + conjugate_slope(1)%im**2)
    end function jacobian
 
    !> The Jacobian and its derivatives with respect to the coefficients.
@@ -128,23 +131,18 @@ contains
       real(dp), intent(out) :: jacobian         !! [s^2]
       real(dp), intent(out) :: derivative(0:)   !! d jacobian/d b_k [s], shape (0:K)
 
-      complex(dp) :: analytic, own_power, power(ubound(self%b, 1)), slope, step
-      real(dp) :: analytic_square
+      complex(dp) :: conjugate_slope(1), power, slope(1), step
       integer :: k
 
-      analytic = self%analytic_slope(w)
-      analytic_square = analytic%re**2 + analytic%im**2
-      slope = 0.0_dp
-      own_power = conjg(w)**(self%fold - 2)
-      step = own_power*conjg(w)**2
+      call self%slopes(1, [w], slope, conjugate_slope)
+      derivative(0) = 2*(slope(1)%re**2 + slope(1)%im**2)/self%b(0)
+      jacobian = 0.5_dp*self%b(0)*derivative(0) - (conjugate_slope(1)%re**2 + conjugate_slope(1)%im**2)
+      power = conjg(w)**(self%fold - 2)
+      step = power*conjg(w)**2
       do k = 1, ubound(self%b, 1)
-         power(k) = (self%fold*k - 1)*own_power
-         slope = slope + self%b(k)*power(k)
-         own_power = own_power*step
+         derivative(k) = -2*(self%fold*k - 1)*(conjugate_slope(1)%re*power%re + conjugate_slope(1)%im*power%im)
+         power = power*step
       end do
-      jacobian = self%b(0)**2*analytic_square - (slope%re**2 + slope%im**2)
-      derivative(0) = 2*self%b(0)*analytic_square
-      derivative(1:) = -2*(slope%re*power%re + slope%im*power%im)
    end subroutine linearise_jacobian
 
    !> -i dz/dphi at w = e^(i phi): the edge's tangent, turned to the outward normal [s].
@@ -152,17 +150,50 @@ contains
       class(shape_map), intent(in) :: self
       complex(dp), intent(in) :: w         !! |w| = 1
 
-      complex(dp) :: power, step
+      complex(dp) :: slope(1), conjugate_slope(1)
+
+      call self%slopes(1, [w], slope, conjugate_slope)
+      tangent = w*slope(1) - conjg(w)*conjugate_slope(1)
+   end function tangent
+
+   !> z(v) [s] outside of the disc, README.md (F48):
+   !>
+   !>     z(v) = b_0 v (1 - tau/conj(v)^fold) + sum over k = 1..K of b_k v^(1 - fold k),   |v| >= 1.
+   pure complex(dp) function place_outside(self, v) result(z)
+      class(shape_map), intent(in) :: self
+      complex(dp), intent(in) :: v         !! |v| >= 1
+
+      complex(dp) :: slope, conjugate_slope
+
+      call self%linearise_outside(v, z, slope, conjugate_slope)
+   end function place_outside
+
+   !> The same, and its derivatives dz/dv and dz/d conj(v) [s].
+   pure subroutine linearise_outside(self, v, z, slope, conjugate_slope)
+      class(shape_map), intent(in) :: self
+      complex(dp), intent(in) :: v         !! |v| >= 1
+      complex(dp), intent(out) :: z, slope, conjugate_slope
+
+      complex(dp) :: power
       integer :: k
 
-      tangent = self%b(0)*w*self%analytic_slope(w)
-      step = conjg(w)**self%fold
-      power = conjg(w)**(self%fold - 1)
-      do k = 1, ubound(self%b, 1)
-         tangent = tangent - (self%fold*k - 1)*self%b(k)*power
-         power = power*step
+      power = v**(-self%fold)
+      ! By Horner's scheme: b_0 + b_1 v^-fold + ..., and the same with the factors 1 - fold k.
+      z = 0.0_dp
+      slope = 0.0_dp
+      do k = ubound(self%b, 1), 0, -1
+         z = z*power + self%b(k)
+         slope = slope*power + (1 - self%fold*k)*self%b(k)
       end do
-   end function tangent
+      z = v*z
+      conjugate_slope = 0.0_dp
+      if (self%clustering > 0.0_dp) then
+         power = self%clustering*self%b(0)*conjg(power)
+         z = z - v*power
+         slope = slope - power
+         conjugate_slope = self%fold*v*power/conjg(v)
+      end if
+   end subroutine linearise_outside
 
    !> Area enclosed [s^2], README.md (F17).
    pure real(dp) function area(self)

@@ -1,55 +1,68 @@
 !> Where a place lies with respect to a mapped disc: its preimage, and its distance from the edge.
 module wavycon_shape_search
    use wavycon_constants, only: pi
-   use wavycon_fitted_tuning, only: farthest_inverse_start, longest_inverse_step
    use wavycon_kinds, only: dp
    use wavycon_shape_map, only: shape_map
    implicit none (type, external)
    private
 
-   public :: find_preimage, find_edge_in_direction, distance_from_edge
+   public :: distance_from_edge, edge_points, find_edge_in_direction, find_preimage
 
    !> Safety limit: most steps of either of Newton's iterations. Places for which the continued map has a preimage take
    !> fewer. At the limit no preimage is found, and the place counts as far or as outside; a polar angle that is not
    !> found is only a worse start.
    integer, parameter :: most_inverse_steps = 40
-   !> Guard: Jacobian over b_0^2 below which the inversion ends without a preimage, as Newton's method would step across
-   !> the fold of the continued map. The place then counts as outside, and integrals to it take the rule over the disc.
-   !> It matters in fields near merging: without it a map of the hexagonal wave at P = 0.7 p* takes four times as long.
-   real(dp), parameter :: least_inverse_jacobian = 1e-3_dp
+   !> Guard: Jacobian over b_0^2 below which the inversion ends without a preimage: at a tip either map folds next to
+   !> the edge. The place then counts as outside, and rays to it start from the edge in its direction.
+   real(dp), parameter :: least_inverse_jacobian = 1e-6_dp
+   !> Enough to find the nearest of the tips: the highest harmonic of the edge has some 40 periods.
+   integer, parameter :: distance_points = 128
 
 contains
 
-   !> The preimage of a place under the map, or outside the disc under its continuation: z(w) = z.
+   !> The preimage of a place under the map of the disc and, outside, that of README.md (F48), which continues it.
    !>
-   !> Newton's method, README.md (F19), from the point of the edge that is seen from the centre in the direction of z.
-   !> The shapes in use are star-shaped: there is one such point.
-   pure subroutine find_preimage(shape, z, w, found)
+   !> Newton's method, README.md (F19). Next to the centre or to the edge it starts from the point of the edge that is
+   !> seen from the centre in the direction of z. The shapes in use are star-shaped: there is one such point.
+   pure subroutine find_preimage(shape, z, v, found)
       type(shape_map), intent(in) :: shape
       complex(dp), intent(in) :: z                !! [s]
-      complex(dp), intent(out) :: w
-      logical, intent(out) :: found               !! false where the continued map folds before it gets to z
+      complex(dp), intent(out) :: v               !! |v| <= 1 inside
+      logical, intent(out) :: found               !! false if Newton's method ends without it, next to a sharp tip
 
-      !> Step, and distance over b_0, that rounding leaves.
-      real(dp), parameter :: rounding = 64*epsilon(1.0_dp)
-      complex(dp) :: analytic, edge, left, slope, step
-      real(dp) :: jacobian
+      !> Step over the longest after which the next one would be below rounding, as convergence is quadratic.
+      real(dp), parameter :: small_step = 1e-9_dp
+      !> Distance over the sum of the map's coefficients from which the map is nearly b_0 v.
+      real(dp), parameter :: far = 1.5_dp
+      !> Longest steps, outside over |v|: longer ones go across the fold of a map.
+      real(dp), parameter :: longest_step = 0.2_dp
+      complex(dp), dimension(1) :: conjugate_slope, slope
+      complex(dp) :: at_v, edge, left, step
+      real(dp) :: jacobian, longest
       integer :: i
 
-      w = 0.0_dp
+      v = z/shape%b(0)
       found = abs(z) <= tiny(1.0_dp)
       if (found) return
-      call find_edge_in_direction(shape, z, w, edge)
-      w = w*min(abs(z)/abs(edge), farthest_inverse_start)
+      if (abs(z) < far*sum(abs(shape%b))) then
+         call find_edge_in_direction(shape, z, v, edge)
+         v = v*(abs(z)/abs(edge))
+      end if
       do i = 1, most_inverse_steps
-         left = z - shape%place(w)
-         slope = shape%conjugate_slope(w)
-         analytic = shape%b(0)*shape%analytic_slope(w)
-         jacobian = analytic%re**2 + analytic%im**2 - (slope%re**2 + slope%im**2)
+         if (abs(v) > 1.0_dp) then
+            call shape%linearise_outside(v, at_v, slope(1), conjugate_slope(1))
+         else
+            at_v = shape%place(v)
+            call shape%slopes(1, [v], slope, conjugate_slope)
+         end if
+         left = z - at_v
+         jacobian = slope(1)%re**2 + slope(1)%im**2 - (conjugate_slope(1)%re**2 + conjugate_slope(1)%im**2)
          if (.not. jacobian > least_inverse_jacobian*shape%b(0)**2) return
-         step = (conjg(analytic)*left - slope*conjg(left))/jacobian
-         w = w + step*min(1.0_dp, longest_inverse_step/max(abs(step), tiny(1.0_dp)))
-         found = abs(step) <= rounding .or. abs(left) <= rounding*shape%b(0)
+         step = (conjg(slope(1))*left - conjugate_slope(1)*conjg(left))/jacobian
+         longest = longest_step*max(abs(v), 1.0_dp)
+         found = abs(step) <= small_step*longest
+         if (abs(step) > longest) step = step*(longest/abs(step))
+         v = v + step
          if (found) return
       end do
    end subroutine find_preimage
@@ -88,21 +101,29 @@ contains
       end do
    end subroutine find_edge_in_direction
 
-   !> Distance of a place from the edge, negative inside [s]: from the nearest of some points by halving their distance.
-   pure real(dp) function distance_from_edge(shape, z) result(distance)
+   !> The points of an edge from which its distance is found.
+   pure function edge_points(shape) result(edge)
       type(shape_map), intent(in) :: shape
-      complex(dp), intent(in) :: z       !! [s]
+      complex(dp) :: edge(distance_points)   !! once around [s]
 
-      !> Enough to find the nearest of the tips: the highest harmonic of the edge has some 40 periods.
-      integer, parameter :: distance_points = 128
+      integer :: i
+
+      edge = shape%place([(exp(cmplx(0.0_dp, 2*pi*i/distance_points, dp)), i=1, distance_points)])
+   end function edge_points
+
+   !> Distance of a place from the edge, negative inside [s]: from the nearest of some points by halving their distance.
+   pure real(dp) function distance_from_edge(shape, points, z) result(distance)
+      type(shape_map), intent(in) :: shape
+      complex(dp), intent(in) :: points(distance_points)   !! edge_points of the shape
+      complex(dp), intent(in) :: z                         !! [s]
+
       !> They bring the angle to 5e-11. At its least the distance varies as the square: it is exact to rounding.
       integer, parameter :: distance_halvings = 30
       complex(dp) :: edge(-1:1), outwards
-      real(dp) :: angle, length(distance_points), step
+      real(dp) :: angle, step
       integer :: i, nearest
 
-      length = abs(z - shape%place([(exp(cmplx(0.0_dp, 2*pi*i/distance_points, dp)), i=1, distance_points)]))
-      angle = 2*pi*minloc(length, 1)/distance_points
+      angle = 2*pi*minloc(abs(z - points), 1)/distance_points
       step = 2*pi/distance_points
       do i = 1, distance_halvings
          step = 0.5_dp*step

@@ -1,6 +1,7 @@
-!> What of an expansion is the source of stresses: a spot's pressure, or the gradient of an island's gap.
+!> What of an expansion is the source of fields: a spot's pressure, an island's gap or its gradient.
 !>
-!> Both are the root of 1 - |w|^2 times a smooth function, so that one rule serves both: README.md, section 13.
+!> A pressure and the gradient of a gap are the root of 1 - |w|^2 times a smooth function, so that one rule serves both:
+!> README.md, section 13.
 module wavycon_source_density
    use wavycon_expansion, only: expansion
    use wavycon_kinds, only: dp
@@ -8,59 +9,35 @@ module wavycon_source_density
    implicit none (type, external)
    private
 
-   public :: find_density, find_slopes, place_differences
+   public :: find_density, place_differences
 
 contains
 
-   !> The source times the Jacobian, over the root of 1 - |w|^2: J p, or README.md (F54) for the gap's gradient.
-   subroutine find_density(solution, n, w, inside, density)
+   !> The source times the Jacobian, over the power of 1 - |w|^2 that it has: J p, J g, or README.md (F54) for the gap's
+   !> gradient.
+   subroutine find_density(solution, gradient, n, w, inside, density)
       type(expansion), intent(in) :: solution
+      logical, intent(in) :: gradient              !! of the gap, whether it is that
       integer, intent(in) :: n
       complex(dp), intent(in) :: w(n)              !! points of the disc
       real(dp), intent(in) :: inside(n)            !! 1 - |w|^2, exact also next to the edge
-      complex(dp), intent(out) :: density(n)       !! real for a spot
+      complex(dp), intent(out) :: density(n)       !! real without gradient
 
       real(dp), dimension(n, solution%basis%terms) :: slope_x, slope_y, values
-      complex(dp), dimension(n) :: conjugate_slope, gradient, slope
+      complex(dp), dimension(n) :: conjugate_slope, f_slope, slope
       real(dp) :: f(n)
 
       call solution%basis%evaluate(n, w, values)
-      call find_slopes(solution%shape, n, w, slope, conjugate_slope)
+      call solution%shape%slopes(n, w, slope, conjugate_slope)
       f = matmul(values, solution%c)
-      if (solution%island) then
+      if (gradient) then
          call solution%basis%slopes(n, w, values, slope_x, slope_y)
-         gradient = inside*cmplx(matmul(slope_x, solution%c), matmul(slope_y, solution%c), dp) - 3*f*w
-         density = slope*gradient - conjugate_slope*conjg(gradient)
+         f_slope = inside*cmplx(matmul(slope_x, solution%c), matmul(slope_y, solution%c), dp) - 3*f*w
+         density = slope*f_slope - conjugate_slope*conjg(f_slope)
       else
          density = f*(slope%re**2 + slope%im**2 - (conjugate_slope%re**2 + conjugate_slope%im**2))
       end if
    end subroutine find_density
-
-   !> dz/dw and dz/d conj(w) [s].
-   pure subroutine find_slopes(shape, n, w, slope, conjugate_slope)
-      type(shape_map), intent(in) :: shape
-      integer, intent(in) :: n
-      complex(dp), intent(in) :: w(n)
-      complex(dp), intent(out) :: slope(n), conjugate_slope(n)
-
-      complex(dp), dimension(n) :: lower, step, total
-      integer :: k
-
-      lower = 1.0_dp
-      do k = 1, shape%fold - 2
-         lower = lower*conjg(w)
-      end do
-      ! Horner's scheme in conj(w)^fold.
-      step = lower*conjg(w)**2
-      total = 0.0_dp
-      do k = ubound(shape%b, 1), 1, -1
-         total = total*step + (shape%fold*k - 1)*shape%b(k)
-      end do
-      conjugate_slope = total*lower
-      slope = shape%b(0)
-      if (shape%clustering > 0.0_dp) &
-         slope = shape%b(0)*(1.0_dp - (shape%fold + 1)*shape%clustering*conjg(step))
-   end subroutine find_slopes
 
    !> z(w) - z(w_0) without cancellation, by the divided differences of README.md (F26).
    pure subroutine place_differences(shape, origin, n, step, w, difference)

@@ -3,15 +3,14 @@
 !> They are taken by the coarsest of some rules over the disc that resolves the kernel or, next to the spot or island,
 !> along rays.
 module wavycon_spot_integral
-   use wavycon_exterior_map, only: find_exterior
+   use wavycon_disc_sources, only: disc_sources, start_disc_sources
    use wavycon_expansion, only: expansion
    use wavycon_fitted_tuning, only: rule_angles_factor, rule_angles_per_degree, rule_fineness, rule_radii_factor, &
       rule_radii_per_degree
    use wavycon_kinds, only: dp
    use wavycon_shape_search, only: find_edge_in_direction, find_preimage
-   use wavycon_stress_kernel, only: stress_fields
+   use wavycon_stress_kernel, only: all_fields, stress_fields
    use wavycon_stress_rays, only: start_stress_rays, stress_rays
-   use wavycon_stress_sources, only: start_stress_sources, stress_sources
    implicit none (type, external)
    private
 
@@ -19,6 +18,8 @@ module wavycon_spot_integral
 
    !> Rules of rising fineness, before rays are taken.
    integer, parameter :: levels = 6
+   !> The rule for spots or islands that are far. The coarsest one leaves 1e-7 where sharp shapes have a low degree.
+   integer, parameter, public :: far_level = 2
 
    type :: spot_integral
       type(expansion) :: solution
@@ -29,7 +30,7 @@ module wavycon_spot_integral
       integer :: radii(levels) = 0, angles(levels) = 0       !! points of the rules
       ! Made when first needed.
       type(stress_rays), allocatable, private :: rays
-      type(stress_sources), private :: rules(levels)
+      type(disc_sources), private :: rules(levels)
    contains
       procedure :: add_at
       procedure :: find_inside
@@ -83,7 +84,9 @@ contains
       end do
       if (level <= levels) then
          if (.not. allocated(self%rules(level)%x)) &
-            call start_stress_sources(self%rules(level), self%solution, self%radii(level), self%angles(level))
+            call start_disc_sources(self%rules(level), self%solution, &
+                                    self%solution%island .and. self%kernel == all_fields, self%radii(level), &
+                                    self%angles(level))
          call self%rules(level)%add_at(self%kernel, z, depth, fields)
       else
          if (.not. allocated(self%rays)) then
@@ -94,17 +97,16 @@ contains
       end if
    end subroutine add_at
 
-   !> Whether a rule over the disc resolves the kernel for a place on the surface.
-   pure logical function is_resolved(self, angles, radii, z)
+   !> Whether the rule of far spots or islands resolves the kernel for a place on the surface.
+   pure logical function is_resolved(self, z)
       class(spot_integral), intent(in) :: self
-      integer, intent(in) :: angles, radii                !! of the rule
       complex(dp), intent(in) :: z                        !! the place from the centre [s]
 
       complex(dp) :: offset, origin
       real(dp) :: angular, radial
 
       call self%locate(z, 0.0_dp, origin, offset, angular, radial)
-      is_resolved = resolves(angles, radii, angular, radial, self%digits)
+      is_resolved = resolves(self%angles(far_level), self%radii(far_level), angular, radial, self%digits)
    end function is_resolved
 
    !> Whether a place on the surface is inside the spot or island, and its preimage there.
@@ -139,11 +141,10 @@ contains
          call find_decay(abs(z)/self%radius, depth/self%radius, angular, radial)
          return
       end if
-      call find_preimage(self%solution%shape, z, origin, found)
-      v = origin
-      if (.not. found .or. abs(origin) > 1.0_dp) then
-         call find_exterior(self%solution%shape, z, v, found)
-         if (.not. found) call find_edge_in_direction(self%solution%shape, z, v, edge)
+      call find_preimage(self%solution%shape, z, v, found)
+      if (.not. found) call find_edge_in_direction(self%solution%shape, z, v, edge)
+      origin = v
+      if (.not. found .or. abs(v) > 1.0_dp) then
          origin = v/abs(v)
          offset = z - self%solution%shape%place(origin)
       end if

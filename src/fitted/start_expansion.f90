@@ -3,7 +3,7 @@ module wavycon_start_expansion
    use wavycon_constants, only: pi
    use wavycon_disc_polynomials, only: start_disc_polynomials
    use wavycon_expansion, only: expansion
-   use wavycon_fitted_tuning, only: island_ellipticity_power, spot_ellipticity_power, start_degree
+   use wavycon_fitted_tuning, only: start_degree
    use wavycon_kinds, only: dp
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
@@ -19,23 +19,13 @@ contains
       real(dp), intent(in) :: load   !! P > 0
       type(expansion) :: spot
 
-      real(dp) :: curvature(2), radius, ratio
+      real(dp) :: curvature(2), radius
       integer :: i
 
-      spot%island = .false.
-      call start_disc_polynomials(spot%basis, lattice%fold, start_degree, 0.5_dp)
-      do i = 1, 2
-         curvature(i) = 4*pi**2*sum(lattice%wave(i, :)**2*lattice%amplitude)
-      end do
+      curvature = 4*pi**2*[(sum(lattice%wave(i, :)**2*lattice%amplitude), i=1, 2)]
       radius = (3*pi*load*lattice%area/(4*sqrt(product(curvature))))**(1.0_dp/3)
-      spot%shape%fold = lattice%fold
-      allocate (spot%shape%b(0:1))
-      spot%shape%b(:) = [radius, 0.0_dp]
-      if (lattice%fold == 2) then
-         ratio = (curvature(1)/curvature(2))**spot_ellipticity_power
-         spot%shape%b(1) = radius*(1.0_dp - ratio)/(1.0_dp + ratio)
-      end if
-      allocate (spot%c(spot%basis%terms), source=0.0_dp)
+      ! About the exact relation, which has elliptic integrals.
+      spot = ellipse(.false., lattice%fold, radius, (curvature(1)/curvature(2))**0.6_dp)
       ! The first polynomial is constant, and (1 - rho^2)^(1/2) has the integral 2 pi/3.
       spot%c(1) = load*lattice%area/spot%shape%area()/sqrt(2*pi/3)*pi
       spot%approach = sqrt(product(curvature))*radius**2
@@ -48,27 +38,34 @@ contains
       real(dp), intent(in) :: load  !! P < the closing pressure
       type(expansion) :: island
 
-      real(dp) :: curvature(2), missing, radius, ratio
+      real(dp) :: curvature(2), missing, radius
       integer :: i
 
-      island%island = .true.
-      call start_disc_polynomials(island%basis, lattice%trough_fold, start_degree, 1.5_dp)
-      do i = 1, 2
-         curvature(i) = -4*pi**2*sum(lattice%wave(i, :)**2*lattice%pressure*lattice%phase%re)
-      end do
+      curvature = -4*pi**2*[(sum(lattice%wave(i, :)**2*lattice%pressure*lattice%phase%re), i=1, 2)]
       missing = lattice%closing_pressure - load
       radius = sqrt(3*missing/sqrt(product(curvature)))
-      island%shape%fold = lattice%trough_fold
-      allocate (island%shape%b(0:1))
-      island%shape%b(:) = [radius, 0.0_dp]
-      if (lattice%trough_fold == 2) then
-         ratio = (curvature(1)/curvature(2))**island_ellipticity_power
-         island%shape%b(1) = radius*(1.0_dp - ratio)/(1.0_dp + ratio)
-      end if
-      allocate (island%c(island%basis%terms), source=0.0_dp)
+      ! Exact for slender ellipses.
+      island = ellipse(.true., lattice%trough_fold, radius, sqrt(curvature(1)/curvature(2)))
       ! The opening is g_0 (1 - rho^2)^(3/2), g_0 = (8/3) b (closing pressure - P), b the radius.
       island%c(1) = 8*missing*radius/3*sqrt(0.4_dp*pi)
    end function crack_island
+
+   !> An expansion of low degree without coefficients, over a circle or, with two-fold symmetry, an ellipse.
+   function ellipse(island, fold, radius, ratio) result(now)
+      logical, intent(in) :: island
+      integer, intent(in) :: fold          !! of the symmetry
+      real(dp), intent(in) :: radius       !! mean of the semi-axes [s]
+      real(dp), intent(in) :: ratio        !! of the axes along y and x
+      type(expansion) :: now
+
+      now%island = island
+      call start_disc_polynomials(now%basis, fold, start_degree, merge(1.5_dp, 0.5_dp, island))
+      allocate (now%c(now%basis%terms), source=0.0_dp)
+      now%shape%fold = fold
+      allocate (now%shape%b(0:1))
+      now%shape%b(:) = [radius, 0.0_dp]
+      if (fold == 2) now%shape%b(1) = radius*(1.0_dp - ratio)/(1.0_dp + ratio)
+   end function ellipse
 
    !> An approximation at another load: lengths, pressures and gaps are scaled as in the asymptotes.
    function scaled_to_load(lattice, from, old_load, new_load) result(scaled)

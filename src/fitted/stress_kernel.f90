@@ -13,7 +13,7 @@ module wavycon_stress_kernel
    implicit none (type, external)
    private
 
-   public :: add_gap, add_pressure, add_sources, stress_parts
+   public :: add_gap, add_sources, stress_parts
 
    !> Number of fields, and their order: H, z H_z, then real and imaginary parts of D^2 L, z D^2 V and z D H.
    integer, parameter, public :: stress_fields = 8
@@ -28,16 +28,18 @@ module wavycon_stress_kernel
 
 contains
 
-   !> Adds the fields of n point forces or, with a gap, of the pressure by its gradient at n points.
+   !> Adds the fields of n point forces or of the pressure by a gap at n points.
    !>
    !> N.B. On the surface, z = 0, no source may be at the place.
    pure subroutine add_sources(kernel, gap, n, x, y, z, strength_x, strength_y, fields)
       integer, intent(in) :: kernel                           !! all_fields or surface_field
-      logical, intent(in) :: gap
+      logical, intent(in) :: gap                              !! whether they are of an island
       integer, intent(in) :: n
       real(dp), intent(in) :: x(n), y(n)                      !! the place as seen from the sources [s]
       real(dp), intent(in) :: z                               !! depth >= 0 [s]
-      real(dp), intent(in) :: strength_x(n), strength_y(n)    !! times area: pressure, and 0; or the gap's gradient
+      real(dp), intent(in) :: strength_x(n), strength_y(n)
+         !! times area: a spot's pressure, or an island's gap for surface_field, and 0; the gap's gradient for
+         !! all_fields
       real(dp), intent(inout) :: fields(stress_fields)        !! of surface_field the first one
 
       if (kernel == all_fields .and. gap) then
@@ -45,7 +47,7 @@ contains
       else if (kernel == all_fields) then
          call add_pressure(n, x, y, z, strength_x, fields)
       else if (gap) then
-         fields(1) = fields(1) + sum((x*strength_x + y*strength_y)/sqrt(x**2 + y**2)**3)/(4*pi**2)
+         fields(1) = fields(1) - sum(strength_x/sqrt(x**2 + y**2)**3)/(4*pi**2)
       else
          fields(1) = fields(1) + sum(strength_x/sqrt(x**2 + y**2))
       end if

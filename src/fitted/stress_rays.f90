@@ -10,7 +10,7 @@ module wavycon_stress_rays
       ray_points_per_unit, ray_points_per_unit_and_degree
    use wavycon_gauss_rules, only: gauss_jacobi
    use wavycon_kinds, only: dp
-   use wavycon_source_density, only: find_density, find_slopes, place_differences
+   use wavycon_source_density, only: find_density, place_differences
    use wavycon_stress_kernel, only: add_sources, all_fields, h_field, l_field, stress_fields
    implicit none (type, external)
    private
@@ -71,7 +71,7 @@ contains
       distance = hypot(abs(offset), depth)
       on_surface = self%kernel == all_fields .and. distance <= epsilon(1.0_dp)**2*scale
       edge = max((1.0_dp - abs(origin))*(1.0_dp + abs(origin)), at_edge)
-      call find_slopes(solution%shape, 1, [origin], slope, conjugate_slope)
+      call solution%shape%slopes(1, [origin], slope, conjugate_slope)
       ! A place outside sees the edge vary on the scale of its distance.
       width = sqrt(edge)
       if (edge <= at_edge) width = max(width, 0.5_dp*distance/(abs(slope(1)) + abs(conjugate_slope(1))))
@@ -79,7 +79,7 @@ contains
       normal = 1.0_dp
       if (abs(origin) > 0.0_dp) normal = origin/abs(origin)
       density = 0.0_dp
-      if (on_surface) call find_density(solution, 1, [origin], [edge], density)
+      if (on_surface) call find_density(solution, solution%island, 1, [origin], [edge], density)
       ! The integrand is singular at complex directions of imaginary part kappa, where the map's derivative vanishes.
       kappa = 0.5_dp*log(abs(slope(1))/max(abs(conjugate_slope(1)), tiny(1.0_dp)))
       rule = rule_for(self, (self%least_points + self%angles_per_unit*asinh(0.5_dp*pi/width)) &
@@ -184,6 +184,7 @@ contains
          real(dp), dimension(n) :: at_t, eta, root, sigma, strength, strength_y, t, x, y
          real(dp) :: own(stress_fields), squared_stretch
          complex(dp) :: kernel
+         logical :: gradient
 
          eta = first + 0.5_dp*(last - first)*(1.0_dp + node)
          ! The same as r + width sinh(eta), without cancellation next to w_0.
@@ -193,10 +194,12 @@ contains
          step = t*direction
          w = origin + step
          call place_differences(solution%shape, origin, n, step, w, difference)
-         call find_density(solution, n, w, root**2, density)
-         ! dt = root dsigma, and the density's own root.
+         gradient = solution%island .and. self%kernel == all_fields
+         call find_density(solution, gradient, n, w, root**2, density)
+         ! dt = root dsigma, and the density's own root, of a gap itself its cube.
          at_t = weight*0.5_dp*(last - first)*node_weight*width*cosh(eta)*root
          density = density*(at_t*root*t)
+         if (solution%island .and. .not. gradient) density = density*root**2
          difference = offset - difference
          x = difference%re
          y = difference%im

@@ -13,9 +13,6 @@ module wavycon_fitted_tuning
 
    ! Start, and continuation in the load.
 
-   real(dp), parameter, public :: light_load_start = 0.06_dp
-      !! Largest P of a Hertzian start [p* of the lattice]. Larger: Newton's method starts from a shape too far off.
-      !! Smaller: more steps of continuation.
    real(dp), parameter, public :: heavy_load_start = 0.7_dp
       !! Least load of a start from a penny-shaped crack. Smaller: Newton's method starts from a shape too far off.
       !! Larger: more steps of continuation.
@@ -25,20 +22,6 @@ module wavycon_fitted_tuning
    integer, parameter, public :: start_degree = 4
       !! Degree of the polynomials during continuation. Larger: steps cost more, for a solution that is refined
       !! afterwards. Smaller: the shape is not represented.
-   real(dp), parameter, public :: spot_ellipticity_power = 0.6_dp
-      !! Axis ratio of a Hertzian start: curvature ratio to this power. Only a start: an approximation to the exact
-      !! relation by elliptic integrals.
-   real(dp), parameter, public :: island_ellipticity_power = 0.5_dp
-      !! The same of a crack, with the pressure's curvatures. Only a start: exact for slender ellipses.
-   real(dp), parameter, public :: start_shape_change = 1e-2_dp
-      !! Relative change of the shape at which Newton's method stops during continuation. Smaller: Newton steps that
-      !! the next load makes useless. Larger: errors add up over the loads.
-   real(dp), parameter, public :: start_series_growth = 1.1_dp
-      !! Growth of a shape that its first image series allows for. Smaller: the series is made again after a step.
-      !! Larger: longer series.
-   integer, parameter, public :: restart_degree_steps = 3
-      !! A sweep starts a load this many degree steps below the degree of the load before. Smaller: degrees never come
-      !! down again in a sweep. Larger: degrees are solved that are not needed.
 
    ! Sequence of degrees.
 
@@ -54,9 +37,6 @@ module wavycon_fitted_tuning
    integer, parameter, public :: full_step_degree = 8
       !! Four-fold symmetry: half steps below this degree. Larger: more solutions. Smaller: low accuracies cost more
       !! than they need.
-   integer, parameter, public :: full_step_degree_round = 12
-      !! The same for round shapes. There the terms that vary with the angle matter less, and a full step gives more
-      !! than is needed.
    real(dp), parameter, public :: round_shape_ratio = 0.75_dp
       !! Merging ratio below which a shape counts as round. Round shapes: some degrees change next to nothing, and six-
       !! fold shapes do not determine all their terms.
@@ -66,31 +46,11 @@ module wavycon_fitted_tuning
    integer, parameter, public :: degree_per_shape_term_twofold = 2
       !! The same with two-fold symmetry. Each degree needs its own number of terms; otherwise differences
       !! underestimate the error of the area.
-   integer, parameter, public :: full_shape_degree = 12
-      !! Degree from which the shape has its full number of terms. Smaller: low degrees do not determine the terms.
-      !! Larger: low accuracies need higher degrees.
 
    ! Newton's method at one degree.
 
    real(dp), parameter, public :: longest_shape_change = 0.3_dp
       !! Largest relative change of the shape in one step. Larger: the map folds. Smaller: more steps.
-   real(dp), parameter, public :: change_per_square = 10.0_dp
-      !! Change of a Newton step over the square of the one before, while convergence is quadratic. Smaller: the error
-      !! left by the last step shows in the result. Larger: steps that change no digit asked for.
-   real(dp), parameter, public :: remaining_of_accuracy = 0.1_dp
-      !! What Newton's method may leave of the shape, over the accuracy. Larger: it shows in the result. Smaller: steps
-      !! that change no digit asked for.
-   real(dp), parameter, public :: least_remaining = 1e-13_dp
-      !! Least such remainder. Smaller: steps into rounding. Larger: digits lost at the tightest accuracy.
-   real(dp), parameter, public :: largest_remaining = 1e-7_dp
-      !! Largest such remainder. Larger: differences of degrees show unfinished iterations. Smaller: steps that low
-      !! accuracies do not need.
-   real(dp), parameter, public :: linear_convergence_ratio = 0.7_dp
-      !! Merging ratio from which the first degree takes a second step to measure the contraction: convergence is less
-      !! than quadratic there. Smaller: steps without need. Larger: unfinished iterations near merging.
-   real(dp), parameter, public :: largest_change = 1e-4_dp
-      !! Change beyond which a degree's solution is not used. Larger: errors are estimated from solutions that have not
-      !! converged. Smaller: degrees are left out for nothing.
 
    ! Points and rules of the equations.
 
@@ -119,37 +79,16 @@ module wavycon_fitted_tuning
    real(dp), parameter, public :: chords_per_degree = 1.5_dp
       !! Chords through a target for each degree. Smaller: the quadrature's error shows. Larger: more expensive steps;
       !! chords are most of the work.
-   integer, parameter, public :: extra_chords = 4
-      !! Chords beyond that.
    real(dp), parameter, public :: sharp_chords_per_degree = 2.0_dp
       !! Chords for each degree of sharp shapes. Tips make the integrand vary faster from chord to chord.
-   integer, parameter, public :: extra_sharp_chords = 20
-      !! Chords beyond that of sharp shapes, but no more than the degree: low degrees are not that accurate.
    integer, parameter, public :: extra_chord_points = 2
       !! Points on a chord beyond half the degree. Smaller: the quadrature's error shows. Larger: more expensive steps.
-   integer, parameter, public :: extra_disc_radii = 2
-      !! Radii of the rule for the images beyond half the degree. Smaller: the quadrature's error shows. Larger: more
-      !! expensive images.
    integer, parameter, public :: extra_disc_angles = 1
       !! Angles of the rule for the images beyond degree/fold. Smaller: the quadrature's error shows. Larger: more
       !! expensive images.
-   integer, parameter, public :: sharp_disc_extra = 1
-      !! More radii and angles of that rule for sharp shapes. As extra_disc_radii and extra_disc_angles.
-   integer, parameter, public :: near_disc_extra = 6
-      !! More radii and angles of that rule where images are near. Smaller: the near images' kernel is not resolved.
-      !! Larger: more expensive images.
-   integer, parameter, public :: degree_per_near_disc_extra = 4
-      !! Degrees to one more of them up to that number: low degrees are not that accurate. As near_disc_extra, the other
-      !! way round.
 
    ! Series of the images.
 
-   real(dp), parameter, public :: series_error_of_accuracy = 1e-2_dp
-      !! Error of the image series over the accuracy asked for. Larger: its error shows in the result. Smaller: longer
-      !! series.
-   real(dp), parameter, public :: loosest_series_accuracy = 1e-4_dp
-      !! Loosest accuracy that a series is made for. Larger: shorter series, which are hardly quicker, and differences
-      !! that show their error. Smaller: longer series.
    real(dp), parameter, public :: series_growth = 1.03_dp
       !! Growth of a shape that a series allows for. Smaller: the series is made again after a step. Larger: longer
       !! series.
@@ -162,14 +101,6 @@ module wavycon_fitted_tuning
 
    ! Smooth part of the kernel.
 
-   integer, parameter, public :: kernel_fit_degree = 12
-      !! Degree of the fit in the square of either coordinate. Smaller: the fit's error is above rounding. Larger: a
-      !! longer fit, whose last terms are cut off as rounding.
-   real(dp), parameter, public :: kernel_near_distance = 0.75_dp
-      !! Lattice points this near to the cell are summed one by one [s], together with the next constant. Smaller: a
-      !! fit of higher degree. Larger: more points in every evaluation.
-   real(dp), parameter, public :: kernel_near_per_side = 0.6_dp
-      !! What is added to it for each longer side of the cell.
 
    ! Clustering of the map's points towards the tips, near merging on the square lattice.
 
@@ -185,12 +116,6 @@ module wavycon_fitted_tuning
    real(dp), parameter, public :: least_clustering = 0.004_dp
       !! Clustering below which none is used. Smaller values cost a Newton step and do not improve the area. Larger:
       !! none where it would help.
-   real(dp), parameter, public :: least_clustering_change = 0.2_dp
-      !! Relative change of it below which the old value is kept. A change costs a Newton step. Larger: values that do
-      !! not fit the shape.
-   real(dp), parameter, public :: longest_clustering_step = 0.02_dp
-      !! Largest rise of it from one degree to the next. Larger: Newton's method does not follow. Smaller: the value is
-      !! reached at a higher degree than needed.
 
    ! Estimates of errors.
 
@@ -216,15 +141,6 @@ module wavycon_fitted_tuning
    real(dp), parameter, public :: field_accuracy = 1e-12_dp
       !! Accuracy of the integrals over spots or islands over the fields' scale. Larger: the error of rules and rays
       !! shows in fields. Smaller: more expensive fields.
-   integer, parameter, public :: field_angles = 48
-      !! Least points per turn of the rule for spots and islands that are far. Smaller: more of them count as near.
-      !! Larger: more points of the periodic kernel.
-   real(dp), parameter, public :: field_angles_per_degree = 2.0_dp
-      !! The same over the degree.
-   integer, parameter, public :: field_radii = 12
-      !! Least points per radius of that rule. As field_angles.
-   real(dp), parameter, public :: field_radii_per_degree = 0.6_dp
-      !! The same over the degree.
 
    integer, parameter, public :: least_map = 150
       !! Places outside from which on a map takes a series. Smaller: series that cost more than they save. Larger: slow
@@ -273,18 +189,5 @@ module wavycon_fitted_tuning
    real(dp), parameter, public :: stress_error_safety = 2.0_dp
       !! Factor on what the differences of degrees say of stresses. Smaller: estimates below the true error. Larger:
       !! estimates that are too large.
-
-   ! Geometry of shapes.
-
-   integer, parameter, public :: radius_points = 8
-      !! Intervals of a half sector in which a shape's radius is looked for. Smaller: tips off the axes are missed.
-      !! Larger: more time.
-   integer, parameter, public :: least_edge_points = 16
-      !! Least points of a half sector for the length of an edge. Smaller: the length's error shows. Larger: more time.
-   real(dp), parameter, public :: farthest_inverse_start = 1.2_dp
-      !! Largest |w| at which the inversion of the map starts. Larger: starts beyond where the continued map folds.
-      !! Smaller: more steps.
-   real(dp), parameter, public :: longest_inverse_step = 0.2_dp
-      !! Largest step of it in |w|. Larger: steps across a fold. Smaller: more steps.
 
 end module wavycon_fitted_tuning

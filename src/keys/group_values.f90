@@ -11,15 +11,14 @@ module wavycon_group_values
 
    public :: group_values
 
-   !> The value of one key and how it was given. Reals and integers are in `numbers`, texts and choices in `text`.
+   !> The value of one key and how it was given.
    type :: key_entry
       integer :: place = 0                     !! byte of the deck's text where the key stands; 0 if it is absent
       logical :: is_bad = .false.              !! given, but its value cannot be used
       logical :: applies = .true.              !! whether the resolved deck shows it
       logical :: has_value = .false.
-      real(dp), allocatable :: numbers(:)
-      logical :: flag = .false.
-      character(:), allocatable :: text
+      real(dp), allocatable :: numbers(:)      !! of reals and integers; of logicals 1 for .true. and 0 for .false.
+      character(:), allocatable :: text        !! of texts and choices
    end type key_entry
 
    !> To ask for a key that is not in the table, or by the wrong type, is a programming error: a Debug build stops,
@@ -33,8 +32,6 @@ module wavycon_group_values
       type(key_entry), allocatable, private :: entries(:)   !! of the keys of the table; 0 is the neutral one
    contains
       procedure :: start
-      procedure :: note_key
-      procedure :: note_bad
       procedure :: take
       procedure :: has
       procedure :: is_bad
@@ -42,22 +39,21 @@ module wavycon_group_values
       procedure :: place_of
       procedure :: in_effect
       procedure :: leave_out
+      procedure :: numbers
+      procedure :: pair
       procedure :: real => get_real
       procedure :: reals
       procedure :: integer => get_integer
       procedure :: integers
       procedure :: logical => get_logical
       procedure :: text
-      procedure, private :: set_flag
       procedure, private :: set_integers
       procedure, private :: set_text
-      generic :: set => set_flag, set_integers, set_text
-      procedure, private :: default_real
+      generic :: set => set_integers, set_text
       procedure, private :: default_reals
-      procedure, private :: default_integer
       procedure, private :: default_integers
       procedure, private :: default_text
-      generic :: set_default => default_real, default_reals, default_integer, default_integers, default_text
+      generic :: set_default => default_reals, default_integers, default_text
       procedure :: complain
       procedure :: require
       procedure :: forbid
@@ -85,56 +81,26 @@ contains
          if (k == 0) cycle
          if (table%keys(k)%default == '') cycle
          call read_value(table%keys(k), trim(table%keys(k)%default), value, trouble)
-         if (.not. allocated(trouble)) call take_value(self%entries(k), value, [value%number])
+         if (.not. allocated(trouble)) call put(self, k, [value%number], value%text)
       end do
    end subroutine start
 
-   !> Records that the deck gives a key. Call `take` or `note_bad` next, for its value.
-   pure subroutine note_key(self, key, place)
+   !> Takes what the deck gives for a key. Without a value it is bad: its default stays in effect.
+   pure subroutine take(self, key, place, numbers, text)
       class(group_values), intent(inout) :: self
       character(*), intent(in) :: key
-      integer, intent(in) :: place   !! byte of the deck's text
+      integer, intent(in) :: place                            !! of the key, byte of the deck's text
+      real(dp), intent(in), optional :: numbers(:)            !! as of key_entry, repeats expanded
+      character(*), intent(in), optional :: text              !! of texts and choices
 
       integer :: k
 
       k = self%find(key)
-      if (k > 0) self%entries(k)%place = place
-   end subroutine note_key
-
-   !> Records that the deck's value of a key cannot be used. The default stays in effect.
-   pure subroutine note_bad(self, key)
-      class(group_values), intent(inout) :: self
-      character(*), intent(in) :: key
-
-      integer :: k
-
-      k = self%find(key)
-      if (k > 0) self%entries(k)%is_bad = .true.
-   end subroutine note_bad
-
-   !> Replaces the default of a key by the deck's value.
-   pure subroutine take(self, key, value, numbers)
-      class(group_values), intent(inout) :: self
-      character(*), intent(in) :: key
-      type(word_value), intent(in) :: value   !! the flag or text; of a list any of its words
-      real(dp), intent(in) :: numbers(:)      !! the values of a real or integer key, repeats expanded
-
-      integer :: k
-
-      k = self%find(key)
-      if (k > 0) call take_value(self%entries(k), value, numbers)
+      if (k == 0) return
+      self%entries(k)%place = place
+      self%entries(k)%is_bad = .not. present(numbers)
+      if (present(numbers)) call put(self, k, numbers, text)
    end subroutine take
-
-   pure subroutine take_value(entry, value, numbers)
-      type(key_entry), intent(inout) :: entry
-      type(word_value), intent(in) :: value
-      real(dp), intent(in) :: numbers(:)
-
-      entry%has_value = .true.
-      entry%numbers = numbers
-      entry%flag = value%flag
-      if (allocated(value%text)) entry%text = value%text
-   end subroutine take_value
 
    !> Whether the deck gives a key.
    pure logical function has(self, key)
@@ -189,6 +155,27 @@ contains
       if (k > 0) self%entries(k)%applies = .false.
    end subroutine leave_out
 
+   !> The values of a real or integer key, or that of a logical one, as of key_entry.
+   pure function numbers(self, key)
+      class(group_values), intent(in) :: self
+      character(*), intent(in) :: key
+      real(dp), allocatable :: numbers(:)
+
+      numbers = self%entries(self%find(key))%numbers
+   end function numbers
+
+   !> The two numbers of a real or integer key; a single one is both. Zeros if it has none.
+   pure function pair(self, key)
+      class(group_values), intent(in) :: self
+      character(*), intent(in) :: key
+      real(dp) :: pair(2)
+
+      pair = 0.0_dp
+      associate (given => self%entries(self%find(key))%numbers)
+         if (size(given) > 0) pair = given([1, size(given)])
+      end associate
+   end function pair
+
    !> The value of a real key; of a list its first, 0 if it has none.
    pure real(dp) function get_real(self, key) result(number)
       class(group_values), intent(in) :: self
@@ -236,7 +223,7 @@ contains
       class(group_values), intent(in) :: self
       character(*), intent(in) :: key
 
-      flag = self%entries(self%find(key, [logical_value]))%flag
+      flag = first_of(self%entries(self%find(key, [logical_value]))%numbers) > 0
    end function get_logical
 
    !> The value of a text or choice key, without blanks at its end; empty if it has none.
@@ -249,27 +236,19 @@ contains
    end function text
 
    !> `set`: sets a value in place of the deck's or the default.
-   pure subroutine set_flag(self, key, flag)
-      class(group_values), intent(inout) :: self
-      character(*), intent(in) :: key
-      logical, intent(in) :: flag
-
-      call put(self, self%find(key, [logical_value]), flag=flag)
-   end subroutine set_flag
-
    pure subroutine set_integers(self, key, numbers)
       class(group_values), intent(inout) :: self
       character(*), intent(in) :: key
       integer, intent(in) :: numbers(:)
 
-      call put(self, self%find(key, [integer_value]), numbers=real(numbers, dp))
+      call put(self, self%find(key, [integer_value]), real(numbers, dp))
    end subroutine set_integers
 
    pure subroutine set_text(self, key, words)
       class(group_values), intent(inout) :: self
       character(*), intent(in) :: key, words
 
-      call put(self, self%find(key, [text_value, choice_value]), words=words)
+      call put(self, self%find(key, [text_value, choice_value]), text=words)
    end subroutine set_text
 
    !> `set_default`: sets a default that depends on other values. It has no effect if the deck gives the key.
@@ -278,16 +257,8 @@ contains
       character(*), intent(in) :: key
       real(dp), intent(in) :: numbers(:)
 
-      if (.not. gives(self, key)) call put(self, self%find(key, [real_value]), numbers=numbers)
+      if (.not. gives(self, key)) call put(self, self%find(key, [real_value]), numbers)
    end subroutine default_reals
-
-   pure subroutine default_real(self, key, number)
-      class(group_values), intent(inout) :: self
-      character(*), intent(in) :: key
-      real(dp), intent(in) :: number
-
-      call self%set_default(key, [number])
-   end subroutine default_real
 
    pure subroutine default_integers(self, key, numbers)
       class(group_values), intent(inout) :: self
@@ -297,14 +268,6 @@ contains
       if (.not. gives(self, key)) call self%set(key, numbers)
    end subroutine default_integers
 
-   pure subroutine default_integer(self, key, number)
-      class(group_values), intent(inout) :: self
-      character(*), intent(in) :: key
-      integer, intent(in) :: number
-
-      call self%set_default(key, [number])
-   end subroutine default_integer
-
    pure subroutine default_text(self, key, words)
       class(group_values), intent(inout) :: self
       character(*), intent(in) :: key, words
@@ -313,18 +276,16 @@ contains
    end subroutine default_text
 
    !> Sets the value of key number k. Entry 0, which stands for keys that do not exist, is not changed.
-   pure subroutine put(self, k, numbers, flag, words)
+   pure subroutine put(self, k, numbers, text)
       class(group_values), intent(inout) :: self
       integer, intent(in) :: k
       real(dp), intent(in), optional :: numbers(:)
-      logical, intent(in), optional :: flag
-      character(*), intent(in), optional :: words
+      character(*), intent(in), optional :: text
 
       if (k == 0) return
       self%entries(k)%has_value = .true.
       if (present(numbers)) self%entries(k)%numbers = numbers
-      if (present(flag)) self%entries(k)%flag = flag
-      if (present(words)) self%entries(k)%text = trim(words)
+      if (present(text)) self%entries(k)%text = trim(text)
    end subroutine put
 
    !> Whether the deck gives a key a good value.

@@ -1,17 +1,17 @@
 !> The keys of groups with alternatives: &surface with its kinds of surface, &method with its solvers.
 !>
-!> Each alternative declares the keys that it reads. The table of the group, the problems with keys of other
-!> alternatives and the keys in the resolved deck follow from these declarations.
+!> Each alternative declares the keys that it reads. The table of the group follows from these declarations, and says of
+!> each key which alternatives read it. From this follow the problems with keys of other alternatives, the keys in the
+!> resolved deck, and what --set replaces.
 module wavycon_key_alternatives
    use wavycon_group_values, only: group_values
-   use wavycon_key_table, only: choice_key, key_index, key_type, meaning_length
+   use wavycon_key_table, only: choice_key, key_group, key_group_type, key_index, key_type, meaning_length
    use wavycon_plain_text, only: in_quotes, listed
    use wavycon_problems, only: problem_list_type
    implicit none (type, external)
    private
 
-   public :: alternative_type, selector_key, merged_keys, names_reading, report_missing_keys, is_misplaced, &
-      leave_out_other_keys
+   public :: alternative_type, alternative_group, check_alternatives
 
    integer, parameter :: name_length = 12
 
@@ -19,50 +19,49 @@ module wavycon_key_alternatives
       character(name_length) :: name = ''
       character(:), allocatable :: meaning     !! one clause
       type(key_type), allocatable :: keys(:)   !! the keys that it reads; a deck must give the `required` ones
+      !> Keys of other alternatives that it lacks, and why, as the end of a sentence such as ': it has no grid'.
+      character(24) :: lacks(2) = ''
+      character(40) :: because(2) = ''
    end type alternative_type
 
 contains
 
-   !> The key that selects an alternative by its name; its meaning lists theirs.
-   pure function selector_key(name, default, alternatives, required) result(key)
-      character(*), intent(in) :: name, default               !! as of choice_key
-      type(alternative_type), intent(in) :: alternatives(:)   !! with name and meaning
-      logical, intent(in), optional :: required
-      type(key_type) :: key
+   !> The table of a group: the selector, which is the key whose value is the name of an alternative and whose meaning
+   !> lists theirs, and the keys of all alternatives, each once, in the order of their first alternatives.
+   function alternative_group(name, meaning, selector, default, alternatives, required) result(group)
+      character(*), intent(in) :: name, meaning               !! of the group
+      character(*), intent(in) :: selector, default           !! the key and its default, as of choice_key
+      type(alternative_type), intent(in) :: alternatives(:)   !! at most `most_choices`, with name, meaning and keys
+      logical, intent(in) :: required                         !! whether decks must have the group and the selector
+      type(key_group_type) :: group
 
-      character(name_length) :: names(size(alternatives))
       character(:), allocatable :: meanings
-      integer :: i
-
-      meanings = ''
-      do i = 1, size(alternatives)
-         names(i) = alternatives(i)%name
-         if (i > 1) meanings = meanings//' '
-         meanings = meanings//"'"//trim(alternatives(i)%name)//"': "//alternatives(i)%meaning//'.'
-      end do
-      key = choice_key(name, default, meanings, names, required)
-   end function selector_key
-
-   !> The keys of all alternatives, each once, in the order of their first alternatives. The meanings begin with the
-   !> names of the alternatives, "Of a and b: ...".
-   pure function merged_keys(alternatives) result(keys)
-      type(alternative_type), intent(in) :: alternatives(:)
       type(key_type), allocatable :: keys(:)
-
-      integer :: i, k
+      integer :: i, k, own
 
       allocate (keys(0))
+      meanings = ''
       do i = 1, size(alternatives)
-         do k = 1, size(alternatives(i)%keys)
-            if (key_index(keys, alternatives(i)%keys(k)%name) > 0) cycle
-            keys = [keys, alternatives(i)%keys(k)]
+         if (i > 1) meanings = meanings//' '
+         meanings = meanings//"'"//trim(alternatives(i)%name)//"': "//alternatives(i)%meaning//'.'
+         do own = 1, size(alternatives(i)%keys)
+            associate (key => alternatives(i)%keys(own))
+               k = key_index(keys, key%name)
+               if (k == 0) then
+                  keys = [keys, key]
+                  k = size(keys)
+                  keys(k)%meaning = merged_meaning(alternatives, key%name)
+                  keys(k)%required = .false.
+               end if
+               keys(k)%read_by(i) = .true.
+               keys(k)%needed_by(i) = key%required
+            end associate
          end do
       end do
-      do k = 1, size(keys)
-         keys(k)%meaning = merged_meaning(alternatives, keys(k)%name)
-         keys(k)%required = .false.
-      end do
-   end function merged_keys
+      group = key_group(name, meaning, [choice_key(selector, default, meanings, alternatives%name, required), keys], &
+                        required)
+      group%selector = selector
+   end function alternative_group
 
    !> The meanings of a key for all alternatives: "Of a and b: this. Of c: that."
    pure function merged_meaning(alternatives, key) result(words)
@@ -70,102 +69,65 @@ contains
       character(*), intent(in) :: key
       character(:), allocatable :: words
 
-      character(meaning_length) :: meaning(size(alternatives))
-      character(name_length) :: names(size(alternatives))
+      character(meaning_length) :: meaning(size(alternatives))   ! empty where an alternative does not read the key
       logical :: same(size(alternatives))
-      integer :: i
+      integer :: i, k
 
+      meaning = ''
       do i = 1, size(alternatives)
-         names(i) = alternatives(i)%name
-         meaning(i) = meaning_to(alternatives(i), key)
+         k = key_index(alternatives(i)%keys, key)
+         if (k > 0) meaning(i) = alternatives(i)%keys(k)%meaning
       end do
       words = ''
       do i = 1, size(alternatives)
          same = meaning == meaning(i)
          if (meaning(i) == '' .or. findloc(same, .true., dim=1) < i) cycle
          if (words /= '') words = words//' '
-         words = words//'Of '//listed(pack(names, same), ' and ')//': '//trim(meaning(i))
+         words = words//'Of '//listed(pack(alternatives%name, same), ' and ')//': '//trim(meaning(i))
       end do
    end function merged_meaning
 
-   !> The meaning of a key for one alternative; empty if it does not read the key.
-   pure function meaning_to(alternative, key) result(meaning)
-      type(alternative_type), intent(in) :: alternative
-      character(*), intent(in) :: key
-      character(:), allocatable :: meaning
-
-      integer :: k
-
-      meaning = ''
-      k = key_index(alternative%keys, key)
-      if (k > 0) meaning = trim(alternative%keys(k)%meaning)
-   end function meaning_to
-
-   !> "'a', 'b' and 'c'": the alternatives that read a key.
-   pure function names_reading(alternatives, key) result(words)
-      type(alternative_type), intent(in) :: alternatives(:)
-      character(*), intent(in) :: key   !! that one of them reads
-      character(:), allocatable :: words
-
-      character(name_length) :: names(size(alternatives))
-      logical :: reads(size(alternatives))
-      integer :: i
-
-      do i = 1, size(alternatives)
-         names(i) = alternatives(i)%name
-         reads(i) = key_index(alternatives(i)%keys, key) > 0
-      end do
-      words = listed(in_quotes(pack(names, reads)), ' and ')
-   end function names_reading
-
-   !> Reports the keys that the chosen alternative requires and the deck does not give: "kind = 'sum' needs waves_x".
-   pure subroutine report_missing_keys(alternative, selector, values, problems)
-      type(alternative_type), intent(in) :: alternative
-      character(*), intent(in) :: selector   !! key that chooses the alternative
-      type(group_values), intent(in) :: values
-      type(problem_list_type), intent(inout) :: problems
-
-      integer :: k
-
-      do k = 1, size(alternative%keys)
-         associate (key => alternative%keys(k))
-            if (key%required .and. .not. values%has(key%name)) call values%complain(problems, selector, &
-               selector//" = '"//trim(alternative%name)//"' needs "//trim(key%name))
-         end associate
-      end do
-   end subroutine report_missing_keys
-
-   !> Whether the deck gives a key of other alternatives than the chosen one.
-   pure logical function is_misplaced(alternatives, chosen, key, values)
-      type(alternative_type), intent(in) :: alternatives(:)
-      integer, intent(in) :: chosen
-      character(*), intent(in) :: key
-      type(group_values), intent(in) :: values
-
-      integer :: i
-
-      is_misplaced = .false.
-      do i = 1, size(alternatives)
-         is_misplaced = is_misplaced .or. key_index(alternatives(i)%keys, key) > 0
-      end do
-      is_misplaced = is_misplaced .and. values%has(key) .and. key_index(alternatives(chosen)%keys, key) == 0
-   end function is_misplaced
-
-   !> Leaves the keys of other alternatives out of the resolved deck.
-   pure subroutine leave_out_other_keys(alternatives, chosen, values)
-      type(alternative_type), intent(in) :: alternatives(:)
-      integer, intent(in) :: chosen
+   !> Reports keys that the selected alternative needs and the deck does not give, "kind = 'sum' needs waves_x", and
+   !> keys of other alternatives, which are left out of the resolved deck.
+   subroutine check_alternatives(selected, values, problems, before)
+      type(alternative_type), intent(in) :: selected
       type(group_values), intent(inout) :: values
+      type(problem_list_type), intent(inout) :: problems
+      character(*), intent(in) :: before   !! what messages say before the names of alternatives; may be empty
 
+      character(:), allocatable :: key, selector
       integer :: i, k
 
-      do i = 1, size(alternatives)
-         do k = 1, size(alternatives(i)%keys)
-            associate (key => alternatives(i)%keys(k)%name)
-               if (key_index(alternatives(chosen)%keys, key) == 0) call values%leave_out(key)
-            end associate
+      selector = trim(values%table%selector)
+      associate (keys => values%table%keys, choice => values%table%keys(key_index(values%table%keys, selector)))
+         i = findloc(choice%choices == selected%name, .true., dim=1)
+         do k = 1, size(keys)
+            key = trim(keys(k)%name)
+            if (keys(k)%needed_by(i) .and. .not. values%has(key)) call values%complain(problems, selector, &
+               selector//" = '"//trim(selected%name)//"' needs "//key)
+            if (keys(k)%read_by(i) .or. .not. any(keys(k)%read_by)) cycle
+            call values%leave_out(key)
+            if (values%has(key)) call values%complain(problems, key, key//' is a key of '//before// &
+               listed(in_quotes(pack(choice%choices, keys(k)%read_by)), ' and ')//", not of '"// &
+               trim(selected%name)//"'"//advice(selected, key))
          end do
-      end do
-   end subroutine leave_out_other_keys
+      end associate
+   end subroutine check_alternatives
+
+   !> What to give instead of a key of other alternatives, or why it is missing, as the end of a sentence: the keys that
+   !> are its plural, or have a number behind it. Empty if there are none.
+   pure function advice(alternative, key) result(words)
+      type(alternative_type), intent(in) :: alternative
+      character(*), intent(in) :: key   !! that it does not read
+      character(:), allocatable :: words
+
+      integer :: i
+
+      words = ''
+      if (key_index(alternative%keys, key//'s') > 0) words = ': give '//key//'s'
+      if (key_index(alternative%keys, key//'1') > 0) words = ': give '//key//'1 and '//key//'2'
+      i = findloc(alternative%lacks == key, .true., dim=1)
+      if (i > 0) words = trim(alternative%because(i))
+   end function advice
 
 end module wavycon_key_alternatives

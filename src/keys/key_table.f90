@@ -4,18 +4,19 @@
 module wavycon_key_table
    use wavycon_constants, only: largest_number
    use wavycon_kinds, only: dp
-   use wavycon_plain_text, only: in_quotes, integer_text, listed, short_number
+   use wavycon_plain_text, only: exact_number, in_quotes, integer_text, listed, short_number
    implicit none (type, external)
    private
 
    public :: key_type, key_group_type, real_key, integer_key, logical_key, text_key, choice_key
-   public :: key_group, key_index, key_names, group_names, allowed_values
+   public :: key_group, key_index, key_names, group_names, allowed_values, number_text
 
    !> Types of values.
    integer, parameter, public :: real_value = 1, integer_value = 2, logical_value = 3, text_value = 4, &
       choice_value = 5
 
-   integer, parameter :: name_length = 24, choice_length = 12, most_choices = 12
+   integer, parameter :: name_length = 24, choice_length = 12
+   integer, parameter, public :: most_choices = 12
    integer, parameter, public :: meaning_length = 640
 
    type :: key_type
@@ -26,6 +27,9 @@ module wavycon_key_table
       character(40) :: default = ''
       character(24) :: unit = ''                         !! '-' if dimensionless; empty for texts, flags and counts
       logical :: required = .false.                      !! whether a deck must give the key wherever it applies
+      !> Keys of a group that give the same in different ways have different numbers here: --set of one of them replaces
+      !> the others. 0: there is no other way.
+      integer :: way = 0
       real(dp) :: least = -largest_number, most = largest_number
       logical :: above = .false., below = .false.        !! whether `least` and `most` themselves are excluded
       integer :: most_values = 1                         !! more than 1: a list
@@ -33,6 +37,8 @@ module wavycon_key_table
       logical :: may_be_blank = .false.                  !! of a text
       integer :: number_of_choices = 0
       character(choice_length) :: choices(most_choices) = ''   !! only the first number_of_choices are set
+      !> Which choices of the group's selector read the key, and which need it; none: it is not a key of alternatives.
+      logical :: read_by(most_choices) = .false., needed_by(most_choices) = .false.
    end type key_type
 
    type :: key_group_type
@@ -40,6 +46,7 @@ module wavycon_key_table
       character(80) :: meaning = ''
       logical :: required = .false.
       type(key_type), allocatable :: keys(:)
+      character(name_length) :: selector = ''      !! the key that selects an alternative; empty: there are none
       character(name_length) :: former_key = ''    !! a key of earlier versions; empty: none
       character(80) :: in_its_place = ''           !! what to give instead
    end type key_group_type
@@ -64,19 +71,17 @@ contains
    end function key_group
 
    !> A key whose value is a number or, with most_values, a list of numbers.
-   pure function real_key(name, default, unit, meaning, least, most, above, below, most_values, required) result(key)
+   pure function real_key(name, default, unit, meaning, least, most, above, below, most_values, required, way) &
+      result(key)
       character(*), intent(in) :: name, default, unit, meaning
       real(dp), intent(in), optional :: least, most    !! bounds, themselves allowed
       real(dp), intent(in), optional :: above, below   !! bounds, themselves excluded
-      integer, intent(in), optional :: most_values
+      integer, intent(in), optional :: most_values, way
       logical, intent(in), optional :: required
       type(key_type) :: key
 
-      key%name = name
-      key%kind = real_value
-      key%default = default
+      key = key_of(real_value, name, default, meaning, required)
       key%unit = unit
-      key%meaning = meaning
       if (present(least)) key%least = least
       if (present(most)) key%most = most
       if (present(above)) key%least = above
@@ -84,35 +89,27 @@ contains
       key%above = present(above)
       key%below = present(below)
       if (present(most_values)) key%most_values = most_values
-      if (present(required)) key%required = required
+      if (present(way)) key%way = way
    end function real_key
 
    !> A key whose value is an integer from least to most or, with most_values, a list of them.
-   pure function integer_key(name, default, meaning, least, most, most_values, required) result(key)
+   pure function integer_key(name, default, meaning, least, most, most_values, required, way) result(key)
       character(*), intent(in) :: name, default, meaning
       integer, intent(in) :: least, most
-      integer, intent(in), optional :: most_values
+      integer, intent(in), optional :: most_values, way
       logical, intent(in), optional :: required
       type(key_type) :: key
 
-      key%name = name
+      key = real_key(name, default, '', meaning, real(least, dp), real(most, dp), most_values=most_values, &
+                     required=required, way=way)
       key%kind = integer_value
-      key%default = default
-      key%meaning = meaning
-      key%least = real(least, dp)
-      key%most = real(most, dp)
-      if (present(most_values)) key%most_values = most_values
-      if (present(required)) key%required = required
    end function integer_key
 
    pure function logical_key(name, default, meaning) result(key)
       character(*), intent(in) :: name, default, meaning
       type(key_type) :: key
 
-      key%name = name
-      key%kind = logical_value
-      key%default = default
-      key%meaning = meaning
+      key = key_of(logical_value, name, default, meaning)
    end function logical_key
 
    pure function text_key(name, default, meaning, longest, may_be_blank, required) result(key)
@@ -121,13 +118,9 @@ contains
       logical, intent(in), optional :: may_be_blank, required
       type(key_type) :: key
 
-      key%name = name
-      key%kind = text_value
-      key%default = default
-      key%meaning = meaning
+      key = key_of(text_value, name, default, meaning, required)
       key%longest = longest
       if (present(may_be_blank)) key%may_be_blank = may_be_blank
-      if (present(required)) key%required = required
    end function text_key
 
    !> A key whose value is one of a few words.
@@ -137,14 +130,24 @@ contains
       logical, intent(in), optional :: required
       type(key_type) :: key
 
-      key%name = name
-      key%kind = choice_value
-      key%default = default
-      key%meaning = meaning
+      key = key_of(choice_value, name, default, meaning, required)
       key%number_of_choices = size(choices)
       key%choices(:size(choices)) = choices
-      if (present(required)) key%required = required
    end function choice_key
+
+   !> A key with what those of all types have.
+   pure function key_of(kind, name, default, meaning, required) result(key)
+      integer, intent(in) :: kind
+      character(*), intent(in) :: name, default, meaning
+      logical, intent(in), optional :: required
+      type(key_type) :: key
+
+      key%kind = kind
+      key%name = name
+      key%default = default
+      key%meaning = meaning
+      if (present(required)) key%required = required
+   end function key_of
 
    !> The number of a key in a table; 0 if it is not there.
    pure integer function key_index(keys, name)
@@ -190,6 +193,19 @@ contains
          words = listed(in_quotes(key%choices(:key%number_of_choices)), ' or ')
       end select
    end function allowed_values
+
+   !> A number of a real or integer key as a deck gives it, to all digits.
+   pure function number_text(key, number) result(text)
+      type(key_type), intent(in) :: key
+      real(dp), intent(in) :: number
+      character(:), allocatable :: text
+
+      if (key%kind == integer_value) then
+         text = integer_text(nint(number))
+      else
+         text = exact_number(number)
+      end if
+   end function number_text
 
    !> The bounds of a number, with a blank before them; empty if there are none.
    pure function bounds(key) result(words)

@@ -14,11 +14,10 @@ module wavycon_key_values
 
    public :: word_value, read_value
 
-   !> The value of a word: a number, a flag or a text, according to the type of the key.
+   !> The value of a word: a number or a text, according to the type of the key.
    type :: word_value
       integer :: repeats = 1                 !! r of 'r*value'
-      real(dp) :: number = 0.0_dp            !! of reals and integers
-      logical :: flag = .false.
+      real(dp) :: number = 0.0_dp            !! of reals and integers; of logicals 1 for .true. and 0 for .false.
       character(:), allocatable :: text      !! of texts and choices, without the quotes
    end type word_value
 
@@ -45,13 +44,11 @@ contains
       end if
       associate (rest => word(start:))
          select case (key%kind)
-         case (real_value)
-            call read_real(key, rest, value%number, trouble)
-         case (integer_value)
-            call read_integer(key, rest, value%number, trouble)
+         case (real_value, integer_value)
+            call read_number(key, rest, value%number, trouble)
          case (logical_value)
-            value%flag = any(lower_case(rest) == true_words)
-            if (.not. value%flag .and. all(lower_case(rest) /= false_words)) trouble = must_be(key, rest)
+            value%number = count(lower_case(rest) == true_words)
+            if (value%number < 1 .and. all(lower_case(rest) /= false_words)) trouble = must_be(key, rest)
          case (text_value)
             call read_text(key, rest, value%text, trouble)
          case (choice_value)
@@ -81,23 +78,32 @@ contains
       if (status /= 0) repeats = 0
    end subroutine split_repeat
 
-   subroutine read_real(key, word, number, trouble)
+   !> Reads a real number or an integer, which has digits and a sign alone.
+   subroutine read_number(key, word, number, trouble)
       type(key_type), intent(in) :: key
       character(*), intent(in) :: word
-      real(dp), intent(out) :: number
+      real(dp), intent(out) :: number   !! exact for integers: those of decks are far below 2^53
       character(:), allocatable, intent(out) :: trouble
 
-      logical :: is_number
+      type(ieee_status_type) :: floating_point
+      logical :: is_integer, is_number
 
-      call read_without_traps(word, number, is_number)
+      ! Overflow must not trap: 1e999 must be reported as bad input in Debug builds too.
+      call ieee_get_status(floating_point)
+      call ieee_set_halting_mode(ieee_overflow, .false.)
+      call read_decimal(word, number, is_number)
+      call ieee_set_status(floating_point)
+      is_integer = key%kind == integer_value
+      if (is_integer) is_number = is_number .and. verify(word, digits//'+-') == 0
       if (.not. is_number) then
          trouble = must_be(key, word)
-      else if (abs(number) > largest_number .or. (abs(number) < smallest_number .and. .not. is_zero(word))) then
+      else if (.not. is_integer .and. (abs(number) > largest_number .or. &
+                                       (abs(number) < smallest_number .and. .not. is_zero(word)))) then
          trouble = must_be(key, word)//'; numbers may be 0 or from 1e-90 to 1e90 in size'
       else if (.not. within(key, number)) then
          trouble = must_be(key, word)
       end if
-   end subroutine read_real
+   end subroutine read_number
 
    !> Whether all digits of a number before its exponent are 0. The value does not show it: 1e-999 is read as zero.
    pure logical function is_zero(number)
@@ -109,33 +115,6 @@ contains
       if (letter == 0) letter = len(number) + 1
       is_zero = scan(number(:letter - 1), '123456789') == 0
    end function is_zero
-
-   subroutine read_integer(key, word, number, trouble)
-      type(key_type), intent(in) :: key
-      character(*), intent(in) :: word
-      real(dp), intent(out) :: number   !! exact: integers of decks are far below 2^53
-      character(:), allocatable, intent(out) :: trouble
-
-      logical :: is_number
-
-      call read_without_traps(word, number, is_number)
-      if (is_number) is_number = verify(word, digits//'+-') == 0 .and. within(key, number)
-      if (.not. is_number) trouble = must_be(key, word)
-   end subroutine read_integer
-
-   !> Reads a number without trapping overflow: 1e999 must be reported as bad input in Debug builds too.
-   subroutine read_without_traps(word, number, is_number)
-      character(*), intent(in) :: word
-      real(dp), intent(out) :: number
-      logical, intent(out) :: is_number
-
-      type(ieee_status_type) :: floating_point
-
-      call ieee_get_status(floating_point)
-      call ieee_set_halting_mode(ieee_overflow, .false.)
-      call read_decimal(word, number, is_number)
-      call ieee_set_status(floating_point)
-   end subroutine read_without_traps
 
    pure logical function within(key, number)
       type(key_type), intent(in) :: key

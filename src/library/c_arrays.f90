@@ -25,7 +25,8 @@ contains
       call check_pointers([c_associated(x), c_associated(y)], trouble)
       call check_number(points, trouble)
       if (.not. allocated(trouble)) &
-         call fields_at(contents%owner%scene, contents%solution, int(points), array(x, points), array(y, points), trouble, &
+         call fields_at(contents%owner%scene, contents%solution, int(points), array(x, points), array(y, points), &
+               trouble, &
                         array(pressure, points), array(gap, points), array(displacement, points))
       get_fields = close_call(error, trouble)
    end function get_fields
@@ -41,7 +42,8 @@ contains
       call begin_call()
       call find_object(solution, 'solution', contents, trouble)
       if (.not. allocated(trouble)) &
-         call fields_on_grid(contents%owner%scene, contents%solution, [points_x, points_y], offset_at(offset), trouble, &
+         call fields_on_grid(contents%owner%scene, contents%solution, [points_x, points_y], offset_at(offset), &
+               trouble, &
                              grid(pressure, points_x, points_y), grid(gap, points_x, points_y), &
                              grid(displacement, points_x, points_y))
       get_grid = close_call(error, trouble)
@@ -85,7 +87,8 @@ contains
       call check_pointers([c_associated(stress)], trouble)
       if (.not. allocated(trouble)) then
          call c_f_pointer(stress, plane, [6, sides(points_x, points_y)])
-         call stresses_on_plane(contents%owner%scene, contents%solution, [points_x, points_y], offset_at(offset), depth, &
+         call stresses_on_plane(contents%owner%scene, contents%solution, [points_x, points_y], offset_at(offset), &
+               depth, &
                                 nu, word, plane, trouble, grid(stress_error, points_x, points_y))
       end if
       get_stress_plane = close_call(error, trouble)

@@ -6,10 +6,10 @@ module wavycon_deck_session
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_solution, only: contact_solution
    use wavycon_deck, only: deck_type
+   use wavycon_deck_groups, only: read_group_text
    use wavycon_deck_text, only: deck_text_type
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_find_stresses, only: find_stresses
-   use wavycon_group_text, only: read_group_text
    use wavycon_group_values, only: group_values
    use wavycon_kinds, only: dp
    use wavycon_load_group, only: check_load_group, check_loads_of_surface, load_table
@@ -27,7 +27,7 @@ module wavycon_deck_session
    use wavycon_solver_progress, only: solver_progress
    use wavycon_stress_fields, only: stress_fields
    use wavycon_table, only: table_type
-   use wavycon_tables, only: find_table, table_item
+   use wavycon_tables, only: find_table
    use wavycon_unit_scale, only: scale_of, unit_scale
    implicit none (type, external)
    private
@@ -93,7 +93,7 @@ contains
 
       type(deck_type) :: deck
       type(scene_type), allocatable :: scene
-      type(table_item), allocatable :: tables(:)
+      type(table_type), allocatable :: tables(:)
 
       call parse_deck(deck_text_type(path, text), deck, error, heights=heights, in_memory=.true.)
       if (allocated(error)) return
@@ -141,7 +141,7 @@ contains
       type(group_values) :: values
       type(problem_list_type) :: problems
 
-      call check_open(self, error)
+      call check_ready(self, error)
       if (allocated(error)) return
       call read_group_text(load_table(), quantity//' = '//number_words(value), values, text, problems)
       call check_load_group(values, problems)
@@ -165,7 +165,7 @@ contains
       type(solved_load), intent(out) :: answer
       type(error_type), allocatable, intent(out) :: error
 
-      call check_open(self, error)
+      call check_ready(self, error)
       if (allocated(error)) return
       if (load >= 1 .and. load <= self%number_of_loads()) then
          call self%solve_one(self%results%scene%loads_by, load, self%results%scene%target, self%mean_pressure, answer, &
@@ -209,7 +209,7 @@ contains
       type(memory_table), intent(out), target :: table
       type(error_type), allocatable, intent(out) :: error
 
-      class(table_type), allocatable :: writer
+      type(table_type), allocatable :: writer
       type(run_log) :: no_log
 
       call find_writer(self, name, solved, writer, error)
@@ -234,26 +234,26 @@ contains
       class(deck_session), intent(in) :: self
       character(*), intent(in) :: name
       type(solved_load), intent(in) :: solved
-      class(table_type), allocatable, intent(out) :: writer
+      type(table_type), allocatable, intent(out) :: writer
       type(error_type), allocatable, intent(out) :: error
 
       character(:), allocatable :: names, trouble
       logical :: of_stresses
 
-      call check_solved(self, solved, error)
+      call check_ready(self, error, solved)
       if (allocated(error)) return
       call find_table(name, writer, names)
       if (.not. allocated(writer)) then
          call fatal_error(error, exit_bad_input, "there is no table '"//name//"'. The tables are "//names)
          return
       end if
-      of_stresses = writer%group() == 'stress'
+      of_stresses = writer%group == 'stress'
       trouble = ''
       if (of_stresses .and. .not. allocated(self%results%scene%stress_setting)) then
          trouble = 'it needs a group &stress in the deck'
-      else if ((of_stresses .or. writer%needs_fields()) .and. .not. self%keeps_fields) then
+      else if ((of_stresses .or. writer%needs_fields) .and. .not. self%keeps_fields) then
          trouble = 'the session was opened without fields'
-      else if (self%scale%p_star <= 0.0_dp .and. .not. writer%is_for_flat_surfaces()) then
+      else if (self%scale%p_star <= 0.0_dp .and. .not. writer%is_for_flat_surfaces) then
          trouble = 'the surface is flat'
       else
          trouble = writer%refusal(self%results%traits, self%results%solver%surface)
@@ -286,7 +286,7 @@ contains
          end if
          if (i > 0) value = solved%summary%values(i, 1)
       else
-         call check_open(self, error)
+         call check_ready(self, error)
          if (allocated(error)) return
          associate (surface => self%results%solver%surface)
             values = [self%scale%e_star, self%scale%p_star, self%scale%amplitude, self%scale%sides, &
@@ -309,13 +309,14 @@ contains
 
       integer :: i
 
-      call check_open(self, error)
+      call check_ready(self, error)
       if (present(solved) .and. .not. allocated(error)) call self%summarise(solved, error)
       if (allocated(error)) return
       if (present(solved)) then
          i = solved%summary%find_column(name)
          if (i > 0) then
-            if (solved%summary%kinds(i) == of_words) words = trim(solved%summary%words(nint(solved%summary%values(i, 1))))
+            if (solved%summary%kinds(i) == of_words) words = trim(solved%summary%words(nint(solved%summary%values(i, &
+                  1))))
          end if
       else
          select case (name)
@@ -344,30 +345,25 @@ contains
 
       type(memory_table) :: summary
 
-      call check_solved(self, solved, error)
+      call check_ready(self, error, solved)
       if (allocated(error) .or. solved%summary%rows > 0) return
       call self%make_table('summary', solved, summary, error)
       if (.not. allocated(error)) solved%summary = summary
    end subroutine summarise
 
-   !> Errors: exit_bad_input if a session has not been opened.
-   subroutine check_open(self, error)
-      class(deck_session), intent(in) :: self
-      type(error_type), allocatable, intent(out) :: error
-
-      if (.not. allocated(self%results%solver)) call fatal_error(error, exit_bad_input, 'the session is not open')
-   end subroutine check_open
-
    !> Errors: exit_bad_input if a session has not been opened or no load has been solved.
-   subroutine check_solved(self, solved, error)
+   subroutine check_ready(self, error, solved)
       class(deck_session), intent(in) :: self
-      type(solved_load), intent(in) :: solved
       type(error_type), allocatable, intent(out) :: error
+      type(solved_load), intent(in), optional :: solved   !! if the call needs one
 
-      call check_open(self, error)
-      if (allocated(error) .or. allocated(solved%solution)) return
-      call fatal_error(error, exit_bad_input, 'there is no solution: no load has been solved')
-   end subroutine check_solved
+      if (.not. allocated(self%results%solver)) then
+         call fatal_error(error, exit_bad_input, 'the session is not open')
+      else if (present(solved)) then
+         if (.not. allocated(solved%solution)) &
+            call fatal_error(error, exit_bad_input, 'there is no solution: no load has been solved')
+      end if
+   end subroutine check_ready
 
    !> Errors: exit_bad_input if the session cannot find loads by yield.
    subroutine check_yield(self, error)

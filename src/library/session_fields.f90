@@ -6,11 +6,11 @@
 module wavycon_session_fields
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_fortran_env, only: int64
+   use wavycon_deck_groups, only: read_group_text
    use wavycon_deck_session, only: deck_session, number_words, solved_load
    use wavycon_deck_text, only: deck_text_type
    use wavycon_elastic_body, only: elastic_body
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
-   use wavycon_group_text, only: read_group_text
    use wavycon_group_values, only: group_values
    use wavycon_kinds, only: dp
    use wavycon_material_group, only: material_table
@@ -33,8 +33,8 @@ module wavycon_session_fields
 
 contains
 
-   !> Fields at n points. Pressure is exactly 0 outside contact and the gap exactly 0 in contact, but for solver 'beale',
-   !> whose series is shown as it is.
+   !> Fields at n points. Pressure is exactly 0 outside contact and the gap exactly 0 in contact, but for solver
+   !> 'beale', whose series is shown as it is.
    subroutine fields_at(session, solved, n, x, y, error, pressure, gap, displacement)
       type(deck_session), intent(in) :: session
       type(solved_load), intent(inout) :: solved
@@ -89,8 +89,8 @@ contains
       end if
    end subroutine fields_on_grid
 
-   !> The grid that the load was solved on, as arguments of fields_on_grid, which shows the solution's own numbers there.
-   !> Zeros if there is none.
+   !> The grid that the load was solved on, as arguments of fields_on_grid, which shows the solution's own numbers
+   !> there. Zeros if there is none.
    subroutine own_points(session, solved, points, offset, error)
       type(deck_session), intent(in) :: session
       type(solved_load), intent(inout) :: solved

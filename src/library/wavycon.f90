@@ -18,7 +18,7 @@ module wavycon
    use wavycon_deck_run, only: run_deck
    use wavycon_deck_session, only: deck_session, solved_load
    use wavycon_dundurs, only: dundurs_coefficients, dundurs_pressure_over_pstar
-   use wavycon_edge_curves, only: edge_curve
+   use wavycon_contact_contours, only: contact_contour
    use wavycon_elastic_body, only: elastic_body, hydrostatic, laterally_constrained, laterally_free
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, exit_fine, exit_not_converged
    use wavycon_find_load, only: solve_for_contact_area, solve_for_mean_gap

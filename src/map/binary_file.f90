@@ -136,7 +136,7 @@ contains
       end do
    end subroutine take_singles
 
-   !> As take_singles.
+   !> The numbers that words of the file are in double precision, with the errors of read_numbers.
    pure subroutine take_doubles(self, words, numbers, infinite)
       class(binary_file), intent(in) :: self
       integer(int64), intent(in) :: words(:)
@@ -164,8 +164,8 @@ contains
    end subroutine take_doubles
 
    !> Reads the heights of a map: from `start` to the end of the file there must be nothing else. Missing heights are
-   !> NaN. With in_slabs of a large map the own columns. Errors: exit_bad_input for a map that is too small or too
-   !> large, a file of another length, and infinite heights; exit_file_trouble.
+   !> NaN. With in_slabs only the own columns of a large map are read. Errors: exit_bad_input for a map that is too
+   !> small or too large, a file of another length, and infinite heights; exit_file_trouble.
    subroutine read_heights(self, start, points, by_columns, map, error)
       class(binary_file), intent(in) :: self
       integer(int64), intent(in) :: start   !! bytes before the first height
@@ -185,12 +185,12 @@ contains
          if (.not. allocated(error)) call read_rows(self, start, slab, map%height, error)
       else
          call lines%start(points(2:1:-1), whole=.true.)
-         if (slab%is_spread) call lines%divide(points(2:1:-1))
+         if (slab%is_distributed) call lines%divide(points(2:1:-1))
          if (.not. allocated(error)) call read_columns(self, start, lines, map%height, error)
       end if
       call slab%share_error(error)
-      if (allocated(error) .or. .not. slab%is_spread) return
-      call map%spread_over(slab)
+      if (allocated(error) .or. .not. slab%is_distributed) return
+      call map%distribute_over(slab)
       if (.not. by_columns) return
       allocate (height(points(1), slab%columns()))
       call slab%exchange_rows(points(1), 1, dp, exchange)
@@ -236,7 +236,7 @@ contains
       end do
    end subroutine read_rows
 
-   !> The same of lines that are columns of the map.
+   !> Reads lines of the file that are columns of the map. Errors: of this process alone.
    subroutine read_columns(self, start, lines, height, error)
       type(binary_file), intent(in) :: self
       integer(int64), intent(in) :: start
@@ -283,7 +283,7 @@ contains
                        ' is infinite: make it nan if it is missing', error)
    end subroutine refuse_infinite
 
-   !> Makes an error with the name of the file. Status: exit_bad_input.
+   !> Makes an error with the name of the file and the status exit_bad_input.
    pure subroutine refuse(self, words, error)
       class(binary_file), intent(in) :: self
       character(*), intent(in) :: words

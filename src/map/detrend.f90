@@ -9,8 +9,8 @@ module wavycon_detrend
 
    public :: detrend_map
 
-   !> Least square of the part of a term that the other terms do not fit on the points that are there, over its mean
-   !> square on the whole grid. Below it rounding would decide the coefficient.
+   !> Least mean square, on the points that are there, of the part of a term that the other terms do not fit, over its
+   !> mean square on the whole grid. Below it rounding would decide the coefficient.
    real(dp), parameter :: least_part = 1.0e-10_dp
 
    !> The terms P_a(x) P_b(y) of a polynomial (M1) on the points of a map.
@@ -26,7 +26,7 @@ contains
    subroutine detrend_map(map, degree, rise, is_determined)
       type(measured_map), intent(inout) :: map
       integer, intent(in) :: degree             !! 0: the mean, 1: a plane, 2: a polynomial of the second degree
-      !> Of the linear part that was removed, from the first point to the last along x and y [height].
+      !> Rise of the linear part that was removed, from the first point to the last along x and y [height].
       real(dp), intent(out) :: rise(2)
       !> .false. if the points that are there do not determine the polynomial: the map is then unchanged.
       logical, intent(out) :: is_determined

@@ -117,7 +117,7 @@ contains
 
    contains
 
-      !> What stands between characters that are left out.
+      !> The text between leading and trailing characters that are left out.
       pure function between(text, left_out) result(inner)
          character(*), intent(in) :: text, left_out
          character(:), allocatable :: inner

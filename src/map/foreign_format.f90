@@ -14,7 +14,8 @@ module wavycon_foreign_format
 
 contains
 
-   !> What a file is whose content is known and not read, and how to convert it; empty for any other file.
+   !> Names the format of a file that is recognised but cannot be read, and says how to convert it; empty for any other
+   !> file.
    pure function remedy_of_content(head, path) result(words)
       character(*), intent(in) :: head   !! the first bytes of the file
       character(*), intent(in) :: path
@@ -56,7 +57,7 @@ contains
 
    end function remedy_of_content
 
-   !> The same, by the ending of the file's name.
+   !> Recognises such a file by the ending of its name.
    pure function remedy_of_name(path) result(words)
       character(*), intent(in) :: path
       character(:), allocatable :: words

@@ -38,8 +38,8 @@ contains
       call solve(equations, height)
    end subroutine fill_by_neighbours
 
-   !> Takes the missing heights from the filled map whose points stand for two by two of this one each: the mean of
-   !> those that are there, missing if none is (M4).
+   !> Sets the missing heights from the filled map of half the points each way (M4). A point of that map has the mean of
+   !> those of two by two heights that are there, and is missing if none is.
    recursive subroutine start_from_coarser(height, missing, step, periodic)
       real(dp), intent(inout) :: height(:, :)
       logical, intent(in) :: missing(:, :)
@@ -132,8 +132,8 @@ contains
       end if
    end function neighbour_of
 
-   !> Conjugate gradients, from the heights that are there, until the residual of (M3) is rounding. Heights count from
-   !> one of those around the holes: rounding is that of their differences, none if they are equal.
+   !> Conjugate gradients, from the heights that are there, until the residual of (M3) is rounding. Heights are relative
+   !> to one of those around the holes, so that rounding is that of their differences.
    subroutine solve(self, height)
       type(hole_equations), intent(in) :: self
       real(dp), intent(inout) :: height(:, :)   !! only the missing heights change
@@ -181,7 +181,7 @@ contains
       end do
    end subroutine solve
 
-   !> The left-hand side of (M3), of heights that are 0 where they are given.
+   !> The left-hand side of (M3) for the unknown heights; given heights count as 0.
    subroutine multiply(self, value, image)
       type(hole_equations), intent(in) :: self
       real(dp), intent(in) :: value(0:)

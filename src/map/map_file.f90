@@ -29,8 +29,8 @@ module wavycon_map_file
 
 contains
 
-   !> Reads a map. All processes call this, and all get the error of any. Errors: exit_file_trouble if the file cannot be
-   !> read, exit_bad_input if it is not a map.
+   !> Reads a map. All processes call this, and an error of one is reported to all. Errors: exit_file_trouble if the
+   !> file cannot be read, exit_bad_input if it is not a map.
    subroutine read_height_map(path, format, map, error, missing_value, in_slabs)
       character(*), intent(in) :: path
       !> 'matrix', 'xyz' or 'xz' of a text, 'npy', 'gsf', or 'auto': what the file looks like.

@@ -43,7 +43,7 @@ contains
       character(*), intent(in) :: source   !! of the map, for the message
       integer, intent(in) :: points(2)     !! along x and y
       type(error_type), allocatable, intent(out) :: error
-      type(grid_slab), intent(in), optional :: slab   !! of a map that may be spread; absent: of a whole one
+      type(grid_slab), intent(in), optional :: slab   !! of a map that may be distributed; absent: of a whole one
 
       !> Real numbers for each height: the map, the Fourier coefficients, work space of the transforms.
       integer, parameter :: copies = 5

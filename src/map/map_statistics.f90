@@ -14,8 +14,8 @@ module wavycon_map_statistics
       character(7) :: format = ''                                   !! as of measured_map
       real(dp) :: lowest = 0.0_dp, highest = 0.0_dp, rms = 0.0_dp   !! of the heights over their mean [length]
       real(dp) :: skewness = 0.0_dp, kurtosis = 0.0_dp              !! eq. (M20); 0 of a flat map
-      !> Between neighbours along x and y, across that line within the map where their root mean square is largest
-      !> [length].
+      !> Root mean square of the steps between neighbours along x and y, across the line within the map where it is
+      !> largest [length].
       real(dp) :: largest_step(2) = 0.0_dp
       !> Root mean square of the steps from the last points to the first, which are their neighbours because the map is
       !> continued periodically [length].
@@ -31,12 +31,12 @@ module wavycon_map_statistics
 
 contains
 
-   !> The statistics of a map. The last digit of largest_step(1) may depend on how the map is spread.
+   !> The statistics of a map. The last digit of largest_step(1) may depend on how the map is distributed.
    type(map_statistics) function statistics_of(height, format, path, points) result(statistics)
       real(dp), intent(in) :: height(:, :)   !! over the mean [length], shape (M, N) or (M, columns of the grid's slab)
       character(*), intent(in) :: format     !! as of measured_map
       character(*), intent(in) :: path       !! absolute
-      integer, intent(in), optional :: points(2)   !! M, N of a map that may be spread; the shape of height if absent
+      integer, intent(in), optional :: points(2)   !! M, N if the map may be distributed; shape of height if absent
 
       type(grid_slab) :: slab
       real(dp) :: extremes(2)
@@ -84,7 +84,7 @@ contains
       type(map_statistics), intent(inout) :: statistics
 
       real(dp) :: low(size(height, 1), 1), next(size(height, 1), 1)
-      real(dp) :: across_border(1, size(height, 2))      ! squares of the steps from the last points along x to the first
+      real(dp) :: across_border(1, size(height, 2))   ! squares of the steps from the last points along x to the first
       real(dp), allocatable :: squares(:)                ! sums over the steps across each line along y
       real(dp) :: step, steps(2)                         ! largest within the map along y, and that across its border
       integer :: j

@@ -8,8 +8,8 @@ module wavycon_measured_map
    public :: measured_map
 
    type :: measured_map
-      !> As in the file, 0 where it is missing, shape (M, N): along x, along y; N = 1 for a profile. Of a map that is
-      !> spread the own columns.
+      !> As in the file, 0 where it is missing, shape (M, N): along x, along y; N = 1 for a profile. If the map is
+      !> distributed it has the own columns.
       real(dp), allocatable :: height(:, :)
       logical, allocatable :: missing(:, :)        !! shape of `height`; not allocated if no height is missing
       logical :: has_missing_value = .false.       !! whether a height had the value that stands for a missing one
@@ -20,10 +20,10 @@ module wavycon_measured_map
       character(7) :: format = ''                  !! of the file, as of read_height_map, but not 'auto'
       character(:), allocatable :: length_unit     !! of the steps; not allocated if the file does not name units
       character(:), allocatable :: height_unit     !! of the heights; allocated if length_unit is
-      type(grid_slab), private :: slab             !! of the points of a map that is spread
+      type(grid_slab), private :: slab             !! of the points of a map that is distributed
    contains
       procedure :: set_units
-      procedure :: spread_over
+      procedure :: distribute_over
       procedure :: columns
       procedure :: points
       procedure :: keep_own_columns
@@ -43,22 +43,22 @@ contains
       if (height_unit == '') self%height_unit = length_unit
    end subroutine set_units
 
-   !> Says that `height` has, or will have, the own columns of a map.
-   pure subroutine spread_over(self, slab)
+   !> Declares that `height` has, or will have, the own columns of a map.
+   pure subroutine distribute_over(self, slab)
       class(measured_map), intent(inout) :: self
       type(grid_slab), intent(in) :: slab
 
       self%slab = slab
-   end subroutine spread_over
+   end subroutine distribute_over
 
-   !> The columns that `height` has: the whole grid, unless the map is spread.
+   !> The columns that `height` has: the whole grid, unless the map is distributed.
    pure type(grid_slab) function columns(self)
       class(measured_map), intent(in) :: self
 
       columns = self%slab
-      if (columns%is_spread) return
+      if (columns%is_distributed) return
       associate (n => size(self%height, 2))
-         columns = grid_slab(points=shape(self%height), is_spread=.false., width=n, first=1, last=n)
+         columns = grid_slab(points=shape(self%height), is_distributed=.false., width=n, first=1, last=n)
       end associate
    end function columns
 
@@ -68,18 +68,18 @@ contains
       integer :: points(2)
 
       points = shape(self%height)
-      if (self%slab%is_spread) points = self%slab%points
+      if (self%slab%is_distributed) points = self%slab%points
    end function points
 
-   !> Spreads a map that is whole, if it is large.
+   !> Distributes a whole map if it is large.
    subroutine keep_own_columns(self)
       class(measured_map), intent(inout) :: self
 
       real(dp), allocatable :: own(:, :)
 
-      if (self%slab%is_spread) return
+      if (self%slab%is_distributed) return
       call self%slab%start(shape(self%height))
-      if (.not. self%slab%is_spread) return
+      if (.not. self%slab%is_distributed) return
       allocate (own, source=self%height(:, self%slab%first:self%slab%last))
       call move_alloc(own, self%height)
       if (allocated(self%missing)) self%missing = self%missing(:, self%slab%first:self%slab%last)

@@ -88,7 +88,7 @@ contains
       bytes = merge(2, 4, version == 1)
       length = 0
       do i = bytes, 1, -1
-         ! So that no length overflows. The head that is kept is shorter than 256**3 bytes.
+         ! The length must not overflow. The head that is kept is shorter than 256**3 bytes.
          if (length > 256**2) return
          length = 256*length + iachar(head(before_length + i:before_length + i))
       end do

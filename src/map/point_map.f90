@@ -56,7 +56,7 @@ contains
       type(measured_map), intent(inout) :: map
       type(error_type), allocatable, intent(out) :: error
 
-      !> Fewer points of a grid are more likely points without a grid.
+      !> So few points are more likely points without a grid.
       integer, parameter :: least_percentage = 10
       type(axis_type) :: axis(2)
       logical, allocatable :: is_there(:, :)
@@ -177,7 +177,7 @@ contains
          largest = max(largest, lowest(b) - last)
          last = lowest(b)
       end do
-      ! First the least step, then the mean of those that are alike: its rounding error is smaller.
+      ! First the least step, then the mean of the equal steps, whose rounding error is smaller.
       step = extent
       do pass = 1, 2
          number = 0

@@ -15,8 +15,8 @@ module wavycon_prepare_map
 
    public :: map_changes, map_preparation, prepare_map
 
-   !> Heights that are left are zero if they differ by at most this part of the largest one that was there: they are
-   !> rounding.
+   !> Heights are set to zero if, after preparation, they differ by at most this part of the largest original one: they
+   !> are rounding.
    real(dp), parameter :: rounding = 64*epsilon(1.0_dp)
 
    !> What is done to a map.
@@ -43,7 +43,7 @@ contains
 
    !> Prepares a map. 'mirror' leaves the heights as they are: the surface adds the mirror images. Errors:
    !> exit_bad_input for holes that are not to be filled, and for heights that do not determine the trend;
-   !> exit_file_trouble without memory. The holes of a map that is spread cannot be filled.
+   !> exit_file_trouble without memory. The holes of a distributed map cannot be filled.
    subroutine prepare_map(source, preparation, length, map, changes, error)
       character(*), intent(in) :: source                !! of the map, for messages
       type(map_preparation), intent(in) :: preparation

@@ -80,12 +80,13 @@ contains
 
       powers = series%c(:, l)**2
       if (.not. series%is_even()) powers = powers + series%cs(:, l)**2 + series%sc(:, l)**2 + series%ss(:, l)**2
-      powers = powers/(waves_of_number([(k, k=lbound(powers, 1), ubound(powers, 1))], points(1))*waves_of_number(l, points(2)))
+      powers = powers/(waves_of_number([(k, k=lbound(powers, 1), ubound(powers, 1))], points(1))* &
+                       waves_of_number(l, points(2)))
       if (l == 0 .and. lbound(powers, 1) == 0) powers(0) = 0.0_dp
    end function wave_powers
 
-   !> How many of the wave numbers k and -k are different waves: the mean has none beside it, and at the points of a
-   !> grid the highest wave of an even number of points is the same as the one that runs back.
+   !> How many different waves have the wave numbers k and -k: one for the mean and, on an even number of points, for
+   !> the highest wave, which equals its opposite at the points; otherwise two.
    elemental integer function waves_of_number(k, points) result(waves)
       integer, intent(in) :: k        !! >= 0
       integer, intent(in) :: points   !! of the grid in this direction; 0 if there is none

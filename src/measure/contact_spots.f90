@@ -4,7 +4,7 @@ module wavycon_contact_spots
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_c_binding, only: c_size_t
    use wavycon_constants, only: pi
-   use wavycon_edge_curves, only: edge_curve
+   use wavycon_contact_contours, only: contact_contour
    use wavycon_gsl, only: gsl_sort_index
    use wavycon_kinds, only: dp
    implicit none (type, external)
@@ -31,7 +31,6 @@ module wavycon_contact_spots
       type(contact_region), allocatable :: spots(:)          !! of contact, the largest first
       type(contact_region), allocatable :: pools(:)          !! of gap, likewise
    contains
-      procedure :: closed_pools
       procedure :: perimeter => total_perimeter
    end type contact_spots
 
@@ -46,13 +45,6 @@ contains
       is_closed = .not. any(self%percolates)
    end function is_closed
 
-   !> The number of pools that are closed.
-   pure integer function closed_pools(self)
-      class(contact_spots), intent(in) :: self
-
-      closed_pools = count(self%pools%is_closed())
-   end function closed_pools
-
    !> The length of the edge of contact in one cell, or in the mirrored map [length]; NaN in 1-D.
    pure real(dp) function total_perimeter(self)
       class(contact_spots), intent(in) :: self
@@ -64,14 +56,14 @@ contains
 
    !> The regions that curves divide a cell into. The numbers of spots and pools of the curves run from 1 without gaps.
    subroutine find_spots(curves, area, dimension, length, loads, answer, with_images)
-      type(edge_curve), intent(in) :: curves(:)   !! all of the cell, at least one
+      type(contact_contour), intent(in) :: curves(:)   !! all of the cell, at least one
       real(dp), intent(in) :: area                !! of the contact over the nominal area
       integer, intent(in) :: dimension            !! of the contact, 1 or 2
       real(dp), intent(in) :: length(2)           !! L_x, L_y [length]
       real(dp), intent(in) :: loads(:)            !! of the spots, over the load; of no size if they are not known
       type(contact_spots), intent(out) :: answer
-      !> Whether the cell is a map and its mirror images. In 2-D a region and its images then have one number. Absent: it
-      !> is not.
+      !> Whether the cell is a map and its mirror images. In 2-D a region and its images then have one number. Absent:
+      !> it is not.
       logical, intent(in), optional :: with_images
 
       type(contact_region), allocatable :: spots(:), pools(:)
@@ -131,7 +123,7 @@ contains
       integer, intent(in) :: number(:)    !! of the region of each curve, from 1
       integer, intent(in) :: other(:)     !! of the region of the other kind on its other side, from 1
       integer, intent(in) :: outwards     !! turns of a curve about such a region: 1 for spots, -1 for pools
-      type(edge_curve), intent(in) :: curves(:)
+      type(contact_contour), intent(in) :: curves(:)
       real(dp), intent(in) :: total       !! area of all regions over the nominal area
       real(dp), intent(in) :: length(2)
       logical, intent(in) :: is_map       !! whether a number is that of a region and its mirror images
@@ -193,7 +185,7 @@ contains
 
    !> The strips of a 1-D contact and the gaps between them: all endless along y, none along x.
    subroutine find_strips(strips, spots, pools)
-      type(edge_curve), intent(in) :: strips(:)   !! ascending
+      type(contact_contour), intent(in) :: strips(:)   !! ascending
       type(contact_region), allocatable, intent(out) :: spots(:), pools(:)
 
       real(dp) :: last, next
@@ -244,7 +236,7 @@ contains
 
    !> How many cells a curve goes on along X and Y until it comes again.
    pure function winding_numbers(curve) result(numbers)
-      type(edge_curve), intent(in) :: curve
+      type(contact_contour), intent(in) :: curve
       integer :: numbers(2)
 
       associate (n => size(curve%phi))
@@ -254,7 +246,7 @@ contains
 
    !> The length of a curve [length].
    pure real(dp) function curve_length(curve, length)
-      type(edge_curve), intent(in) :: curve
+      type(contact_contour), intent(in) :: curve
       real(dp), intent(in) :: length(2)   !! L_x, L_y
 
       associate (n => size(curve%phi), x => curve%phi, y => curve%theta)
@@ -266,7 +258,7 @@ contains
 
    !> The centroid of the polygon in a closed curve, in the cell, on a mirrored map of its part in the map [rad]: (A5).
    pure function centroid(curve, is_map) result(centre)
-      type(edge_curve), intent(in) :: curve
+      type(contact_contour), intent(in) :: curve
       logical, intent(in) :: is_map
       real(dp) :: centre(2)
 

@@ -29,11 +29,11 @@ contains
       fraction = counted_area_fraction(edge) - area_of_change*edge_crossings(edge)/edge%number_of_points()
    end function corrected_area_fraction
 
-   !> Number of pairs of neighbouring points of the grid, along both directions, of which one is in contact and the other
-   !> is not. On a whole cell the last points are neighbours of the first; on a quarter those next to a mirror line have
-   !> their own images as neighbours.
+   !> Number of pairs of neighbouring points of the grid, along both directions, of which one is in contact and the
+   !> other is not. On a whole cell the last points are neighbours of the first; on a quarter those next to a mirror
+   !> line have their own images as neighbours.
    integer(int64) function edge_crossings(edge) result(crossings)
-      type(grid_edge), intent(in) :: edge   !! with the columns of the neighbours, if the grid is spread
+      type(grid_edge), intent(in) :: edge   !! with the columns of the neighbours, if the grid is distributed
 
       logical :: here(0:edge%slab%points(1) + 1), next(0:edge%slab%points(1) + 1)
       integer(int64) :: total(1)
@@ -41,10 +41,10 @@ contains
 
       m = edge%slab%points(1)
       total = 0
-      if (edge%slab%columns() > 0) next = edge%contact_of_column(edge%slab%first)
+      if (edge%slab%columns() > 0) next = edge%column(edge%slab%first) > 0.0_dp
       do j = edge%slab%first, edge%slab%last
          here = next
-         next = edge%contact_of_column(j + 1)
+         next = edge%column(j + 1) > 0.0_dp
          total = total + count(here(1:m) .neqv. here(2:)) + count(here(1:m) .neqv. next(1:m))
       end do
       call edge%slab%add(total)

@@ -53,8 +53,8 @@ contains
 
       m = edge%slab%points(1)
       steps = angle_steps(edge)
-      low = edge%contact_of_column(l)
-      high = edge%contact_of_column(l + 1)
+      low = edge%column(l) > 0.0_dp
+      high = edge%column(l + 1) > 0.0_dp
       area = 0.0_dp
       if (.not. any(low) .and. .not. any(high)) return
       do i = merge(0, 1, edge%even), m

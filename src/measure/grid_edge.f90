@@ -20,10 +20,10 @@ module wavycon_grid_edge
    public :: grid_edge, aligned_part, angle_steps, balance, joined, make_grid_edge, pressure_per_gap, start_grid_edge
 
    type, extends(contact_edge) :: grid_edge
-      !> The pressure, > 0, in contact, minus the gap, <= 0, elsewhere, in any unit, at the own columns of the grid, shape
-      !> (M, slab%columns()): all N of them unless it is spread; N = 1 in 1-D.
+      !> The pressure, > 0, in contact, minus the gap, <= 0, elsewhere, in any unit, at the own columns of the grid,
+      !> shape (M, slab%columns()): all N of them unless it is distributed; N = 1 in 1-D.
       real(dp), allocatable :: pressure_or_gap(:, :)
-      !> The same at the columns before and after the own ones, shape (M, reach); only of a grid that is spread.
+      !> The same at the columns before and after the own ones, shape (M, reach); only of a grid that is distributed.
       real(dp), allocatable, private :: low(:, :), high(:, :)
       type(grid_slab) :: slab
       real(dp) :: stiffness(2) = 1.0_dp   !! E*/(2 h), h the steps along phi and theta, in these units
@@ -37,13 +37,12 @@ module wavycon_grid_edge
       procedure :: place
       procedure :: at
       procedure :: column
-      procedure :: contact_of_column
       procedure :: points_in_contact
       procedure :: number_of_points
       procedure :: fetch_neighbours
    end type grid_edge
 
-   !> Columns of the neighbours that area and peak pressure of a spread grid need.
+   !> Columns of the neighbours that area and peak pressure of a distributed grid need.
    integer, parameter :: reach = 3
 
    !> Of an edge that runs along a line of the grid (C11): the weight of the first gap, times E*/(2 h), against the last
@@ -62,12 +61,8 @@ contains
       type(grid_slab), intent(in), optional :: slab   !! whose columns these are; absent: all columns of a grid
 
       real(dp), allocatable :: field(:, :)
-      integer :: j
 
-      allocate (field, mold=gap)
-      do j = 1, size(gap, 2)
-         field(:, j) = joined(pressure(:, j), gap(:, j))
-      end do
+      field = joined(pressure, gap)
       call make_grid_edge(edge, field, even, stiffness, slab)
    end subroutine start_grid_edge
 
@@ -98,11 +93,11 @@ contains
       joined = merge(pressure, -max(gap, 0.0_dp), pressure > 0.0_dp)
    end function joined
 
-   !> Gets the columns of the neighbours, if the grid is spread.
+   !> Gets the columns of the neighbours, if the grid is distributed.
    subroutine fetch_neighbours(self)
       class(grid_edge), intent(inout) :: self
 
-      if (.not. self%slab%is_spread) return
+      if (.not. self%slab%is_distributed) return
       if (allocated(self%low)) deallocate (self%low, self%high)
       allocate (self%low(self%slab%points(1), reach), self%high(self%slab%points(1), reach))
       call self%slab%halo(self%pressure_or_gap, self%even, self%low, self%high)
@@ -125,8 +120,8 @@ contains
       in_contact = self%at(k, l) > 0.0_dp
    end function in_contact
 
-   !> Pressure or minus the gap at any point of the plane; of a grid that is spread, at the own columns and those of the
-   !> neighbours.
+   !> Pressure or minus the gap at any point of the plane; of a grid that is distributed, at the own columns and those
+   !> of the neighbours.
    pure real(dp) function at(self, k, l)
       class(grid_edge), intent(in) :: self
       integer, intent(in) :: k, l
@@ -134,7 +129,7 @@ contains
       integer :: row
 
       row = self%place(k, 1)
-      if (.not. self%slab%is_spread) then
+      if (.not. self%slab%is_distributed) then
          at = self%pressure_or_gap(row, self%place(l, 2))
       else if (l < self%slab%first) then
          at = self%low(row, reach + 1 - (self%slab%first - l))
@@ -154,7 +149,7 @@ contains
       integer :: m
 
       m = self%slab%points(1)
-      if (.not. self%slab%is_spread) then
+      if (.not. self%slab%is_distributed) then
          values(1:m) = self%pressure_or_gap(:, self%place(l, 2))
       else if (l < self%slab%first) then
          values(1:m) = self%low(:, reach + 1 - (self%slab%first - l))
@@ -166,18 +161,6 @@ contains
       values(0) = values(self%place(0, 1))
       values(m + 1) = values(self%place(m + 1, 1))
    end function column
-
-   !> Which points of a column are in contact, likewise.
-   pure function contact_of_column(self, l) result(inside)
-      class(grid_edge), intent(in) :: self
-      integer, intent(in) :: l   !! as of `at`
-      logical :: inside(0:self%slab%points(1) + 1)
-
-      real(dp) :: values(0:self%slab%points(1) + 1)
-
-      values = self%column(l)
-      inside = values > 0.0_dp
-   end function contact_of_column
 
    !> The number of points of the grid in contact.
    integer(int64) function points_in_contact(self) result(number)

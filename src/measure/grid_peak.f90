@@ -1,7 +1,7 @@
 !> The largest pressure of a solution on a grid, between its points: eq. (C13) of src/contact/README.md.
 module wavycon_grid_peak
    use wavycon_grid_edge, only: grid_edge
-   use wavycon_hill, only: hill
+   use wavycon_newton_maximiser, only: newton_maximiser
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
@@ -12,7 +12,7 @@ module wavycon_grid_peak
    integer, parameter :: first = -2, last = 3
 
    !> The polynomial through 6 x 6 pressures, in steps of the grid. In 1-D all lines are equal.
-   type, extends(hill) :: peak_polynomial
+   type, extends(newton_maximiser) :: peak_polynomial
       real(dp) :: values(first:last, first:last) = 0.0_dp
       logical :: in_plane = .true.
    contains
@@ -84,7 +84,7 @@ contains
       peak = max(maxval(field%values), 0.0_dp)
       if (.not. resolved) return
       place = best - base
-      call field%climb(place)
+      call field%maximise(place)
       peak = max(peak, field%height(place))
    end subroutine find_peak
 

@@ -10,7 +10,7 @@ module wavycon_load_concentration
 contains
 
    !> |mean of exp(i X)| with the pressure as weight, or of exp(i Y) if that is less: 1 if all load is at one place,
-   !> about 1 - (2 pi d/L)^2/2 if it has the standard deviation d along a side L, 0 if it is spread evenly.
+   !> about 1 - (2 pi d/L)^2/2 if it has the standard deviation d along a side L, 0 if it is distributed evenly.
    real(dp) function load_concentration(edge) result(least)
       type(grid_edge), intent(in) :: edge   !! on the whole cell or, of an even surface, its quarter
 

@@ -12,7 +12,7 @@ module wavycon_mpi_ranks
    use wavycon_error, only: exit_bad_input, exit_file_trouble
    use wavycon_kinds, only: dp
    use wavycon_mpi_rows, only: start_mpi_rows
-   use wavycon_ranks, only: rank_team, row_exchange, use_team
+   use wavycon_ranks, only: communicator, row_exchange, use_communicator
    implicit none (type, external)
    private
 
@@ -20,7 +20,7 @@ module wavycon_mpi_ranks
 
    integer, parameter :: message_length = 512   !! of the compiler's messages
 
-   type, extends(rank_team) :: mpi_team
+   type, extends(communicator) :: mpi_communicator
       integer :: this = 0, number = 1, on_machine = 1
    contains
       procedure :: rank => own_rank
@@ -37,14 +37,14 @@ module wavycon_mpi_ranks
       procedure :: write_columns
       procedure :: finish
       procedure :: library
-   end type mpi_team
+   end type mpi_communicator
 
 contains
 
    !> Starts MPI and makes its processes the ranks of the program. Threads within a rank do not call MPI.
    subroutine start_mpi()
-      class(rank_team), allocatable :: team
-      type(mpi_team), allocatable :: own
+      class(communicator), allocatable :: comm
+      type(mpi_communicator), allocatable :: own
       type(mpi_comm) :: machine
       integer :: provided
 
@@ -59,30 +59,30 @@ contains
       call mpi_comm_split_type(mpi_comm_world, mpi_comm_type_shared, 0, mpi_info_null, machine)
       call mpi_comm_size(machine, own%on_machine)
       call mpi_comm_free(machine)
-      call move_alloc(own, team)
-      call use_team(team)
+      call move_alloc(own, comm)
+      call use_communicator(comm)
    end subroutine start_mpi
 
    pure integer function own_rank(self)
-      class(mpi_team), intent(in) :: self
+      class(mpi_communicator), intent(in) :: self
 
       own_rank = self%this
    end function own_rank
 
    pure integer function ranks(self)
-      class(mpi_team), intent(in) :: self
+      class(mpi_communicator), intent(in) :: self
 
       ranks = self%number
    end function ranks
 
    pure integer function ranks_on_machine(self)
-      class(mpi_team), intent(in) :: self
+      class(mpi_communicator), intent(in) :: self
 
       ranks_on_machine = self%on_machine
    end function ranks_on_machine
 
    subroutine add_reals(self, values)
-      class(mpi_team), intent(in) :: self
+      class(mpi_communicator), intent(in) :: self
       real(dp), intent(inout), contiguous :: values(:)
 
       associate (unused => self); end associate
@@ -90,7 +90,7 @@ contains
    end subroutine add_reals
 
    subroutine add_integers(self, values)
-      class(mpi_team), intent(in) :: self
+      class(mpi_communicator), intent(in) :: self
       integer(int64), intent(inout), contiguous :: values(:)
 
       associate (unused => self); end associate
@@ -98,7 +98,7 @@ contains
    end subroutine add_integers
 
    subroutine largest(self, values)
-      class(mpi_team), intent(in) :: self
+      class(mpi_communicator), intent(in) :: self
       real(dp), intent(inout), contiguous :: values(:)
 
       associate (unused => self); end associate
@@ -106,7 +106,7 @@ contains
    end subroutine largest
 
    subroutine exchange(self, low, high, bytes, to_low, to_high, from_low, from_high)
-      class(mpi_team), intent(in) :: self
+      class(mpi_communicator), intent(in) :: self
       integer, intent(in) :: low, high, bytes
       type(*), intent(in), target :: to_low(*), to_high(*)
       type(*), intent(inout), target :: from_low(*), from_high(*)
@@ -133,7 +133,7 @@ contains
 
    !> N.B. Counts are numbers of columns: numbers of bytes may exceed the integers of MPI.
    subroutine gather(self, column_bytes, columns, own, whole, first_only)
-      class(mpi_team), intent(in) :: self
+      class(mpi_communicator), intent(in) :: self
       integer, intent(in) :: column_bytes
       integer, intent(in) :: columns(0:)
       type(*), intent(in), target :: own(*)
@@ -156,7 +156,7 @@ contains
 
    !> N.B. Counts are numbers of columns, as in `gather`.
    subroutine move(self, column_bytes, have, own, want, wanted)
-      class(mpi_team), intent(in) :: self
+      class(mpi_communicator), intent(in) :: self
       integer, intent(in) :: column_bytes
       integer, intent(in) :: have(:, 0:), want(:, 0:)
       type(*), intent(in), target :: own(*)
@@ -178,7 +178,7 @@ contains
    end subroutine move
 
    subroutine new_row_exchange(self, columns, rows, width, numbers, precision, exchange)
-      class(mpi_team), intent(in) :: self
+      class(mpi_communicator), intent(in) :: self
       integer, intent(in) :: columns, rows, width, numbers, precision
       class(row_exchange), allocatable, intent(out) :: exchange
 
@@ -186,7 +186,7 @@ contains
    end subroutine new_row_exchange
 
    subroutine share_text(self, from, text)
-      class(mpi_team), intent(in) :: self
+      class(mpi_communicator), intent(in) :: self
       integer, intent(in) :: from
       character(:), allocatable, intent(inout) :: text
 
@@ -206,7 +206,7 @@ contains
    !> N.B. Files report their errors by default, other procedures of MPI end the program. Counts are numbers of columns,
    !> as in `gather`.
    subroutine write_columns(self, path, start, number_bytes, rows, first, columns, values, failure)
-      class(mpi_team), intent(in) :: self
+      class(mpi_communicator), intent(in) :: self
       character(*), intent(in) :: path
       integer(int64), intent(in) :: start
       integer, intent(in) :: number_bytes, rows, first, columns
@@ -244,8 +244,8 @@ contains
       if (code /= mpi_success .and. .not. allocated(failure)) failure = words_of(code)
    end subroutine write_columns
 
-   !> Whether this rank can write to a file that exists. If one rank cannot, as on a machine that does not share the disk,
-   !> Open MPI 4 opens the file on the others, and these would wait for it for ever.
+   !> Whether this rank can write to a file that exists. If one rank cannot, as on a machine that does not share the
+   !> disk, Open MPI 4 opens the file on the others, and these would wait for it for ever.
    subroutine check_access(path, failure)
       character(*), intent(in) :: path
       character(:), allocatable, intent(out) :: failure   !! the system's words; not allocated: it can
@@ -273,10 +273,10 @@ contains
       words = buffer(:length)
    end function words_of
 
-   !> Ends MPI on all ranks. A rank that ends by an error which the others do not know of would wait for them, as they do
-   !> for it: after a while it ends them too.
+   !> Ends MPI on all ranks. A rank that ends by an error which the others do not know of would wait for them, as they
+   !> do for it: after a while it ends them too.
    subroutine finish(self, status)
-      class(mpi_team), intent(in) :: self
+      class(mpi_communicator), intent(in) :: self
       integer, intent(in) :: status
 
       integer(int64), parameter :: patience = 10   !! ranks that know of an error end at the same time [s]
@@ -301,7 +301,7 @@ contains
 
    !> The library of MPI, as it calls itself up to the first comma or line.
    function library(self) result(text)
-      class(mpi_team), intent(in) :: self
+      class(mpi_communicator), intent(in) :: self
       character(:), allocatable :: text
 
       character(mpi_max_library_version_string) :: buffer

@@ -23,7 +23,7 @@ module wavycon_mpi_rows
 
 contains
 
-   !> Prepares the exchange. The rows too are spread in blocks of the same size.
+   !> Prepares the exchange. The rows too are distributed in blocks of the same size.
    subroutine start_mpi_rows(rank, ranks, columns, rows, width, numbers, precision, exchange)
       integer, intent(in) :: rank, ranks     !! of this process; of all
       integer, intent(in) :: columns, rows, width, numbers, precision   !! as of new_row_exchange
@@ -54,7 +54,8 @@ contains
       own%number_of_columns = merge(1, 0, rows_of > 0 .and. own%own_columns > 0)
       own%number_of_rows = merge(1, 0, columns_of > 0 .and. own%own_rows > 0)
       do i = 0, ranks - 1
-         own%in_columns(i) = part_of(number, own%own_columns, numbers*rows_of(i), numbers*rows, bytes*sum(rows_of(:i - 1)))
+         own%in_columns(i) = part_of(number, own%own_columns, numbers*rows_of(i), numbers*rows, &
+               bytes*sum(rows_of(:i - 1)))
          own%in_rows(i) = part_of(number, columns_of(i), numbers*own%own_rows, numbers*own%own_rows, &
                                   bytes*own%own_rows*sum(columns_of(:i - 1)))
       end do

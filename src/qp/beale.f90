@@ -11,8 +11,8 @@
 !>
 !> N.B. Three departures from Beale. The free variables are changed together (see the table). An active slack is
 !> exchanged for its u before the step, not after it: the path is the same. And the table, which he carries in exact
-!> arithmetic, is used only to find the set of active constraints, from which the dual pass finishes and checks. Where
-!> the table has lost digits, or Beale's method takes many steps, the pass has something left to do.
+!> arithmetic, is used only to find the set of active constraints, from which the dual pass finishes and checks. The
+!> pass has exchanges left to make only where the table has lost digits or Beale's method takes many steps.
 module wavycon_beale
    use wavycon_beale_table, only: table_type
    use wavycon_dual_solver, only: default_pivot_limit, dual_solver
@@ -69,8 +69,8 @@ contains
    end subroutine solve
 
    !> Beale's method: changes non-basic variables until none lowers the objective. At the pivot limit, or where the
-   !> table has lost digits, it stops where the free ones do not: the point is then the minimum on the active
-   !> constraints.
+   !> table has lost digits, it stops where the free variables change no more: the point is then the minimum on the
+   !> active constraints.
    subroutine descend(table, pivot_limit, pivots)
       type(table_type), intent(inout) :: table
       integer, intent(in) :: pivot_limit

@@ -3,8 +3,8 @@
 !> Constraints with negative multipliers are released. Then violated constraints are made active one by one, while no
 !> multiplier may change sign: the dual method of Goldfarb & Idnani (Math. Program. 27 (1983) 1-33), equations (Q11),
 !> (Q12) of README.md in this directory. Beale's method keeps the slacks >= 0 and lowers the objective; the dual method
-!> keeps the multipliers >= 0 and raises it. Each full step raises it strictly, and between two of them the active set
-!> shrinks, so the method ends.
+!> keeps the multipliers >= 0 and raises it. Each full step raises the objective, and between two full steps the active
+!> set shrinks, so the method ends.
 module wavycon_dual_pass
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dtrsv
@@ -18,8 +18,8 @@ module wavycon_dual_pass
    !> A negative slack smaller than this fraction of its terms, or of the largest slack, is rounding.
    real(dp), parameter :: zero_slack = 32*epsilon(1.0_dp)
    real(dp), parameter :: candidate_part = 0.3_dp
-   !> So many constraints in a row with small violations suggest that these are rounding, which moves the active set in
-   !> circles: n.
+   !> So many constraints in a row with small violations, n, suggest that the violations are rounding, which makes the
+   !> active set cycle.
    real(dp), parameter :: small_slack = sqrt(epsilon(1.0_dp))
    !> A constraint depends on the active ones if the rest of U^-T C_i' is less than this fraction of it, or of
    !> |U^-1||C_i|: such a rest is rounding.
@@ -40,7 +40,7 @@ contains
       type(working_set), intent(inout) :: set       !! any set of active constraints; on return that of the minimum
       integer, intent(in) :: pivot_limit
       integer, intent(inout) :: pivots              !! constraints made active and released, counted up
-      integer, intent(out) :: status                !! qp_converged, qp_infeasible, qp_iteration_limit; qp_inaccurate: digits are lost
+      integer, intent(out) :: status                !! qp_converged, qp_infeasible, qp_iteration_limit or qp_inaccurate
       type(dual_obstacle), intent(out) :: obstacle  !! if the status is qp_infeasible
 
       real(dp) :: x(size(problem%linear)), multipliers(size(problem%linear)), slacks(size(problem%bounds))

@@ -6,7 +6,7 @@
 !> the set is factorised afresh and the pass continues. Numbers (Q..) are the equations of README.md in this
 !> directory.
 !>
-!> Constraints of unlike units are multiplied by powers of two that bring their normals to order one: slacks are
+!> Constraints in different units are multiplied by powers of two that bring their normals to order one: slacks are
 !> compared with each other, and the rounding of a large one would hide the violation of a small one.
 module wavycon_dual_solver
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
@@ -39,7 +39,7 @@ module wavycon_dual_solver
 
 contains
 
-   !> Takes a problem, with no constraint active.
+   !> Starts with a problem and no active constraint.
    subroutine start(self, problem, status)
       class(dual_solver), intent(out) :: self
       type(qp_problem), intent(in) :: problem
@@ -149,8 +149,8 @@ contains
 
    !> Whether no x satisfies the obstacle's constraint i together with the active ones, checked with the problem's data.
    !> With weights w >= 0 every allowed x satisfies  (C_i + sum_j w_j C_j) x >= b_i + sum_j w_j b_j.  If the left side
-   !> vanishes but for rounding and the right side is positive, there is none (Farkas' lemma), or only one that is far
-   !> larger than the present x.
+   !> vanishes but for rounding and the right side is positive, there is no such x (Farkas' lemma), or only one that is
+   !> far larger than the present x.
    pure logical function is_infeasible(problem, obstacle, x)
       type(qp_problem), intent(in) :: problem
       type(dual_obstacle), intent(in) :: obstacle

@@ -194,8 +194,8 @@ contains
    subroutine remove(self, place, components, rest)
       class(working_set), intent(inout) :: self
       integer, intent(in) :: place                         !! in `active`
-      !> Some vector split, shapes (k) and (n). On return it is split with respect to the smaller set, in the first k
-      !> - 1 components.
+      !> A vector that is split, shapes (k) and (n). On return it is split with respect to the smaller set, in the first
+      !> k - 1 components.
       real(dp), intent(inout), optional, contiguous :: components(:), rest(:)
 
       real(dp) :: cosine, sine, radius

@@ -8,7 +8,8 @@
 !> Two runs of the same case do not mix: each writes to a file of its own, which a later run replaces as a whole.
 !>
 !> Where ranks share the work each has a checkpoint <case>.checkpoint.<rank> with the loads that it solved, or with its
-!> columns of the grids. Such a run is resumed by as many ranks.
+!> columns of the grids. A run that resumes reads the checkpoints of all ranks of the interrupted run, and may have any
+!> number of them itself.
 module wavycon_checkpoint
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_solution, only: contact_solution
@@ -17,16 +18,18 @@ module wavycon_checkpoint
    use wavycon_kept_solution, only: is_kept, pack_solution, unpack_solution
    use wavycon_plain_text, only: escaped, excerpt, integer_text, newline, system_words
    use wavycon_results, only: results_type
-   use wavycon_surface, only: surface_type
    use wavycon_system, only: file_size, path_absent, path_file, path_kind, process_id, remove_file, &
       remove_when_interrupted, rename_file
    use wavycon_version, only: revision, version
+   use wavycon_work_sharing, only: distributed_grids
    implicit none (type, external)
    private
 
-   public :: checkpoint_file, checkpoint_name, read_checkpoint
+   public :: checkpoint_file, checkpoint_name, read_checkpoints
 
-   character(*), parameter :: mark = 'wavycon checkpoint 6'//newline
+   !> Stands for the number of a rank in a run whose work is not shared.
+   integer, parameter :: alone = -1
+   character(*), parameter :: mark = 'wavycon checkpoint 7'//newline
    integer, parameter :: bytes_of_word = 8
    !> End of all messages about a checkpoint that cannot be used.
    character(*), parameter :: way_out = '. Without --resume all loads are solved, and the checkpoint is replaced.'
@@ -51,43 +54,30 @@ contains
       type(results_type), intent(in) :: results
       character(:), allocatable :: name
 
-      name = results%scene%directory//'/'//file_name(results)
+      name = name_of_rank(results, merge(results%sharing%rank, alone, results%sharing%is_shared()))
    end function checkpoint_name
 
-   !> The name of the file in its directory.
-   function file_name(results) result(name)
+   !> The path of the checkpoint of any rank.
+   function name_of_rank(results, rank) result(name)
       type(results_type), intent(in) :: results
-      character(:), allocatable :: name
-
-      name = results%scene%case//'.checkpoint'
-      if (results%sharing%is_shared()) name = name//'.'//integer_text(results%sharing%rank)
-   end function file_name
-
-   !> The checkpoints of an interrupted run on another number of ranks begin with this one.
-   function name_of_others(results) result(name)
-      type(results_type), intent(in) :: results
+      integer, intent(in) :: rank   !! alone: of a run whose work is not shared
       character(:), allocatable :: name
 
       name = results%scene%directory//'/'//results%scene%case//'.checkpoint'
-      if (.not. results%sharing%is_shared()) name = name//'.0'
-   end function name_of_others
+      if (rank /= alone) name = name//'.'//integer_text(rank)
+   end function name_of_rank
 
    !> Removes the checkpoints of an earlier run that had another number of ranks.
    subroutine remove_others(results)
       type(results_type), intent(in) :: results
 
-      character(:), allocatable :: stem
       integer :: rank
 
       if (.not. results%sharing%is_first()) return
-      stem = results%scene%directory//'/'//results%scene%case//'.checkpoint'
-      rank = 0
-      if (results%sharing%is_shared()) then
-         call remove_file(stem)
-         rank = results%sharing%ranks
-      end if
-      do while (path_kind(stem//'.'//integer_text(rank)) == path_file)
-         call remove_file(stem//'.'//integer_text(rank))
+      if (results%sharing%is_shared()) call remove_file(name_of_rank(results, alone))
+      rank = merge(results%sharing%ranks, 0, results%sharing%is_shared())
+      do while (path_kind(name_of_rank(results, rank)) == path_file)
+         call remove_file(name_of_rank(results, rank))
          rank = rank + 1
       end do
    end subroutine remove_others
@@ -103,7 +93,8 @@ contains
       integer :: clock(8), load, status
 
       self%name = checkpoint_name(results)
-      self%name_now = results%scene%directory//'/.'//file_name(results)//'.'//integer_text(process_id())//'.part'
+      self%name_now = results%scene%directory//'/.'//self%name(index(self%name, '/', back=.true.) + 1:)// &
+                      '.'//integer_text(process_id())//'.part'
       call remove_others(results)
       call date_and_time(values=clock)
       call system_clock(self%run(3))
@@ -222,15 +213,44 @@ contains
       allocate (words(0))
    end subroutine get
 
-   !> Reads the solutions of an interrupted run. Errors: exit_bad_input for a damaged checkpoint and for one of
-   !> another run, exit_file_trouble.
-   subroutine read_checkpoint(results, known, found, error)
-      type(results_type), intent(inout) :: results   !! with room for all loads
-      logical, intent(out) :: known(:)               !! of each load: whether its solution was in the checkpoint
-      logical, intent(out) :: found                  !! whether there is a checkpoint
+   !> Reads the solutions of an interrupted run, which may have had any number of ranks. Errors: exit_bad_input for a
+   !> damaged checkpoint and for one of another run, exit_file_trouble.
+   subroutine read_checkpoints(results, known, first_name, error)
+      type(results_type), intent(inout) :: results   !! with room for all loads, which are ordered
+      logical, intent(out) :: known(:)               !! of each own load: whether its solution was in the checkpoints
+      character(:), allocatable, intent(out) :: first_name   !! of a checkpoint; not allocated if there is none
       type(error_type), allocatable, intent(out) :: error
 
-      character(:), allocatable :: name
+      character(:), allocatable :: name, now
+      integer :: load, rank
+
+      known = .false.
+      now = description(results)
+      rank = alone
+      do while (.not. allocated(error))
+         name = name_of_rank(results, rank)
+         if (path_kind(name) /= path_absent) then
+            if (.not. allocated(first_name)) first_name = name
+            call read_checkpoint(name, now, results, known, error)
+         else if (rank >= results%sharing%ranks) then
+            exit
+         end if
+         rank = rank + 1
+      end do
+      ! Of a load that was interrupted some ranks may have written their columns, others not.
+      do load = 1, size(known)
+         if (allocated(results%loads(load)%source) .and. .not. known(load)) deallocate (results%loads(load)%source)
+      end do
+   end subroutine read_checkpoints
+
+   !> Reads one checkpoint. Errors: as of read_checkpoints.
+   subroutine read_checkpoint(name, now, results, known, error)
+      character(*), intent(in) :: name
+      character(*), intent(in) :: now                !! description of this run
+      type(results_type), intent(inout) :: results
+      logical, intent(inout) :: known(:)
+      type(error_type), allocatable, intent(out) :: error
+
       character(len(mark)) :: start
       character(200) :: message
       integer(int64) :: place
@@ -238,14 +258,6 @@ contains
       integer :: status, unit
       logical :: understood, whole
 
-      known = .false.
-      name = checkpoint_name(results)
-      found = path_kind(name) /= path_absent
-      if (.not. found) then
-         ! It is not of this run, and says of how many ranks it is.
-         name = name_of_others(results)
-         if (path_kind(name) == path_absent) return
-      end if
       open (newunit=unit, file=name, access='stream', form='unformatted', status='old', action='read', &
             iostat=status, iomsg=message)
       if (status /= 0) then
@@ -262,11 +274,11 @@ contains
          understood = size(words) > 0
          if (understood) call next()
          if (understood) understood = size(words) > 0
-         if (understood) call compare(name, text_of(words), description(results), error)
+         if (understood) call compare(name, text_of(words), now, error)
          do while (understood .and. .not. allocated(error))
             call next()
             if (.not. whole) exit
-            call take_solution(words, results%loads, known, understood)
+            call take_solution(words, results, known, understood)
          end do
          if (.not. understood) &
             call fatal_error(error, exit_bad_input, escaped(name)//': the checkpoint is damaged'//way_out)
@@ -283,10 +295,10 @@ contains
 
    end subroutine read_checkpoint
 
-   !> Restores the solution of a record.
-   subroutine take_solution(words, loads, known, understood)
+   !> Restores the solution of a record, if it is one of an own load.
+   subroutine take_solution(words, results, known, understood)
       integer(int64), intent(in) :: words(:)    !! number of the load; words of pack_solution
-      type(contact_solution), intent(inout) :: loads(:)
+      type(results_type), intent(inout) :: results
       logical, intent(inout) :: known(:)        !! of each load
       logical, intent(out) :: understood        !! .false.: the record is no solution of a load of this deck
 
@@ -294,27 +306,25 @@ contains
 
       understood = .false.
       if (size(words) == 0) return
-      if (words(1) < 1 .or. words(1) > size(loads)) return
+      understood = words(1) >= 1 .and. words(1) <= size(known)
+      if (.not. understood) return
       load = int(words(1))
-      if (known(load)) return
-      call unpack_solution(words(2:), loads(load), understood)
-      known(load) = understood
+      if (known(load) .or. .not. results%sharing%is_own_load(load)) return
+      call unpack_solution(words(2:), results%sharing%kind /= distributed_grids, results%loads(load), known(load), &
+            understood)
    end subroutine take_solution
 
-   !> A text that identifies what is solved: version, number of ranks that share the work, surface, and the resolved
-   !> deck without the paths of deck and results. The surface follows the ranks as each has its columns of a large one.
+   !> A text that identifies what is solved: version, surface, and the resolved deck without the paths of deck and
+   !> results.
    function description(results) result(text)
       type(results_type), intent(in) :: results
       character(:), allocatable :: text
 
       character(20) :: number
-      integer :: ranks
 
-      ranks = merge(results%sharing%ranks, 1, results%sharing%is_shared())
-      write (number, '(i0)') surface_checksum(results%solver%surface)
-      text = 'wavycon '//version//' ('//revision//')'//newline// &
-             integer_text(ranks)//trim(merge(' rank ', ' ranks', ranks == 1))//newline// &
-             'surface '//trim(number)//newline//results%scene%essence
+      write (number, '(i0)') surface_checksum(results)
+      text = 'wavycon '//version//' ('//revision//')'//newline//'surface '//trim(number)//newline// &
+            results%scene%fingerprint
    end function description
 
    !> Compares the descriptions of two runs. Errors: exit_bad_input if they differ.
@@ -340,8 +350,6 @@ contains
       case (1)
          words = 'is of '//line_before//', this is '//line_now
       case (2)
-         words = 'is of a run on '//line_before//', this one has '//line_now//'. Resume on '//line_before
-      case (3)
          words = 'is of another surface: the deck or its height map has changed'
       case default
          words = "is of another deck: '"//excerpt(line_now)//"' was '"//excerpt(line_before)//"'"
@@ -388,39 +396,55 @@ contains
    pure integer(int64) function checksum(words) result(total)
       integer(int64), intent(in) :: words(:)
 
-      integer(int64), parameter :: prime = 2_int64**31 - 1, factor = 1103515245_int64, low_half = 2_int64**32 - 1
       integer :: i
 
       total = 1
       do i = 1, size(words)
-         total = modulo(total*factor + iand(words(i), low_half), prime)
-         total = modulo(total*factor + shiftr(words(i), 32), prime)
+         total = with_word(total, words(i))
       end do
    end function checksum
 
-   !> Checksum of a surface: amplitude, cell and Fourier coefficients.
-   pure integer(int64) function surface_checksum(surface) result(total)
-      type(surface_type), intent(in) :: surface
+   !> The checksum of words and one more.
+   elemental integer(int64) function with_word(before, word) result(total)
+      integer(int64), intent(in) :: before   !! checksum of the words before
+      integer(int64), intent(in) :: word
 
-      integer(int64) :: parts(5)
+      integer(int64), parameter :: prime = 2_int64**31 - 1, factor = 1103515245_int64, low_half = 2_int64**32 - 1
 
-      parts = 0
-      parts(1) = checksum(transfer([surface%amplitude, surface%length], [0_int64]))
-      parts(2) = of_array(surface%shape%c)
-      if (.not. surface%shape%is_even()) &
-         parts(3:) = [of_array(surface%shape%cs), of_array(surface%shape%sc), of_array(surface%shape%ss)]
-      total = checksum(parts)
+      total = modulo(before*factor + iand(word, low_half), prime)
+      total = modulo(total*factor + shiftr(word, 32), prime)
+   end function with_word
 
-   contains
+   !> Checksum of a surface: amplitude, cell and Fourier coefficients. It does not depend on how these are distributed
+   !> over the ranks.
+   integer(int64) function surface_checksum(results) result(total)
+      type(results_type), intent(in) :: results
 
-      pure integer(int64) function of_array(values)
-         real(dp), intent(in) :: values(:, :)
+      integer(int64) :: sums(4)
 
-         integer :: j
-
-         of_array = checksum([(checksum(transfer(values(:, j), [0_int64])), j=1, size(values, 2))])
-      end function of_array
-
+      associate (surface => results%solver%surface, shape => results%solver%surface%shape)
+         sums = 0
+         sums(1) = sum_over_waves(shape%c, lbound(shape%c, 1))
+         if (.not. shape%is_even()) sums(2:) = [sum_over_waves(shape%cs, lbound(shape%c, 1)), &
+            sum_over_waves(shape%sc, lbound(shape%c, 1)), sum_over_waves(shape%ss, lbound(shape%c, 1))]
+         if (results%sharing%kind == distributed_grids .and. surface%is_distributed()) call results%sharing%add(sums)
+         total = checksum([transfer([surface%amplitude, surface%length], sums(:0)), sums])
+      end associate
    end function surface_checksum
+
+   !> The sum of the checksums of the coefficients of each wave number in X.
+   pure integer(int64) function sum_over_waves(values, first) result(total)
+      real(dp), intent(in) :: values(:, :)   !! shape (own wave numbers in X, wave numbers in Y)
+      integer, intent(in) :: first           !! the first of the own wave numbers in X
+
+      integer(int64) :: of_wave(size(values, 1))
+      integer :: i, j
+
+      of_wave = [(first + i, i=1, size(values, 1))]
+      do j = 1, size(values, 2)
+         of_wave = with_word(of_wave, transfer(values(:, j), of_wave))
+      end do
+      total = sum(of_wave)
+   end function sum_over_waves
 
 end module wavycon_checkpoint

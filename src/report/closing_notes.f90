@@ -8,7 +8,7 @@ module wavycon_closing_notes
    use wavycon_kinds, only: dp
    use wavycon_lattice_sums, only: rectangular_distance_sum
    use wavycon_method_list, only: method_of
-   use wavycon_plain_text, only: escaped, integer_text, short_number
+   use wavycon_plain_text, only: escaped, integer_text, listed, short_number
    use wavycon_results, only: results_type
    use wavycon_run_log, only: run_log
    use wavycon_scene, only: by_contact_area, by_yield
@@ -30,16 +30,10 @@ contains
       type(solver_method) :: method
       integer :: bad, i, unreached, without_area
 
-      bad = 0
-      without_area = 0
-      do i = 1, size(results%loads)
-         associate (solution => results%loads(i))
-            if (.not. solution%is_good()) bad = bad + 1
-            if (solution%status == converged .and. solution%measures%contact_area_fraction <= 0.0_dp) &
-               without_area = without_area + 1
-         end associate
-      end do
-      unreached = count([(results%loads(i)%status == not_found, i=1, size(results%loads))])
+      bad = count([(.not. results%loads(i)%is_good(), i=1, size(results%loads))])
+      without_area = count(results%loads%status == converged .and. &
+                           results%loads%measures%contact_area_fraction <= 0.0_dp)
+      unreached = count(results%loads%status == not_found)
       loads = integer_text(size(results%loads))
       associate (scene => results%scene)
          call note_unresolved(results, log)
@@ -52,7 +46,8 @@ contains
                          ', so that their contact area shows as 0')
          end if
          if (scene%loads_by == by_yield .and. .not. results%traits%has_errors) call log%say( &
-            "note: solver = '"//scene%method%text('solver')//"' estimates no errors; a light load of first yield may "// &
+            "note: solver = '"//scene%method%text('solver')// &
+                  "' estimates no errors; a light load of first yield may "// &
             "be wrong by a factor of 2. solver = 'auto' estimates them")
          if (scene%loads_by == by_yield .and. unreached > 0) call log%say('note: for '//integer_text(unreached)// &
             ' loads no mean pressure was found that brings the stresses to the given part of the yield stress')
@@ -128,10 +123,11 @@ contains
       type(results_type), intent(in) :: results
       type(run_log), intent(inout) :: log
 
-      character(*), parameter :: names(*) = [character(17) :: 'the mean gap', 'the contact area', 'the peak pressure']
-      character(:), allocatable :: loads, words
-      integer :: coarse(3), i, listed, unknown
+      character(32) :: values(3)
+      character(:), allocatable :: loads
+      integer :: coarse(3), i, unknown
 
+      values = [character(32) :: 'the mean gap', 'the contact area', 'the peak pressure']
       coarse = 0
       unknown = 0
       do i = 1, size(results%loads)
@@ -148,20 +144,11 @@ contains
       if (unknown > 0) call log%say('note: the errors of '//integer_text(unknown)//loads//' are unknown: a grid has'// &
          ' error estimates if its points are multiples of 4, from 64 a side. Give such grid_points, or an accuracy')
       if (all(coarse == 0)) return
-      words = ''
-      listed = 0
-      do i = 1, size(names)
-         if (coarse(i) == 0) cycle
-         listed = listed + 1
-         if (listed > 1 .and. listed == count(coarse > 0)) then
-            words = words//' and'
-         else if (listed > 1) then
-            words = words//','
-         end if
-         words = words//' '//trim(names(i))//' at '//integer_text(coarse(i))
+      do i = 1, size(values)
+         values(i) = trim(values(i))//' at '//integer_text(coarse(i))
       end do
-      call log%say('note: the grid is too coarse for'//words//loads//': the error is as large as the value, or '// &
-                   'unknown. Give an accuracy, or more grid_points')
+      call log%say('note: the grid is too coarse for '//listed(pack(values, coarse > 0), ' and ')//loads// &
+                   ': the error is as large as the value, or unknown. Give an accuracy, or more grid_points')
    end subroutine note_unresolved
 
 end module wavycon_closing_notes

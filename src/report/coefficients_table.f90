@@ -2,9 +2,7 @@
 !> each load.
 module wavycon_coefficients_table
    use wavycon_contact_solver, only: solver_traits
-   use wavycon_error, only: error_type
    use wavycon_fourier_series, only: fourier_series
-   use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
    use wavycon_results, only: results_type
    use wavycon_solution_record, only: solver_names
@@ -19,66 +17,47 @@ module wavycon_coefficients_table
    !> In 1-D j = 0.
    character(40), parameter :: columns(*) = [character(40) :: 'load[-]', 'i[-]', 'j[-]', 'pressure_over_pstar[-]']
 
-   type, extends(table_type) :: coefficients_table
-   contains
-      procedure, nopass :: key
-      procedure, nopass :: meaning
-      procedure :: refusal
-      procedure, nopass :: write => write_coefficients_table
-   end type coefficients_table
-
 contains
 
-   pure function key() result(words)
-      character(:), allocatable :: words
+   type(table_type) function coefficients_table() result(table)
+      table%file = 'coefficients'
+      table%key = 'coefficients'
+      table%meaning = 'The Fourier coefficients of the pressure.'
+      call table%set_columns(columns)
+      table%refuse => refuse
+      table%put_load => put_coefficients
+   end function coefficients_table
 
-      words = 'coefficients'
-   end function key
-
-   pure function meaning() result(words)
-      character(:), allocatable :: words
-
-      words = 'The Fourier coefficients of the pressure.'
-   end function meaning
-
-   function refusal(self, traits, surface) result(words)
-      class(coefficients_table), intent(in) :: self
+   subroutine refuse(traits, surface, words)
       type(solver_traits), intent(in) :: traits
       type(surface_type), intent(in) :: surface
-      character(:), allocatable :: words
+      character(:), allocatable, intent(out) :: words
 
-      associate (unused => self, unused_too => surface); end associate
+      associate (unused => surface); end associate
       words = ''
       if (.not. traits%has_coefficients) words = "solver = '"//trim(solver_names(traits%solver))// &
          "' has no series of given length; "//solvers_with_coefficients()//' has'
-   end function refusal
+   end subroutine refuse
 
-   !> Errors: exit_file_trouble.
-   subroutine write_coefficients_table(results, error)
+   subroutine put_coefficients(results, load, file)
       type(results_type), intent(in) :: results
-      type(error_type), allocatable, intent(out) :: error
+      integer, intent(in) :: load
+      type(output_file), intent(inout) :: file
 
-      type(output_file) :: file
       type(fourier_series) :: pressure
-      integer :: load, i, j
+      integer :: i, j
 
-      call results%open_table('coefficients', columns, file, in_blocks=.true.)
-      do load = 1, size(results%loads)
-         call results%begin_block(file, load)
-         call results%loads(load)%coefficients(results%solver%surface, pressure)
-         if (.not. allocated(pressure%c)) cycle
-         do i = 0, ubound(pressure%c, 1)
-            do j = 0, ubound(pressure%c, 2)
-               if (i + j == 0) cycle
-               call file%add(load)
-               call file%add(i)
-               call file%add(j)
-               call file%add(pressure%c(i, j))
-               call file%end_row()
-            end do
+      call results%begin_block(file, load)
+      call results%loads(load)%coefficients(results%solver%surface, pressure)
+      if (.not. allocated(pressure%c)) return
+      do i = 0, ubound(pressure%c, 1)
+         do j = 0, ubound(pressure%c, 2)
+            if (i + j == 0) cycle
+            call file%add([load, i, j])
+            call file%add(pressure%c(i, j))
+            call file%end_row()
          end do
       end do
-      call file%finish(error)
-   end subroutine write_coefficients_table
+   end subroutine put_coefficients
 
 end module wavycon_coefficients_table

@@ -5,8 +5,8 @@
 !> of the two ends of a strip.
 module wavycon_contour_table
    use wavycon_constants, only: pi
-   use wavycon_edge_curves, only: edge_curve, keep_curves_of_quarter
-   use wavycon_error, only: error_type
+   use wavycon_contact_contours, only: contact_contour, keep_curves_of_quarter
+   use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
    use wavycon_results, only: results_type
    use wavycon_table, only: table_type
@@ -17,76 +17,38 @@ module wavycon_contour_table
 
    character(40), parameter :: columns(*) = [character(40) :: 'load[-]', 'curve[-]', 'x[length]', 'y[length]']
 
-   type, extends(table_type) :: contour_table
-   contains
-      procedure, nopass :: key
-      procedure, nopass :: meaning
-      procedure :: needs_fields
-      procedure, nopass :: write => write_contour_table
-   end type contour_table
-
 contains
 
-   pure function key() result(words)
-      character(:), allocatable :: words
+   type(table_type) function contour_table() result(table)
+      table%file = 'contour'
+      table%key = 'contours'
+      table%meaning = 'The edge of contact as closed curves.'
+      call table%set_columns(columns)
+      table%needs_fields = .true.
+      table%put_load => put_curves
+   end function contour_table
 
-      words = 'contours'
-   end function key
-
-   pure function meaning() result(words)
-      character(:), allocatable :: words
-
-      words = 'The edge of contact as closed curves.'
-   end function meaning
-
-   pure logical function needs_fields(self)
-      class(contour_table), intent(in) :: self
-
-      associate (unused => self); end associate
-      needs_fields = .true.
-   end function needs_fields
-
-   !> Errors: exit_file_trouble.
-   subroutine write_contour_table(results, error)
+   subroutine put_curves(results, load, file)
       type(results_type), intent(in) :: results
-      type(error_type), allocatable, intent(out) :: error
+      integer, intent(in) :: load
+      type(output_file), intent(inout) :: file
 
-      type(output_file) :: file
-      type(edge_curve), allocatable :: curves(:)
-      integer :: load, i
-      logical :: any_curve
+      type(contact_contour), allocatable :: curves(:)   ! in X and Y
+      integer :: i, k
+      real(dp), allocatable :: places(:, :)
 
-      call results%open_table('contour', columns, file, in_blocks=.true.)
-      any_curve = .false.
-      do load = 1, size(results%loads)
-         call results%loads(load)%edge_curves(results%solver%surface, curves)
-         if (results%solver%surface%mirrored) call keep_curves_of_quarter(curves)
-         if (size(curves) == 0) cycle
-         any_curve = .true.
-         call results%begin_block(file, load)
+      associate (surface => results%solver%surface)
+         call results%loads(load)%contact_contours(surface, curves)
+         if (surface%mirrored) call keep_curves_of_quarter(curves)
+         if (size(curves) > 0) call results%begin_block(file, load)
          do i = 1, size(curves)
             if (i > 1) call file%put('')
-            call put_curve(results, file, load, i, curves(i))
+            associate (phi => curves(i)%phi, theta => curves(i)%theta)
+               places = reshape([(surface%length*[phi(k), theta(k)]/(2*pi), k=1, size(phi))], [2, size(phi)])
+            end associate
+            call file%put_rows([load, i], places)
          end do
-      end do
-      if (.not. any_curve) call file%put_names()
-      call file%finish(error)
-   end subroutine write_contour_table
-
-   subroutine put_curve(results, file, load, number, curve)
-      type(results_type), intent(in) :: results
-      type(output_file), intent(inout) :: file
-      integer, intent(in) :: load, number     !! of the load in the deck, of the curve in the load
-      type(edge_curve), intent(in) :: curve   !! in X and Y
-
-      integer :: i
-
-      do i = 1, size(curve%phi)
-         call file%add(load)
-         call file%add(number)
-         call file%add(results%solver%surface%length*[curve%phi(i), curve%theta(i)]/(2*pi))
-         call file%end_row()
-      end do
-   end subroutine put_curve
+      end associate
+   end subroutine put_curves
 
 end module wavycon_contour_table

@@ -5,8 +5,6 @@
 module wavycon_details_table
    use wavycon_contact_details, only: contact_details
    use wavycon_contact_solver, only: solver_traits
-   use wavycon_contact_status, only: status_code, status_name
-   use wavycon_error, only: error_type
    use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
    use wavycon_results, only: not_a_number, results_type
@@ -33,82 +31,53 @@ module wavycon_details_table
    !> Columns from trough gap to perimeter_error, which only some solutions have.
    integer, parameter :: numbers_of_details = 10
 
-   type, extends(table_type) :: details_table
-   contains
-      procedure, nopass :: key
-      procedure, nopass :: meaning
-      procedure :: refusal
-      procedure :: needs_fields
-      procedure, nopass :: write => write_details_table
-   end type details_table
-
 contains
 
-   pure function key() result(words)
-      character(:), allocatable :: words
+   type(table_type) function details_table() result(table)
+      table%file = 'details'
+      table%key = 'details'
+      table%meaning = 'Gaps at trough and saddle, strain energy, perimeter and the numbers of the summary, '// &
+                      'each with its error estimate.'
+      call table%set_columns(columns)
+      table%needs_fields = .true.
+      table%refuse => refuse
+      table%put_load => put_details
+   end function details_table
 
-      words = 'details'
-   end function key
-
-   pure function meaning() result(words)
-      character(:), allocatable :: words
-
-      words = 'Gaps at trough and saddle, strain energy, perimeter and the numbers of the summary, each with its '// &
-              'error estimate.'
-   end function meaning
-
-   function refusal(self, traits, surface) result(words)
-      class(details_table), intent(in) :: self
+   subroutine refuse(traits, surface, words)
       type(solver_traits), intent(in) :: traits
       type(surface_type), intent(in) :: surface
-      character(:), allocatable :: words
+      character(:), allocatable, intent(out) :: words
 
-      associate (unused => self, unused_too => surface); end associate
+      associate (unused => surface); end associate
       words = ''
       if (.not. traits%has_details) words = "solver = '"//trim(solver_names(traits%solver))// &
          "' does not compute them for every load; "//solvers_with_details()//' does'
-   end function refusal
+   end subroutine refuse
 
-   pure logical function needs_fields(self)
-      class(details_table), intent(in) :: self
-
-      associate (unused => self); end associate
-      needs_fields = .true.
-   end function needs_fields
-
-   !> Errors: exit_file_trouble.
-   subroutine write_details_table(results, error)
+   subroutine put_details(results, load, file)
       type(results_type), intent(in) :: results
-      type(error_type), allocatable, intent(out) :: error
+      integer, intent(in) :: load
+      type(output_file), intent(inout) :: file
 
-      type(output_file) :: file
       type(contact_details) :: details
       real(dp) :: numbers(numbers_of_details)
-      integer :: load
       logical :: found
 
-      call results%open_table('details', columns, file, in_blocks=.false.)
-      do load = 1, size(results%loads)
-         associate (solution => results%loads(load))
-            call solution%details(details, found)
-            numbers = not_a_number()
-            if (found) numbers = [details%trough_gap, details%trough_gap_error, &
-                                  details%saddle_gap, details%saddle_gap_error, &
-                                  details%saddle_pressure, details%saddle_pressure_error, &
-                                  details%energy, details%energy_error, details%perimeter, details%perimeter_error]
-            call file%add(load)
-            associate (measures => solution%measures)
-               call file%add([solution%pbar_over_pstar, measures%mean_gap_over_amplitude, measures%mean_gap_error, &
-                              measures%contact_area_fraction, measures%contact_area_error, &
-                              measures%peak_pressure_over_pstar, measures%peak_pressure_error, numbers])
-            end associate
-            call file%add(details%degree)
-            call file%add(status_code(solution%status))
-            call file%add(trim(status_name(solution%status)))
-            call file%end_row()
-         end associate
-      end do
-      call file%finish(error)
-   end subroutine write_details_table
+      associate (solution => results%loads(load), measures => results%loads(load)%measures)
+         call solution%details(details, found)
+         numbers = not_a_number()
+         if (found) numbers = [details%trough_gap, details%trough_gap_error, &
+                               details%saddle_gap, details%saddle_gap_error, &
+                               details%saddle_pressure, details%saddle_pressure_error, &
+                               details%energy, details%energy_error, details%perimeter, details%perimeter_error]
+         call file%add(load)
+         call file%add([solution%pbar_over_pstar, measures%mean_gap_over_amplitude, measures%mean_gap_error, &
+                        measures%contact_area_fraction, measures%contact_area_error, &
+                        measures%peak_pressure_over_pstar, measures%peak_pressure_error, numbers])
+         call file%add(details%degree)
+      end associate
+      call results%end_row(file, load)
+   end subroutine put_details
 
 end module wavycon_details_table

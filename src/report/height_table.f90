@@ -1,18 +1,16 @@
 !> <case>.height.npy: the heights of the surface that was solved, for numpy and for kind = 'file'.
 module wavycon_height_table
    use, intrinsic :: iso_fortran_env, only: int64
+   use wavycon_cell_file, only: check_memory, map_points
    use wavycon_error, only: error_type
    use wavycon_grid_slab, only: grid_slab
    use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
-   use wavycon_map_table, only: map_points
-   use wavycon_npy_header, only: npy_header_of_numbers
+   use wavycon_npy_header, only: npy_header
    use wavycon_output_file, only: output_file
-   use wavycon_plain_text, only: integer_text
    use wavycon_results, only: results_type
    use wavycon_series_samples, only: sample_series
    use wavycon_shared_file, only: shared_file
-   use wavycon_system, only: has_memory_for
    use wavycon_table, only: table_type
    implicit none (type, external)
    private
@@ -20,40 +18,27 @@ module wavycon_height_table
    public :: height_table
 
    !> Numbers for each point: the height and its spectrum.
-   integer(int64), parameter :: numbers_a_point = 2
+   integer, parameter :: numbers_a_point = 2
 
    !> Of the table in memory.
    character(16), parameter :: columns(*) = [character(16) :: 'x[length]', 'y[length]', 'height[length]']
 
-   type, extends(table_type) :: height_table
-   contains
-      procedure, nopass :: key
-      procedure, nopass :: meaning
-      procedure :: is_written_by_all
-      procedure, nopass :: write => write_height_table
-   end type height_table
-
 contains
 
-   pure function key() result(words)
-      character(:), allocatable :: words
+   type(table_type) function height_table() result(table)
+      table%file = 'height'
+      table%key = 'height'
+      table%meaning = "The heights that are solved, as a file of numpy that kind = 'file' reads."
+      call table%set_columns(columns)
+      table%written_by_all => is_written_by_all
+      table%write_all => write_height_table
+   end function height_table
 
-      words = 'height'
-   end function key
-
-   pure function meaning() result(words)
-      character(:), allocatable :: words
-
-      words = "The heights that are solved, as a file of numpy that kind = 'file' reads."
-   end function meaning
-
-   !> All ranks write the heights of a map that is spread over them.
-   logical function is_written_by_all(self, results)
-      class(height_table), intent(in) :: self
+   !> All ranks write the heights of a map that is distributed over them.
+   logical function is_written_by_all(results)
       type(results_type), intent(in) :: results
 
-      associate (unused => self); end associate
-      is_written_by_all = results%solver%surface%is_spread()
+      is_written_by_all = results%solver%surface%is_distributed()
    end function is_written_by_all
 
    !> Writes rows of heights along x, over their mean [length]: of a map at its own points, of waves at those of maps.
@@ -65,8 +50,9 @@ contains
       type(output_file) :: file
       real(dp), allocatable :: height(:, :)
       integer :: points(2)
+      real(dp) :: first
 
-      if (results%solver%surface%is_spread()) then
+      if (results%solver%surface%is_distributed()) then
          call write_by_all(results, error)
          return
       end if
@@ -74,44 +60,39 @@ contains
          points = surface%points/surface%parts()
          if (all(points == 0)) points = map_points(results)
          if (associated(results%memory)) then
-            call results%open_table('height', columns, file, in_blocks=.false.)
+            call results%open_table('height', columns, file)
          else
-            call file%open(results%scene%directory, results%scene%case//'.height.npy', binary=.true.)
-            call file%put_raw(npy_header_of_numbers([points(2), points(1)]))
+            call file%open(results%scene%directory, results%scene%case//'.height.npy', npy_header(points([2, 1])))
          end if
-         if (.not. has_memory_for(numbers_a_point*product(int(points, int64)))) call file%note_trouble( &
-            'there is not enough memory for '//integer_text(points(1))//' x '//integer_text(points(2))//' points')
+         call check_memory(file, points, numbers_a_point, '')
          if (file%is_open()) then
-            call sample_series(surface%shape, points, spread(merge(0.5_dp, 0.0_dp, surface%mirrored), 1, 2), height, &
-                               surface%parts())
+            first = merge(0.5_dp, 0.0_dp, surface%mirrored)
+            call sample_series(surface%shape, points, [first, first], height, surface%parts())
             height = surface%amplitude*height
-            if (associated(results%memory)) then
-               call put_places(height, surface%sides(), surface%mirrored, file)
-            else
-               call file%put_raw(height)
-            end if
+            if (.not. associated(results%memory)) call file%put_numbers(height)
+            if (associated(results%memory)) call put_places(height, surface%sides(), first, file)
          end if
       end associate
       call file%finish(error)
    end subroutine write_height_table
 
    !> Writes a row of the table in memory for each point.
-   subroutine put_places(height, sides, mirrored, file)
+   subroutine put_places(height, sides, first, file)
       real(dp), intent(in) :: height(:, :), sides(2)   !! [length]
-      logical, intent(in) :: mirrored                  !! whether the points are in the middle of their steps
+      real(dp), intent(in) :: first                    !! place of the first point along both directions, in steps
       type(output_file), intent(inout) :: file
 
       integer :: k, l
 
       do l = 1, size(height, 2)
          do k = 1, size(height, 1)
-            call file%add([sides*([k, l] - 1 + merge(0.5_dp, 0.0_dp, mirrored))/shape(height), height(k, l)])
+            call file%add([sides*([k, l] - 1 + first)/shape(height), height(k, l)])
             call file%end_row()
          end do
       end do
    end subroutine put_places
 
-   !> Writes the heights at the points of a map that is spread over the ranks. Errors: exit_file_trouble.
+   !> Writes the heights at the points of a map that is distributed over the ranks. Errors: exit_file_trouble.
    subroutine write_by_all(results, error)
       type(results_type), intent(in) :: results
       type(error_type), allocatable, intent(out) :: error
@@ -129,7 +110,7 @@ contains
          height = surface%amplitude*height
       end associate
       call file%open(results%scene%directory, results%scene%case//'.height.npy', &
-                     npy_header_of_numbers([slab%points(2), slab%points(1)]))
+                     npy_header(slab%points([2, 1])))
       call file%put_columns(0_int64, slab%points(1), slab%first, slab%columns(), height)
       call file%finish(error)
    end subroutine write_by_all

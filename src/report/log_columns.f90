@@ -1,16 +1,73 @@
-!> Numbers and words in the columns of the log.
+!> Lines of the log with numbers and words in columns, and the names above these.
 module wavycon_log_columns
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
 
-   public :: at_left, at_right, cell, error_cell, with_exponent, with_unit
+   public :: log_line
 
    !> Characters of the columns of P, of values, and of errors.
    integer, parameter, public :: load_width = 10, width = 12, error_width = 8
 
+   !> A line that grows column by column, together with that of the names.
+   type :: log_line
+      character(:), allocatable :: names, words
+   contains
+      procedure :: start
+      procedure :: add_word
+      procedure :: add_number
+      procedure :: add_error
+   end type log_line
+
 contains
+
+   !> Starts a line with the column of P.
+   subroutine start(self, pbar_over_pstar)
+      class(log_line), intent(out) :: self
+      real(dp), intent(in) :: pbar_over_pstar
+
+      self%names = at_right('pbar/p*', load_width)
+      self%words = cell(pbar_over_pstar, load_width)
+   end subroutine start
+
+   !> Adds a word at the right of a column.
+   subroutine add_word(self, name, word, width)
+      class(log_line), intent(inout) :: self
+      character(*), intent(in) :: name, word
+      integer, intent(in) :: width             !! of the column
+
+      self%names = self%names//at_right(name, width)
+      self%words = self%words//at_right(word, width)
+   end subroutine add_word
+
+   !> Adds a number.
+   subroutine add_number(self, name, number, unit)
+      class(log_line), intent(inout) :: self
+      character(*), intent(in) :: name
+      real(dp), intent(in) :: number
+      character(*), intent(in), optional :: unit   !! is shown, such as in 'pbar[MPa]', if it fits into the column
+
+      character(:), allocatable :: name_and_unit
+
+      name_and_unit = name
+      if (present(unit)) then
+         if (len(name//'['//unit//']') < width) name_and_unit = name//'['//unit//']'
+      end if
+      call self%add_word(name_and_unit, cell(number, width), width)
+   end subroutine add_number
+
+   !> Adds an error estimate: '-' for NaN, an error that is unknown.
+   subroutine add_error(self, error)
+      class(log_line), intent(inout) :: self
+      real(dp), intent(in) :: error
+
+      if (ieee_is_nan(error)) then
+         call self%add_word('error', '-', error_width)
+      else
+         call self%add_word('error', with_exponent(error, 1), error_width)
+      end if
+   end subroutine add_error
 
    !> A number at the right of a column: with six decimals where they fit, otherwise with an exponent.
    pure function cell(number, width) result(text)
@@ -32,18 +89,6 @@ contains
       end if
    end function cell
 
-   !> An error estimate at the right of its column: '-' for NaN, an error that is unknown.
-   pure function error_cell(error) result(text)
-      real(dp), intent(in) :: error
-      character(:), allocatable :: text
-
-      if (ieee_is_nan(error)) then
-         text = at_right('-', error_width)
-      else
-         text = at_right(with_exponent(error, 1), error_width)
-      end if
-   end function error_cell
-
    !> A number as 1.2345E+06, or as 1.2345E+249 if the exponent has three digits: there Fortran's `es` without an
    !> exponent width would omit the E.
    pure function with_exponent(number, decimals) result(text)
@@ -60,15 +105,6 @@ contains
       text = trim(adjustl(buffer))
    end function with_exponent
 
-   !> A name with a unit, such as 'pbar[MPa]', or the name alone if both do not fit into a column.
-   pure function with_unit(name, unit) result(words)
-      character(*), intent(in) :: name, unit
-      character(:), allocatable :: words
-
-      words = name//'['//unit//']'
-      if (len(words) >= width) words = name
-   end function with_unit
-
    pure function at_right(text, width) result(column)
       character(*), intent(in) :: text
       integer, intent(in) :: width
@@ -76,13 +112,5 @@ contains
 
       column = repeat(' ', max(0, width - len(text)))//text
    end function at_right
-
-   pure function at_left(text, width) result(column)
-      character(*), intent(in) :: text
-      integer, intent(in) :: width
-      character(:), allocatable :: column
-
-      column = text//repeat(' ', max(0, width - len(text)))
-   end function at_left
 
 end module wavycon_log_columns

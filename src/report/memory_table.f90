@@ -1,4 +1,5 @@
-!> A table in memory: its columns as numbers. `output_file` writes tables to it in place of a file.
+!> A table in memory: its columns as numbers. `output_file` writes tables to it in place of a file. Columns are declared
+!> as name[unit].
 module wavycon_memory_table
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_kinds, only: dp
@@ -7,7 +8,7 @@ module wavycon_memory_table
    implicit none (type, external)
    private
 
-   public :: memory_table
+   public :: column_name, column_unit, memory_table
 
    !> What the values of a column are.
    integer, parameter, public :: of_reals = 1, of_integers = 2, of_words = 3
@@ -107,31 +108,43 @@ contains
       if (allocated(self%names)) column = findloc(self%names == name, .true., dim=1)
    end function find_column
 
-   !> Lines, without a newline behind the last: 'columns', name[unit] of each, the unit of a column of words being 'word';
-   !> 'words', the list of words. Not allocated for another name.
+   !> Lines, without a newline behind the last: 'columns', name[unit] of each, the unit of a column of words being
+   !> 'word'; 'words', the list of words. Not allocated for another name.
    pure subroutine text(self, name, lines)
       class(memory_table), intent(in) :: self
       character(*), intent(in) :: name
       character(:), allocatable, intent(out) :: lines
 
-      character(:), allocatable :: unit
       integer :: i
 
       if (name /= 'columns' .and. name /= 'words') return
       lines = ''
-      if (name == 'columns') then
-         do i = 1, size(self%names)
-            unit = trim(self%units(i))
-            if (self%kinds(i) == of_words) unit = 'word'
-            if (i > 1) lines = lines//newline
-            lines = lines//trim(self%names(i))//'['//unit//']'
-         end do
-      else
-         do i = 1, size(self%words)
-            if (i > 1) lines = lines//newline
+      do i = 1, merge(size(self%names), size(self%words), name == 'columns')
+         if (i > 1) lines = lines//newline
+         if (name == 'words') then
             lines = lines//trim(self%words(i))
-         end do
-      end if
+         else if (self%kinds(i) == of_words) then
+            lines = lines//trim(self%names(i))//'[word]'
+         else
+            lines = lines//trim(self%names(i))//'['//trim(self%units(i))//']'
+         end if
+      end do
    end subroutine text
+
+   !> The name in name[unit].
+   elemental function column_name(column) result(name)
+      character(*), intent(in) :: column
+      character(len(column)) :: name
+
+      name = column(:index(column, '[') - 1)
+   end function column_name
+
+   !> The unit in name[unit].
+   elemental function column_unit(column) result(unit)
+      character(*), intent(in) :: column
+      character(len(column)) :: unit
+
+      unit = column(index(column, '[') + 1:index(column, ']') - 1)
+   end function column_unit
 
 end module wavycon_memory_table

@@ -8,58 +8,44 @@ module wavycon_npy_header
    implicit none (type, external)
    private
 
-   public :: npy_header, npy_header_of_numbers
+   public :: npy_header
 
    !> The header is a multiple of so many bytes. Readers that do not know the format skip it.
    integer, parameter, public :: npy_header_step = 256
 
 contains
 
-   !> The bytes before the records. These follow with the last index changing fastest.
-   pure function npy_header(names, numbers) result(header)
-      character(*), intent(in) :: names(:)   !! of the fields of a record; short enough for the header
-      integer, intent(in) :: numbers(:)      !! of records along each index
-      character(:), allocatable :: header
-
-      character(:), allocatable :: words
-      integer :: i
-
-      words = '['
-      do i = 1, size(names)
-         words = words//"('"//trim(names(i))//"', '"//byte_order()//"f8'), "
-      end do
-      header = header_of(words//']', numbers)
-   end function npy_header
-
-   !> The bytes before an array of numbers. These follow with the last index changing fastest.
-   pure function npy_header_of_numbers(numbers) result(header)
-      integer, intent(in) :: numbers(:)   !! along each index
-      character(:), allocatable :: header
-
-      header = header_of("'"//byte_order()//"f8'", numbers)
-   end function npy_header_of_numbers
-
-   !> The header of an array of elements of a type.
-   pure function header_of(element, numbers) result(header)
-      character(*), intent(in) :: element   !! numpy's description of its type
-      integer, intent(in) :: numbers(:)     !! of elements along each index
+   !> The bytes before the elements. These follow with the last index changing fastest.
+   pure function npy_header(elements, names) result(header)
+      integer, intent(in) :: elements(:)     !! their number along each index
+      !> Of the numbers of a record, short enough for the header; absent: the elements are numbers.
+      character(*), intent(in), optional :: names(:)
       character(:), allocatable :: header
 
       !> Followed by two bytes for the length of the rest, the lower one first.
       character(*), parameter :: magic = char(147)//'NUMPY'//char(1)//char(0)
       integer, parameter :: before_words = len(magic) + 2
-      character(:), allocatable :: words
+      character(:), allocatable :: number, words
       integer :: i, length
 
-      words = "{'descr': "//element//", 'fortran_order': False, 'shape': ("
-      do i = 1, size(numbers)
-         words = words//integer_text(numbers(i))//', '
+      number = "'"//byte_order()//"f8'"
+      words = number
+      if (present(names)) then
+         words = '['
+         do i = 1, size(names)
+            words = words//"('"//trim(names(i))//"', "//number//'), '
+         end do
+         words = words//']'
+      end if
+      words = "{'descr': "//words//", 'fortran_order': False, 'shape': ("
+      do i = 1, size(elements)
+         words = words//integer_text(elements(i))//', '
       end do
       words = words//'), }'
       length = npy_header_step*((before_words + len(words) + npy_header_step)/npy_header_step)
       header = magic//char(modulo(length - before_words, 256))//char((length - before_words)/256)//words
       header = header//repeat(' ', length - len(header) - 1)//newline
-   end function header_of
+   end function npy_header
 
    !> '<' where the lowest byte of a number is the first, '>' elsewhere.
    pure character function byte_order()

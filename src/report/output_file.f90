@@ -22,12 +22,13 @@ module wavycon_output_file
 
    type :: output_file
       private
-      integer, public :: unit = -1                !! for procedures that write by themselves; prefer `put`
+      integer :: unit = -1
       logical :: opened = .false.
       character(:), allocatable :: name           !! final name
       character(:), allocatable :: working_name   !! temporary name
       character(:), allocatable :: trouble        !! first error; not allocated if there was none
-      character(:), allocatable :: names(:)       !! of the columns
+      character(:), allocatable :: names(:)       !! of the columns; not allocated if the file is no table
+      logical :: has_names = .false.              !! whether the line of the names was written
       integer :: blocks = 0                       !! data sets begun by begin_block
       integer, allocatable :: column_end(:)       !! position in a row at which each column ends
       character(:), allocatable :: row            !! the row being filled
@@ -39,52 +40,49 @@ module wavycon_output_file
       procedure :: open_in_memory
       procedure :: is_open
       procedure :: put
-      procedure, private :: put_bytes
-      procedure, private :: put_numbers
-      generic :: put_raw => put_bytes, put_numbers
+      procedure :: put_numbers
       procedure :: put_columns
-      procedure :: put_names
       procedure :: begin_block
       procedure :: add_real
       procedure :: add_reals
       procedure :: add_integer
+      procedure :: add_integers
       procedure :: add_long_integer
       procedure :: add_word
-      generic :: add => add_real, add_reals, add_integer, add_long_integer, add_word
+      generic :: add => add_real, add_reals, add_integer, add_integers, add_long_integer, &
+         add_word
       procedure :: add_row_of
       procedure :: end_row
       procedure :: put_rows
       procedure :: note_trouble
-      procedure :: path_now
-      procedure :: flush => flush_file
+      procedure :: share
       procedure :: finish
    end type output_file
 
 contains
 
    !> Opens a file for writing. `finish` reports errors.
-   subroutine open_file(self, directory, name, binary)
+   subroutine open_file(self, directory, name, head)
       class(output_file), intent(out) :: self
       character(*), intent(in) :: directory      !! existing
       character(*), intent(in) :: name           !! of the file in the directory
-      logical, intent(in), optional :: binary    !! whether it is written by `put_raw` alone; if absent it is a text
+      character(*), intent(in), optional :: head !! the first bytes of a binary file; if absent it is a text
 
-      character(12) :: process
       character(:), allocatable :: form
       character(200) :: message
       integer :: status
 
       form = 'formatted'
-      if (present(binary)) form = trim(merge('unformatted', 'formatted  ', binary))
-      write (process, '(i0)') process_id()
+      if (present(head)) form = 'unformatted'
       self%name = directory//'/'//name
-      self%working_name = directory//'/.'//name//'.'//trim(process)//'.part'
+      self%working_name = directory//'/.'//name//'.'//integer_text(process_id())//'.part'
       call remove_when_interrupted(self%working_name)
       ! As a stream, because close_file needs the number of bytes written.
       open (newunit=self%unit, file=self%working_name, access='stream', form=form, status='replace', &
             action='write', iostat=status, iomsg=message)
       self%opened = status == 0
-      if (.not. self%opened) call self%note_trouble(message)
+      if (self%opened .and. present(head)) write (self%unit, iostat=status, iomsg=message) head
+      call check(self, status, message)
    end subroutine open_file
 
    !> Opens a table in memory in place of a file. It gets columns and rows; lines by `put` are left out.
@@ -112,21 +110,8 @@ contains
 
       if (allocated(self%trouble) .or. associated(self%memory)) return
       write (self%unit, '(a)', iostat=status, iomsg=message) line
-      if (status /= 0) call self%note_trouble(message)
+      call check(self, status, message)
    end subroutine put
-
-   !> Writes bytes to a binary file.
-   subroutine put_bytes(self, bytes)
-      class(output_file), intent(inout) :: self
-      character(*), intent(in) :: bytes
-
-      character(200) :: message
-      integer :: status
-
-      if (allocated(self%trouble)) return
-      write (self%unit, iostat=status, iomsg=message) bytes
-      if (status /= 0) call self%note_trouble(message)
-   end subroutine put_bytes
 
    !> Writes numbers to a binary file, in the order of the array.
    subroutine put_numbers(self, numbers)
@@ -138,16 +123,19 @@ contains
 
       if (allocated(self%trouble)) return
       write (self%unit, iostat=status, iomsg=message) numbers
-      if (status /= 0) call self%note_trouble(message)
+      call check(self, status, message)
    end subroutine put_numbers
 
-   !> Sets the columns and writes the header line of their units. `put_names` writes the names.
+   !> Sets the columns and writes the header line of their units. That of their names follows at the head of each block
+   !> or, without blocks, before the first row.
    subroutine put_columns(self, names, units, longest)
       class(output_file), intent(inout) :: self
       character(*), intent(in) :: names(:)   !! without blanks
       character(*), intent(in) :: units(:)   !! as many; shown in brackets
       integer, intent(in), optional :: longest(:)   !! as many: bytes of the longest word of each column
 
+      character(len(units) + 2) :: in_brackets(size(units))
+      character(:), allocatable :: line
       integer :: i, last, width
 
       if (associated(self%memory)) then
@@ -159,30 +147,38 @@ contains
       allocate (self%column_end(size(names)))
       last = 0
       do i = 1, size(names)
-         width = max(narrowest, len_trim(names(i)) + 1, len_trim(units(i)) + 3 + merge(1, 0, i == 1))
+         in_brackets(i) = '['//trim(units(i))//']'
+         width = max(narrowest, len_trim(names(i)) + 1, len_trim(in_brackets(i)) + merge(2, 1, i == 1))
          if (present(longest)) width = max(width, longest(i) + 1)
          last = last + width
          self%column_end(i) = last
       end do
       self%row = repeat(' ', last)
-      do i = 1, size(units)
-         call self%add('['//trim(units(i))//']')
-      end do
-      self%row(1:1) = '#'
-      call self%end_row()
+      line = aligned(self, in_brackets)
+      line(1:1) = '#'
+      call self%put(line)
    end subroutine put_columns
 
-   !> Writes the line with the names of the columns.
-   subroutine put_names(self)
-      class(output_file), intent(inout) :: self
+   !> A line with words at the right of their columns.
+   pure function aligned(self, words) result(line)
+      type(output_file), intent(in) :: self
+      character(*), intent(in) :: words(:)   !! one for each column
+      character(:), allocatable :: line
 
       integer :: i
 
-      if (associated(self%memory)) return
-      do i = 1, size(self%names)
-         call self%add(trim(self%names(i)))
+      line = repeat(' ', self%column_end(size(words)))
+      do i = 1, size(words)
+         line(self%column_end(i) - len_trim(words(i)) + 1:self%column_end(i)) = trim(words(i))
       end do
-      call self%end_row()
+   end function aligned
+
+   !> Writes the line with the names of the columns.
+   subroutine put_names(self)
+      type(output_file), intent(inout) :: self
+
+      self%has_names = .true.
+      if (.not. associated(self%memory)) call self%put(aligned(self, self%names))
    end subroutine put_names
 
    !> Begins a data set of gnuplot's `index`: two blank lines, unless it is the first, a comment, and the names of the
@@ -197,7 +193,7 @@ contains
       end if
       self%blocks = self%blocks + 1
       call self%put('# '//comment)
-      call self%put_names()
+      call put_names(self)
    end subroutine begin_block
 
    !> Fills the next column of a row with a number.
@@ -233,6 +229,17 @@ contains
 
       call self%add(int(value, int64))
    end subroutine add_integer
+
+   subroutine add_integers(self, values)
+      class(output_file), intent(inout) :: self
+      integer, intent(in) :: values(:)
+
+      integer :: i
+
+      do i = 1, size(values)
+         call self%add(values(i))
+      end do
+   end subroutine add_integers
 
    subroutine add_long_integer(self, value)
       class(output_file), intent(inout) :: self
@@ -289,6 +296,7 @@ contains
    subroutine end_row(self)
       class(output_file), intent(inout) :: self
 
+      if (.not. self%has_names) call put_names(self)
       if (associated(self%memory)) then
          call self%memory%add_rows(reshape(self%numbers, [size(self%numbers), 1]))
       else
@@ -313,6 +321,7 @@ contains
          call self%memory%add_rows(values, integers)
          return
       end if
+      if (.not. self%has_names) call put_names(self)
       row_format = '(i'//integer_text(self%column_end(1))
       do i = 2, size(self%column_end)
          width = integer_text(self%column_end(i) - self%column_end(i - 1))
@@ -323,8 +332,17 @@ contains
          end if
       end do
       write (self%unit, row_format//')', iostat=status, iomsg=message) (integers, values(:, i), i=1, size(values, 2))
-      if (status /= 0) call self%note_trouble(message)
+      call check(self, status, message)
    end subroutine put_rows
+
+   !> Records an error of a statement.
+   subroutine check(self, status, message)
+      type(output_file), intent(inout) :: self
+      integer, intent(in) :: status         !! from iostat, 0 without an error
+      character(*), intent(in) :: message   !! from iomsg
+
+      if (status /= 0) call self%note_trouble(message)
+   end subroutine check
 
    !> Records an error: `finish` will report it and remove the file.
    subroutine note_trouble(self, message)
@@ -334,25 +352,19 @@ contains
       if (.not. allocated(self%trouble)) self%trouble = system_words(message)
    end subroutine note_trouble
 
-   !> The temporary name, for other processes that write to the file too.
-   pure function path_now(self) result(path)
-      class(output_file), intent(in) :: self
-      character(:), allocatable :: path
-
-      path = self%working_name
-   end function path_now
-
-   !> Brings to the file what was written so far.
-   subroutine flush_file(self)
+   !> Brings to the file what was written so far, for other processes that write to the file too.
+   subroutine share(self, path)
       class(output_file), intent(inout) :: self
+      character(:), allocatable, intent(out) :: path   !! its temporary name
 
       character(200) :: message
       integer :: status
 
+      path = self%working_name
       if (allocated(self%trouble)) return
       flush (self%unit, iostat=status, iomsg=message)
-      if (status /= 0) call self%note_trouble(message)
-   end subroutine flush_file
+      call check(self, status, message)
+   end subroutine share
 
    !> Closes the file and renames it to its final name; after an error the file is removed instead. Errors:
    !> exit_file_trouble.
@@ -369,6 +381,7 @@ contains
          if (allocated(self%trouble)) call fatal_error(error, exit_file_trouble, 'table in memory: '//self%trouble)
          return
       end if
+      if (allocated(self%names) .and. .not. self%has_names) call put_names(self)
       further = 0
       if (present(bytes_of_others)) further = bytes_of_others
       if (self%opened) call close_file(self, further)
@@ -394,10 +407,10 @@ contains
       integer :: status
 
       flush (self%unit, iostat=status, iomsg=message)
-      if (status /= 0) call self%note_trouble(message)
+      call check(self, status, message)
       inquire (unit=self%unit, pos=next_byte)
       close (self%unit, iostat=status, iomsg=message)
-      if (status /= 0) call self%note_trouble(message)
+      call check(self, status, message)
       inquire (file=self%working_name, size=bytes_there)
       if (bytes_there /= next_byte - 1 + further) &
          call self%note_trouble('it is cut short: the disk is full, or over a quota or a limit on file sizes')

@@ -1,13 +1,12 @@
 !> The data that the tables of one scene are written from, and the header lines that all tables have.
 module wavycon_results
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-   use wavycon_column_text, only: column_name, column_unit
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, solver_traits
-   use wavycon_contact_status, only: status_name
+   use wavycon_contact_status, only: status_code, status_name
    use wavycon_kinds, only: dp
    use wavycon_largest_stress, only: largest_stress
-   use wavycon_memory_table, only: memory_table
+   use wavycon_memory_table, only: column_name, column_unit, memory_table
    use wavycon_output_file, only: output_file
    use wavycon_plain_text, only: escaped, exact_number, integer_text
    use wavycon_preparation_words, only: preparation_words
@@ -31,10 +30,12 @@ module wavycon_results
       !> The largest von Mises and shear stresses, shape (bodies, loads); not allocated unless the deck asks for them.
       type(largest_stress), allocatable :: von_mises(:, :), shear(:, :)
       type(work_sharing) :: sharing                          !! how the ranks share the work
+      integer, allocatable :: order(:)                       !! the loads in the order in which they are solved
       type(memory_table), pointer :: memory => null()        !! tables are written to it in place of files
    contains
       procedure :: open_table
       procedure :: begin_block
+      procedure :: end_row
       procedure :: unit_in_words
       procedure :: mean_pressure
       procedure :: peak_pressure
@@ -42,15 +43,13 @@ module wavycon_results
 
 contains
 
-   !> Opens a table <case>.<kind>.dat, writes the header lines that all tables have and sets the columns. A table
-   !> without blocks has the names of its columns here, any other at the head of each block. Errors show in file%finish.
-   !> Or opens the table in memory, if there is one, and sets its columns.
-   subroutine open_table(self, kind, columns, file, in_blocks)
+   !> Opens a table <case>.<kind>.dat, writes the header lines that all tables have and sets the columns. Errors show in
+   !> file%finish. Or opens the table in memory, if there is one, and sets its columns.
+   subroutine open_table(self, kind, columns, file)
       class(results_type), intent(in) :: self
       character(*), intent(in) :: kind         !! name of the table, such as 'summary'
       character(*), intent(in) :: columns(:)   !! name[unit]; the units of `unit_in_words` are replaced
       type(output_file), intent(out) :: file
-      logical, intent(in) :: in_blocks         !! whether the rows come in blocks, each begun by `begin_block`
 
       character(longest_unit) :: units(size(columns))
       integer :: i
@@ -76,7 +75,6 @@ contains
          call file%put('# method: '//self%method)
       end associate
       call file%put_columns(column_name(columns), units)
-      if (.not. in_blocks) call file%put_names()
 
    contains
 
@@ -162,6 +160,17 @@ contains
                                ', '//trim(status_name(solution%status)))
       end associate
    end subroutine begin_block
+
+   !> Ends the row of a load with its status, in the last two columns.
+   subroutine end_row(self, file, load)
+      class(results_type), intent(in) :: self
+      type(output_file), intent(inout) :: file
+      integer, intent(in) :: load    !! number in the deck's order
+
+      call file%add(status_code(self%loads(load)%status))
+      call file%add(trim(status_name(self%loads(load)%status)))
+      call file%end_row()
+   end subroutine end_row
 
    !> The mean pressure of a load [pressure]. If the deck gives it, exactly that number.
    pure real(dp) function mean_pressure(self, load)

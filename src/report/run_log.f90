@@ -2,14 +2,14 @@
 module wavycon_run_log
    use, intrinsic :: iso_fortran_env, only: int64, output_unit
    use wavycon_kinds, only: dp
-   use wavycon_load_lines, only: heading_of_loads, line_of_load
+   use wavycon_log_columns, only: log_line
    use wavycon_map_statistics, only: map_statistics
    use wavycon_plain_text, only: escaped, integer_text, short_number
    use wavycon_preparation_words, only: preparation_words
+   use wavycon_result_lines, only: line_of_load, line_of_stress
    use wavycon_results, only: results_type
    use wavycon_roughness, only: roughness_type
    use wavycon_scene, only: scene_type, target_words
-   use wavycon_stress_lines, only: heading_of_stresses, line_of_stress
    use wavycon_surface, only: surface_type
    use wavycon_solver_progress, only: solver_progress
    use wavycon_system, only: stdout_is_terminal
@@ -34,9 +34,8 @@ module wavycon_run_log
       procedure :: say
       procedure :: say_timed
       procedure :: show_scene
-      procedure :: show_progress
+      procedure :: say_progress
       procedure :: show_loads
-      procedure :: show_stress_progress
       procedure :: show_stresses
    end type run_log
 
@@ -90,8 +89,6 @@ contains
       class(run_log), intent(inout) :: self
       type(results_type), intent(in) :: results
 
-      character(:), allocatable :: words
-
       if (self%quiet) return
       associate (scene => results%scene, surface => results%solver%surface)
          call self%say('wavycon '//version//' ('//revision//')')
@@ -100,25 +97,7 @@ contains
          call self%say('surface   '//scene%surface_kind//', Delta = '// &
                        short_number(surface%amplitude)//' ['//scene%length_unit//'], cell '// &
                        cell_of(surface)//' ['//scene%length_unit//']')
-         if (allocated(scene%map)) call self%say('map       '//integer_text(scene%map%points(1))//' x '// &
-            integer_text(scene%map%points(2))//' points ('//trim(scene%map%format)// &
-            '), heights over their mean '// &
-            short_number(scene%map%lowest)//' to '//short_number(scene%map%highest)//', rms '// &
-            short_number(scene%map%rms)//' ['//scene%length_unit//']')
-         if (allocated(scene%map)) then
-            if (scene%map%assumed_sides /= '') call self%say('sides     '//scene%map%assumed_sides)
-         end if
-         if (allocated(scene%map) .and. surface%amplitude > 0.0_dp) call self%say( &
-            'roughness '//roughness_words(scene))
-         if (allocated(scene%map)) then
-            words = preparation_words(scene%map%changes, scene%length_unit)
-            if (words /= '') call self%say('prepared  '//words)
-            if (scene%map%lacks_missing_value) &
-               call self%say('note: no height of the file has the missing_value of the deck')
-            call show_broken_borders(self, scene%map, scene%length_unit)
-            ! A broken border is a step between two points.
-            if (.not. any(scene%map%is_broken_along([1, 2]))) call show_unresolved_slopes(self, scene%roughness)
-         end if
+         if (allocated(scene%map)) call show_map(self, scene, scene%map, surface%amplitude > 0.0_dp)
          call show_unlikely_slopes(self, scene)
          call self%say('material  '//material_words(scene, surface))
          call self%say('loads     '//integer_text(size(scene%target))//', '//target_words(scene%loads_by)// &
@@ -127,6 +106,28 @@ contains
          if (results%sharing%words() /= '') call self%say('ranks     '//results%sharing%words())
       end associate
    end subroutine show_scene
+
+   !> Writes the statistics of a height map, what was done to it, and what is suspicious of it.
+   subroutine show_map(self, scene, map, is_rough)
+      class(run_log), intent(inout) :: self
+      type(scene_type), intent(in) :: scene
+      type(map_statistics), intent(in) :: map   !! of the scene
+      logical, intent(in) :: is_rough           !! or flat
+
+      character(:), allocatable :: words
+
+      call self%say('map       '//integer_text(map%points(1))//' x '//integer_text(map%points(2))//' points ('// &
+                    trim(map%format)//'), heights over their mean '//short_number(map%lowest)//' to '// &
+                    short_number(map%highest)//', rms '//short_number(map%rms)//' ['//scene%length_unit//']')
+      if (map%assumed_sides /= '') call self%say('sides     '//map%assumed_sides)
+      if (is_rough) call self%say('roughness '//roughness_words(scene))
+      words = preparation_words(map%changes, scene%length_unit)
+      if (words /= '') call self%say('prepared  '//words)
+      if (map%lacks_missing_value) call self%say('note: no height of the file has the missing_value of the deck')
+      call show_broken_borders(self, map, scene%length_unit)
+      ! A broken border is a step between two points.
+      if (.not. any(map%is_broken_along([1, 2]))) call show_unresolved_slopes(self, scene%roughness)
+   end subroutine show_map
 
    !> Slope and curvature, in brackets by differences, and the form of the distribution of heights.
    pure function roughness_words(scene) result(words)
@@ -209,21 +210,13 @@ contains
       if (is_flat) verdict = '; those of real surfaces are larger.'
       borders = ''
       cause = 'Are amplitudes and wavelengths in one unit?'
-      if (has_file(scene)) cause = 'Do height_scale, and the sides of the cell, suit the units of the file?'
       if (allocated(scene%map)) then
+         if (scene%map%path /= '') cause = 'Do height_scale, and the sides of the cell, suit the units of the file?'
          if (any(scene%map%is_broken_along([1, 2]))) borders = ', with the steps across its borders'
       end if
       call self%say('note: the slopes of the surface are '//short_number(scene%roughness%slope)//' (rms)'//borders// &
                     verdict//' '//cause)
    end subroutine show_unlikely_slopes
-
-   !> Whether the surface is a height map from a file.
-   pure logical function has_file(scene)
-      type(scene_type), intent(in) :: scene
-
-      has_file = .false.
-      if (allocated(scene%map)) has_file = scene%map%path /= ''
-   end function has_file
 
    !> The sides of the cell, or of a mirrored map, such as "2 x 3".
    pure function cell_of(surface) result(words)
@@ -237,14 +230,6 @@ contains
       if (surface%dimension == 2) words = words//' x '//short_number(side(2))
    end function cell_of
 
-   !> Shows how many loads are solved.
-   subroutine show_progress(self, done, all)
-      class(run_log), intent(inout) :: self
-      integer, intent(in) :: done, all   !! number of loads solved; number of all loads
-
-      call put_progress(self, 'solved '//integer_text(done)//' of '//integer_text(all))
-   end subroutine show_progress
-
    !> Shows the grid that was solved last, as of `solver_progress`.
    subroutine grid_solved(self, points, iterations, local_iterations, plain_iterations, residual)
       class(log_progress), intent(in) :: self
@@ -257,63 +242,59 @@ contains
       if (local_iterations > 0) kinds = kinds//', '//integer_text(local_iterations)//' with the stencil'
       if (plain_iterations > 0) kinds = kinds//', '//integer_text(plain_iterations)//' without extension'
 
-      call put_progress(self%log, 'load '//integer_text(self%load)//' of '//integer_text(self%loads)//': '// &
-                        integer_text(points(1))//' x '//integer_text(points(2))//' points, '// &
-                        integer_text(iterations)//' iterations'//kinds//', residual '//short_number(residual))
+      call self%log%say_progress('load '//integer_text(self%load)//' of '//integer_text(self%loads)//': '// &
+                                 integer_text(points(1))//' x '//integer_text(points(2))//' points, '// &
+                                 integer_text(iterations)//' iterations'//kinds//', residual '//short_number(residual))
    end subroutine grid_solved
 
    !> Writes a progress line over the last one, only on a terminal and at most every progress_interval.
-   subroutine put_progress(log, words)
-      class(run_log), intent(inout) :: log
+   subroutine say_progress(self, words)
+      class(run_log), intent(inout) :: self
       character(*), intent(in) :: words
 
       integer(int64) :: now
       character(progress_columns) :: line
 
-      if (log%quiet .or. .not. log%terminal) return
+      if (self%quiet .or. .not. self%terminal) return
       call system_clock(now)
-      if (now - log%last_progress < progress_interval*log%rate) return
-      log%last_progress = now
+      if (now - self%last_progress < progress_interval*self%rate) return
+      self%last_progress = now
       line = words
       write (output_unit, '(2a)', advance='no') achar(13), line
       flush (output_unit)
-      log%progress_shown = .true.
-   end subroutine put_progress
+      self%progress_shown = .true.
+   end subroutine say_progress
 
    !> Writes a table with a line for each load.
    subroutine show_loads(self, results)
       class(run_log), intent(inout) :: self
       type(results_type), intent(in) :: results
 
-      integer :: i
+      type(log_line) :: line
+      integer :: load
 
       if (self%quiet) return
-      call self%say(heading_of_loads(results))
-      do i = 1, size(results%loads)
-         call self%say(line_of_load(results, i))
+      do load = 1, size(results%loads)
+         call line_of_load(results, load, line)
+         if (load == 1) call self%say(line%names)
+         call self%say(line%words)
       end do
    end subroutine show_loads
-
-   !> Shows of how many loads the stresses are found.
-   subroutine show_stress_progress(self, done, all)
-      class(run_log), intent(inout) :: self
-      integer, intent(in) :: done, all   !! number of loads done; number of all loads
-
-      call put_progress(self, 'stresses of '//integer_text(done)//' of '//integer_text(all)//' loads')
-   end subroutine show_stress_progress
 
    !> Writes the largest stresses, with a line for each load and body.
    subroutine show_stresses(self, results)
       class(run_log), intent(inout) :: self
       type(results_type), intent(in) :: results   !! with the largest stresses
 
+      type(log_line) :: line
       integer :: body, load
 
       if (self%quiet) return
-      call self%say(heading_of_stresses(results))
       do load = 1, size(results%loads)
          do body = 1, size(results%von_mises, 1)
-            call self%say(line_of_stress(results, load, body))
+            call line_of_stress(results, load, body, line)
+            if (load == 1 .and. body == 1) call self%say(line%names)
+            call self%say(line%words)
          end do
       end do
    end subroutine show_stresses

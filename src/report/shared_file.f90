@@ -40,10 +40,8 @@ contains
       self%head = len(head)
       self%path = ''
       if (is_first_rank()) then
-         call self%file%open(directory, name, binary=.true.)
-         call self%file%put_raw(head)
-         call self%file%flush()
-         self%path = self%file%path_now()
+         call self%file%open(directory, name, head)
+         call self%file%share(self%path)
          is_open = self%file%is_open()
       end if
       self%is_open = .not. any_rank(.not. is_open)

@@ -18,42 +18,30 @@ module wavycon_spectrum_table
       'direction[-]', 'wave_number[rad/length]', 'waves[-]', 'spectrum_2d[length^4]', 'spectrum_1d[length^3]', &
       'rms_height_up_to[length]', 'rms_slope_up_to[-]', 'rms_curvature_up_to[1/length]']
 
-   type, extends(table_type) :: spectrum_table
-   contains
-      procedure, nopass :: key
-      procedure, nopass :: meaning
-      procedure :: refusal
-      procedure, nopass :: write => write_spectrum_table
-   end type spectrum_table
-
 contains
 
-   pure function key() result(words)
-      character(:), allocatable :: words
-
-      words = 'spectrum'
-   end function key
-
-   pure function meaning() result(words)
-      character(:), allocatable :: words
-
-      words = 'The power spectrum of the surface.'
-   end function meaning
+   type(table_type) function spectrum_table() result(table)
+      table%file = 'spectrum'
+      table%key = 'spectrum'
+      table%meaning = 'The power spectrum of the surface.'
+      call table%set_columns(columns)
+      table%refuse => refuse
+      table%write_all => write_spectrum_table
+   end function spectrum_table
 
    !> The fourth power of a length must be a number.
-   function refusal(self, traits, surface) result(words)
-      class(spectrum_table), intent(in) :: self
+   subroutine refuse(traits, surface, words)
       type(solver_traits), intent(in) :: traits
       type(surface_type), intent(in) :: surface
-      character(:), allocatable :: words
+      character(:), allocatable, intent(out) :: words
 
       real(dp), parameter :: largest = 1.0e75_dp
 
-      associate (unused => self, unused_too => traits); end associate
+      associate (unused => traits); end associate
       words = ''
       if (max(surface%amplitude, maxval(surface%length)) > largest) words = 'it has the fourth power of lengths, '// &
          'which may be up to '//short_number(largest)//'; choose another unit of length'
-   end function refusal
+   end subroutine refuse
 
    !> Errors: exit_file_trouble.
    subroutine write_spectrum_table(results, error)
@@ -62,7 +50,7 @@ contains
 
       type(output_file) :: file
 
-      call results%open_table('spectrum', columns, file, in_blocks=.true.)
+      call results%open_table('spectrum', columns, file)
       associate (surface => results%solver%surface)
          associate (shape => surface%shape, unit => surface%amplitude, length => surface%length, &
                     points => surface%points)

@@ -4,7 +4,6 @@
 module wavycon_spot_sizes_table
    use wavycon_constants, only: pi
    use wavycon_contact_spots, only: contact_region, contact_spots
-   use wavycon_error, only: error_type
    use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
    use wavycon_results, only: not_a_number, results_type
@@ -20,78 +19,37 @@ module wavycon_spot_sizes_table
       'load_fraction[-]', 'mean_pressure[pressure]', 'x[length]', 'y[length]', 'holes[-]', 'percolates_x[-]', &
       'percolates_y[-]', 'region[-]']
 
-   type, extends(table_type) :: spot_sizes_table
-   contains
-      procedure, nopass :: key
-      procedure, nopass :: meaning
-      procedure :: name
-      procedure :: is_requested
-      procedure :: needs_fields
-      procedure, nopass :: write => write_spot_sizes_table
-   end type spot_sizes_table
-
 contains
 
-   !> The table has no key of its own.
-   pure function key() result(words)
-      character(:), allocatable :: words
+   type(table_type) function spot_sizes_table() result(table)
+      table%file = 'spot_sizes'
+      table%meaning = 'Sizes and places of contact spots and of pools of gap.'
+      call table%set_columns(columns)
+      table%needs_fields = .true.
+      table%requested => asks_for_spots
+      table%put_load => put_spot_sizes
+   end function spot_sizes_table
 
-      words = ''
-   end function key
-
-   function name(self) result(words)
-      class(spot_sizes_table), intent(in) :: self
-      character(:), allocatable :: words
-
-      associate (unused => self); end associate
-      words = 'spot_sizes'
-   end function name
-
-   pure function meaning() result(words)
-      character(:), allocatable :: words
-
-      words = 'Sizes and places of contact spots and of pools of gap.'
-   end function meaning
-
-   logical function is_requested(self, scene)
-      class(spot_sizes_table), intent(in) :: self
+   logical function asks_for_spots(scene)
       type(scene_type), intent(in) :: scene
 
-      associate (unused => self); end associate
-      is_requested = scene%output%logical('spots')
-   end function is_requested
+      asks_for_spots = scene%output%logical('spots')
+   end function asks_for_spots
 
-   pure logical function needs_fields(self)
-      class(spot_sizes_table), intent(in) :: self
-
-      associate (unused => self); end associate
-      needs_fields = .true.
-   end function needs_fields
-
-   !> Errors: exit_file_trouble.
-   subroutine write_spot_sizes_table(results, error)
+   subroutine put_spot_sizes(results, load, file)
       type(results_type), intent(in) :: results
-      type(error_type), allocatable, intent(out) :: error
+      integer, intent(in) :: load
+      type(output_file), intent(inout) :: file
 
-      type(output_file) :: file
       type(contact_spots) :: regions
-      integer :: load
-      logical :: any_block
 
-      call results%open_table('spot_sizes', columns, file, in_blocks=.true.)
-      any_block = .false.
-      do load = 1, size(results%loads)
-         call results%loads(load)%spots(results%solver%surface, regions)
-         if (.not. regions%known) cycle
-         any_block = .true.
-         call results%begin_block(file, load)
-         call put_regions(results, file, load, regions%spots, 'spot')
-         if (size(regions%spots) > 0 .and. size(regions%pools) > 0) call file%put('')
-         call put_regions(results, file, load, regions%pools, 'pool')
-      end do
-      if (.not. any_block) call file%put_names()
-      call file%finish(error)
-   end subroutine write_spot_sizes_table
+      call results%loads(load)%spots(results%solver%surface, regions)
+      if (.not. regions%known) return
+      call results%begin_block(file, load)
+      call put_regions(results, file, load, regions%spots, 'spot')
+      if (size(regions%spots) > 0 .and. size(regions%pools) > 0) call file%put('')
+      call put_regions(results, file, load, regions%pools, 'pool')
+   end subroutine put_spot_sizes
 
    !> Writes the regions of one kind, a row for each.
    subroutine put_regions(results, file, load, regions, kind)
@@ -102,7 +60,7 @@ contains
       character(*), intent(in) :: kind                 !! 'spot' or 'pool'
 
       real(dp) :: area, mean_pressure
-      integer :: i, k
+      integer :: i
 
       associate (surface => results%solver%surface)
          do i = 1, size(regions)
@@ -111,15 +69,11 @@ contains
                mean_pressure = not_a_number()
                if (region%area_fraction > 0.0_dp) &
                   mean_pressure = results%mean_pressure(load)*region%load_fraction/region%area_fraction
-               call file%add(load)
-               call file%add(i)
+               call file%add([load, i])
                call file%add([area, region%area_fraction, equivalent_radius(area, surface%dimension), &
                               region%perimeter, region%load_fraction, mean_pressure, &
                               surface%length*region%centre/(2*pi)])
-               call file%add(region%holes)
-               do k = 1, 2
-                  call file%add(merge(1, 0, region%percolates(k)))
-               end do
+               call file%add([region%holes, merge(1, 0, region%percolates)])
                call file%add(kind)
                call file%end_row()
             end associate

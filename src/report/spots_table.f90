@@ -3,8 +3,6 @@
 !> The table has a row for each load. A load without a solution has NaN.
 module wavycon_spots_table
    use wavycon_contact_spots, only: contact_spots
-   use wavycon_contact_status, only: status_code, status_name
-   use wavycon_error, only: error_type
    use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
    use wavycon_results, only: not_a_number, results_type
@@ -20,58 +18,32 @@ module wavycon_spots_table
       'largest_pool_area_fraction[-]', 'perimeter[length]', 'contact_percolates_x[-]', 'contact_percolates_y[-]', &
       'gap_percolates_x[-]', 'gap_percolates_y[-]', 'status_code[-]', 'status[-]']
 
-   type, extends(table_type) :: spots_table
-   contains
-      procedure, nopass :: key
-      procedure, nopass :: meaning
-      procedure :: needs_fields
-      procedure, nopass :: write => write_spots_table
-   end type spots_table
-
 contains
 
-   pure function key() result(words)
-      character(:), allocatable :: words
+   type(table_type) function spots_table() result(table)
+      table%file = 'spots'
+      table%key = 'spots'
+      table%meaning = 'Number and sizes of contact spots and of pools of gap; percolation of both.'
+      call table%set_columns(columns)
+      table%needs_fields = .true.
+      table%put_load => put_spots
+   end function spots_table
 
-      words = 'spots'
-   end function key
-
-   pure function meaning() result(words)
-      character(:), allocatable :: words
-
-      words = 'Number and sizes of contact spots and of pools of gap; percolation of both.'
-   end function meaning
-
-   pure logical function needs_fields(self)
-      class(spots_table), intent(in) :: self
-
-      associate (unused => self); end associate
-      needs_fields = .true.
-   end function needs_fields
-
-   !> Errors: exit_file_trouble.
-   subroutine write_spots_table(results, error)
+   subroutine put_spots(results, load, file)
       type(results_type), intent(in) :: results
-      type(error_type), allocatable, intent(out) :: error
+      integer, intent(in) :: load
+      type(output_file), intent(inout) :: file
 
-      type(output_file) :: file
       type(contact_spots) :: regions
-      integer :: load
 
-      call results%open_table('spots', columns, file, in_blocks=.false.)
-      do load = 1, size(results%loads)
-         associate (solution => results%loads(load))
-            call solution%spots(results%solver%surface, regions)
-            call file%add(load)
-            call file%add([solution%pbar_over_pstar, solution%measures%contact_area_fraction])
-            call put_regions(file, regions)
-            call file%add(status_code(solution%status))
-            call file%add(trim(status_name(solution%status)))
-            call file%end_row()
-         end associate
-      end do
-      call file%finish(error)
-   end subroutine write_spots_table
+      associate (solution => results%loads(load))
+         call solution%spots(results%solver%surface, regions)
+         call file%add(load)
+         call file%add([solution%pbar_over_pstar, solution%measures%contact_area_fraction])
+      end associate
+      call put_regions(file, regions)
+      call results%end_row(file, load)
+   end subroutine put_spots
 
    !> Fills the columns from the number of spots to percolation.
    subroutine put_regions(file, regions)
@@ -93,12 +65,8 @@ contains
       call file%add([sum(spots), largest(spots)])
       call file%add(size(pools))
       call file%add([sum(pools), largest(pools), regions%perimeter()])
-      do i = 1, 2
-         call file%add(merge(1, 0, any(regions%spots%percolates(i))))
-      end do
-      do i = 1, 2
-         call file%add(merge(1, 0, any(regions%pools%percolates(i))))
-      end do
+      call file%add([(merge(1, 0, any(regions%spots%percolates(i))), i=1, 2), &
+                     (merge(1, 0, any(regions%pools%percolates(i))), i=1, 2)])
    end subroutine put_regions
 
    !> The largest area; 0 if there is none.

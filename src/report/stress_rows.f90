@@ -1,15 +1,16 @@
-!> What all tables of stresses at points share: their columns, the numbers of a point, and the depths.
+!> What all tables of stresses at points share: their columns, the numbers of a point, the depths, and their blocks.
 module wavycon_stress_rows
    use wavycon_constants, only: pi
    use wavycon_group_values, only: group_values
    use wavycon_kinds, only: dp
+   use wavycon_output_file, only: output_file
    use wavycon_results, only: results_type
    use wavycon_stress_tensor, only: principal_stresses, stress_pressure, von_mises
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
 
-   public :: angle_of_depth, number_of_bodies, stress_depths, stress_numbers
+   public :: angle_of_depth, number_of_bodies, put_stresses, stress_depths, stress_numbers
 
    !> Tension is positive, and principal stress 1 is the largest. The error is an estimate for the six components.
    character(32), parameter, public :: stress_columns(*) = [character(32) :: &
@@ -33,6 +34,33 @@ contains
       numbers = p_star*[stress, principal, von_mises(stress), 0.5_dp*(principal(1) - principal(3)), &
                         stress_pressure(stress), error]
    end function stress_numbers
+
+   !> Writes the stresses at points: a block for each body, with a blank line between the rows of points.
+   subroutine put_stresses(results, load, pbar_over_pstar, places, parts, errors, file)
+      type(results_type), intent(in) :: results
+      integer, intent(in) :: load
+      real(dp), intent(in) :: pbar_over_pstar         !! of the stresses
+      real(dp), intent(in) :: places(:, :, :)   !! of the columns before the stresses, shape (columns, points, rows)
+      real(dp), intent(in) :: parts(:, :, :, :)       !! as of `stress_fields`, shape (6, 2, points, rows)
+      real(dp), intent(in) :: errors(:, :)            !! of the stresses [p*], shape (points, rows)
+      type(output_file), intent(inout) :: file   !! with the columns 'load', 'body', those of the places, and stresses
+
+      real(dp), allocatable :: rows(:, :)
+      integer :: body, i, k
+
+      do body = 1, number_of_bodies(results)
+         call results%begin_block(file, load)
+         do i = 1, size(places, 3)
+            if (i > 1) call file%put('')
+            rows = reshape([(places(:, k, i), &
+                             stress_numbers(results%scene%stress_setting%body(body)%stress(parts(:, :, k, i), &
+                                                                                           pbar_over_pstar), &
+                                            errors(k, i), results%scene%p_star), k=1, size(places, 2))], &
+                           [size(places, 1) + size(stress_columns), size(places, 2)])
+            call file%put_rows([load, body], rows)
+         end do
+      end do
+   end subroutine put_stresses
 
    !> The depths of a table: those of planes are the list of depths, if there is one, and those of line and section the
    !> range, if there is one.

@@ -1,15 +1,14 @@
 !> <case>.stress_section.dat: stresses on a vertical section through the crest, a block for each load and body with a
 !> blank line between depths.
 module wavycon_stress_section_table
-   use wavycon_error, only: error_type
    use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
    use wavycon_results, only: results_type
    use wavycon_scene, only: scene_type
    use wavycon_stress_fields, only: stress_fields
-   use wavycon_stress_rows, only: angle_of_depth, number_of_bodies, stress_columns, stress_depths, stress_numbers
-   use wavycon_stress_table, only: stress_table_type
+   use wavycon_stress_rows, only: angle_of_depth, put_stresses, stress_columns, stress_depths
    use wavycon_surface_lines, only: start_surface_line, surface_line
+   use wavycon_table, only: table_type
    implicit none (type, external)
    private
 
@@ -18,90 +17,53 @@ module wavycon_stress_section_table
    character(32), parameter :: columns(*) = [character(32) :: &
       'load[-]', 'body[-]', 'distance[length]', 'x[length]', 'y[length]', 'depth[length]', stress_columns]
 
-   type, extends(stress_table_type) :: stress_section_table
-   contains
-      procedure, nopass :: key
-      procedure, nopass :: meaning
-      procedure :: is_requested
-      procedure, nopass :: write => write_stress_section_table
-   end type stress_section_table
-
 contains
 
-   pure function key() result(words)
-      character(:), allocatable :: words
+   type(table_type) function stress_section_table() result(table)
+      table%file = 'stress_section'
+      table%key = 'section'
+      table%meaning = 'Stresses on a vertical section through the crest.'
+      call table%set_columns(columns)
+      table%group = 'stress'
+      table%needs_fields = .true.
+      table%requested => asks_for_section
+      table%put_load => put_section
+   end function stress_section_table
 
-      words = 'section'
-   end function key
-
-   pure function meaning() result(words)
-      character(:), allocatable :: words
-
-      words = 'Stresses on a vertical section through the crest.'
-   end function meaning
-
-   logical function is_requested(self, scene)
-      class(stress_section_table), intent(in) :: self
+   logical function asks_for_section(scene)
       type(scene_type), intent(in) :: scene
 
-      associate (unused => self); end associate
-      is_requested = allocated(scene%stress_setting)
-      if (is_requested) is_requested = scene%stress%text('section') /= 'none'
-   end function is_requested
+      asks_for_section = scene%stress%text('section') /= 'none'
+   end function asks_for_section
 
-   !> Errors: exit_file_trouble.
-   subroutine write_stress_section_table(results, error)
+   subroutine put_section(results, load, file)
       type(results_type), intent(in) :: results
-      type(error_type), allocatable, intent(out) :: error
+      integer, intent(in) :: load
+      type(output_file), intent(inout) :: file
 
-      type(output_file) :: file
-      integer :: body, load, number
       class(stress_fields), allocatable :: fields
-      real(dp), allocatable :: depths(:), errors(:, :), parts(:, :, :, :), t(:)
+      real(dp), allocatable :: depths(:), errors(:, :), parts(:, :, :, :), places(:, :, :), t(:)
       type(surface_line) :: line
-      integer :: i, k
+      integer :: i, k, number
 
       ! A table in memory may be asked for although the deck has section = 'none': it is that along x.
       number = max(1, findloc(['x       ', 'diagonal', 'y       '] == results%scene%stress%text('section'), .true., &
                               dim=1))
       call start_surface_line(line, results, number)
-      call stress_depths(results%scene%stress, results%solver%surface, .false., depths)
-      allocate (t, source=[(maxval(line%angle(:, k) - line%angle(:, 0)), k=0, ubound(line%angle, 2))])
-      allocate (parts(6, 2, size(t), size(depths)), errors(size(t), size(depths)))
-      call results%open_table('stress_section', columns, file, in_blocks=.true.)
-      do load = 1, size(results%loads)
-         call results%loads(load)%stresses(results%solver%surface, fields)
+      associate (surface => results%solver%surface)
+         call stress_depths(results%scene%stress, surface, .false., depths)
+         allocate (t, source=[(maxval(line%angle(:, k) - line%angle(:, 0)), k=0, ubound(line%angle, 2))])
+         allocate (parts(6, 2, size(t), size(depths)), errors(size(t), size(depths)), places(4, size(t), size(depths)))
+         call results%loads(load)%stresses(surface, fields)
          do i = 1, size(depths)
-            call fields%on_line(line%angle(:, 0), line%direction, t, &
-                                angle_of_depth(results%solver%surface, depths(i)), parts(:, :, :, i), errors(:, i))
+            call fields%on_line(line%angle(:, 0), line%direction, t, angle_of_depth(surface, depths(i)), &
+                                parts(:, :, :, i), errors(:, i))
+            places(1, :, i) = line%distance
+            places(2:3, :, i) = line%place
+            places(4, :, i) = depths(i)
          end do
-         do body = 1, number_of_bodies(results)
-            call results%begin_block(file, load)
-            do i = 1, size(depths)
-               if (i > 1) call file%put('')
-               call put_depth()
-            end do
-         end do
-      end do
-      call file%finish(error)
-
-   contains
-
-      !> Writes the points of one depth.
-      subroutine put_depth()
-         real(dp) :: rows(size(columns) - 2, size(t))
-
-         associate (scene => results%scene)
-            do k = 1, size(t)
-               rows(:, k) = [line%distance(k - 1), line%place(:, k - 1), depths(i), &
-                             stress_numbers(scene%stress_setting%body(body)%stress(parts(:, :, k, i), &
-                                                                                   fields%pbar_over_pstar), &
-                                            errors(k, i), scene%p_star)]
-            end do
-         end associate
-         call file%put_rows([load, body], rows)
-      end subroutine put_depth
-
-   end subroutine write_stress_section_table
+      end associate
+      call put_stresses(results, load, fields%pbar_over_pstar, places, parts, errors, file)
+   end subroutine put_section
 
 end module wavycon_stress_section_table

@@ -1,8 +1,6 @@
 !> <case>.summary.dat: mean gap, contact area, pressures, iterations, residual and status, a line for each load.
 module wavycon_summary_table
    use wavycon_contact_measures, only: or_nan
-   use wavycon_contact_status, only: status_code, status_name
-   use wavycon_error, only: error_type
    use wavycon_kinds, only: dp
    use wavycon_linear_area, only: linear_area_fraction
    use wavycon_output_file, only: output_file
@@ -27,66 +25,16 @@ module wavycon_summary_table
       'peak_pressure[pressure]', 'active_constraints[-]', 'iterations[-]', 'residual[-]', 'solver[-]', &
       'status_code[-]', 'status[-]']
 
-   type, extends(table_type) :: summary_table
-   contains
-      procedure, nopass :: key
-      procedure, nopass :: meaning
-      procedure :: name
-      procedure :: needs_surface
-      procedure :: is_for_flat_surfaces
-      procedure, nopass :: write => write_summary_table
-   end type summary_table
-
 contains
 
-   pure function key() result(words)
-      character(:), allocatable :: words
-
-      words = ''
-   end function key
-
-   function name(self) result(words)
-      class(summary_table), intent(in) :: self
-      character(:), allocatable :: words
-
-      associate (unused => self); end associate
-      words = 'summary'
-   end function name
-
-   pure function meaning() result(words)
-      character(:), allocatable :: words
-
-      words = 'A line for each load: mean gap, contact area, pressures.'
-   end function meaning
-
-   pure logical function needs_surface(self)
-      class(summary_table), intent(in) :: self
-
-      associate (unused => self); end associate
-      needs_surface = .false.
-   end function needs_surface
-
-   pure logical function is_for_flat_surfaces(self)
-      class(summary_table), intent(in) :: self
-
-      associate (unused => self); end associate
-      is_for_flat_surfaces = .true.
-   end function is_for_flat_surfaces
-
-   !> Errors: exit_file_trouble.
-   subroutine write_summary_table(results, error)
-      type(results_type), intent(in) :: results
-      type(error_type), allocatable, intent(out) :: error
-
-      type(output_file) :: file
-      integer :: i
-
-      call results%open_table('summary', summary_columns, file, in_blocks=.false.)
-      do i = 1, size(results%loads)
-         call put_summary_row(results, i, file)
-      end do
-      call file%finish(error)
-   end subroutine write_summary_table
+   type(table_type) function summary_table() result(table)
+      table%file = 'summary'
+      table%meaning = 'A line for each load: mean gap, contact area, pressures.'
+      call table%set_columns(summary_columns)
+      table%needs_surface = .false.
+      table%is_for_flat_surfaces = .true.
+      table%put_load => put_summary_row
+   end function summary_table
 
    !> Writes the row of a load.
    subroutine put_summary_row(results, load, file)
@@ -123,10 +71,8 @@ contains
          call file%add(solution%iterations)
          call file%add(solution%residual)
          call file%add(trim(solver_names(solution%solver)))
-         call file%add(status_code(solution%status))
-         call file%add(trim(status_name(solution%status)))
       end associate
-      call file%end_row()
+      call results%end_row(file, load)
    end subroutine put_summary_row
 
 end module wavycon_summary_table

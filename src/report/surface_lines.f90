@@ -7,13 +7,15 @@
 module wavycon_surface_lines
    use wavycon_constants, only: pi
    use wavycon_kinds, only: dp
+   use wavycon_output_file, only: output_file
    use wavycon_results, only: results_type
    implicit none (type, external)
    private
 
-   public :: surface_line, start_surface_line
+   public :: put_surface_line, start_surface_line, surface_line
 
    type :: surface_line
+      integer :: number = 0
       integer :: direction(2) = 0             !! of the line in X, Y
       real(dp), allocatable :: angle(:, :)    !! X, Y of each point, shape (2, n) [rad]
       real(dp), allocatable :: place(:, :)    !! x, y of each point, shape (2, n) [length]
@@ -30,6 +32,7 @@ contains
       real(dp) :: start(2), way(2)
       integer :: before, intervals, k
 
+      line%number = number
       intervals = results%scene%output%integer('line_points')
       line%direction = [merge(0, 1, number == 3), merge(0, 1, number == 1)]
       associate (surface => results%solver%surface)
@@ -50,6 +53,25 @@ contains
          end do
       end associate
    end subroutine start_surface_line
+
+   !> Writes a row for each point of a line: load, line, distance, x, y, mean pressure and values. A blank line is
+   !> between the lines of a load.
+   subroutine put_surface_line(line, results, load, values, file)
+      type(surface_line), intent(in) :: line
+      type(results_type), intent(in) :: results
+      integer, intent(in) :: load
+      real(dp), intent(in) :: values(:, 0:)      !! at the points, shape (columns, n)
+      type(output_file), intent(inout) :: file
+
+      real(dp) :: rows(size(values, 1) + 4, 0:ubound(values, 2))
+
+      rows(1, :) = line%distance
+      rows(2:3, :) = line%place
+      rows(4, :) = results%loads(load)%pbar_over_pstar
+      rows(5:, :) = values
+      if (line%number > 1) call file%put('')
+      call file%put_rows([load, line%number], rows)
+   end subroutine put_surface_line
 
    !> How many steps fit into a way to the border of a mirrored map.
    pure integer function steps_before(to_border, way)

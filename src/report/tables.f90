@@ -8,6 +8,7 @@ module wavycon_tables
    use wavycon_largest_stress_table, only: largest_stress_table
    use wavycon_lines_table, only: lines_table
    use wavycon_map_table, only: map_table
+   use wavycon_plain_text, only: listed
    use wavycon_spectrum_table, only: spectrum_table
    use wavycon_spot_sizes_table, only: spot_sizes_table
    use wavycon_spots_table, only: spots_table
@@ -21,69 +22,60 @@ module wavycon_tables
    implicit none (type, external)
    private
 
-   public :: all_tables, find_table, table_item
-
-   type :: table_item
-      class(table_type), allocatable :: table
-   end type table_item
+   public :: add_table, all_tables, find_table
 
 contains
 
    !> All tables, in the order in which they are written. A new table adds its line here.
    subroutine all_tables(tables)
-      type(table_item), allocatable, intent(out) :: tables(:)
+      type(table_type), allocatable, intent(out) :: tables(:)
 
       allocate (tables(0))
-      call add(tables, summary_table())
-      call add(tables, lines_table())
-      call add(tables, map_table())
-      call add(tables, contour_table())
-      call add(tables, spots_table())
-      call add(tables, spot_sizes_table())
-      call add(tables, histogram_table())
-      call add(tables, coefficients_table())
-      call add(tables, theory_table())
-      call add(tables, theory_lines_table())
-      call add(tables, details_table())
-      call add(tables, spectrum_table())
-      call add(tables, height_table())
-      call add(tables, largest_stress_table())
-      call add(tables, stress_line_table())
-      call add(tables, stress_section_table())
-      call add(tables, stress_planes_table())
+      call add_table(tables, summary_table())
+      call add_table(tables, lines_table())
+      call add_table(tables, map_table())
+      call add_table(tables, contour_table())
+      call add_table(tables, spots_table())
+      call add_table(tables, spot_sizes_table())
+      call add_table(tables, histogram_table())
+      call add_table(tables, coefficients_table())
+      call add_table(tables, theory_table())
+      call add_table(tables, theory_lines_table())
+      call add_table(tables, details_table())
+      call add_table(tables, spectrum_table())
+      call add_table(tables, height_table())
+      call add_table(tables, largest_stress_table())
+      call add_table(tables, stress_line_table())
+      call add_table(tables, stress_section_table())
+      call add_table(tables, stress_planes_table())
    end subroutine all_tables
 
    !> The table of a name; not allocated if there is none.
    subroutine find_table(name, table, names)
       character(*), intent(in) :: name
-      class(table_type), allocatable, intent(out) :: table
+      type(table_type), allocatable, intent(out) :: table
       character(:), allocatable, intent(out) :: names   !! of all tables, such as 'summary, lines and map'
 
-      type(table_item), allocatable :: tables(:)
+      type(table_type), allocatable :: tables(:)
       integer :: i
 
       call all_tables(tables)
-      names = ''
-      do i = 1, size(tables)
-         if (i > 1) names = names//trim(merge(' and', ',   ', i == size(tables)))//' '
-         names = names//tables(i)%table%name()
-         if (tables(i)%table%name() == name) allocate (table, source=tables(i)%table)
-      end do
+      names = listed(tables%name(), ' and ')
+      i = findloc(tables%name() == name, .true., dim=1)
+      if (i > 0) allocate (table, source=tables(i))
    end subroutine find_table
 
-   subroutine add(tables, table)
-      type(table_item), allocatable, intent(inout) :: tables(:)
-      class(table_type), intent(in) :: table
+   !> Adds a table to a list.
+   subroutine add_table(tables, table)
+      type(table_type), allocatable, intent(inout) :: tables(:)
+      type(table_type), intent(in) :: table
 
-      type(table_item), allocatable :: longer(:)
-      integer :: i
+      type(table_type), allocatable :: longer(:)
 
       allocate (longer(size(tables) + 1))
-      do i = 1, size(tables)
-         call move_alloc(tables(i)%table, longer(i)%table)
-      end do
-      allocate (longer(size(longer))%table, source=table)
+      longer(:size(tables)) = tables
+      longer(size(longer)) = table
       call move_alloc(longer, tables)
-   end subroutine add
+   end subroutine add_table
 
 end module wavycon_tables

@@ -6,7 +6,6 @@
 module wavycon_theory_lines_table
    use wavycon_constants, only: pi
    use wavycon_dundurs, only: dundurs_coefficients, dundurs_pressure_over_pstar
-   use wavycon_error, only: error_type
    use wavycon_hertz_point, only: hertz_point_pressure_over_pstar
    use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
@@ -14,8 +13,9 @@ module wavycon_theory_lines_table
                                   penny_crack_radius_over_wavelength
    use wavycon_results, only: not_a_number, results_type
    use wavycon_scene, only: scene_type
-   use wavycon_surface_lines, only: start_surface_line, surface_line
-   use wavycon_theory_table, only: theory_table
+   use wavycon_surface_lines, only: put_surface_line, start_surface_line, surface_line
+   use wavycon_table, only: table_type
+   use wavycon_theory_table, only: refuse_other_waves
    use wavycon_westergaard, only: westergaard_displacement_over_amplitude, westergaard_gap_over_amplitude, &
                                   westergaard_pressure_over_pstar
    implicit none (type, external)
@@ -31,97 +31,58 @@ module wavycon_theory_lines_table
    !> The closed forms of the wave in one dimension, and of that in two. Those of the other are NaN.
    integer, parameter :: closed_forms(2) = [4, 3]
 
-   type, extends(theory_table) :: theory_lines_table
-   contains
-      procedure, nopass :: key
-      procedure, nopass :: meaning
-      procedure :: name
-      procedure :: is_requested
-      procedure, nopass :: write => write_theory_lines_table
-   end type theory_lines_table
-
 contains
 
-   !> The table has no key of its own.
-   pure function key() result(words)
-      character(:), allocatable :: words
+   type(table_type) function theory_lines_table() result(table)
+      table%file = 'theory_lines'
+      table%meaning = 'Closed forms along lines.'
+      call table%set_columns(columns)
+      table%requested => asks_for_lines_and_theory
+      table%refuse => refuse_other_waves
+      table%put_load => put_theory_lines
+   end function theory_lines_table
 
-      words = ''
-   end function key
-
-   function name(self) result(words)
-      class(theory_lines_table), intent(in) :: self
-      character(:), allocatable :: words
-
-      associate (unused => self); end associate
-      words = 'theory_lines'
-   end function name
-
-   pure function meaning() result(words)
-      character(:), allocatable :: words
-
-      words = 'Closed forms along lines.'
-   end function meaning
-
-   logical function is_requested(self, scene)
-      class(theory_lines_table), intent(in) :: self
+   logical function asks_for_lines_and_theory(scene) result(asks)
       type(scene_type), intent(in) :: scene
 
-      associate (unused => self); end associate
-      is_requested = scene%output%logical('lines') .and. scene%output%logical('theory')
-   end function is_requested
+      asks = scene%output%logical('lines') .and. scene%output%logical('theory')
+   end function asks_for_lines_and_theory
 
-   !> Errors: exit_file_trouble.
-   subroutine write_theory_lines_table(results, error)
+   subroutine put_theory_lines(results, load, file)
       type(results_type), intent(in) :: results
-      type(error_type), allocatable, intent(out) :: error
-
-      type(output_file) :: file
-      integer :: load, line
-
-      call results%open_table('theory_lines', columns, file, in_blocks=.true.)
-      do load = 1, size(results%loads)
-         call results%begin_block(file, load)
-         do line = 1, results%solver%surface%dimension
-            if (line > 1) call file%put('')
-            call put_line(results, file, load, line)
-         end do
-      end do
-      call file%finish(error)
-   end subroutine write_theory_lines_table
-
-   !> Writes one line of one load.
-   subroutine put_line(results, file, load, number)
-      type(results_type), intent(in) :: results
+      integer, intent(in) :: load
       type(output_file), intent(inout) :: file
-      integer, intent(in) :: load, number
 
       type(surface_line) :: line
-      real(dp) :: dundurs(series_terms(results)), phi, theta, values(sum(closed_forms)), load_p
-      integer :: k
+      real(dp) :: dundurs(series_terms(results)), phi, theta
+      real(dp), allocatable :: values(:, :)
+      integer :: k, number
 
-      load_p = results%loads(load)%pbar_over_pstar
-      call start_surface_line(line, results, number)
-      if (results%solver%surface%dimension == 1) dundurs = dundurs_coefficients(load_p, size(dundurs))
-      values = not_a_number()
-      do k = 0, ubound(line%distance, 1)
-         call results%solver%surface%paper_angles(line%angle(1, k), line%angle(2, k), phi, theta)
-         if (results%solver%surface%dimension == 1) then
-            values(:closed_forms(1)) = [westergaard_pressure_over_pstar(phi/2, load_p), &
-                                        westergaard_displacement_over_amplitude(phi/2, load_p), &
-                                        westergaard_gap_over_amplitude(phi/2, load_p), &
-                                        dundurs_pressure_over_pstar(phi, load_p, dundurs)]
-         else
-            values(closed_forms(1) + 1:) = [hertz_point_pressure_over_pstar(nearest_crest(phi, theta), load_p), &
-                                            crack_pressure(nearest_crest(phi - pi, theta), load_p), &
-                                            crack_opening(nearest_crest(phi - pi, theta), load_p)]
-         end if
-         call file%add(load)
-         call file%add(number)
-         call file%add([line%distance(k), line%place(:, k), load_p, values])
-         call file%end_row()
-      end do
-   end subroutine put_line
+      call results%begin_block(file, load)
+      associate (surface => results%solver%surface, load_p => results%loads(load)%pbar_over_pstar)
+         if (surface%dimension == 1) dundurs = dundurs_coefficients(load_p, size(dundurs))
+         do number = 1, surface%dimension
+            call start_surface_line(line, results, number)
+            allocate (values(sum(closed_forms), 0:ubound(line%distance, 1)), source=not_a_number())
+            do k = 0, ubound(values, 2)
+               call surface%paper_angles(line%angle(1, k), line%angle(2, k), phi, theta)
+               if (surface%dimension == 1) then
+                  values(:closed_forms(1), k) = [westergaard_pressure_over_pstar(phi/2, load_p), &
+                                                 westergaard_displacement_over_amplitude(phi/2, load_p), &
+                                                 westergaard_gap_over_amplitude(phi/2, load_p), &
+                                                 dundurs_pressure_over_pstar(phi, load_p, dundurs)]
+               else
+                  values(closed_forms(1) + 1:, k) = &
+                     [hertz_point_pressure_over_pstar(nearest_crest(phi, theta), load_p), &
+                      crack_pressure(nearest_crest(phi - pi, theta), load_p), &
+                      crack_opening(nearest_crest(phi - pi, theta), load_p)]
+               end if
+            end do
+            call put_surface_line(line, results, load, values, file)
+            deallocate (values)
+         end do
+      end associate
+   end subroutine put_theory_lines
 
    !> Number of terms of the Dundurs-Tsai-Keer series: as many as the solver's series has, otherwise as in the paper.
    pure integer function series_terms(results)

@@ -5,7 +5,6 @@
 !> contact spot at light load and of the crack at heavy load.
 module wavycon_theory_table
    use wavycon_contact_solver, only: solver_traits
-   use wavycon_error, only: error_type
    use wavycon_hertz_line, only: hertz_line_contact_area_fraction
    use wavycon_hertz_point, only: hertz_point_contact_area_fraction, hertz_point_peak_pressure_over_pstar, &
                                   hertz_point_radius_over_wavelength
@@ -26,7 +25,7 @@ module wavycon_theory_table
    implicit none (type, external)
    private
 
-   public :: theory_table
+   public :: refuse_other_waves, theory_table
 
    character(45), parameter :: columns(*) = [character(45) :: &
       'load[-]', 'pbar_over_pstar[-]', &
@@ -42,72 +41,55 @@ module wavycon_theory_table
    !> NaN.
    integer, parameter :: closed_forms(2) = [5, 12]
 
-   type, extends(table_type) :: theory_table
-   contains
-      procedure, nopass :: key
-      procedure, nopass :: meaning
-      procedure :: refusal
-      procedure, nopass :: write => write_theory_table
-   end type theory_table
-
 contains
 
-   pure function key() result(words)
-      character(:), allocatable :: words
+   type(table_type) function theory_table() result(table)
+      table%file = 'theory'
+      table%key = 'theory'
+      table%meaning = 'The closed forms beside the numbers.'
+      call table%set_columns(columns)
+      table%refuse => refuse_other_waves
+      table%put_load => put_theory
+   end function theory_table
 
-      words = 'theory'
-   end function key
-
-   pure function meaning() result(words)
-      character(:), allocatable :: words
-
-      words = 'The closed forms beside the numbers.'
-   end function meaning
-
-   function refusal(self, traits, surface) result(words)
-      class(theory_table), intent(in) :: self
+   subroutine refuse_other_waves(traits, surface, words)
       type(solver_traits), intent(in) :: traits
       type(surface_type), intent(in) :: surface
-      character(:), allocatable :: words
+      character(:), allocatable, intent(out) :: words
 
-      associate (unused => self, unused_too => traits); end associate
+      associate (unused => traits); end associate
       words = ''
       if (.not. surface%is_paper_wave()) words = 'closed forms exist only for the waves of the paper: '//paper_waves()
-   end function refusal
+   end subroutine refuse_other_waves
 
-   !> Errors: exit_file_trouble.
-   subroutine write_theory_table(results, error)
+   subroutine put_theory(results, load, file)
       type(results_type), intent(in) :: results
-      type(error_type), allocatable, intent(out) :: error
+      integer, intent(in) :: load
+      type(output_file), intent(inout) :: file
 
-      type(output_file) :: file
-      integer :: i, load
+      real(dp) :: values(sum(closed_forms))
 
-      call results%open_table('theory', columns, file, in_blocks=.false.)
-      do load = 1, size(results%loads)
-         associate (p => results%loads(load)%pbar_over_pstar, &
-                    wavelength => results%solver%surface%paper_wavelength())
-            call file%add(load)
-            call file%add(p)
-            if (results%solver%surface%dimension == 1) then
-               call file%add([kuznetsov_mean_gap_over_amplitude(p), westergaard_contact_area_fraction(p), &
-                              westergaard_peak_pressure_over_pstar(p), hertz_line_contact_area_fraction(p), &
-                              line_crack_contact_area_fraction(p), (not_a_number(), i=1, closed_forms(2))])
-            else
-               call file%add([(not_a_number(), i=1, closed_forms(1)), hertz_point_contact_area_fraction(p), &
-                              penny_crack_contact_area_fraction(p), &
-                              light_load_mean_gap_one_square(p), light_load_mean_gap_lattice(p), &
-                              penny_crack_mean_gap_over_amplitude(p), light_load_contact_area_longer(p), &
-                              light_load_mean_gap_longer(p), near_closure_contact_area_fraction(p), &
-                              near_closure_mean_gap_over_amplitude(p), &
-                              hertz_point_peak_pressure_over_pstar(p), &
-                              wavelength*hertz_point_radius_over_wavelength(p), &
-                              wavelength*penny_crack_radius_over_wavelength(p)])
-            end if
-            call file%end_row()
-         end associate
-      end do
-      call file%finish(error)
-   end subroutine write_theory_table
+      values = not_a_number()
+      associate (p => results%loads(load)%pbar_over_pstar, wavelength => results%solver%surface%paper_wavelength())
+         if (results%solver%surface%dimension == 1) then
+            values(:closed_forms(1)) = &
+               [kuznetsov_mean_gap_over_amplitude(p), westergaard_contact_area_fraction(p), &
+                westergaard_peak_pressure_over_pstar(p), hertz_line_contact_area_fraction(p), &
+                line_crack_contact_area_fraction(p)]
+         else
+            values(closed_forms(1) + 1:) = &
+               [hertz_point_contact_area_fraction(p), penny_crack_contact_area_fraction(p), &
+                light_load_mean_gap_one_square(p), light_load_mean_gap_lattice(p), &
+                penny_crack_mean_gap_over_amplitude(p), light_load_contact_area_longer(p), &
+                light_load_mean_gap_longer(p), near_closure_contact_area_fraction(p), &
+                near_closure_mean_gap_over_amplitude(p), hertz_point_peak_pressure_over_pstar(p), &
+                wavelength*hertz_point_radius_over_wavelength(p), &
+                wavelength*penny_crack_radius_over_wavelength(p)]
+         end if
+         call file%add(load)
+         call file%add([p, values])
+      end associate
+      call file%end_row()
+   end subroutine put_theory
 
 end module wavycon_theory_table

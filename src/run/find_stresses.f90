@@ -6,7 +6,7 @@ module wavycon_find_stresses
    use wavycon_run_log, only: run_log
    use wavycon_share_solutions, only: share_stresses
    use wavycon_stress_fields, only: stress_fields
-   use wavycon_work_sharing, only: spread_loads
+   use wavycon_work_sharing, only: distributed_loads
    implicit none (type, external)
    private
 
@@ -22,10 +22,10 @@ contains
 
       class(stress_fields), allocatable :: fields
       integer :: body, load
-      logical :: are_spread
+      logical :: are_distributed
 
-      are_spread = results%sharing%kind == spread_loads
-      if (are_spread) call results%sharing%work_alone(.true.)
+      are_distributed = results%sharing%kind == distributed_loads
+      if (are_distributed) call results%sharing%work_alone(.true.)
       associate (setting => results%scene%stress_setting)
          allocate (results%von_mises(size(setting%body), size(results%loads)))
          allocate (results%shear(size(setting%body), size(results%loads)))
@@ -38,10 +38,11 @@ contains
                call find_largest_stresses(fields, setting%body(body), results%von_mises(body, load), &
                                           results%shear(body, load))
             end do
-            call log%show_stress_progress(load, size(results%loads))
+            call log%say_progress('stresses of '//integer_text(load)//' of '//integer_text(size(results%loads))// &
+                  ' loads')
          end do
       end associate
-      if (.not. are_spread) return
+      if (.not. are_distributed) return
       call results%sharing%work_alone(.false.)
       call share_stresses(results%sharing, results%von_mises)
       call share_stresses(results%sharing, results%shear)

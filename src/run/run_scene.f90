@@ -1,7 +1,7 @@
 !> Runs a scene from beginning to end: starts the solver, solves all loads, writes the tables.
 module wavycon_run_scene
    use, intrinsic :: iso_fortran_env, only: int64
-   use wavycon_checkpoint, only: checkpoint_file, checkpoint_name, read_checkpoint
+   use wavycon_checkpoint, only: checkpoint_file, checkpoint_name, read_checkpoints
    use wavycon_closing_notes, only: sum_up
    use wavycon_error, only: error_type, exit_file_trouble, exit_fine, exit_not_converged, fatal_error
    use wavycon_find_stresses, only: find_stresses
@@ -12,11 +12,12 @@ module wavycon_run_scene
    use wavycon_results, only: results_type
    use wavycon_run_log, only: run_log
    use wavycon_scene, only: by_pressure, by_yield, scene_type
-   use wavycon_solve_loads, only: solve_loads
+   use wavycon_solve_loads, only: order_loads, solve_loads
    use wavycon_surface, only: whole_surface
    use wavycon_system, only: has_memory_for, make_directories
-   use wavycon_tables, only: all_tables, table_item
-   use wavycon_work_sharing, only: choose_sharing, spread_grids
+   use wavycon_table, only: table_type
+   use wavycon_tables, only: add_table, all_tables
+   use wavycon_work_sharing, only: choose_sharing, distributed_grids
    implicit none (type, external)
    private
 
@@ -37,7 +38,7 @@ contains
 
       integer(int64) :: status_of_all(1)   ! those of ranks that did not work are 0
       type(run_log), target :: log
-      type(table_item), allocatable :: tables(:)
+      type(table_type), allocatable :: tables(:)
 
       status = exit_fine
       call log%start(quiet)
@@ -62,26 +63,25 @@ contains
    !> exit_file_trouble.
    subroutine check_sharing(results, tables, error)
       type(results_type), intent(in) :: results   !! started
-      type(table_item), intent(in) :: tables(:)
+      type(table_type), intent(in) :: tables(:)
       type(error_type), allocatable, intent(out) :: error
 
       integer(int64) :: points
       integer :: i
       logical :: by_first(size(tables))
 
-      if (results%sharing%kind /= spread_grids) return
-      by_first = [(.not. tables(i)%table%is_written_by_all(results), i=1, size(tables))]
+      if (results%sharing%kind /= distributed_grids) return
+      by_first = [(.not. tables(i)%is_written_by_all(results), i=1, size(tables))]
       points = 0
-      if (need_fields(tables, by_first) .or. asks_for_largest(results%scene)) &
+      if (any(tables%needs_fields .and. by_first) .or. asks_for_largest(results%scene)) &
          points = size(results%scene%target)*product(int(results%traits%given_grid, int64))
-      call check_memory(results, points, need_surface(tables, by_first), error)
-      call results%sharing%share_error(error)
+      call check_memory(results, points, any(tables%needs_surface .and. by_first), error)
    end subroutine check_sharing
 
    !> Solves the loads of a scene and writes its tables. Errors: as of run_scene.
    subroutine solve_and_write(results, tables, resume, log, status, error)
       type(results_type), intent(inout) :: results        !! started
-      type(table_item), intent(in) :: tables(:)           !! that are to be written
+      type(table_type), intent(in) :: tables(:)           !! that are to be written
       logical, intent(in) :: resume
       type(run_log), intent(inout), target :: log
       integer, intent(out) :: status
@@ -93,6 +93,7 @@ contains
       status = exit_fine
       allocate (results%loads(size(known)))
       known = .false.
+      call order_loads(results)
       if (resume) call take_checkpoint(results, known, log, error)
       if (allocated(error)) return
       if (results%sharing%is_first()) call prepare_directory(results%scene, error)
@@ -112,25 +113,26 @@ contains
       call sum_up(results, log, status)
    end subroutine solve_and_write
 
-   !> Finds the largest stresses and writes the tables. Where grids are spread over the ranks some tables are written by
-   !> all ranks; for the others the first rank takes the fields of all and works alone. Errors: exit_file_trouble.
+   !> Finds the largest stresses and writes the tables. Where grids are distributed over the ranks some tables are
+   !> written by all ranks; for the others the first rank takes the fields of all and works alone. Errors:
+   !> exit_file_trouble.
    subroutine write_results(results, tables, log, error)
       type(results_type), intent(inout) :: results   !! with a solution for each load
-      type(table_item), intent(in) :: tables(:)
+      type(table_type), intent(in) :: tables(:)
       type(run_log), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
 
       logical :: by_all(size(tables)), by_first
       integer :: i
 
-      by_first = results%sharing%kind == spread_grids
+      by_first = results%sharing%kind == distributed_grids
       by_all = .false.
-      if (by_first) by_all = [(tables(i)%table%is_written_by_all(results), i=1, size(tables))]
+      if (by_first) by_all = [(tables(i)%is_written_by_all(results), i=1, size(tables))]
       call write_tables(results, tables, by_all, error)
       if (allocated(error)) return
       if (by_first) then
-         call collect(results, need_fields(tables, .not. by_all) .or. asks_for_largest(results%scene), &
-                      need_surface(tables, .not. by_all), error)
+         call collect(results, any(tables%needs_fields .and. .not. by_all) .or. asks_for_largest(results%scene), &
+                      any(tables%needs_surface .and. .not. by_all), error)
          if (allocated(error)) return
          call results%sharing%work_alone(.true.)
       end if
@@ -158,7 +160,7 @@ contains
    subroutine start_results(scene, results, tables, with_fields)
       type(scene_type), allocatable, intent(inout) :: scene       !! not allocated afterwards: the results own it
       type(results_type), intent(out) :: results                  !! without loads
-      type(table_item), allocatable, intent(out) :: tables(:)     !! that are to be written
+      type(table_type), allocatable, intent(out) :: tables(:)     !! that are to be written
       logical, intent(in), optional :: with_fields   !! whether solutions keep their fields; absent: as the tables need
 
       logical :: keep
@@ -172,70 +174,36 @@ contains
          call start_solver(scene%surface, scene%method, keep, results%solver, description)
          results%method = scene%method%text('solver')//', '//description
          results%traits = results%solver%traits()
-         results%sharing = choose_sharing(results%traits, size(scene%target), need_fields(tables), &
+         results%sharing = choose_sharing(results%traits, size(scene%target), any(tables%needs_fields), &
                                           scene%loads_by == by_yield)
       end associate
       deallocate (results%scene%surface)
-      if (results%sharing%kind /= spread_grids) &
+      if (results%sharing%kind /= distributed_grids) &
          call whole_surface(results%solver%surface, first_only=.not. results%sharing%is_shared())
    end subroutine start_results
 
    !> The tables that a deck requests; for a flat surface, whose p* and Delta are zero, only those that allow it.
    subroutine requested_tables(scene, tables)
       type(scene_type), intent(in) :: scene
-      type(table_item), allocatable, intent(out) :: tables(:)
+      type(table_type), allocatable, intent(out) :: tables(:)
 
-      type(table_item), allocatable :: every(:)
-      logical, allocatable :: requested(:)
-      integer :: i, k
+      type(table_type), allocatable :: every(:)
+      integer :: i
 
       call all_tables(every)
-      allocate (requested(size(every)))
+      allocate (tables(0))
       do i = 1, size(every)
-         requested(i) = every(i)%table%is_requested(scene)
-         if (scene%p_star <= 0.0_dp) requested(i) = requested(i) .and. every(i)%table%is_for_flat_surfaces()
-      end do
-      allocate (tables(count(requested)))
-      k = 0
-      do i = 1, size(every)
-         if (.not. requested(i)) cycle
-         k = k + 1
-         call move_alloc(every(i)%table, tables(k)%table)
+         if (scene%p_star <= 0.0_dp .and. .not. every(i)%is_for_flat_surfaces) cycle
+         if (every(i)%is_requested(scene)) call add_table(tables, every(i))
       end do
    end subroutine requested_tables
-
-   !> Whether any of the tables is made from fields, edges or details.
-   pure logical function need_fields(tables, selected)
-      type(table_item), intent(in) :: tables(:)
-      logical, intent(in), optional :: selected(:)   !! the tables that count; absent: all
-
-      integer :: i
-
-      need_fields = .false.
-      do i = 1, size(tables)
-         if (present(selected)) then
-            if (.not. selected(i)) cycle
-         end if
-         need_fields = need_fields .or. tables(i)%table%needs_fields()
-      end do
-   end function need_fields
-
-   !> Whether any of the tables is made from the whole surface.
-   pure logical function need_surface(tables, selected)
-      type(table_item), intent(in) :: tables(:)
-      logical, intent(in) :: selected(:)   !! the tables that count
-
-      integer :: i
-
-      need_surface = any([(selected(i) .and. tables(i)%table%needs_surface(), i=1, size(tables))])
-   end function need_surface
 
    !> Whether the solutions keep their fields.
    logical function keep_fields(scene, tables)
       type(scene_type), intent(in) :: scene
-      type(table_item), intent(in) :: tables(:)
+      type(table_type), intent(in) :: tables(:)
 
-      keep_fields = need_fields(tables) .or. asks_for_largest(scene) .or. scene%loads_by == by_yield
+      keep_fields = any(tables%needs_fields) .or. asks_for_largest(scene) .or. scene%loads_by == by_yield
    end function keep_fields
 
    !> Reads the solutions in the checkpoint, if there is one. Errors: exit_bad_input, exit_file_trouble.
@@ -245,22 +213,22 @@ contains
       type(run_log), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
 
+      character(:), allocatable :: name
       integer(int64) :: ranks_that_know(size(known))
-      logical :: found
 
-      call read_checkpoint(results, known, found, error)
+      call read_checkpoints(results, known, name, error)
       call results%sharing%share_error(error)
       if (allocated(error)) return
       ranks_that_know = merge(1, 0, known)
       call results%sharing%add(ranks_that_know)
       ! Of a load that was interrupted some ranks may have their columns, others not.
-      if (results%sharing%kind == spread_grids) then
+      if (results%sharing%kind == distributed_grids) then
          ranks_that_know = ranks_that_know/results%sharing%ranks
          known = ranks_that_know > 0
       end if
-      if (results%sharing%any(found)) then
+      if (allocated(name)) then
          call log%say('resumed   '//integer_text(count(ranks_that_know > 0))//' of '//integer_text(size(known))// &
-                      ' loads are in '//escaped(checkpoint_name(results)))
+                      ' loads are in '//escaped(name))
       else
          call log%say('note: there is no '//escaped(checkpoint_name(results))// &
                       ' to resume from: all loads are solved')
@@ -292,7 +260,7 @@ contains
    !> Writes tables. Errors: exit_file_trouble.
    subroutine write_tables(results, tables, selected, error)
       type(results_type), intent(in) :: results
-      type(table_item), intent(in) :: tables(:)
+      type(table_type), intent(in) :: tables(:)
       logical, intent(in) :: selected(:)   !! of each table
       type(error_type), allocatable, intent(out) :: error
 
@@ -300,12 +268,12 @@ contains
 
       do i = 1, size(tables)
          if (.not. selected(i)) cycle
-         call tables(i)%table%write(results, error)
+         call tables(i)%write(results, error)
          if (allocated(error)) return
       end do
    end subroutine write_tables
 
-   !> Brings what is spread over the ranks to the first one: the fields load by load, the surface. Errors:
+   !> Brings what is distributed over the ranks to the first one: the fields load by load, the surface. Errors:
    !> exit_file_trouble if it has not the memory.
    subroutine collect(results, fields, surface, error)
       type(results_type), intent(inout) :: results
@@ -316,9 +284,8 @@ contains
       integer :: load
 
       points = 0
-      if (fields) points = sum([(results%loads(load)%spread_points(), load=1, size(results%loads))])
+      if (fields) points = sum([(results%loads(load)%distributed_points(), load=1, size(results%loads))])
       call check_memory(results, points, surface, error)
-      call results%sharing%share_error(error)
       if (allocated(error)) return
       if (fields) then
          do load = 1, size(results%loads)
@@ -328,7 +295,8 @@ contains
       if (surface) call whole_surface(results%solver%surface, first_only=.true.)
    end subroutine collect
 
-   !> Whether the first rank has the memory for what is spread over the ranks. Errors: exit_file_trouble.
+   !> Checks that the first rank has the memory for what is distributed over the ranks. Its error is that of all.
+   !> Errors: exit_file_trouble.
    subroutine check_memory(results, points, surface, error)
       type(results_type), intent(in) :: results
       integer(int64), intent(in) :: points   !! of the grids of all loads whose fields are needed
@@ -338,17 +306,17 @@ contains
       integer, parameter :: bytes_of_number = storage_size(1.0_dp)/8
       integer(int64) :: numbers
 
-      if (.not. results%sharing%is_first()) return
       numbers = points
       ! The series, and twice as much while it is gathered.
-      if (surface .and. results%solver%surface%is_spread()) &
+      if (surface .and. results%solver%surface%is_distributed()) &
          numbers = numbers + 3*product(int(results%solver%surface%points, int64)/results%solver%surface%parts())
-      if (has_memory_for(numbers)) return
-      call fatal_error(error, exit_file_trouble, 'the first rank has too little memory for the tables: the whole '// &
-                       'fields of all loads, and the surface, take '// &
-                       short_number(real(bytes_of_number*numbers, dp)/1e9_dp)//' GB. Leave out tables but the '// &
-                       "summary, a map with map_format = 'npy' and the points of the grid, and the heights, "// &
-                       'or solve fewer loads')
+      if (results%sharing%is_first()) then
+         if (.not. has_memory_for(numbers)) call fatal_error(error, exit_file_trouble, &
+            'the first rank has too little memory for the tables: the whole fields of all loads, and the surface, '// &
+            'take '//short_number(real(bytes_of_number*numbers, dp)/1e9_dp)//' GB. Leave out tables but the '// &
+            "summary, a map with map_format = 'npy' and the points of the grid, and the heights, or solve fewer loads")
+      end if
+      call results%sharing%share_error(error)
    end subroutine check_memory
 
 end module wavycon_run_scene

@@ -4,7 +4,6 @@
 !> and of -0 are not.
 module wavycon_share_solutions
    use, intrinsic :: iso_fortran_env, only: int64
-   use wavycon_kinds, only: dp
    use wavycon_largest_stress, only: largest_stress
    use wavycon_results, only: results_type
    use wavycon_solution_record, only: record_of_words, record_words, words_of_record
@@ -13,9 +12,6 @@ module wavycon_share_solutions
    private
 
    public :: share_solutions, share_stresses
-
-   !> Words of a stress: its value, its error and its place.
-   integer, parameter :: stress_words = 5
 
 contains
 
@@ -43,30 +39,16 @@ contains
       type(work_sharing), intent(in) :: sharing
       type(largest_stress), intent(inout) :: stresses(:, :)   !! shape (bodies, loads); of the own loads
 
-      integer :: body, k, load
-      integer(int64), allocatable :: words(:)
-      real(dp) :: numbers(stress_words)
+      integer :: load, n
+      integer(int64) :: words(size(stresses)*storage_size(stresses)/storage_size(0_int64))
 
-      allocate (words(stress_words*size(stresses)), source=0_int64)
-      k = 0
+      words = transfer(stresses, words)
+      n = size(words)/size(stresses, 2)
       do load = 1, size(stresses, 2)
-         do body = 1, size(stresses, 1)
-            associate (stress => stresses(body, load))
-               if (sharing%is_own_load(load)) &
-                  words(k + 1:k + stress_words) = transfer([stress%value, stress%error, stress%place], words)
-            end associate
-            k = k + stress_words
-         end do
+         if (.not. sharing%is_own_load(load)) words((load - 1)*n + 1:load*n) = 0
       end do
       call sharing%add(words)
-      k = 0
-      do load = 1, size(stresses, 2)
-         do body = 1, size(stresses, 1)
-            numbers = transfer(words(k + 1:k + stress_words), numbers)
-            stresses(body, load) = largest_stress(numbers(1), numbers(2), numbers(3:))
-            k = k + stress_words
-         end do
-      end do
+      stresses = reshape(transfer(words, stresses), shape(stresses))
    end subroutine share_stresses
 
 end module wavycon_share_solutions

@@ -4,48 +4,64 @@ module wavycon_solve_loads
    use wavycon_checkpoint, only: checkpoint_file
    use wavycon_gsl, only: gsl_sort_index
    use wavycon_kinds, only: dp
+   use wavycon_plain_text, only: integer_text
    use wavycon_results, only: results_type
    use wavycon_run_log, only: log_progress, run_log
    use wavycon_scene, only: by_mean_gap
    use wavycon_share_solutions, only: share_solutions
    use wavycon_solve_target, only: solve_target
-   use wavycon_work_sharing, only: spread_loads
+   use wavycon_work_sharing, only: distributed_loads
    implicit none (type, external)
    private
 
-   public :: solve_loads
+   public :: order_loads, solve_loads
 
-   !> Loads of a block where each starts from the last one and loads are spread. The first of a block starts as the
+   !> Loads of a block where each starts from the last one and loads are distributed. The first of a block starts as the
    !> first load of a sweep does. The length does not depend on who solves the block, and so the digits do not.
    integer, parameter :: block_length = 8
 
 contains
 
-   !> Solves and measures all loads that are not known, from the highest to the lowest so that each can start from the
-   !> last one. Where the loads are spread, solves the own ones and takes the measures of the others.
+   !> Orders the loads from the highest to the lowest, so that each can start from the last one, and deals them to the
+   !> ranks if these share them.
+   subroutine order_loads(results)
+      type(results_type), intent(inout) :: results   !! with the solver started
+
+      associate (target => results%scene%target)
+         results%order = descending(merge(-target, target, results%scene%loads_by == by_mean_gap))
+      end associate
+      call results%sharing%deal_loads(results%order, length_of_block(results))
+   end subroutine order_loads
+
+   pure integer function length_of_block(results) result(length)
+      type(results_type), intent(in) :: results
+
+      length = merge(block_length, 1, results%traits%continues_last_load)
+   end function length_of_block
+
+   !> Solves and measures all loads that are not known. Where the loads are distributed, solves the own ones and takes
+   !> the measures of the others.
    subroutine solve_loads(results, known, checkpoint, log)
-      type(results_type), intent(inout) :: results       !! with the solver started
+      type(results_type), intent(inout) :: results       !! after order_loads
       logical, intent(in) :: known(:)                    !! of each load: whether the results have its solution
       type(checkpoint_file), intent(inout) :: checkpoint !! the solutions computed here are added to it
       type(run_log), intent(inout), target :: log        !! shows the progress
 
-      integer :: i, length, load, order(size(results%loads))
-      logical :: are_spread
+      integer :: i, load
+      logical :: are_distributed
       type(log_progress), target :: progress
 
-      are_spread = results%sharing%kind == spread_loads
-      associate (target => results%scene%target, loads_by => results%scene%loads_by, solver => results%solver)
-         order = descending(merge(-target, target, loads_by == by_mean_gap))
-         length = merge(block_length, 1, results%traits%continues_last_load)
-         call results%sharing%deal_loads(order, length)
-         if (are_spread) call results%sharing%work_alone(.true.)
+      are_distributed = results%sharing%kind == distributed_loads
+      associate (target => results%scene%target, loads_by => results%scene%loads_by, solver => results%solver, &
+                 order => results%order)
+         if (are_distributed) call results%sharing%work_alone(.true.)
          progress%log => log
          progress%loads = size(order)
          solver%progress => progress
          do i = 1, size(order)
             load = order(i)
             if (.not. results%sharing%is_own_load(load)) cycle
-            if (are_spread .and. mod(i - 1, length) == 0) call solver%forget_last_load()
+            if (are_distributed .and. mod(i - 1, length_of_block(results)) == 0) call solver%forget_last_load()
             progress%load = i
             if (known(load)) then
                call solver%skip_load(target(load))
@@ -54,11 +70,11 @@ contains
                                  results%scene%stress_setting)
                call checkpoint%add(load, results%loads(load))
             end if
-            call log%show_progress(i, size(order))
+            call log%say_progress('solved '//integer_text(i)//' of '//integer_text(size(order)))
          end do
          solver%progress => null()
       end associate
-      if (.not. are_spread) return
+      if (.not. are_distributed) return
       call results%sharing%work_alone(.false.)
       call share_solutions(results)
    end subroutine solve_loads

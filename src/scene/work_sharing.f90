@@ -4,7 +4,8 @@ module wavycon_work_sharing
    use wavycon_contact_solver, only: solver_traits
    use wavycon_grid_slab, only: grid_slab
    use wavycon_plain_text, only: integer_text
-   use wavycon_ranks, only: add_integers_over_ranks, any_rank, rank_count, ranks_on_this_machine, share_error, this_rank, &
+   use wavycon_ranks, only: add_integers_over_ranks, any_rank, rank_count, ranks_on_this_machine, share_error, &
+         this_rank, &
       work_alone
    use wavycon_system, only: available_memory
    implicit none (type, external)
@@ -12,21 +13,22 @@ module wavycon_work_sharing
 
    public :: work_sharing, choose_sharing
 
-   !> All ranks work on each load: those of grids that are spread have their columns, all else is computed by each.
-   integer, parameter, public :: spread_grids = 1
+   !> All ranks work on each load: those of grids that are distributed have their columns, all else is computed by each.
+   integer, parameter, public :: distributed_grids = 1
    !> Each rank solves loads of its own.
-   integer, parameter, public :: spread_loads = 2
+   integer, parameter, public :: distributed_loads = 2
    !> The first rank works, the others wait.
    integer, parameter, public :: first_rank_only = 3
 
-   !> Given grids of so many points are spread even where loads could be: a grid on each rank takes too much memory.
+   !> Given grids of so many points are distributed even where loads could be: a grid on each rank takes too much
+   !> memory.
    integer(int64), parameter :: large_grid = 2_int64**22
 
    type :: work_sharing
       integer :: kind = first_rank_only   !! one of the names above
       integer :: ranks = 1                !! their number
       integer :: rank = 0                 !! the number of this one, from 0
-      integer, allocatable, private :: rank_of_load(:)   !! the rank that solves each load, if these are spread
+      integer, allocatable, private :: rank_of_load(:)   !! the rank that solves each load, if these are distributed
    contains
       procedure :: is_shared
       procedure :: is_first
@@ -53,19 +55,19 @@ contains
       logical, intent(in) :: need_fields            !! whether tables need fields, edges or details of all loads
       logical, intent(in) :: need_stresses          !! whether a load is found by its stresses
 
-      logical :: can_spread_loads, is_large
+      logical :: can_distribute_loads, is_large
       type(grid_slab) :: slab
 
       sharing%ranks = rank_count()
       sharing%rank = this_rank()
       if (sharing%ranks == 1) return
       call slab%start(max(traits%finest_grid, 1))
-      can_spread_loads = loads >= sharing%ranks .and. .not. need_fields
+      can_distribute_loads = loads >= sharing%ranks .and. .not. need_fields
       is_large = product(int(traits%given_grid, int64)) >= large_grid
-      if (slab%is_spread .and. .not. need_stresses .and. (is_large .or. .not. can_spread_loads)) then
-         sharing%kind = spread_grids
-      else if (can_spread_loads) then
-         sharing%kind = spread_loads
+      if (slab%is_distributed .and. .not. need_stresses .and. (is_large .or. .not. can_distribute_loads)) then
+         sharing%kind = distributed_grids
+      else if (can_distribute_loads) then
+         sharing%kind = distributed_loads
       end if
    end function choose_sharing
 
@@ -91,8 +93,8 @@ contains
       if (self%is_shared() .and. bytes >= 0) bytes = bytes/ranks_on_this_machine()
    end function memory_of_each
 
-   !> Deals the loads to the ranks in blocks, if they are spread: the digits do not depend on the number of ranks where
-   !> each block is solved by itself.
+   !> Deals the loads to the ranks in blocks, if they are distributed: the digits do not depend on the number of ranks
+   !> where each block is solved by itself.
    subroutine deal_loads(self, order, block)
       class(work_sharing), intent(inout) :: self
       integer, intent(in) :: order(:)   !! the loads in the order in which they are solved
@@ -100,7 +102,7 @@ contains
 
       integer :: i
 
-      if (self%kind /= spread_loads) return
+      if (self%kind /= distributed_loads) return
       allocate (self%rank_of_load(size(order)))
       self%rank_of_load(order) = [(mod((i - 1)/block, self%ranks), i=1, size(order))]
    end subroutine deal_loads
@@ -122,10 +124,10 @@ contains
       words = ''
       if (self%ranks == 1) return
       select case (self%kind)
-      case (spread_grids)
-         words = ', the columns of large grids are spread over them'
-      case (spread_loads)
-         words = ', the loads are spread over them'
+      case (distributed_grids)
+         words = ', the columns of large grids are distributed over them'
+      case (distributed_loads)
+         words = ', the loads are distributed over them'
       case default
          words = ', the first one works alone: there is nothing to share'
       end select

@@ -11,7 +11,7 @@ module wavycon_crossed_1d
 contains
 
    !> Two blocks with a one-dimensional wave each, crossed at right angles: h = a_1 (1 - cos 2 pi x/lambda_1) + a_2 (1
-   !> - cos 2 pi y/lambda_2). With equal amplitudes a and equal wavelengths it is eq. (21) turned by 45 degrees, with
+   !> - cos 2 pi y/lambda_2). With equal amplitudes a and equal wavelengths it is eq. (21) rotated by 45 degrees, with
    !> Delta = 2a and sqrt2 times the wavelength.
    type(surface_type) function crossed_1d(amplitude1, wavelength1, amplitude2, wavelength2) result(surface)
       real(dp), intent(in) :: amplitude1, wavelength1   !! along x [length], >= 0, > 0

@@ -7,9 +7,9 @@ module wavycon_paper_wave
 
    public :: paper_wave_of
 
-   !> Whether a shape is one, and in which angles. Straight: eq. (3) or
-   !> (21) with phi = X, theta = Y. Turned: eq. (21) with phi = (X + Y)/2, theta = (X - Y)/2.
-   integer, parameter, public :: no_paper_wave = 0, straight_paper_wave = 1, turned_paper_wave = 2
+   !> Whether a shape is a wave of the paper, and in which angles. Straight: eq. (3) or (21) with phi = X, theta = Y.
+   !> Turned: eq. (21) with phi = (X + Y)/2, theta = (X - Y)/2.
+   integer, parameter, public :: no_paper_wave = 0, straight_paper_wave = 1, rotated_paper_wave = 2
 
    !> Coefficients of a shape that differ by less than this are equal.
    real(dp), parameter, public :: rounding = 1e-13_dp
@@ -27,7 +27,7 @@ contains
          if (is_wave(1, 0)) paper_wave = straight_paper_wave
       else if (is_square) then
          if (is_wave(1, 1)) paper_wave = straight_paper_wave
-         if (is_wave(1, 0)) paper_wave = turned_paper_wave
+         if (is_wave(1, 0)) paper_wave = rotated_paper_wave
       end if
 
    contains

@@ -16,7 +16,7 @@ module wavycon_self_affine
 
 contains
 
-   !> Makes the surface. Errors: exit_file_trouble if there is not enough memory, exit_bad_input for heights out of range.
+   !> Makes the surface. Errors: exit_file_trouble without enough memory, exit_bad_input for heights out of range.
    subroutine self_affine_surface(source, spectrum, points, surface, map, error)
       character(*), intent(in) :: source                   !! of the spectrum, for messages
       type(self_affine_spectrum), intent(in) :: spectrum   !! has_waves

@@ -46,7 +46,7 @@ contains
       type(self_affine_spectrum), intent(in) :: spectrum
       integer :: highest(2)
 
-      !> Grids are far below this; it keeps the number an integer.
+      !> Grids have far fewer points; the limit keeps the number an integer.
       real(dp), parameter :: most = 1e8_dp
 
       highest = int(min(most, spectrum%length/spectrum%shortest*(1 + rounding)))
@@ -69,7 +69,7 @@ contains
       has_waves = .false.
    end function has_waves
 
-   !> One over the length of a wave (G2) [1/length].
+   !> The frequency of a wave (G2) [1/length].
    elemental real(dp) function frequency(spectrum, m, n)
       type(self_affine_spectrum), intent(in) :: spectrum
       integer, intent(in) :: m, n   !! wave numbers
@@ -94,7 +94,7 @@ contains
    end function mean_square
 
    !> Makes the heights at the own columns of a grid of the cell (G1), from the waves of own wave numbers along x. They
-   !> do not depend on how the grid is spread.
+   !> do not depend on how the grid is distributed.
    !>
    !> N.B. The random numbers are drawn in the order of (G5), for waves beyond the cut-offs too: the phase of a wave
    !> depends on the seed and its wave numbers only, and the surface does not depend on the grid.
@@ -103,7 +103,7 @@ contains
       !> [length], shape (M, N), N = 1 in 1-D, or (M, columns of the grid's slab).
       real(dp), intent(inout), contiguous :: height(:, :)
       logical, intent(out) :: is_made                      !! .false. if there is no memory for a generator
-      !> M, N, not below least_points_of, of a grid that may be spread; the shape of height if absent.
+      !> M, N, not below least_points_of, of a grid that may be distributed; the shape of height if absent.
       integer, intent(in), optional :: points(2)
 
       type(c_ptr) :: generator
@@ -129,7 +129,7 @@ contains
       call transform%new_series(waves)
       first = lbound(waves%c, 1)
       last = ubound(waves%c, 1)
-      ! Each wave number is summed by itself: rounding then grows with the square root of the number of waves.
+      ! Each wave number has its own sum, so that rounding grows with the square root of the number of waves.
       allocate (moments(1, first:last), source=0.0_dp)
       do k = 1, maxval(highest)
          if (spectrum%dimension == 1) then

@@ -7,15 +7,15 @@ module wavycon_surface
    use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
    use wavycon_own_waves, only: gather_series
-   use wavycon_paper_wave, only: no_paper_wave, paper_wave_of, rounding, straight_paper_wave, turned_paper_wave
+   use wavycon_paper_wave, only: no_paper_wave, paper_wave_of, rounding, straight_paper_wave, rotated_paper_wave
    use wavycon_roughness, only: roughness_of, roughness_type
    use wavycon_series_peak, only: find_peak
-   use wavycon_turned_series, only: to_sum_angles
+   use wavycon_rotated_series, only: to_sum_angles
    implicit none (type, external)
    private
 
    public :: surface_type, surface_of_series, surface_of_points, whole_surface
-   public :: no_paper_wave, straight_paper_wave, turned_paper_wave
+   public :: no_paper_wave, straight_paper_wave, rotated_paper_wave
 
    !> h/Delta = 1 - shape(X, Y),  X = 2 pi x/L_x,  Y = 2 pi y/L_y. The shape has mean 0 and peak 1: the surfaces first
    !> touch at its peaks. Delta is the mean gap before load, which is the amplitude of the paper's waves.
@@ -23,7 +23,7 @@ module wavycon_surface
       integer :: dimension = 2
       real(dp) :: length(2) = 1.0_dp            !! L_x, L_y, sides of the periodic cell [length]
       real(dp) :: amplitude = 1.0_dp            !! Delta [length], >= 0
-      !> Of a height map whose points are spread the own waves, see is_spread.
+      !> If the points of a height map are distributed it has the own waves, see is_distributed.
       type(fourier_series) :: shape
       integer :: points(2) = 0                  !! of the grid of a height map on the cell; zeros for a sum of waves
       !> Whether the cell consists of a height map and its mirror images. The map is then the quarter 0 <= X, Y <= pi.
@@ -38,7 +38,7 @@ module wavycon_surface
       procedure :: sides
       procedure :: nominal_area
       procedure :: is_height_map
-      procedure :: is_spread
+      procedure :: is_distributed
       procedure :: has_hardness
       procedure :: full_contact_pressure
       procedure :: undeformed_gap_over_amplitude
@@ -83,8 +83,8 @@ contains
    end function surface_of_series
 
    !> The surface through given heights on a grid. Between the points it is their Fourier series. Crest, full-contact
-   !> pressure and curvature are the extremes over the points. If the grid is spread the surface is, and its
-   !> numbers are those of the whole grid.
+   !> pressure and curvature are the extremes over the points. If the grid is distributed so is the surface; its numbers
+   !> are those of the whole grid.
    !>
    !> The grid is that of the whole cell, with the first point at X = Y = 0, or that of a quarter, which mirror images
    !> continue: equation (M6) of src/map/README.md.
@@ -93,7 +93,7 @@ contains
       !> [length], shape (M, N), N = 1 for a profile, or (M, columns of the grid's slab).
       real(dp), intent(in), contiguous :: height(:, :)
       logical, intent(in), optional :: mirrored        !! whether mirror images continue it; .false. if absent
-      integer, intent(in), optional :: points(2)       !! M, N of a grid that may be spread; the shape of height if absent
+      integer, intent(in), optional :: points(2)       !! M, N if the grid may be distributed; shape of height if absent
 
       type(grid_transform) :: transform
       real(dp), allocatable :: values(:, :)
@@ -129,8 +129,8 @@ contains
       surface%crest_curvature = extremes(1)
    end function surface_of_points
 
-   !> Makes a surface that is spread whole, where the tables are written or everywhere; elsewhere it stays spread. The
-   !> shape has 8 bytes a point, and takes twice as much for a moment.
+   !> Gathers a distributed surface, on the rank that writes the tables or on all; on other ranks it stays distributed.
+   !> The shape has 8 bytes a point, and takes twice as much for a moment.
    subroutine whole_surface(surface, first_only)
       type(surface_type), intent(inout) :: surface
       logical, intent(in) :: first_only
@@ -138,8 +138,8 @@ contains
       call gather_series(surface%shape, first_only)
    end subroutine whole_surface
 
-   !> How often the part of the cell that decks and tables refer to lies in it along x and y: the map of a mirrored map
-   !> twice, any other whole cell once.
+   !> How often the cell contains, along x and y, the part that decks and tables refer to: 2 for a mirrored map,
+   !> otherwise 1.
    pure function parts(self)
       class(surface_type), intent(in) :: self
       integer :: parts(2)
@@ -173,13 +173,14 @@ contains
       is_height_map = all(self%points > 0)
    end function is_height_map
 
-   !> Whether the shape has the coefficients of own wave numbers in X only, see wavycon_own_waves. It cannot be evaluated
-   !> then but by wavycon_undeformed_gap; `whole_surface` makes it whole. All other components are those of the whole.
-   pure logical function is_spread(self)
+   !> Whether the shape has the coefficients of own wave numbers in X only, see wavycon_own_waves. Then only
+   !> wavycon_undeformed_gap can evaluate it; `whole_surface` gathers it. All other components are those of the whole
+   !> surface.
+   pure logical function is_distributed(self)
       class(surface_type), intent(in) :: self
 
-      is_spread = self%shape%is_spread()
-   end function is_spread
+      is_distributed = self%shape%is_distributed()
+   end function is_distributed
 
    !> Whether the pressure has an upper bound.
    elemental logical function has_hardness(self)
@@ -202,7 +203,7 @@ contains
       class(surface_type), intent(in) :: self
       real(dp), intent(in) :: x, y   !! X, Y [rad]
 
-      call assert(.not. self%is_spread(), 'the surface is whole')
+      call assert(.not. self%is_distributed(), 'the surface is whole')
       gap = 1.0_dp - self%shape%at(x, y)
    end function undeformed_gap_over_amplitude
 
@@ -311,13 +312,13 @@ contains
       series%ss = series%ss/unit
    end subroutine divide
 
-   !> Whether the surface is a wave of the paper: no_paper_wave, straight_paper_wave or turned_paper_wave. A surface that
-   !> is spread is taken for none.
+   !> Whether the surface is a wave of the paper: no_paper_wave, straight_paper_wave or rotated_paper_wave. A
+   !> distributed surface counts as none.
    pure integer function paper_wave(self)
       class(surface_type), intent(in) :: self
 
       paper_wave = no_paper_wave
-      if (.not. self%is_spread()) paper_wave = paper_wave_of(self%shape, self%dimension, is_square(self))
+      if (.not. self%is_distributed()) paper_wave = paper_wave_of(self%shape, self%dimension, is_square(self))
    end function paper_wave
 
    !> Whether the surface is a wave of the paper. A flat surface that is not a height map counts as one of amplitude 0
@@ -335,7 +336,7 @@ contains
       class(surface_type), intent(in) :: self   !! a wave of the paper
 
       paper_wavelength = self%length(1)
-      if (self%paper_wave() == turned_paper_wave) paper_wavelength = sqrt2*self%length(1)
+      if (self%paper_wave() == rotated_paper_wave) paper_wavelength = sqrt2*self%length(1)
    end function paper_wavelength
 
    !> The angles phi and theta of eq. (3) or (21) at a point.
@@ -346,13 +347,13 @@ contains
 
       phi = x
       theta = y
-      if (self%paper_wave() == turned_paper_wave) then
+      if (self%paper_wave() == rotated_paper_wave) then
          phi = 0.5_dp*(x + y)
          theta = 0.5_dp*(x - y)
       end if
    end subroutine paper_angles
 
-   !> Whether the surface is periodic on a square of half the area, turned by 45 degrees, and there even and symmetric
+   !> Whether the surface is periodic on a square of half the area, rotated by 45 degrees, and there even and symmetric
    !> under exchange of the directions. A height map is taken as it is.
    pure logical function has_smaller_cell(self)
       class(surface_type), intent(in) :: self

@@ -1,4 +1,4 @@
-!> The user's units: what the pressures, lengths and angles of the core are multiplied with.
+!> The factors that convert the core's pressures, lengths and angles to the user's units.
 module wavycon_unit_scale
    use wavycon_constants, only: pi
    use wavycon_kinds, only: dp
@@ -11,9 +11,9 @@ module wavycon_unit_scale
    !> Pressures of the core are in p_star, gaps and displacements in amplitude, places in angles of the cell.
    type :: unit_scale
       real(dp) :: e_star = 1.0_dp              !! plane-strain modulus E* [pressure]
-      real(dp) :: p_star = 0.0_dp              !! p*, mean pressure that just closes the gap [pressure]; 0: a flat surface
+      real(dp) :: p_star = 0.0_dp              !! p*, mean pressure that just closes the gap [pressure]; 0: flat
       real(dp) :: amplitude = 0.0_dp           !! Delta, mean gap before load [length]
-      real(dp) :: sides(2) = 1.0_dp            !! of the surface along x and y [length]; of a mirrored map those of the map
+      real(dp) :: sides(2) = 1.0_dp            !! of the surface, or of a mirrored map, along x and y [length]
       real(dp) :: nominal_area = 1.0_dp        !! of the sides [length^2]; of a profile [length]
       real(dp) :: period(2) = 1.0_dp           !! L_x, L_y after which the surface repeats itself [length]
    contains

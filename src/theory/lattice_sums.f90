@@ -36,7 +36,7 @@ contains
    end function inverse_cube_sum
 
    !> Sum of 1/r less its mean over a lattice of rectangles of unit area, -3.9003 for squares; the origin is left out.
-   !> Their reciprocal lattice is the same turned by 90 degrees, so that the two sums of Ewald's are equal here too.
+   !> The reciprocal lattice is the same one rotated by 90 degrees, so that Ewald's two sums are equal here too.
    pure real(dp) function rectangular_distance_sum(ratio) result(total)
       real(dp), intent(in) :: ratio   !! of the sides, > 0
 

@@ -6,10 +6,10 @@
 !> P = 0.24 by (29), above P = 0.34 with the lattice's coefficient.
 !> p* = sqrt(2) pi E* Delta/lambda, gaps are in Delta.
 !>
-!> Derivation of the longer ones, with lengths in s = lambda/sqrt(2), a crest at r = 0 and its load P: about the
-!> crest h/Delta = pi^2 r^2 - (pi^4/4) r^4 + terms in cos(4 theta). The other crests displace it by
-!> P (S_1 + (S_3/4) r^2 + ...), S_1 and S_3 the lattice's sums of 1/|n| and 1/|n|^3. A rigid axisymmetric punch of
-!> that shape, with that curvature added, gives load and approach as polynomials in the radius.
+!> Derivation of the longer asymptotes, with lengths in s = lambda/sqrt(2), a crest at r = 0 and its load P: about the
+!> crest h/Delta = pi^2 r^2 - (pi^4/4) r^4 + terms in cos(4 theta). The other crests displace it by P (S_1 + (S_3/4) r^2
+!> + ...), S_1 and S_3 the lattice's sums of 1/|n| and 1/|n|^3. A rigid axisymmetric punch of that shape, with that
+!> curvature added, gives load and approach as polynomials in the radius.
 module wavycon_light_load
    use wavycon_constants, only: pi, sqrt2
    use wavycon_hertz_point, only: hertz_point_contact_area_fraction

@@ -1,4 +1,4 @@
-!> The two-dimensional wave near full contact: each open island is a separate pressurised penny-shaped crack.
+!> The two-dimensional wave near full contact: each closed pool is a separate pressurised penny-shaped crack.
 !>
 !> The limit pbar -> p*: equations (24), (30) and Appendix 2 of Johnson, Greenwood & Higginson (1985), after
 !> Sneddon. Pressures are in p* = sqrt(2) pi E* Delta/lambda, openings and gaps in Delta, lengths in lambda.
@@ -112,7 +112,7 @@ contains
       y = rho*penny_crack_opening_over_amplitude(rho, parameters(1), parameters(2))
    end function opening_about_centre
 
-   !> Radius of an open island, (A7): b/lambda = (3 (1 - pbar/p*))^(1/2)/(2 pi); 0 from pbar = p* on.
+   !> Radius of an closed pool, (A7): b/lambda = (3 (1 - pbar/p*))^(1/2)/(2 pi); 0 from pbar = p* on.
    !>
    !> With this radius the faces close smoothly, dg/dr = 0 at r = b.
    elemental real(dp) function penny_crack_radius_over_wavelength(pbar_over_pstar) result(b)

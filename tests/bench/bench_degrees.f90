@@ -1,5 +1,5 @@
-!> Measures how the errors of the boundary-fitted expansions fall with the degree of their polynomials, and what a degree
-!> costs.
+!> Measures how the errors of the boundary-fitted expansions fall with the degree of their polynomials, and what a
+!> degree costs.
 !>
 !> N.B. The degree of a solution is not an input. The accuracy is tightened by steps, and each degree is listed once, at
 !> the tightest accuracy that it meets.
@@ -20,7 +20,8 @@ program bench_degrees
    type(wave_lattice) :: lattice
    integer :: i
 
-   write (output_unit, '(a)') '# Errors of expansions against the degree of their polynomials, relative, against the '// &
+   write (output_unit, '(a)') '# Errors of expansions against the degree of their polynomials, relative, '// &
+         'against the '// &
       'highest degree; the time of a load', &
       '# from nothing, all lower degrees included.', &
       '# surface         P degree terms shape_terms steps  time[ms]  gap_error area_error peak_error  largest_estimate'

@@ -22,7 +22,8 @@ program bench_expansions
    type(wave_lattice) :: lattice
    integer :: i, k, s
 
-   write (output_unit, '(a)') '# Expansions: a load to an accuracy of mean gap, area and peak pressure, relative. Errors are '// &
+   write (output_unit, '(a)') '# Expansions: a load to an accuracy of mean gap, area and peak pressure, '// &
+         'relative. Errors are '// &
       'against an accuracy of', '# 1e-12, estimates the program''s own.', &
       '# surface   accuracy      P degree steps  time[ms]     least  gap_error  estimate area_error  estimate '// &
       'peak_error  estimate'

@@ -4,7 +4,7 @@ program bench_grids
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use samples, only: clock_ms, sample_set
    use wavycon_fitted_solver, only: fitted_answer, solve_fitted, square_lattice
-   use wavycon_grid_cascade, only: cascade_answer, solve_by_cascade
+   use wavycon_grid_sequence, only: sequence_answer, solve_by_sequence
    use wavycon_kinds, only: dp
    use wavycon_kuznetsov, only: kuznetsov_mean_gap_over_amplitude
    use wavycon_surface, only: surface_type
@@ -26,7 +26,8 @@ program bench_grids
    whole = wave_2d(1.0_dp, 1.0_dp, 1.0_dp)
    wave = whole%smaller_cell()
    all_accurate = .true.
-   write (output_unit, '(a)') '# Grids: a load of the 2-D wave to an accuracy of mean gap, area and peak pressure. Pairs of', &
+   write (output_unit, '(a)') '# Grids: a load of the 2-D wave to an accuracy of mean gap, '// &
+         'area and peak pressure. Pairs of', &
       '# transforms are counted in units of one on the finest grid. Errors are true, estimates the program''s own.', &
       '# accuracy      P points grids iterations  pairs  time[ms]     least  gap_error  estimate area_error  estimate '// &
       'peak_error  estimate'
@@ -47,14 +48,14 @@ contains
    subroutine measure(load, reference, accuracy)
       real(dp), intent(in) :: load, reference(3), accuracy
 
-      type(cascade_answer) :: answer
+      type(sequence_answer) :: answer
       type(sample_set) :: times
       real(dp) :: start, errors(2, 3)
       integer :: run
 
       do run = 1, repeats
          start = clock_ms()
-         call solve_by_cascade(wave, load, accuracy, [0, 0], answer)
+         call solve_by_sequence(wave, load, accuracy, [0, 0], answer)
          call times%add(clock_ms() - start)
       end do
       errors(1, :) = answer%values - reference
@@ -72,7 +73,7 @@ contains
 
       integer, parameter :: many = 9, grids = 5
       integer, parameter :: first_points(2) = [64, 16]
-      type(cascade_answer) :: answer
+      type(sequence_answer) :: answer
       type(surface_type) :: surface
       real(dp) :: errors(3, grids), load, slopes(3), steps(grids), truth(3, many)
       integer :: i, k, points
@@ -83,13 +84,14 @@ contains
       surface = wave
       if (dimension == 1) surface = wave_1d(1.0_dp, 1.0_dp)
       errors = 0.0_dp
-      write (output_unit, '(/, /, a, i0, a, /, a)') '# Grids: errors of the ', dimension, '-D wave, root mean squares over '// &
+      write (output_unit, '(/, /, a, i0, a, /, a)') '# Grids: errors of the ', dimension, '-D wave, '// &
+            'root mean squares over '// &
          'nine loads P = 0.1 .. 0.9, and their orders', '# points a side   mean_gap       area       peak'
       do k = 1, grids
          points = 2*first_points(dimension)*2**(k - 1)
          do i = 1, many
             load = 0.1_dp*i
-            call solve_by_cascade(surface, load, 0.0_dp, [points, merge(1, points, dimension == 1)], answer)
+            call solve_by_sequence(surface, load, 0.0_dp, [points, merge(1, points, dimension == 1)], answer)
             errors(:, k) = errors(:, k) + (answer%values - truth(:, i))**2/many
          end do
          errors(:, k) = sqrt(errors(:, k))

@@ -31,12 +31,6 @@ program bench_paper_method
    integer, parameter :: least_rounds = 3
    !> Solves of a method in a row: the first of them starts with a cold cache.
    integer, parameter :: solves_in_turn = 4
-   !> A load's aim: one solve of 29 unknowns, 196 constraints [ms].
-   real(dp), parameter :: solve_aim = 0.1_dp
-   !> The sweep's aim [ms].
-   real(dp), parameter :: sweep_aim = 0.45_dp
-   !> A load's aim: one of 960 unknowns, 3721 constraints [ms].
-   real(dp), parameter :: large_aim = 1000.0_dp
    !> Ratio of the times with 49 unknowns and 378 constraints and with 29 and 196, as the paper gives it.
    integer, parameter :: ratio_of_paper = 20
 
@@ -49,7 +43,6 @@ program bench_paper_method
    call compare_methods()
    call compare_sweep()
    call time_large_series()
-   call show_convergence()
    if (.not. all_good) call give_up('some loads were not solved')
 
 contains
@@ -84,7 +77,6 @@ contains
       call write_head('Means over the loads [ms]: name, of the median times, of the least times')
       associate (median => sum(medians, 1)/size(loads), least => sum(leasts, 1)/size(loads))
          call write_values('29/196', [median(1), least(1)])
-         call write_aim(median(1), solve_aim)
          call write_values('49/378', [median(2), least(2)])
          call write_values('49/378 over 29/196', [median(2)/median(1), least(2)/least(1)])
          write (output_unit, '(a,i3)') '#    the paper: about', ratio_of_paper
@@ -124,7 +116,6 @@ contains
 
       call write_head('The sweep of all loads, 29/196 [ms]: name, median, least, largest')
       call write_values('from load to load', [sweeps%median(), sweeps%least(), sweeps%largest()])
-      call write_aim(sweeps%median(), sweep_aim)
       call write_values('each load on its own', [singles%median(), singles%least(), singles%largest()])
       call write_head('The same, ratios: name, of the median times, of the least times')
       associate (ratio => [sweeps%median()/singles%median(), sweeps%least()/singles%least()])
@@ -149,26 +140,8 @@ contains
       call write_head('960/3721, mean of four loads from 0.8 to 0.2 [ms]')
       associate (mean => (clock_ms() - start)/size(swept))
          call write_values('from load to load', [mean])
-         call write_aim(mean, large_aim)
       end associate
    end subroutine time_large_series
-
-   !> Error against time for more and more harmonics, with constraint points on as many intervals.
-   subroutine show_convergence()
-      integer, parameter :: harmonics(*) = [5, 7, 9, 12, 15, 20, 25, 30, 35, 40]
-      real(dp), parameter :: shown(*) = [0.05_dp, 0.2_dp, 0.5_dp, 0.9_dp]
-      type(contender) :: contenders(1)
-      integer :: i, j
-
-      do i = 1, size(shown)
-         call write_table_head('Convergence: points on n intervals, P = '//text('(f4.2)', shown(i)))
-         do j = 1, size(harmonics)
-            contenders(1) = new_contender(harmonics(j), harmonics(j) + 1, symmetry_full)
-            call race(contenders, shown(i))
-            call write_row(contenders(1), shown(i), gaps(minloc(abs(loads - shown(i)), dim=1)))
-         end do
-      end do
-   end subroutine show_convergence
 
    function new_contender(harmonics, points, symmetry, straight) result(new)
       integer, intent(in) :: harmonics, points, symmetry
@@ -273,28 +246,6 @@ contains
       write (output_unit, '(a,*(f10.4))') quoted, values
       flush (output_unit)
    end subroutine write_values
-
-   !> Prints whether the number printed last meets its aim.
-   subroutine write_aim(value, aim)
-      real(dp), intent(in) :: value, aim
-
-      if (value <= aim) then
-         write (output_unit, '(a,f8.2,a)') '#    aim: ', aim, ', met'
-      else
-         write (output_unit, '(a,f8.2,a,f5.2)') '#    aim: ', aim, ', missed by a factor of', value/aim
-      end if
-   end subroutine write_aim
-
-   function text(format, value)
-      character(*), intent(in) :: format
-      real(dp), intent(in) :: value
-      character(:), allocatable :: text
-
-      character(20) :: buffer
-
-      write (buffer, format) value
-      text = trim(buffer)
-   end function text
 
    subroutine read_arguments()
       character(4096) :: path

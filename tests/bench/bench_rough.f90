@@ -9,13 +9,13 @@
 program bench_rough
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use wavycon_constants, only: pi
-   use wavycon_grid_cascade, only: cascade_answer, solve_by_cascade
+   use wavycon_grid_sequence, only: sequence_answer, solve_by_sequence
    use wavycon_kinds, only: dp
    use wavycon_surface, only: surface_of_points, surface_type
    implicit none (type, external)
 
    type(surface_type) :: surface
-   type(cascade_answer) :: answer
+   type(sequence_answer) :: answer
    real(dp), allocatable :: height(:, :)
    character(1000) :: argument(5)
    real(dp) :: load, residual, full, start, finish
@@ -39,7 +39,7 @@ program bench_rough
    call cpu_time(start)
    surface = surface_of_points([1.0_dp, 1.0_dp], height)
    full = surface%full_contact_pressure(1.0_dp/pi)
-   call solve_by_cascade(surface, load/full, 0.0_dp, surface%points, answer, residual=residual)
+   call solve_by_sequence(surface, load/full, 0.0_dp, surface%points, answer, residual=residual)
    call cpu_time(finish)
 
    open (newunit=unit, file=trim(argument(5)), access='stream', form='unformatted', action='write', status='replace')

@@ -35,7 +35,8 @@ program bench_stresses
 
    write (output_unit, '(a)') '# Stresses: a load solved, a section of 128 x 64 points, the search for the largest '// &
       'von Mises and shear stress, and a'
-   write (output_unit, '(a)') '# plane of 128 x 128 points, or of those of the height map, at a depth of 0.1 of the '// &
+   write (output_unit, '(a)') '# plane of 128 x 128 points, or of those of the height map, '// &
+         'at a depth of 0.1 of the '// &
       'cell; medians [ms]'
    write (output_unit, '(a)') '# solver      surface    accuracy       P      solve    section     search      plane'
    call closed%start(wave_1d(1.0_dp, 1.0_dp))

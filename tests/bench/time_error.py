@@ -22,7 +22,7 @@ import sys
 from peer_install import PEERS, python_with
 
 sys.dont_write_bytecode = True
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / 'regression'))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / 'support'))
 from tables import Table  # noqa: E402
 
 LOADS = '0.05', '0.2', '0.5', '0.9'

@@ -14,7 +14,7 @@ program time_error_wave
    use wavycon_beale_contact, only: beale_contact, qp_options
    use wavycon_contact_solution, only: contact_solution
    use wavycon_fitted_solver, only: fitted_answer, solve_fitted, square_lattice, wave_lattice
-   use wavycon_grid_cascade, only: cascade_answer, solve_by_cascade
+   use wavycon_grid_sequence, only: sequence_answer, solve_by_sequence
    use wavycon_kinds, only: dp
    use wavycon_surface, only: surface_type
    use wavycon_wave_2d, only: wave_2d
@@ -58,7 +58,7 @@ contains
       real(dp), intent(in) :: load       !! P
       real(dp), intent(in) :: end_time   !! [ms]
 
-      type(cascade_answer) :: answer
+      type(sequence_answer) :: answer
       type(sample_set) :: times
       real(dp) :: accuracy
       integer :: points
@@ -86,13 +86,13 @@ contains
    subroutine time_grids(load, accuracy, answer, times)
       real(dp), intent(in) :: load       !! P
       real(dp), intent(in) :: accuracy   !! of all three values
-      type(cascade_answer), intent(out) :: answer
+      type(sequence_answer), intent(out) :: answer
       type(sample_set), intent(inout) :: times
 
       real(dp) :: start
 
       start = clock_ms()
-      call solve_by_cascade(wave, load, accuracy, [0, 0], answer)
+      call solve_by_sequence(wave, load, accuracy, [0, 0], answer)
       call times%add(clock_ms() - start)
    end subroutine time_grids
 

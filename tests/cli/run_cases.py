@@ -12,18 +12,23 @@ CASES holds cases like this one:
    stderr:
       nowhere.nml: there is no such file
 
-Each case runs in a new empty folder. Lines of three blanks belong to the keyword above them; lines that start with
-'#' are remarks. The keywords are
+Each case runs in a new empty folder. Lines of three blanks belong to the keyword above them; a single line may stand
+behind it. Lines that start with '#' are remarks. The keywords are
 
    case: WORDS         starts a case
-   file NAME:          a file to be there before the run, as it stands below
-   bytes NAME:         the same, with Python's escapes (\\t, \\r, \\xff) and nothing added behind the last character
+   file NAME:          a file to be there before the run
+   deck NAME:          the same, a deck; behind its text stand `&surface kind = 'wave_2d' /` and
+                       `&load pbar_over_pstar = 0.5 /` if it has no such group. `deck:` is `deck deck.nml:`
+   bytes NAME:         a file with Python's escapes (\\t, \\r, \\xff) and nothing added behind the last character
    run:                what the user types: lines for sh, in which `wavycon` is the program and `columns TABLE NAME...`
                        prints columns of a table
    status: N           the exit status of the last line of `run`; 0 if not given
    stdout:, stderr:    lines that must be there, one right after the other in this order; a line '...' stands for any
                        number of lines. All lines must be given.
-   makes:              every file that exists after the run and did not before
+   makes:              every file that exists after the run and did not before; a.{x,y} is a.x and a.y
+   refused:            in place of run, status and stderr: `wavycon` with all decks of the case in this order ends with
+                       status 1 and these messages, DECK:LINE:COLUMN: WORDS. Left out of them is what follows: their
+                       count ('error 1 of 2: ') and the line of the deck with a mark below the column.
    as a user other than root:
                        if root runs the tests this case runs as nobody, and is skipped, visibly, if nobody cannot
 
@@ -36,6 +41,7 @@ import argparse
 import os
 import pathlib
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -56,6 +62,36 @@ class Case:
         self.run = None
         self.status = 0
         self.unprivileged = False
+        self.decks = []
+
+
+def completed(deck):
+    """A deck with a surface and a load, if it has none of its own."""
+    for group in ("&surface kind = 'wave_2d' /", "&load pbar_over_pstar = 0.5 /"):
+        if not re.search(group.split()[0] + r"\b", deck, re.IGNORECASE):
+            deck += group + "\n"
+    return deck
+
+
+def refusal(case, lines):
+    """What the program says of the decks of a case, from its messages without counts and lines of the deck."""
+    parts = [re.fullmatch(r"([^:]+):(?:(\d+):(\d+):)? (.*)", line) for line in lines]
+    if not all(parts):
+        raise LookupError
+    names, said = [part[1] for part in parts], []
+    for i, (deck, line, column, words) in enumerate(part.groups() for part in parts):
+        count = f"error {names[:i + 1].count(deck)} of {names.count(deck)}"
+        said.append(f"{deck}{f':{line}:{column}' if line else ''}: {count}: {words}")
+        if line:
+            text = case.files[deck].decode().splitlines()[int(line) - 1]
+            said += [f"   {line} | {text}", " "*(3 + len(line)) + " | " + " "*(int(column) - 1) + "^"]
+    return said
+
+
+def expanded(name):
+    """The names that a.{x,y} stands for."""
+    match = re.fullmatch(r"(.*)\{(.*)\}", name)
+    return [match[1] + ending for ending in match[2].split(",")] if match else [name]
 
 
 def read_cases(path):
@@ -71,12 +107,23 @@ def read_cases(path):
         text = "".join(line[3:] + "\n" for line in lines)
         if keyword.startswith("file "):
             case.files[keyword[5:]] = text.encode()
+        elif keyword == "deck" or keyword.startswith("deck "):
+            case.decks.append(keyword[5:] or "deck.nml")
+            case.files[case.decks[-1]] = completed(text).encode()
         elif keyword.startswith("bytes "):
             case.files[keyword[6:]] = text[:-1].encode().decode("unicode_escape").encode("latin-1")
         elif keyword == "run":
             case.run = text
-        elif keyword in ("stdout", "stderr", "makes"):
+        elif keyword in ("stdout", "stderr"):
             case.expected[keyword] = text.splitlines()
+        elif keyword == "makes":
+            case.expected[keyword] = [path for line in text.splitlines() for path in expanded(line)]
+        elif keyword == "refused":
+            case.run, case.status = shlex.join(["wavycon", *case.decks]) + "\n", 1
+            try:
+                case.expected["stderr"] = refusal(case, text.splitlines())
+            except LookupError:
+                raise SystemExit(f"{path}:{number}: expected in 'refused:' are lines DECK:LINE:COLUMN: WORDS") from None
         else:
             raise SystemExit(f"{path}:{number}: no such keyword: {keyword}")
 
@@ -103,10 +150,8 @@ def read_cases(path):
             cases[-1].status = int(value)
         elif keyword == "as a user other than root":
             cases[-1].unprivileged = True
-        elif value:
-            raise SystemExit(f"{path}:{number}: nothing may follow '{keyword}:'")
         else:
-            block = (cases[-1], keyword, [], number)
+            block = (cases[-1], keyword, ["   " + value] if value else [], number)
     close(block)
     for case in cases:
         if not case.run:

@@ -1,16 +1,10 @@
 #!/usr/bin/env python3
 """Runs that must agree: repeated, resolved, reordered, with threads, with another locale, in other units."""
-import os
-import pathlib
 import re
 import subprocess
-import sys
-import tempfile
-import unittest
 
-sys.dont_write_bytecode = True
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "regression"))
-from tables import Table  # noqa: E402
+from program import ProgramTest, main
+from tables import Table
 
 SURFACES = ["kind = 'wave_1d', amplitude = 0.1, wavelength = 3",
             "kind = 'wave_2d', amplitude = 0.1, wavelength = 3",
@@ -42,23 +36,12 @@ LENGTHS = {"mean_gap": "mean_gap_over_amplitude", "approach": "approach_over_amp
            "displacement": "displacement_over_amplitude"}
 
 
-class Numbers(unittest.TestCase):
-    program = ""
-
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory(prefix="a folder with blanks ")
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
-    def run_deck(self, deck, output, **environment):
-        subprocess.run([self.program, deck, "--quiet", "--output", output], cwd=self.folder, check=True,
-                       env=dict(os.environ, **environment))
-        return self.folder / output
-
-    def write_deck(self, surface, loads, name="case.nml"):
-        (self.folder / name).write_text(f"&scene case = 'case' /\n&surface {surface} /\n&load pbar_over_pstar = "
-                                        + ", ".join(map(repr, loads)) + f" /\n&output {ALL_TABLES} /\n")
-        return name
+class Numbers(ProgramTest):
+    def tables(self, surface, loads, output, **environment):
+        """The folder with all tables of a deck."""
+        self.run_deck("case", f"&surface {surface} /\n&load pbar_over_pstar = {', '.join(map(repr, loads))} /\n"
+                      f"&output {ALL_TABLES} /\n", output=output, **environment)
+        return self.folder/output
 
     def assert_same_bytes(self, one, other):
         """All tables agree in all bytes but those of the lines of '#'."""
@@ -72,28 +55,26 @@ class Numbers(unittest.TestCase):
 
     def test_two_runs_agree_to_the_last_digit(self):
         for surface in SURFACES:
-            deck = self.write_deck(surface, LOADS)
-            self.assert_same_bytes(self.run_deck(deck, "first"), self.run_deck(deck, "second"))
+            self.assert_same_bytes(*(self.tables(surface, LOADS, output) for output in ("first", "second")))
 
     def test_a_resolved_deck_reruns_to_the_same_numbers(self):
         for surface in SURFACES:
-            first = self.run_deck(self.write_deck(surface, LOADS), "first")
-            second = self.run_deck(first / "case.resolved.nml", "second")
-            self.assert_same_bytes(first, second)
+            first = self.tables(surface, LOADS, "first")
+            self.run_deck("first/case.resolved", output="second")
+            self.assert_same_bytes(first, self.folder/"second")
 
     def test_neither_the_order_of_the_loads_nor_repeats_matter(self):
         for surface in SURFACES:
-            rows = self.rows_by_load(self.run_deck(self.write_deck(surface, LOADS), "first"))
+            rows = self.rows_by_load(self.tables(surface, LOADS, "first"))
             for loads in (LOADS[::-1], LOADS[::2] + LOADS[1::2], LOADS[3:6] + LOADS + LOADS[5:], LOADS[4:5]):
-                again = self.rows_by_load(self.run_deck(self.write_deck(surface, loads), "second"))
+                again = self.rows_by_load(self.tables(surface, loads, "second"))
                 self.assertEqual(len(set(loads)), len(again))
                 self.assert_nearly(rows, again)
 
     def test_neither_do_the_threads_of_blas(self):
         for surface in SURFACES:
-            deck = self.write_deck(surface, LOADS)
-            self.assert_nearly(*(self.rows_by_load(self.run_deck(deck, threads, OPENBLAS_NUM_THREADS=threads,
-                                                                 OMP_NUM_THREADS=threads)) for threads in "12"))
+            self.assert_nearly(*(self.rows_by_load(self.tables(
+                surface, LOADS, threads, OPENBLAS_NUM_THREADS=threads, OMP_NUM_THREADS=threads)) for threads in "12"))
 
     def test_nor_a_locale_with_a_decimal_comma(self):
         known = subprocess.run(["locale", "-a"], capture_output=True, text=True, check=False).stdout.split()
@@ -102,14 +83,13 @@ class Numbers(unittest.TestCase):
             # Without -v unittest does not report it.
             print("SKIPPED: no locale with a decimal comma is installed here")
             self.skipTest("no locale with a decimal comma")
-        deck = self.write_deck(SURFACES[1], LOADS)
-        self.assert_same_bytes(self.run_deck(deck, "first", LC_ALL="C"),
-                               self.run_deck(deck, "second", LC_ALL=with_comma[0]))
+        self.assert_same_bytes(self.tables(SURFACES[1], LOADS, "first", LC_ALL="C"),
+                               self.tables(SURFACES[1], LOADS, "second", LC_ALL=with_comma[0]))
 
     def test_columns_in_the_units_of_the_deck(self):
         for kind, dimension in (("wave_1d", 1), ("wave_2d", 2)):
-            (self.folder / "case.nml").write_text(SI_DECK.format(kind))
-            folder = self.run_deck("case.nml", "si")
+            self.run_deck("case", SI_DECK.format(kind), output="si")
+            folder = self.folder/"si"
             head = dict(re.findall(r"([\w*]+)\[(?:m|Pa)\] = ([^,\s]+)", (folder / "case.summary.dat").read_text()))
             scales = {**{new: (old, float(head["p*"])) for new, old in PRESSURES.items()},
                       **{new: (old, float(head["Delta"])) for new, old in LENGTHS.items()},
@@ -159,6 +139,4 @@ class Numbers(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    Numbers.program = str(pathlib.Path(sys.argv.pop(sys.argv.index("--program") + 1)).resolve())
-    sys.argv.remove("--program")
-    unittest.main()
+    main()

@@ -16,7 +16,8 @@ import tempfile
 import unittest
 import xml.dom.minidom
 
-sys.dont_write_bytecode = True
+from program import ProgramTest, main, skip
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT/"scripts"/"pictures"))
 import facts  # noqa: E402
@@ -26,25 +27,24 @@ import variables  # noqa: E402
 from axes import Scale, axis, chosen, marked_up  # noqa: E402
 from table import NotATable, Table  # noqa: E402
 
-SKIPPED = 77
 SOUND_START = {"png": b"\x89PNG", "svg": b"<?xml", "pdf": b"%PDF"}
 WAVE = """\
 &surface kind = 'wave_2d' /
 &load pbar_over_pstar = 0, 0.1, 0.5 /
 """
 TABLES = "lines = t, map = t, contours = t, map_points = 16, line_points = 16"
-SPOTS = "spots = t, histograms = t"
-TITLE = "Steel_1 {a}^2 'b' @c & 100 % \\n"   # marks that gnuplot or svg could take for commands
+# Marks and words that gnuplot, a shell or svg could take for commands.
+TITLE = "Steel_1 {a}^2 'b' @c & 100 % \\n `touch CANARY` $(touch CANARY)"
 DECKS = {
-    "auto": WAVE + "&method solver = 'fitted' /\n&output " + TABLES + f", {SPOTS}, theory = t, details = t /",
+    "auto": WAVE + "&method solver = 'fitted' /\n&output " + TABLES + ", spots = t, theory = t, details = t /",
     "paper": WAVE + "&output " + TABLES + ", theory = t, coefficients = t /",
     "line": "&surface kind = 'wave_1d' /\n&load pbar_over_pstar = 0.1, 0.6 /\n&output " + TABLES +
-            f", {SPOTS}, theory = t, coefficients = t /",
+            ", spots = t, histograms = t, theory = t, coefficients = t /",
     "oblong": "&surface kind = 'wave_2d', wavelength = 30, wavelength_y = 60 /\n&load pbar_over_pstar = 0.3 /\n&output " + TABLES + " /",
     "npy": WAVE + "&method solver = 'auto' /\n&output map = t, contours = t, map_points = 16, map_format = 'npy' /",
     "si": f"&scene title = \"{TITLE}\", pressure_unit = 'Pa', length_unit = 'm' /\n"
           "&surface kind = 'wave_2d', amplitude = 1e-6, wavelength = 1e-3 /\n&material e_star = 230e9 /\n"
-          "&load pbar_over_pstar = 0.05, 0.4 /\n&method solver = 'auto' /\n&output " + TABLES + f", {SPOTS} /",
+          "&load pbar_over_pstar = 0.05, 0.4 /\n&method solver = 'auto' /\n&output " + TABLES + ", spots = t /",
     "sweep": "&surface kind = 'wave_1d' /\n&load sweep_from = 0.05, sweep_to = 0.95, sweep_steps = 19 /\n"
              "&method solver = 'auto' /\n&output lines = t, contours = t, line_points = 16 /",
     "stress": WAVE.replace("0, 0.1", "0.1") + "&stress nu = 0.3, line = t, section = 'x', planes = t,\n"
@@ -67,40 +67,40 @@ DECKS = {
 HEIGHTS = "1 0 1 2\n0 1 2 1\n1 2 4 3\n0 1 1 2\n"
 
 
-class Plot(unittest.TestCase):
-    program = ""
-    pictures = {}   # paths of the pictures drawn
+class Plot(ProgramTest):
 
     @classmethod
     def setUpClass(cls):
-        cls.scratch = tempfile.TemporaryDirectory()
-        cls.folder = pathlib.Path(cls.scratch.name)
+        super().setUpClass()
         (cls.folder/"heights.txt").write_text(HEIGHTS)
         for case, deck in DECKS.items():
-            (cls.folder/f"{case}.nml").write_text(deck + "\n")
-            subprocess.run([cls.program, f"{case}.nml", "--quiet", "--output", "."], cwd=cls.folder, check=False)
+            cls.run_deck(case, deck + "\n", statuses=(2,) if case == "unsolved" else (0,))
+        # All tables but those that have more than can be shown, which is said.
+        cls.tables = sorted(path.name for path in cls.folder.glob("*.*")
+                            if path.suffix in (".dat", ".npy") and not path.name.startswith(("sweep", "bodies")))
+        # Pictures by the words for scripts/plot. Each call takes longer than a picture: most are drawn at once.
+        cls.at_once = cls.run_plot("--format", "svg", *cls.tables)
+        cls.pictures = {(name,): cls.folder/pathlib.Path(name).with_suffix(".svg") for name in cls.tables}
 
     @classmethod
-    def tearDownClass(cls):
-        cls.scratch.cleanup()
+    def run_plot(cls, *words):
+        return subprocess.run([ROOT/"scripts"/"plot", *words], cwd=cls.folder, capture_output=True, text=True,
+                              check=False)
 
     def plot(self, *words, status=0):
         """Runs scripts/plot. Returns what it writes on standard output and on standard error."""
-        result = subprocess.run([ROOT/"scripts"/"plot", *words], cwd=self.folder, capture_output=True, text=True,
-                                check=False)
+        result = self.run_plot(*words)
         self.assertEqual(status, result.returncode, result.stderr)
         self.assertNotIn("Traceback", result.stderr)
         return result.stdout, result.stderr
 
     def drawn(self, *words, name=None):
         """The words of a picture that is drawn without any message."""
-        # Several tests look at the same picture. It is drawn again if a file has changed.
-        key = words, tuple(path.stat().st_mtime_ns for path in map(self.folder.joinpath, words) if path.exists())
-        if key not in self.pictures:
+        if words not in self.pictures:
             said, complaints = self.plot("--format", "svg", *words)
             self.assertEqual("", complaints)
-            self.pictures[key] = self.folder/said.removeprefix("picture: ").strip()
-        picture = self.pictures[key]
+            self.pictures[words] = self.folder/said.removeprefix("picture: ").strip()
+        picture = self.pictures[words]
         if name:
             self.assertEqual(name, picture.name)
         # Texts are broken up where the face changes.
@@ -109,27 +109,21 @@ class Plot(unittest.TestCase):
         return re.sub(r"\s+", " ", html.unescape(re.sub(r"<[^>]*>", "", shown)))
 
     def test_every_kind_of_table(self):
-        self.check_tables(all_tables=False, formats=["svg"])
+        self.assertEqual(set(facts.FACTS), {Table(self.folder/name).kind for name in self.tables})
+        self.check_pictures("svg", self.at_once)
 
     def every_table_in_every_format(self):
-        self.check_tables(all_tables=True, formats=SOUND_START)
+        for form in SOUND_START:
+            self.check_pictures(form, self.run_plot("--format", form, *self.tables))
 
-    def check_tables(self, all_tables, formats):
-        kinds = set()
-        for path in sorted(self.folder.glob("*.dat")) + sorted(self.folder.glob("*.npy")):
-            if path.name.startswith(("sweep", "bodies")):
-                continue   # they have more than can be shown, which is said
-            kind = Table(path).kind
-            if kind in kinds and not all_tables:
-                continue
-            kinds.add(kind)
-            for form in formats:
-                with self.subTest(table=path.name, format=form):
-                    said, complaints = self.plot("--format", form, path.name)
-                    picture = path.with_suffix("." + form)
-                    self.assertEqual((f"picture: {picture.name}\n", ""), (said, complaints))
-                    self.assertTrue(picture.read_bytes().startswith(SOUND_START[form]))
-        self.assertEqual(set(facts.FACTS), kinds)
+    def check_pictures(self, form, drawn):
+        """All tables are drawn in a format, without a message."""
+        pictures = [pathlib.Path(name).with_suffix(f".{form}") for name in self.tables]
+        self.assertEqual((0, ""), (drawn.returncode, drawn.stderr))
+        self.assertEqual([f"picture: {picture}" for picture in pictures], drawn.stdout.splitlines())
+        for picture in pictures:
+            with self.subTest(picture=picture):
+                self.assertTrue((self.folder/picture).read_bytes().startswith(SOUND_START[form]))
 
     def test_labels(self):
         """gnuplot's svg leaves out what lies outside of the picture."""
@@ -139,7 +133,7 @@ class Plot(unittest.TestCase):
                     "spots": "closed pools percolates along", "spot_sizes": "number of at least this area",
                     "histogram": "density of pressure gap g/Δ"}
         for kind, words in expected.items():
-            case = "paper" if kind == "coefficients" else "auto"
+            case = {"coefficients": "paper", "histogram": "line"}.get(kind, "auto")
             with self.subTest(kind=kind):
                 shown = self.drawn(f"{case}.{kind}.dat")
                 for word in words.split():
@@ -310,9 +304,7 @@ class Plot(unittest.TestCase):
             self.assertIn("--body 2 shows the second", self.plot("--format", "svg", name)[1])
         self.assertIn("(MPa)", self.drawn("--body", "2", "--depths", "1,9", "bodies.stress_planes.npy"))
         # Loads, bodies and depths of both formats are the same.
-        text = (self.folder/"bodies.nml").read_text().replace("'npy'", "'text'")
-        (self.folder/"bodies.nml").write_text(text)
-        subprocess.run([self.program, "bodies.nml", "--quiet", "--output", "bad"], cwd=self.folder, check=True)
+        self.run_deck("bodies", DECKS["bodies"].replace("'npy'", "'text'") + "\n", output="bad")
         binary, text = (Table(self.folder/name) for name in ("bodies.stress_planes.npy", "bad/bodies.stress_planes.dat"))
         self.assertEqual([(block.load, block.body, block.columns["depth"][0]) for block in text.blocks],
                          [(block.load, block.body, block.columns["depth"][0]) for block in binary.blocks])
@@ -341,8 +333,7 @@ class Plot(unittest.TestCase):
         self.assertIn("no rows", self.plot("bad/head.summary.dat", status=3)[1])
         self.assertEqual("plot: nowhere.dat: No such file or directory\n", self.plot("nowhere.dat", status=3)[1])
         self.plot("bad", status=3)
-        subprocess.run([self.program, "auto.nml", "--quiet", "--output", ".", "--table", "bad/all.dat"], cwd=self.folder,
-                       check=True)
+        self.run_deck("auto", None, "--table", "bad/all.dat")
         self.assertIn("several decks", self.plot("bad/all.dat", status=3)[1])
         shortened = (self.folder/"npy.map.npy").read_bytes()[:-8]
         (self.folder/"bad"/"short.map.npy").write_bytes(shortened)
@@ -354,10 +345,12 @@ class Plot(unittest.TestCase):
         self.assertIn("nowhere.dat", complaints)
 
     def test_names_are_not_commands(self):
-        for name in ("a'b; touch CANARY.summary.dat", "$(touch CANARY) `touch CANARY`.lines.dat",
-                     "<x {-Bold_^.map.dat"):
+        names = ("a'b; touch CANARY.summary.dat", "$(touch CANARY) `touch CANARY`.lines.dat", "<x {-Bold_^.map.dat",
+                 "a' . system('touch CANARY') . '.summary.dat", "| touch CANARY.lines.dat", "#!touch CANARY.map.dat",
+                 "-e.summary.dat", "%s %d.lines.dat", "*?[a]~.map.dat")
+        for name in names:
             shutil.copy(self.folder/("auto." + name.split(".")[-2] + ".dat"), self.folder/name)
-            self.assertEqual("", self.plot("--", name)[1])
+        self.assertEqual("", self.plot("--", *names)[1])
         self.assertFalse((self.folder/"CANARY").exists())
         name = b"\xff.summary.dat"
         shutil.copy(self.folder/"auto.summary.dat", os.path.join(os.fsencode(self.folder), name))
@@ -381,7 +374,7 @@ class Numbers(unittest.TestCase):
             if max(loads, default=0) > 0:
                 self.assertLess(high, 1.4*max(loads))
         self.assertEqual(1.0, axis([0.01, 0.9], up_to=1.0)[1])
-        # Many light loads: logarithmic; loads spread over the range are not.
+        # Many light loads: logarithmic; loads distributed over the range are not.
         self.assertTrue(axis([1e-6, 1e-5, 1e-4, 1e-3])[-1])
         self.assertFalse(axis([1e-3, 0.2, 0.5, 0.9])[-1])
 
@@ -457,9 +450,6 @@ class Numbers(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    Plot.program = str(pathlib.Path(sys.argv.pop(sys.argv.index("--program") + 1)).resolve())
-    sys.argv.remove("--program")
     if not shutil.which("gnuplot"):
-        print("SKIPPED: gnuplot is not installed")
-        sys.exit(SKIPPED)
-    unittest.main()
+        skip("gnuplot is not installed")
+    main()

@@ -3,8 +3,8 @@
 import pathlib
 import subprocess
 import sys
-import tempfile
-import unittest
+
+from program import ProgramTest, main
 
 RUNNER = pathlib.Path(__file__).resolve().parent / "run_cases.py"
 
@@ -14,8 +14,7 @@ case: a run
 file deck.nml:
    &surface kind = 'wave_1d' /
    &load pbar_over_pstar = 1 /
-bytes odd:
-   \\x41\\n
+bytes odd: \\x41\\n
 run:
    cat odd && wavycon deck.nml --quiet && wavycon --nonsense
 status: 1
@@ -24,9 +23,15 @@ stdout:
 stderr:
    wavycon: unknown option '--nonsense'
    ...
-makes:
-   outputs/deck/deck.resolved.nml
-   outputs/deck/deck.summary.dat
+makes: outputs/deck/deck.{resolved.nml,summary.dat}
+case: decks that are refused
+deck: &method harmonics = 0, symmetry = 'half' /
+deck other.nml:
+   &surface kind = 'wave_2d', amplitude = -1 /
+refused:
+   deck.nml:1:21: harmonics must be an integer from 1 to 60, got '0'
+   deck.nml:1:35: symmetry must be 'full', 'diagonal' or 'none', got the text 'half'
+   other.nml:1:40: amplitude must be a number >= 0, got '-1'
 """
 
 # Name of the test, lines of SOUND, their replacement, what the runner must print.
@@ -37,8 +42,13 @@ FAILURES = [
     ("stdout not mentioned", "stdout:\n   A\n", "", "stdout is not as expected"),
     ("a line of stderr", "'--nonsense'\n", "'--nonsens'\n", "stderr is not as expected"),
     ("the rest of stderr", "   ...\n", "", "stderr is not as expected"),
-    ("a file too many", "   outputs/deck/deck.summary.dat\n", "", "was made, but is not expected: outputs/deck/deck.s"),
-    ("a file too few", "makes:\n", "makes:\n   more\n", "was not made: more"),
+    ("a file too many", ",summary.dat", "", "was made, but is not expected: outputs/deck/deck.s"),
+    ("a file too few", ",summary.dat", ",summary.dat,more", "was not made: outputs/deck/deck.more"),
+    ("the place of a refusal", "1:21", "1:20", "stderr is not as expected"),
+    ("the words of a refusal", "from 1 to 60", "from 1 to 61", "stderr is not as expected"),
+    ("a refusal too few", SOUND.splitlines(True)[-1], "", "stderr is not as expected"),
+    ("a refusal without a place", "deck.nml:1:21: ", "", "expected in 'refused:'"),
+    ("a line that no deck has", "1:21", "9:21", "expected in 'refused:'"),
     ("a keyword misspelt", "stderr:\n", "sdterr:\n", "no such keyword: sdterr"),
     ("a line without a keyword", "status: 1\n", "status 1\n", "expected 'keyword:'"),
     ("a case without a run", SOUND[SOUND.index("run:"):SOUND.index("status:")], "", "runs nothing"),
@@ -46,21 +56,18 @@ FAILURES = [
 ]
 
 
-class Runner(unittest.TestCase):
-    program = ""
-
+class Runner(ProgramTest):
     def outcome(self, cases):
-        with tempfile.TemporaryDirectory() as folder:
-            path = pathlib.Path(folder) / "some.cases"
-            path.write_text(cases)
-            result = subprocess.run([sys.executable, RUNNER, "--program", self.program, path], capture_output=True,
-                                    text=True, check=False)
+        path = self.folder/"some.cases"
+        path.write_text(cases)
+        result = subprocess.run([sys.executable, RUNNER, "--program", self.program, path], capture_output=True,
+                                text=True, check=False)
         return result.returncode, result.stdout + result.stderr
 
     def test_a_sound_case_passes(self):
         status, output = self.outcome(SOUND)
         self.assertEqual(0, status, output)
-        self.assertIn("1 cases, 0 failed, 0 skipped", output)
+        self.assertIn("2 cases, 0 failed, 0 skipped", output)
 
     def test_anything_else_fails(self):
         for name, old, new, words in FAILURES:
@@ -72,6 +79,4 @@ class Runner(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    Runner.program = sys.argv.pop(sys.argv.index("--program") + 1)
-    sys.argv.remove("--program")
-    unittest.main()
+    main()

@@ -4,7 +4,7 @@ import time
 
 from by_ctypes import PROGRESS, Library
 
-DECK = b"""&surface kind = 'self_affine', points = 1024, 1024, hurst = 0.8, rms_height = 1e-6, length_x = 1e-3 /
+DECK = b"""&surface kind = 'self_affine', points = 512, 512, hurst = 0.8, rms_height = 1e-6, length_x = 1e-3 /
 &method solver = 'grid', residual = 1e-13 /"""
 INTERRUPTED = 15
 LONGEST = 1.0

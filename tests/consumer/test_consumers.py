@@ -8,6 +8,7 @@ PYTHON: one that may have numpy, if the one that runs this has not. The long tes
 named.
 """
 import argparse
+import functools
 import json
 import math
 import os
@@ -16,10 +17,11 @@ import shlex
 import shutil
 import subprocess
 import sys
-import tempfile
 import unittest
 
 from by_ctypes import Library
+from program import new_folder
+from tables import Table
 
 HERE = pathlib.Path(__file__).resolve().parent
 WAVE = """&surface kind = 'wave_2d', amplitude = 1e-6, wavelength = 1e-3 /
@@ -78,10 +80,14 @@ def numbers(output):
     return [[float(word) if "." in word else word for word in row] for row in rows]
 
 
-def rows_of(path):
-    """The rows of a table as dictionaries."""
-    lines = [line.split() for line in path.read_text().splitlines() if line.strip() and not line.startswith("#")]
-    return [dict(zip(lines[0], row)) for row in lines[1:]]
+def loads_the_library(test):
+    """Marks a test in which Python loads the library, which it cannot with a sanitizer."""
+    @functools.wraps(test)
+    def run_or_skip(self):
+        if self.is_sanitized:
+            self.skipTest("Python cannot load a library with a sanitizer")
+        test(self)
+    return run_or_skip
 
 
 class Consumers(unittest.TestCase):
@@ -89,9 +95,7 @@ class Consumers(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory(prefix="a folder with blanks ")
-        cls.addClassCleanup(folder.cleanup)
-        cls.folder = pathlib.Path(folder.name)
+        cls.folder = new_folder(cls.addClassCleanup)
         cls.prefix = cls.folder / "prefix"
         options = cls.options
         cls.is_sanitized = "-fsanitize" in options.flags
@@ -135,13 +139,13 @@ class Consumers(unittest.TestCase):
             self.assertLessEqual(abs(float(row[column]) - value), DIGITS*abs(value), column)
 
     def test_digits_of_the_deck(self):
-        table = rows_of(self.folder / "deck.summary.dat")
+        table = Table(self.folder / "deck.summary.dat").records()
         self.assertEqual(3, len(table))
         for row, values in zip(table, self.expected):
             self.assertEqual(row["status"], values[-1])
             self.check_row(row, COLUMNS, values)
         highest, in_contact, open_gap, edges = self.expected[3]
-        contour = rows_of(self.folder / "deck.contour.dat")
+        contour = Table(self.folder / "deck.contour.dat").records()
         self.assertEqual(len({row["curve"] for row in contour if row.get("load") == "3"}), int(edges))
         # The map of the last load: its highest point is at most the peak, and the peak lies on it, at the crest.
         self.assertLessEqual(abs(highest - self.expected[2][3]), 1e-6*highest)
@@ -149,30 +153,30 @@ class Consumers(unittest.TestCase):
         self.assertGreater(open_gap, 0)
 
     def test_digits_of_the_stresses(self):
-        below = [row for row in rows_of(self.folder / "deck.stress_line.dat") if row.get("load") == "3"]
+        below = [row for row in Table(self.folder / "deck.stress_line.dat").records() if row.get("load") == "3"]
         self.assertEqual(2, len(below))
         for row, values in zip(below, self.expected[4:6]):
             self.check_row(row, STRESSES + ["stress_error"], values[:7])
             for column, value in zip(INVARIANTS, values[7:]):
                 self.assertLessEqual(abs(float(row[column]) - value), INVARIANT_DIGITS*abs(values[2]), column)
-        plane = [row for row in rows_of(self.folder / "deck.stress_planes.dat")
+        plane = [row for row in Table(self.folder / "deck.stress_planes.dat").records()
                  if row.get("load") == "3" and float(row["depth"]) == 1e-4]
         self.assertEqual(48*32, len(plane))
         self.check_row(plane[4*48 + 7], STRESSES, self.expected[6])
-        self.check_row(rows_of(self.folder / "deck.stress_largest.dat")[2], LARGEST, self.expected[7])
+        self.check_row(Table(self.folder / "deck.stress_largest.dat").records()[2], LARGEST, self.expected[7])
         # A pressure of 200 MPa on average and 1100 MPa at the crest.
         self.assertLess(self.expected[4][2], -2e8)
         self.assertGreater(self.expected[7][0], 1e8)
 
     def test_digits_of_first_yield(self):
-        first, = rows_of(self.folder / "yield.summary.dat")
+        first, = Table(self.folder / "yield.summary.dat").records()
         self.check_row(first, ["mean_pressure", "contact_area_fraction"], self.expected[8][:2])
         self.assertEqual(first["status"], self.expected[8][-1])
-        largest, = rows_of(self.folder / "yield.stress_largest.dat")
+        largest, = Table(self.folder / "yield.stress_largest.dat").records()
         self.assertAlmostEqual(float(largest["largest_von_mises"])/1e9, 1, delta=1e-4)
 
     def test_digits_of_a_measured_map(self):
-        row, = rows_of(self.folder / "measured.summary.dat")
+        row, = Table(self.folder / "measured.summary.dat").records()
         self.check_row(row, ["mean_gap", "contact_area", "mean_pressure"], self.expected[9][:3])
         self.assertEqual(row["status"], self.expected[9][-1])
         self.assertLess(float(row["contact_area"]), 4e-3*3e-3)
@@ -186,14 +190,12 @@ class Consumers(unittest.TestCase):
     def test_a_project_in_c_alone(self):
         self.assertEqual(self.expected, numbers(run(self.folder / "only_c" / "consumer_c_shared")))
 
+    @loads_the_library
     def test_python(self):
-        if self.is_sanitized:
-            self.skipTest("Python cannot load a library with a sanitizer")
         self.assertEqual(self.expected, numbers(run(sys.executable, HERE / "consumer.py", self.library)))
 
+    @loads_the_library
     def test_python_with_numpy(self):
-        if self.is_sanitized:
-            self.skipTest("Python cannot load a library with a sanitizer")
         for python in sys.executable, self.options.numpy:
             if shutil.which(python) and subprocess.run([python, "-c", "import numpy"], stderr=subprocess.DEVNULL,
                                                        check=False).returncode == 0:
@@ -243,9 +245,8 @@ class Consumers(unittest.TestCase):
             for one, same in zip(found[0], other):
                 self.assertAlmostEqual(one/same, 1, delta=1e-5)
 
+    @loads_the_library
     def test_keys(self):
-        if self.is_sanitized:
-            self.skipTest("Python cannot load a library with a sanitizer")
         groups = {group["name"]: group for group in json.loads(Library(self.library).text(None, "keys"))}
         self.assertEqual(["scene", "material", "surface", "load", "stress", "method", "output"], list(groups))
         keys = {name: {key["name"]: key for key in group["keys"]} for name, group in groups.items()}
@@ -260,15 +261,13 @@ class Consumers(unittest.TestCase):
         self.assertIn("self_affine", keys["surface"]["kind"]["choices"])
         self.assertTrue(keys["surface"]["kind"]["required"])
 
+    @loads_the_library
     def test_tables(self):
-        if self.is_sanitized:
-            self.skipTest("Python cannot load a library with a sanitizer")
-        names = run(sys.executable, HERE / "tables.py", self.library, self.folder / "tables.nml").split()
+        names = run(sys.executable, HERE / "same_tables.py", self.library, self.folder / "tables.nml").split()
         self.assertEqual(15, len(names))
 
+    @loads_the_library
     def test_a_load_is_stopped(self):
-        if self.is_sanitized:
-            self.skipTest("Python cannot load a library with a sanitizer")
         self.assertEqual("stopped\n", run(sys.executable, HERE / "interrupt.py", self.library))
 
     def test_misuse(self):

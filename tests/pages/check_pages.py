@@ -8,16 +8,12 @@ A block fenced as ```fortran in a page of DECK_PAGES is a whole deck. Each check
 import pathlib
 import re
 import subprocess
-import sys
-import tempfile
-import unittest
 
-sys.dont_write_bytecode = True
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]/"regression"))
-from tables import Table  # noqa: E402
+from program import ProgramTest, main
+from tables import Table
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-MOST_LINES = 110  # of README.md
+MOST_LINES = 95  # of README.md
 DECK_PAGES = ("README.md", "inputs/README.md", "outputs/README.md")
 # Headings of outputs/README.md, each with the table that it explains.
 SECTIONS = {"summary": "The summary", "lines": "Lines", "theory_lines": "Closed forms along lines", "map": "Map",
@@ -106,7 +102,7 @@ def statuses_of_sources():
 
 
 def named_keys(text):
-    """The keys in the brief reference of README.md, where groups and values of keys are quoted too."""
+    """The keys in the brief reference of inputs/README.md, where groups and values of keys are quoted too."""
     return set(re.findall(r"`(\w+)`", section(text, "Groups and keys")))
 
 
@@ -129,9 +125,7 @@ def comparable(log):
     return lines
 
 
-class Pages(unittest.TestCase):
-    program = ""
-
+class Pages(ProgramTest):
     def run_program(self, *arguments, folder=None):
         return subprocess.run([self.program, *map(str, arguments)], cwd=folder, capture_output=True, text=True)
 
@@ -148,14 +142,13 @@ class Pages(unittest.TestCase):
         self.assertEqual(["nowhere.md", "#c", "README.md#d"], broken_links(ROOT/"README.md", text))
 
     def test_decks(self):
-        with tempfile.TemporaryDirectory() as scratch:
-            deck = pathlib.Path(scratch)/"deck.nml"
-            for page in DECK_PAGES:
-                self.assertGreater(len(decks(read(page))), 0, page)
-                for text in decks(read(page)):
-                    deck.write_text(text)
-                    checked = self.run_program("--check", deck, folder=ROOT/"inputs")
-                    self.assertEqual(0, checked.returncode, f"{page}:\n{text}\n{checked.stderr}")
+        deck = self.folder/"deck.nml"
+        for page in DECK_PAGES:
+            self.assertGreater(len(decks(read(page))), 0, page)
+            for text in decks(read(page)):
+                deck.write_text(text)
+                checked = self.run_program("--check", deck, folder=ROOT/"inputs")
+                self.assertEqual(0, checked.returncode, f"{page}:\n{text}\n{checked.stderr}")
 
     def test_each_deck_of_inputs_is_listed(self):
         listed = section(read("inputs/README.md"), "The decks in this directory")
@@ -166,16 +159,12 @@ class Pages(unittest.TestCase):
     def columns(self):
         """{name: units} of the columns of each kind of table."""
         found = {kind: {} for kind in SECTIONS}
-        with tempfile.TemporaryDirectory() as scratch:
-            folder = pathlib.Path(scratch)
-            for name, text in TABLE_DECKS.items():
-                (folder/f"{name}.nml").write_text(text)
-                result = self.run_program(f"{name}.nml", "--quiet", "--output", ".", folder=folder)
-                self.assertEqual(0, result.returncode, result.stderr)
-            for path in folder.glob("*.dat"):
-                table = Table(path)
-                for name, unit in zip(table.columns, table.units):
-                    found[path.name.split(".")[1]].setdefault(name, set()).add(unit)
+        for name, text in TABLE_DECKS.items():
+            self.run_deck(name, text)
+        for path in self.folder.glob("*.dat"):
+            table = Table(path)
+            for name, unit in zip(table.columns, table.units):
+                found[path.name.split(".")[1]].setdefault(name, set()).add(unit)
         return found
 
     def test_columns(self):
@@ -199,7 +188,7 @@ class Pages(unittest.TestCase):
     def test_keys(self):
         keys = keys_of_help(self.run_program("--help").stdout)
         self.assertGreater(len(keys), 40)
-        self.assertEqual(keys, named_keys(read("README.md")))
+        self.assertEqual(keys, named_keys(read("inputs/README.md")))
 
     def test_missing_keys_are_found(self):
         text = "## Groups and keys\n| `&surface` | `kind`: `'wave_1d'` (1.0) |\n## More\n`wavelength`\n"
@@ -209,14 +198,11 @@ class Pages(unittest.TestCase):
         text = read("README.md")
         shown = re.findall(r"^```\n(deck .*?)^```$", text, re.MULTILINE | re.DOTALL)
         self.assertEqual(1, len(shown))
-        with tempfile.TemporaryDirectory() as scratch:
-            (pathlib.Path(scratch)/"first.nml").write_text(decks(text)[0])
-            log = self.run_program("first.nml", folder=scratch).stdout
+        (self.folder/"first.nml").write_text(decks(text)[0])
+        log = self.run_program("first.nml", folder=self.folder).stdout
         self.assertEqual(comparable(log), comparable(shown[0]))
         self.assertNotEqual(comparable(log), comparable(shown[0].replace("0.045078", "0.045079")))
 
 
 if __name__ == "__main__":
-    Pages.program = str(pathlib.Path(sys.argv.pop(sys.argv.index("--program") + 1)).resolve())
-    sys.argv.remove("--program")
-    unittest.main()
+    main()

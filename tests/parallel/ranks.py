@@ -11,6 +11,9 @@ import signal
 import subprocess
 import sys
 import time
+import unittest
+
+from program import take_options
 
 PATIENCE = 120.0  # a run that takes longer is ended and counts as hanging [s]
 
@@ -76,7 +79,15 @@ def numbers(text):
     return tuple(map(int, text.split(",")))
 
 
-def main(words):
+def main(test):
+    """Runs a test with the programs and the numbers of ranks of the command line, in folders of its class."""
+    given = take_options("mpiexec", "ranks", "program", "parallel")
+    test.mpiexec, test.program, test.parallel = given.mpiexec, given.program, given.parallel
+    test.ranks = numbers(given.ranks)
+    unittest.main(verbosity=2)
+
+
+def run_program(words):
     if len(words) < 5 or words[0] != "--mpiexec" or words[2] != "--ranks":
         print(__doc__, file=sys.stderr)
         return 1
@@ -91,4 +102,4 @@ def main(words):
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(run_program(sys.argv[1:]))

@@ -1,5 +1,5 @@
-!> The solver on grids that are spread over the ranks beside the same on whole grids: equal to the last bit, iterations
-!> and residuals included.
+!> The solver on grids that are distributed over the ranks beside the same on whole grids: equal to the last bit,
+!> iterations and residuals included.
 !>
 !> `mpirun -n N test_grid_solver` prints a line for each case, and ends with status 1 if one of them fails.
 program test_grid_solver
@@ -16,7 +16,7 @@ program test_grid_solver
    use wavycon_wave_2d, only: wave_2d
    implicit none (type, external)
 
-   !> The last is spread over a few ranks only.
+   !> The last is distributed over a few ranks only.
    integer, parameter :: grids(2, 3) = reshape([256, 288, 300, 325, 2048, 72], [2, 3])
    !> From few points in contact, where the stencil is the preconditioner, to nearly all.
    real(dp), parameter :: loads(4) = [3e-3_dp, 0.05_dp, 0.4_dp, 0.95_dp]
@@ -72,7 +72,8 @@ contains
       type(grid_state), intent(in) :: state
       real(dp) :: numbers(8)
 
-      numbers = [state%mean_gap, state%imprint, state%residual, state%open_gap(), real(state%corrections, dp), &
+      numbers = [state%mean_gap, state%residual_indentation, state%residual, state%open_gap(), &
+            real(state%corrections, dp), &
                  real(state%iterations, dp), real(state%local_iterations, dp), real(state%plain_iterations, dp)]
    end function numbers
 

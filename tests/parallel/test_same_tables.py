@@ -3,29 +3,24 @@
 
 usage: test_same_tables.py --mpiexec MPIEXEC --ranks N[,N...] --program WAVYCON --parallel WAVYCON_MPI
 
-Files are compared byte by byte, or within a stated rounding.
+Each program runs all decks at once. Files are compared byte by byte, or within a stated rounding.
 """
-import argparse
-import array
+import collections
 import math
-import pathlib
-import random
 import re
-import struct
 import subprocess
-import sys
-import tempfile
-import unittest
 
-sys.dont_write_bytecode = True
-from ranks import numbers, run  # noqa: E402
+from npy import read_npy, write_npy
+from program import ProgramTest
+from ranks import main, run
+from rough_map import rough_map
 
 TABLES = "map = t, contours = t, spots = t, histograms = t, lines = t, map_points = 64, line_points = 64"
 # Differences of numbers that are printed with 16 digits [largest of the column].
 NONE = 0.0
 # Heights of spread surfaces and their roughness are rounded in another order: some differ in their last digit.
 LAST_DIGIT = 1e-15
-# Loads that are spread over the ranks are solved in blocks: the first load of each is not started from the one before.
+# Loads that are distributed over the ranks are solved in blocks: the first load of each is not started from the one before.
 # The expansions end within some 1e-9 of their limit, Beale's method within the rounding of its matrices.
 OTHER_START_OF_EXPANSIONS, OTHER_START_OF_BEALE = 1e-8, 1e-11
 OF_THE_START = "iterations|residual|.*_error"
@@ -34,40 +29,64 @@ GRIDS, LOADS, FIRST = "columns of large grids", "loads", "first"
 # Numbers of ranks of decks that are run on all that are asked for, on all but one, and of others.
 ALL_RANKS, SEVERAL_RANKS, SOME_RANKS = range(1, 100), range(2, 100), (2, 5)
 
+# A deck, what the log must say of the ranks, the numbers of ranks, the rounding, and columns that are not compared.
+Case = collections.namedtuple("Case", "deck spread ranks rounding left_out", defaults=(SOME_RANKS, NONE, ""))
+SURFACE = "&surface kind = "
+CASES = {
+    # Waves on grids: an even one on a quarter of the cell, one on the rotated cell, one with periods.
+    "quarter": Case(f"{SURFACE}'wave_2d', wavelength_y = 2 /\n&load pbar_over_pstar = 0.02, 0.3, 0.8 /\n"
+                    f"&method solver = 'grid', grid_points = 640 /\n&output {TABLES} /\n", GRIDS, ALL_RANKS),
+    "turned": Case(f"{SURFACE}'wave_2d' /\n&load pbar_over_pstar = 0.1, 0.6 /\n"
+                   f"&method solver = 'grid', grid_points = 1024 /\n&output {TABLES} /\n", GRIDS),
+    "accuracy": Case(f"{SURFACE}'wave_2d', wavelength_y = 1.5 /\n&load pbar_over_pstar = 0.2 /\n"
+                     "&method solver = 'grid', accuracy = 2e-5 /\n", GRIDS),
+    "hexagonal": Case(f"{SURFACE}'hexagonal' /\n&load pbar_over_pstar = 0.05, 0.7 /\n"
+                      f"&method solver = 'grid', grid_points = 720, 1024 /\n&output {TABLES} /\n", GRIDS),
+    "phases": Case(f"{SURFACE}'sum', length_x = 2, length_y = 1, amplitudes = 1, 0.4, 0.15, waves_x = 1, 0, 3, "
+                   "waves_y = 0, 1, 2, phases = 0, 0, 60 /\n&load pbar_over_pstar = 0.1, 0.5 /\n"
+                   f"&method solver = 'grid', grid_points = 600, 256 /\n&output {TABLES} /\n", GRIDS, SEVERAL_RANKS),
+    # One load each, so that its grids are distributed, not the loads.
+    **{name: Case(f"{SURFACE}'wave_2d', wavelength_y = 2 /\n&load {load} /\n"
+                  f"&method solver = 'grid', grid_points = 768 /\n{material}", GRIDS)
+       for name, load, material in (("gap", "mean_gap_over_amplitude = 0.1", ""),
+                                    ("area", "contact_area_fraction = 0.1", ""),
+                                    ("hardness", "pbar_over_pstar = 0.4", "&material hardness = 5 /\n"))},
+    # Height maps: of odd size, mirrored, on other points, with more ranks than columns, made.
+    "odd": Case(f"{SURFACE}'file', file = 'odd.npy', length_x = 3, length_y = 2.6 /\n"
+                f"&load pbar_over_pstar = 0.05, 0.4 /\n&output {TABLES} /\n", GRIDS, ALL_RANKS, LAST_DIGIT),
+    "mirrored": Case(f"{SURFACE}'file', file = 'mirrored.npy', edges = 'mirror', detrend = 'plane' /\n"
+                     f"&load pbar_over_pstar = 0.05, 0.4 /\n&output {TABLES} /\n", GRIDS, SOME_RANKS, LAST_DIGIT),
+    "other_points": Case(f"{SURFACE}'file', file = 'coarse.npy' /\n&load pbar_over_pstar = 0.1 /\n"
+                         "&method solver = 'grid', grid_points = 384, 256 /\n", GRIDS, SOME_RANKS, LAST_DIGIT),
+    "few_columns": Case(f"{SURFACE}'file', file = 'narrow.npy', length_x = 1, length_y = 50 /\n"
+                        "&load pbar_over_pstar = 0.1 /\n", GRIDS, SEVERAL_RANKS, LAST_DIGIT),
+    **{name: Case(f"{SURFACE}'self_affine', rms_slope = 0.1, points = 384, short_wavelength = 0.03 /\n"
+                  f"&load pbar_over_pstar = {loads} /\n&output map = t, {output} /\n", GRIDS, ranks, LAST_DIGIT)
+       for name, loads, output, ranks in (("made", "0.01, 0.1", "contours = t, spots = t, spectrum = t", SEVERAL_RANKS),
+                                          ("npy", "0.05", "map_format = 'npy'", SOME_RANKS))},
+    # What is not distributed over the ranks.
+    "expansions": Case(f"{SURFACE}'wave_2d' /\n&load sweep_from = 0.1, sweep_to = 0.9, sweep_steps = 3 /\n"
+                       f"&method solver = 'fitted' /\n&output {TABLES}, details = t /\n", FIRST),
+    "paper": Case(f"{SURFACE}'wave_2d' /\n&load sweep_from = 0.1, sweep_to = 0.9, sweep_steps = 5 /\n"
+                  f"&output {TABLES}, coefficients = t, theory = t /\n", FIRST),
+    "line": Case(f"{SURFACE}'wave_1d' /\n&load pbar_over_pstar = 0.1, 0.6 /\n&method solver = 'auto' /\n"
+                 "&output lines = t, map = t /\n&stress nu = 0.3, line = t /\n", FIRST),
+    # Loads that are.
+    **{f"loads_of_{solver}": Case(f"{SURFACE}'wave_2d' /\n&method solver = '{solver}' /\n"
+                                  "&load sweep_from = 0.05, sweep_to = 0.95, sweep_steps = 37 /\n", LOADS, SEVERAL_RANKS, rounding, OF_THE_START)
+       for solver, rounding in (("fitted", OTHER_START_OF_EXPANSIONS), ("beale", OTHER_START_OF_BEALE))},
+    "loads_of_grids": Case(f"{SURFACE}'hexagonal' /\n&load sweep_from = 0.05, sweep_to = 0.9, sweep_steps = 20 /\n"
+                           "&method solver = 'grid', grid_points = 64 /\n", LOADS, SEVERAL_RANKS),
+}
+MAPS = {"odd": (263, 301, "f8"), "mirrored": (256, 384, "f4"), "coarse": (128, 192, "f8"), "narrow": (2048, 40, "f8")}
 
-def write_npy(path, rows, columns, precision="f8"):
-    """A smooth rough surface of rows x columns heights: a few waves, of the same heights in each run."""
-    stream = random.Random(rows*10000 + columns)
-    waves = [(stream.randrange(-9, 10), stream.randrange(-9, 10), stream.uniform(0, 6.28)) for _ in range(40)]
-    # Sums of products along the sides are faster than a cosine for each point.
-    along_x = [[2*math.pi*k*i/columns + phase for i in range(columns)] for k, _, phase in waves]
-    along_y = [[2*math.pi*l*j/rows for j in range(rows)] for _, l, _ in waves]
-    cosine_x, sine_x = [[[f(a) for a in wave] for wave in along_x] for f in (math.cos, math.sin)]
-    sizes = [1/(1 + k*k + l*l) for k, l, _ in waves]
-    heights = array.array("d" if precision == "f8" else "f")
-    for j in range(rows):
-        factors = [(size*math.cos(angles[j]), size*math.sin(angles[j])) for size, angles in zip(sizes, along_y)]
-        heights.extend(sum(c*cx[i] - s*sx[i] for (c, s), cx, sx in zip(factors, cosine_x, sine_x))
-                       for i in range(columns))
-    if sys.byteorder == "big":
-        heights.byteswap()
-    words = f"{{'descr': '<{precision}', 'fortran_order': False, 'shape': ({rows}, {columns}), }}"
-    words += " "*(-(10 + len(words) + 1) % 64) + "\n"
-    path.write_bytes(b"\x93NUMPY\x01\x00" + struct.pack("<H", len(words)) + words.encode() + heights.tobytes())
 
-
-def numbers_of_npy(content):
-    """The numbers of an .npy file, and its head."""
-    start = 10 + struct.unpack("<H", content[8:10])[0]
-    values = array.array("d" if b"<f8" in content[:start] else "f", content[start:])
-    if sys.byteorder == "big":
-        values.byteswap()
-    return list(values), content[:start]
-
-
-def log(text):
-    """The lines of a log without times and without what only several ranks say."""
-    return [re.sub(r"^\[ *[\d.]+ s\]", "[]", line) for line in text.splitlines() if not line.startswith("ranks ")]
+def logs(text):
+    """The lines of each deck's log, by its name, without times and what only several ranks say; and with the latter."""
+    parts = re.findall(r"^(wavycon .*\ndeck +(\w+)\.nml\n(?:(?!wavycon |\d+ decks: ).*\n)*)", text, re.MULTILINE)
+    lines = {name: [re.sub(r"^\[ *[\d.]+ s\]", "[]", line) for line in part.rstrip().splitlines()]
+             for part, name in parts}
+    return {name: [line for line in own if not line.startswith("ranks ")] for name, own in lines.items()}, lines
 
 
 def columns(text):
@@ -101,10 +120,9 @@ def farthest_number(pairs):
     return difference/largest if largest > 0 else difference
 
 
-def complaints(one, other, rounding, left_out=""):
-    """Where the files of two folders differ; columns of some names may be left out."""
-    names = [sorted(str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file())
-             for folder in (one, other)]
+def complaints(case, one, other, rounding, left_out=""):
+    """Where the files of a case in two folders differ; columns of some names may be left out."""
+    names = [sorted(path.name for path in folder.glob(f"{case}.*")) for folder in (one, other)]
     if names[0] != names[1]:
         return [f"files {names[1]}, not {names[0]}"]
     words = [] if names[0] else ["no file"]
@@ -115,7 +133,7 @@ def complaints(one, other, rounding, left_out=""):
         if rounding == NONE:
             words.append(f"{name} differs")
         elif name.endswith(".npy"):
-            (values, head), (others, other_head) = map(numbers_of_npy, contents)
+            (head, values), (other_head, others) = (read_npy(folder/name) for folder in (one, other))
             difference = math.inf
             if head == other_head and len(values) == len(others):
                 difference = farthest_number(list(zip(values, others)))
@@ -136,147 +154,47 @@ def complaints(one, other, rounding, left_out=""):
     return words
 
 
-class SameTables(unittest.TestCase):
-    mpiexec = program = parallel = ""
-
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+class SameTables(ProgramTest):
+    mpiexec = parallel = ""
 
     def serial(self, words):
         return subprocess.run([self.program, *words], cwd=self.folder, capture_output=True, text=True, check=False)
 
-    def compare(self, text, rounding=NONE, ranks=SEVERAL_RANKS, spread=None, left_out=""):
-        """Runs a deck by both programs. spread: what the log must say of the ranks; the rest as in complaints."""
-        (self.folder/"deck.nml").write_text(text)
-        words = ["deck.nml", "--output", "results"]
-        expected = self.serial(words)
-        self.assertEqual("", expected.stderr)
-        reference = (self.folder/"results").rename(self.folder/"serial")
-        first = None
-        for number_of_ranks in set(ranks).intersection(self.ranks):
-            with self.subTest(ranks=number_of_ranks):
-                outcome = run(self.mpiexec, number_of_ranks, [self.parallel, *words], self.folder)
-                self.assertEqual((expected.returncode, ""), (outcome.status, outcome.stderr))
-                if rounding == NONE:
-                    self.assertEqual(log(expected.stdout), log(outcome.stdout))
-                else:
-                    self.assertEqual(len(log(expected.stdout)), len(log(outcome.stdout)))
-                if spread and number_of_ranks > 1:
-                    self.assertRegex(outcome.stdout, spread)
-                results = (self.folder/"results").rename(self.folder/f"ranks-{number_of_ranks}")
-                self.assertEqual([], complaints(reference, results, rounding if number_of_ranks > 1 else NONE,
-                                                left_out))
-                if number_of_ranks > 1:
-                    first = first or results
-                    self.assertEqual([], complaints(first, results, min(rounding, LAST_DIGIT)), "unlike fewer ranks")
-
-    # Waves on grids: an even one on a quarter of the cell, one on the turned cell, one with periods.
-
-    def test_wave_on_a_quarter(self):
-        self.compare("&surface kind = 'wave_2d', wavelength_y = 2 /\n&load pbar_over_pstar = 0.02, 0.3, 0.8 /\n"
-                     f"&method solver = 'grid', grid_points = 640 /\n&output {TABLES} /\n", spread=GRIDS, ranks=ALL_RANKS)
-
-    def test_wave_on_the_turned_cell(self):
-        self.compare("&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0.1, 0.6 /\n"
-                     f"&method solver = 'grid', grid_points = 1024 /\n&output {TABLES} /\n",
-                     spread=GRIDS, ranks=SOME_RANKS)
-
-    def test_wave_to_an_accuracy(self):
-        self.compare("&surface kind = 'wave_2d', wavelength_y = 1.5 /\n&load pbar_over_pstar = 0.2 /\n"
-                     "&method solver = 'grid', accuracy = 2e-5 /\n", spread=GRIDS, ranks=SOME_RANKS)
-
-    def test_hexagonal(self):
-        self.compare("&surface kind = 'hexagonal' /\n&load pbar_over_pstar = 0.05, 0.7 /\n"
-                     f"&method solver = 'grid', grid_points = 720, 1024 /\n&output {TABLES} /\n",
-                     spread=GRIDS, ranks=SOME_RANKS)
-
-    def test_sum_with_phases(self):
-        self.compare("&surface kind = 'sum', length_x = 2, length_y = 1, amplitudes = 1, 0.4, 0.15, waves_x = 1, 0, 3, "
-                     "waves_y = 0, 1, 2, phases = 0, 0, 60 /\n&load pbar_over_pstar = 0.1, 0.5 /\n"
-                     f"&method solver = 'grid', grid_points = 600, 256 /\n&output {TABLES} /\n", spread=GRIDS)
-
-    def test_loads_by_gap_and_area(self):
-        # One load, so that its grids are spread, not the loads.
-        for load in "mean_gap_over_amplitude = 0.1", "contact_area_fraction = 0.1":
-            self.compare("&surface kind = 'wave_2d', wavelength_y = 2 /\n"
-                         f"&load {load} /\n&method solver = 'grid', grid_points = 768 /\n", spread=GRIDS,
-                         ranks=SOME_RANKS)
-            for path in self.folder.iterdir():
-                path.rename(path.with_name(f"{path.name}-{load[:4]}"))
-
-    def test_hardness(self):
-        self.compare("&surface kind = 'wave_2d', wavelength_y = 2 /\n&material hardness = 5 /\n"
-                     "&load pbar_over_pstar = 0.4 /\n&method solver = 'grid', grid_points = 768 /\n",
-                     spread=GRIDS, ranks=SOME_RANKS)
-
-    # Height maps.
-
-    def test_map_of_odd_size(self):
-        write_npy(self.folder/"map.npy", 263, 301)
-        self.compare("&surface kind = 'file', file = 'map.npy', length_x = 3, length_y = 2.6 /\n"
-                     f"&load pbar_over_pstar = 0.05, 0.4 /\n&output {TABLES} /\n", rounding=LAST_DIGIT, spread=GRIDS,
-                     ranks=ALL_RANKS)
-
-    def test_mirrored_map(self):
-        write_npy(self.folder/"map.npy", 256, 384, "f4")
-        self.compare("&surface kind = 'file', file = 'map.npy', edges = 'mirror', detrend = 'plane' /\n"
-                     f"&load pbar_over_pstar = 0.05, 0.4 /\n&output {TABLES} /\n",
-                     rounding=LAST_DIGIT, spread=GRIDS, ranks=SOME_RANKS)
-
-    def test_map_on_other_points(self):
-        write_npy(self.folder/"map.npy", 128, 192)
-        self.compare("&surface kind = 'file', file = 'map.npy' /\n&load pbar_over_pstar = 0.1 /\n"
-                     "&method solver = 'grid', grid_points = 384, 256 /\n",
-                     rounding=LAST_DIGIT, spread=GRIDS, ranks=SOME_RANKS)
-
-    def test_more_ranks_than_columns(self):
-        write_npy(self.folder/"map.npy", 2048, 40)
-        self.compare("&surface kind = 'file', file = 'map.npy', length_x = 1, length_y = 50 /\n"
-                     "&load pbar_over_pstar = 0.1 /\n", rounding=LAST_DIGIT, spread=GRIDS)
-
-    def test_self_affine(self):
-        self.compare("&surface kind = 'self_affine', rms_slope = 0.1, points = 384, short_wavelength = 0.03 /\n"
-                     "&load pbar_over_pstar = 0.01, 0.1 /\n&output map = t, contours = t, spots = t, spectrum = t /\n",
-                     rounding=LAST_DIGIT, spread=GRIDS)
-
-    def test_maps_as_npy(self):
-        self.compare("&surface kind = 'self_affine', rms_slope = 0.1, points = 384, short_wavelength = 0.03 /\n"
-                     "&load pbar_over_pstar = 0.05 /\n&output map = t, map_format = 'npy' /\n",
-                     rounding=LAST_DIGIT, spread=GRIDS, ranks=SOME_RANKS)
-
-    # What is not spread over the ranks.
-
-    def test_expansions(self):
-        self.compare("&surface kind = 'wave_2d' /\n&load sweep_from = 0.1, sweep_to = 0.9, sweep_steps = 3 /\n"
-                     f"&method solver = 'fitted' /\n&output {TABLES}, details = t /\n", spread=FIRST, ranks=SOME_RANKS)
-
-    def test_paper(self):
-        self.compare("&surface kind = 'wave_2d' /\n&load sweep_from = 0.1, sweep_to = 0.9, sweep_steps = 5 /\n"
-                     f"&output {TABLES}, coefficients = t, theory = t /\n", spread=FIRST, ranks=SOME_RANKS)
-
-    def test_one_dimensional_wave(self):
-        self.compare("&surface kind = 'wave_1d' /\n&load pbar_over_pstar = 0.1, 0.6 /\n&method solver = 'auto' /\n"
-                     "&output lines = t, map = t /\n&stress nu = 0.3, line = t /\n", spread=FIRST, ranks=SOME_RANKS)
-
-    def test_loads_that_are_spread(self):
-        for solver, rounding in ("fitted", OTHER_START_OF_EXPANSIONS), ("beale", OTHER_START_OF_BEALE):
-            self.compare("&surface kind = 'wave_2d' /\n&load sweep_from = 0.05, sweep_to = 0.95, sweep_steps = 37 /\n"
-                         f"&method solver = '{solver}' /\n", rounding=rounding, spread=LOADS,
-                         left_out=OF_THE_START)
-            for path in self.folder.iterdir():
-                path.rename(path.with_name(f"{path.name}-{solver}"))
-
-    def test_loads_on_small_grids_that_are_spread(self):
-        self.compare("&surface kind = 'hexagonal' /\n&load sweep_from = 0.05, sweep_to = 0.9, sweep_steps = 20 /\n"
-                     "&method solver = 'grid', grid_points = 64 /\n", spread=LOADS)
+    def test_all_decks(self):
+        for name, (rows, along, kind) in MAPS.items():
+            write_npy(self.folder/f"{name}.npy", rough_map(rows, along, rows), kind)
+        for name, case in CASES.items():
+            (self.folder/f"{name}.nml").write_text(case.deck)
+        every = self.serial([*(f"{name}.nml" for name in CASES), "--output", "results"])
+        self.assertEqual((0, ""), (every.returncode, every.stderr))
+        (self.folder/"results").rename(self.folder/"serial")
+        expected, _ = logs(every.stdout)
+        first = {}
+        for ranks in self.ranks:
+            chosen = {name: case for name, case in CASES.items() if ranks in case.ranks}
+            decks = [f"{name}.nml" for name in chosen]
+            outcome = run(self.mpiexec, ranks, [self.parallel, *decks, "--output", "results"], self.folder)
+            self.assertEqual((0, ""), (outcome.status, outcome.stderr))
+            results = (self.folder/"results").rename(self.folder/f"ranks-{ranks}")
+            found, lines = logs(outcome.stdout)
+            for name, case in chosen.items():
+                with self.subTest(ranks=ranks, deck=name):
+                    if case.rounding == NONE:
+                        self.assertEqual(expected[name], found[name])
+                    self.assertEqual(len(expected[name]), len(found[name]))
+                    rounding = case.rounding if ranks > 1 else NONE
+                    self.assertEqual([], complaints(name, self.folder/"serial", results, rounding, case.left_out))
+                    if ranks > 1:
+                        self.assertRegex("\n".join(lines[name]), case.spread)
+                        fewer = first.setdefault(name, results)
+                        self.assertEqual([], complaints(name, fewer, results, min(case.rounding, LAST_DIGIT)),
+                                         "unlike fewer ranks")
 
     # The command line.
 
     def test_check(self):
-        (self.folder/"deck.nml").write_text("&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0.1 /\n")
-        outcome = run(self.mpiexec, max(self.ranks), [self.parallel, "--check", "deck.nml"], self.folder)
+        (self.folder/"checked.nml").write_text("&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0.1 /\n")
+        outcome = run(self.mpiexec, max(self.ranks), [self.parallel, "--check", "checked.nml"], self.folder)
         self.assertEqual((0, ""), (outcome.status, outcome.stderr))
         self.assertEqual(1, outcome.stdout.count("wave_2d"), outcome.stdout)
         self.assertFalse((self.folder/"outputs").exists())
@@ -287,10 +205,10 @@ class SameTables(unittest.TestCase):
             self.assertEqual((0, "", 1), (outcome.status, outcome.stderr, outcome.stdout.count(words)), option)
 
     def test_bad_decks(self):
-        (self.folder/"deck.nml").write_text("&surface kind = 'wave' /\n&load pbar = 0.1 /\n")
+        (self.folder/"bad.nml").write_text("&surface kind = 'wave' /\n&load pbar = 0.1 /\n")
         (self.folder/"map.nml").write_text("&surface kind = 'file', file = 'nowhere.npy' /\n"
                                            "&load pbar_over_pstar = 0.1 /\n")
-        for words in (["deck.nml"], ["nowhere.nml"], ["map.nml"], ["--bad", "deck.nml"], []):
+        for words in (["bad.nml", "nowhere.nml", "map.nml"], ["--bad", "bad.nml"], []):
             expected = self.serial(words)
             outcome = run(self.mpiexec, max(self.ranks), [self.parallel, *words], self.folder)
             self.assertIn(expected.returncode, (1, 3))
@@ -300,16 +218,5 @@ class SameTables(unittest.TestCase):
             self.assertEqual(expected.stdout, outcome.stdout)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    for name in "mpiexec", "ranks", "program", "parallel":
-        parser.add_argument(f"--{name}", required=True)
-    options, rest = parser.parse_known_args()
-    for name, value in vars(options).items():
-        setattr(SameTables, name, value)
-    SameTables.ranks = numbers(options.ranks)
-    unittest.main(argv=[sys.argv[0], *rest], verbosity=2)
-
-
 if __name__ == "__main__":
-    main()
+    main(SameTables)

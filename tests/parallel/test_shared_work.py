@@ -3,34 +3,24 @@
 
 usage: test_shared_work.py --mpiexec MPIEXEC --ranks N[,N...] --program WAVYCON --parallel WAVYCON_MPI
 """
-import argparse
-import pathlib
+import shutil
 import subprocess
-import sys
-import tempfile
-import unittest
 
-sys.dont_write_bytecode = True
-from ranks import numbers, run  # noqa: E402
+from program import ProgramTest
+from ranks import main, run
+from tables import Table
 
 WAVE = "&surface kind = 'wave_2d' /\n"
 SWEEP = "&load sweep_from = 0.02, sweep_to = 0.95, sweep_steps = 60 /\n"
 EXIT_BAD_INPUT = 1
 
 
-def table(path):
-    """The columns of a table by name."""
-    lines = [line.split() for line in path.read_text().splitlines() if line and not line.startswith("#")]
-    return dict(zip(lines[0], zip(*lines[1:])))
+class SharedWork(ProgramTest):
+    mpiexec = parallel = ""
 
-
-class SharedWork(unittest.TestCase):
-    mpiexec = program = parallel = ""
-
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+    def several(self):
+        """One rank has nothing to share."""
+        return [ranks for ranks in self.ranks if ranks > 1]
 
     def solve(self, text, ranks, output, *options):
         """Runs a deck on so many ranks; 0: by the serial program."""
@@ -45,31 +35,31 @@ class SharedWork(unittest.TestCase):
         for solver in "'fitted', accuracy = 1e-6", "'beale'":
             deck = WAVE + SWEEP + f"&method solver = {solver} /\n"
             self.solve(deck, 0, "serial")
-            serial = table(self.folder/"serial"/"deck.summary.dat")
+            serial = Table(self.folder/"serial"/"deck.summary.dat")
             first = None
-            for ranks in self.ranks:
+            for ranks in self.several():
                 with self.subTest(solver=solver, ranks=ranks):
                     outcome = self.solve(deck, ranks, f"ranks-{ranks}")
                     self.assertEqual((0, ""), (outcome.status, outcome.stderr))
-                    self.assertIn("the loads are spread over them", outcome.stdout)
+                    self.assertIn("the loads are distributed over them", outcome.stdout)
                     text = (self.folder/f"ranks-{ranks}"/"deck.summary.dat").read_text()
                     first = first or text
                     self.assertEqual(first, text)
-                    shared = table(self.folder/f"ranks-{ranks}"/"deck.summary.dat")
+                    shared = Table(self.folder/f"ranks-{ranks}"/"deck.summary.dat")
                     for name in "mean_gap_over_amplitude", "contact_area_fraction":
-                        for one, other in zip(serial[name], shared[name]):
+                        for one, other in zip(serial.column(name), shared.column(name)):
                             self.assertAlmostEqual(float(one), float(other), delta=1e-6)
-                    self.assertEqual(serial["status"], shared["status"])
+                    self.assertEqual(serial.column("status"), shared.column("status"))
 
     def test_loads_on_small_grids_and_their_stresses(self):
         """Each load is solved by itself: the digits are those of the serial program."""
         deck = (WAVE + "&load pbar_over_pstar = 0.3, 0.1, 0.2, 1.2, 0 /\n&stress nu = 0.3, yield_stress = 1 /\n"
                 "&method solver = 'grid', grid_points = 64 /\n")
         self.solve(deck, 0, "serial")
-        for ranks in self.ranks:
+        for ranks in self.several():
             outcome = self.solve(deck, ranks, f"ranks-{ranks}")
             self.assertEqual((0, ""), (outcome.status, outcome.stderr))
-            self.assertIn("the loads are spread over them", outcome.stdout)
+            self.assertIn("the loads are distributed over them", outcome.stdout)
             for name in "deck.summary.dat", "deck.stress_largest.dat":
                 self.assertEqual((self.folder/"serial"/name).read_bytes(),
                                  (self.folder/f"ranks-{ranks}"/name).read_bytes())
@@ -83,7 +73,33 @@ class SharedWork(unittest.TestCase):
         for name in "deck.summary.dat", "deck.contour.dat":
             self.assertEqual((self.folder/"serial"/name).read_bytes(), (self.folder/"ranks"/name).read_bytes())
 
-    def test_a_file_of_another_number_of_ranks_is_refused(self):
+    def interrupt(self, text, ranks):
+        """A run that cannot write its summary, and whose last checkpoint has lost the end of its last load."""
+        shutil.rmtree(self.folder/"results", ignore_errors=True)
+        (self.folder/"results"/"deck.summary.dat").mkdir(parents=True)
+        outcome = self.solve(text, ranks, "results")
+        self.assertNotEqual("", outcome.stderr)
+        (self.folder/"results"/"deck.summary.dat").rmdir()
+        last = sorted((self.folder/"results").glob("deck.checkpoint*"))[-1]
+        last.write_bytes(last.read_bytes()[:-1])
+
+    def test_interrupted_runs_are_resumed_on_any_number_of_ranks(self):
+        """All but the load that was not written whole are restored, and the tables are those of one run."""
+        deck = WAVE + "&load pbar_over_pstar = 0.4, 0.3, 0.2, 0.1 /\n&method solver = 'grid', grid_points = %d /\n"
+        # Loads are dealt to the ranks, or the columns of grids are distributed over them.
+        for text in deck % 64, deck % 512 + "&output lines = .true. /\n":
+            self.solve(text, 0, "whole")
+            for before, now in (0, max(self.ranks)), (max(self.ranks), 0), (max(self.ranks), min(self.ranks)):
+                with self.subTest(before=before, now=now, deck=text):
+                    self.interrupt(text, before)
+                    outcome = self.solve(text, now, "results", "--resume")
+                    self.assertEqual("", outcome.stderr)
+                    self.assertRegex(outcome.stdout, r"(?m)^resumed +3 of 4 loads")
+                    for path in (self.folder/"whole").glob("*.dat"):
+                        self.assertEqual(path.read_bytes(), (self.folder/"results"/path.name).read_bytes())
+                    self.assertEqual([], list((self.folder/"results").glob("*checkpoint*")))
+
+    def test_files_that_are_no_checkpoints_are_refused(self):
         deck = WAVE + "&load pbar_over_pstar = 0.3, 0.1 /\n&method solver = 'grid', grid_points = 1024 /\n"
         (self.folder/"results").mkdir()
         for name, ranks in ("deck.checkpoint", 2), ("deck.checkpoint.0", 1):
@@ -97,11 +113,4 @@ class SharedWork(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser()
-    for name in "mpiexec", "ranks", "program", "parallel":
-        parser.add_argument(f"--{name}", required=True)
-    given, rest = parser.parse_known_args()
-    SharedWork.mpiexec, SharedWork.program, SharedWork.parallel = given.mpiexec, given.program, given.parallel
-    # One rank has nothing to share.
-    SharedWork.ranks = tuple(number for number in numbers(given.ranks) if number > 1)
-    unittest.main(argv=[sys.argv[0], *rest])
+    main(SharedWork)

@@ -1,4 +1,4 @@
-!> Grids that are spread over the ranks beside the same grids whole on each rank: equal to the last bit.
+!> Grids that are distributed over the ranks beside the same grids whole on each rank: equal to the last bit.
 !>
 !> `mpirun -n N test_slabs` prints a line for each subject, and ends with status 1 if one of them fails. Grids and slabs
 !> are chosen for 1 to 5 ranks: all the same size, odd, ranks without columns, of the least width.
@@ -6,7 +6,7 @@ program test_slabs
    use, intrinsic :: iso_c_binding, only: c_bool
    use, intrinsic :: iso_fortran_env, only: int64
    use rank_checks, only: check, end_checks, report
-   use wavycon_contact_extension, only: contact_extension
+   use wavycon_multilevel_preconditioner, only: multilevel_preconditioner
    use wavycon_contact_region, only: contact_region
    use wavycon_grid_refinement, only: refine_pressure
    use wavycon_grid_points, only: image_of_point
@@ -19,8 +19,8 @@ program test_slabs
    use wavycon_wave_2d, only: wave_2d
    implicit none (type, external)
 
-   !> Those that are spread over two ranks or more, and two that never are: one too narrow, one too small.
-   integer, parameter :: spread_grids(2, 4) = reshape([256, 256, 509, 257, 2048, 40, 1024, 160], [2, 4])
+   !> Those that are distributed over two ranks or more, and two that never are: one too narrow, one too small.
+   integer, parameter :: distributed_grids(2, 4) = reshape([256, 256, 509, 257, 2048, 40, 1024, 160], [2, 4])
    integer, parameter :: whole_grids(2, 2) = reshape([2048, 36, 300, 200], [2, 2])
 
    !> Whether two arrays are equal to the last bit.
@@ -48,30 +48,30 @@ contains
       integer(int64) :: columns(1)
       integer :: k
 
-      do k = 1, size(spread_grids, 2)
-         call slab%start(spread_grids(:, k))
+      do k = 1, size(distributed_grids, 2)
+         call slab%start(distributed_grids(:, k))
          columns = slab%columns()
          call slab%add(columns)
-         call check(slab%is_spread .eqv. rank_count() > 1)
-         call check(columns(1) == spread_grids(2, k))
+         call check(slab%is_distributed .eqv. rank_count() > 1)
+         call check(columns(1) == distributed_grids(2, k))
          call check(slab%columns() == 0 .or. slab%columns() >= most_reach)
          if (slab%columns() > 0) then
             call check(slab%first == this_rank()*slab%width + 1)
             call check(mod(slab%first - 1, strip_columns) == 0)
          end if
-         if (mod(spread_grids(2, k), 2) == 0) then
+         if (mod(distributed_grids(2, k), 2) == 0) then
             coarse = slab%coarser()
             call check(2*coarse%first - 1 == slab%first .and. coarse%columns() == slab%columns()/2)
          end if
          call work_alone(.true.)
-         call slab%start(spread_grids(:, k))
+         call slab%start(distributed_grids(:, k))
          call work_alone(.false.)
-         call check(.not. slab%is_spread)
-         call check(slab%columns() == spread_grids(2, k))
+         call check(.not. slab%is_distributed)
+         call check(slab%columns() == distributed_grids(2, k))
       end do
       do k = 1, size(whole_grids, 2)
          call slab%start(whole_grids(:, k))
-         call check(.not. slab%is_spread)
+         call check(.not. slab%is_distributed)
          call check(slab%columns() == whole_grids(2, k))
       end do
       call report('slabs')
@@ -84,9 +84,9 @@ contains
       integer(int64) :: number(1)
       integer :: k, s
 
-      do k = 1, size(spread_grids, 2)
-         call slab%start(spread_grids(:, k))
-         whole = numbers(spread_grids(:, k))
+      do k = 1, size(distributed_grids, 2)
+         call slab%start(distributed_grids(:, k))
+         whole = numbers(distributed_grids(:, k))
          columns = reshape([sum(whole, dim=1), sum(whole**2, dim=1)], [2, size(whole, 2)], order=[2, 1])
          allocate (strips(1, (size(whole, 2) - 1)/strip_columns + 1))
          do s = 1, size(strips, 2)
@@ -116,9 +116,9 @@ contains
       integer, allocatable :: before(:), behind(:)
       integer :: even, k, l, r
 
-      do k = 1, size(spread_grids, 2)
-         call slab%start(spread_grids(:, k))
-         whole = numbers(spread_grids(:, k))
+      do k = 1, size(distributed_grids, 2)
+         call slab%start(distributed_grids(:, k))
+         whole = numbers(distributed_grids(:, k))
          single = real(whole, sp)
          do l = 1, size(reaches)
             r = reaches(l)
@@ -162,9 +162,9 @@ contains
       real(sp), allocatable :: all_single(:, :), single(:, :)
       integer :: k
 
-      do k = 1, size(spread_grids, 2)
-         call slab%start(spread_grids(:, k))
-         whole = numbers(spread_grids(:, k))
+      do k = 1, size(distributed_grids, 2)
+         call slab%start(distributed_grids(:, k))
+         whole = numbers(distributed_grids(:, k))
          single = real(whole, sp)
          allocate (all_columns, mold=whole)
          allocate (all_single, mold=single)
@@ -186,9 +186,9 @@ contains
 
       rank = this_rank()
       first = 7*rank
-      do k = 0, 2*size(spread_grids, 2) - 1
+      do k = 0, 2*size(distributed_grids, 2) - 1
          even = mod(k, 2) == 0
-         associate (grid => spread_grids(:, 1 + k/2))
+         associate (grid => distributed_grids(:, 1 + k/2))
             call slab%start(grid)
             whole = numbers(grid)
          end associate
@@ -210,9 +210,9 @@ contains
       real(dp), allocatable :: gathered(:, :), whole(:, :)
       integer :: k
 
-      do k = 1, size(spread_grids, 2)
-         call slab%start(spread_grids(:, k))
-         whole = numbers(spread_grids(:, k))
+      do k = 1, size(distributed_grids, 2)
+         call slab%start(distributed_grids(:, k))
+         whole = numbers(distributed_grids(:, k))
          call slab%gather_to_first(whole(:, slab%first:slab%last), gathered)
          call check(allocated(gathered) .eqv. this_rank() == 0)
          if (allocated(gathered)) call check(same(gathered, whole))
@@ -262,7 +262,7 @@ contains
    end subroutine test_row_exchange
 
    subroutine test_extension()
-      ! Without coarser grids; with small ones only; with some that are spread, all of them or not.
+      ! Without coarser grids; with small ones only; with some that are distributed, all of them or not.
       integer, parameter :: grids(2, 6) = reshape([509, 257, 256, 256, 2048, 40, 1024, 160, 802, 666, 2048, 640], &
                                                   [2, 6])
       type(grid_slab) :: slab
@@ -297,7 +297,7 @@ contains
       real(sp), intent(in), contiguous :: contact(:, :)
       real(sp), intent(inout), contiguous :: extended(:, :), collected(:, :)
 
-      type(contact_extension) :: extension
+      type(multilevel_preconditioner) :: extension
 
       call extension%start(points, even)
       call extension%set_contact(contact)
@@ -353,8 +353,8 @@ contains
    end subroutine apply_stencil
 
    subroutine test_refinement()
-      ! From grids that are whole on each rank, and from grids that are spread. Slabs of the finer grid are not twice
-      ! those of the coarser one.
+      ! From grids that are whole on each rank, and from grids that are distributed. Slabs of the finer grid are not
+      ! twice those of the coarser one.
       integer, parameter :: grids(2, 6) = reshape([128, 128, 1024, 40, 256, 256, 509, 257, 1024, 96, 512, 416], [2, 6])
       type(grid_slab) :: coarse_slab, fine_slab
       real(dp), allocatable :: coarse(:, :), fine(:, :), own(:, :)
@@ -367,8 +367,8 @@ contains
             coarse = numbers(points)
             call coarse_slab%start(points)
             call fine_slab%start(2*points)
-            call check(fine_slab%is_spread .eqv. rank_count() > 1)
-            call check(coarse_slab%is_spread .eqv. (rank_count() > 1 .and. k > 4))
+            call check(fine_slab%is_distributed .eqv. rank_count() > 1)
+            call check(coarse_slab%is_distributed .eqv. (rank_count() > 1 .and. k > 4))
             own = coarse(:, coarse_slab%first:coarse_slab%last)
             call refine_pressure(own, coarse_slab, even, fine_slab, fine)
             own = fine

@@ -14,7 +14,7 @@ INPUTS = HERE.parent.parent / "inputs"
 LARGEST = 200_000
 # A table of more rows than LONG is thinned out to some SAMPLE rows; what stands for all its rows comes below them.
 LONG = 24
-SAMPLE = 10
+SAMPLE = 5
 
 # Tolerances. A number agrees if it differs by at most `absolute + of_largest*L`, where L is the largest size that the
 # reference has in that column.
@@ -118,7 +118,7 @@ def of_all_rows(rows):
     columns = []
     for words in zip(*rows):
         try:
-            numbers = [float(word) if math.isfinite(float(word)) else 0.0 for word in words]
+            numbers = [number if math.isfinite(number) else 0.0 for number in map(float, words)]
         except ValueError:
             columns.append([",".join(sorted(set(words)))]*3)
             continue

@@ -1,31 +1,22 @@
 #!/usr/bin/env python3
 """gnuplot finds every column of every table by its name, in each block."""
 import math
-import pathlib
 import shutil
 import subprocess
-import sys
-import tempfile
-import unittest
 
-sys.dont_write_bytecode = True
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from sample_tables import WORDS, blocks_of, make_tables, page_examples, run_page_decks  # noqa: E402
-from tables import Table  # noqa: E402
+from program import ProgramTest, main, skip
+from sample_tables import WORDS, blocks_of, make_tables, page_examples, run_page_decks
+from tables import Table
 
-SKIPPED = 77
 # Of sums of some hundred numbers.
 ROUNDING = 1e-13
 
 
-class Gnuplot(unittest.TestCase):
-    program = ""
-
+class Gnuplot(ProgramTest):
     @classmethod
     def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        cls.tables = make_tables(cls.program, pathlib.Path(folder.name))
+        super().setUpClass()
+        cls.tables = make_tables(cls)
 
     def test_numbers(self):
         for table in self.tables:
@@ -56,38 +47,33 @@ class Gnuplot(unittest.TestCase):
                     self.assertEqual([[str(sum(record[name] == word for record in table.records()))]], found)
 
     def test_the_examples_of_the_page(self):
-        with tempfile.TemporaryDirectory() as scratch:
-            folder = pathlib.Path(scratch)
-            run_page_decks(self.program, folder)
-            text, binary = page_examples("gnuplot")
-            for example in (text, binary):
-                # gnuplot only warns if it does not find a name or a point.
-                self.assertEqual("", self.drawn(example, folder))
-                self.assertEqual(example.count("\nplot "), (folder/"drawn").read_text().count("\f"))
-            self.assertIn("distanse", self.drawn(text.replace('"distance"', '"distanse"'), folder))
-            # The numbers of the second load.
-            numbers = binary.split("\n")[0] + "\nstats" + binary[binary.index("\nplot") + 5:].split("with")[0]
-            found, = self.answers([numbers.replace("using 1:2:3", "using 3") + " nooutput",
-                                   "print sprintf('%d %.12e', STATS_records, STATS_mean)"], folder)
-            record = Table(folder/"outputs"/"fine"/"fine.summary.dat").records()[1]
-            self.assertEqual("4096", found[0])
-            self.assertAlmostEqual(float(record["mean_pressure"]), float(found[1]), places=9)
+        run_page_decks(self)
+        text, binary = page_examples("gnuplot")
+        for example in (text, binary):
+            # gnuplot only warns if it does not find a name or a point.
+            self.assertEqual("", self.drawn(example))
+            self.assertEqual(example.count("\nplot "), (self.folder/"drawn").read_text().count("\f"))
+        self.assertIn("distanse", self.drawn(text.replace('"distance"', '"distanse"')))
+        # The numbers of the second load.
+        numbers = binary.split("\n")[0] + "\nstats" + binary[binary.index("\nplot") + 5:].split("with")[0]
+        found, = self.answers([numbers.replace("using 1:2:3", "using 3") + " nooutput",
+                               "print sprintf('%d %.12e', STATS_records, STATS_mean)"])
+        record = Table(self.folder/"outputs"/"fine"/"fine.summary.dat").records()[1]
+        self.assertEqual("4096", found[0])
+        self.assertAlmostEqual(float(record["mean_pressure"]), float(found[1]), places=9)
 
-    def drawn(self, script, folder):
+    def drawn(self, script):
         """What gnuplot says while it draws into the file `drawn`."""
-        return subprocess.run(["gnuplot"], input="set terminal dumb\nset output 'drawn'\n" + script, cwd=folder,
+        return subprocess.run(["gnuplot"], input="set terminal dumb\nset output 'drawn'\n" + script, cwd=self.folder,
                               capture_output=True, text=True, check=False).stderr
 
-    def answers(self, script, folder=None):
-        result = subprocess.run(["gnuplot"], input="set print '-'\n" + "\n".join(script) + "\n", cwd=folder,
+    def answers(self, script):
+        result = subprocess.run(["gnuplot"], input="set print '-'\n" + "\n".join(script) + "\n", cwd=self.folder,
                                 capture_output=True, text=True, check=True)
         return [line.split() for line in result.stdout.splitlines()]
 
 
 if __name__ == "__main__":
-    Gnuplot.program = str(pathlib.Path(sys.argv.pop(sys.argv.index("--program") + 1)).resolve())
-    sys.argv.remove("--program")
     if not shutil.which("gnuplot"):
-        print("SKIPPED: gnuplot is not installed")
-        sys.exit(SKIPPED)
-    unittest.main()
+        skip("gnuplot is not installed")
+    main()

@@ -5,24 +5,17 @@ usage: test_inputs.py --program WAVYCON [unittest's options]
 
 The decks of large grids run only if Inputs.slow_decks_agree_with_their_references is named.
 """
-import pathlib
 import subprocess
-import sys
-import tempfile
-import unittest
 
-sys.dont_write_bytecode = True
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-import references  # noqa: E402
+import references
+from program import ProgramTest, main
 
 
 # They take longer than all others together. regression.reference_table solves some of their loads.
 SLOW = {"challenge"}
 
 
-class Inputs(unittest.TestCase):
-    program = ""
-
+class Inputs(ProgramTest):
     def test_each_deck_agrees_with_its_reference(self):
         self.check_decks([deck for deck in references.decks() if deck.stem not in SLOW])
 
@@ -40,11 +33,10 @@ class Inputs(unittest.TestCase):
         how = f"tests/regression/remake --program {self.program} {deck.stem}"
         if not folder.is_dir():
             self.fail(f"{deck} has no reference; make it with\n   {how}")
-        with tempfile.TemporaryDirectory() as scratch:
-            try:
-                new = references.run(self.program, deck, scratch)
-            except subprocess.CalledProcessError as error:
-                self.fail(f"{deck}: exit status {error.returncode}")
+        try:
+            new = references.run(self.program, deck, self.folder)
+        except subprocess.CalledProcessError as error:
+            self.fail(f"{deck}: exit status {error.returncode}")
         self.assertEqual(sorted(path.name for path in folder.iterdir()), sorted(new),
                          f"{deck} makes other tables than its reference has; if that is right:\n   {how}")
         words = [f"{name}: {line}" for name, excerpt in new.items()
@@ -63,6 +55,4 @@ class Inputs(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    Inputs.program = str(pathlib.Path(sys.argv.pop(sys.argv.index("--program") + 1)).resolve())
-    sys.argv.remove("--program")
-    unittest.main()
+    main()

@@ -7,37 +7,19 @@ The packages are installed into a virtual environment in FOLDER, once. Exit stat
 """
 import os
 import pathlib
-import shutil
 import subprocess
-import sys
-import tempfile
-import unittest
 
-sys.dont_write_bytecode = True
-sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent/"support"))
-from virtual_environment import python_with  # noqa: E402
+from program import ProgramTest, main, new_folder
+from virtual_environment import go_on_with
 
-try:
-    import gsffile
-    import numpy
-    from SurfaceTopography import NonuniformLineScan, Topography
-except ImportError:  # this Python only makes the environment
-    pass
-
-SKIPPED = 77
-PACKAGES = ["numpy", "gsffile", "SurfaceTopography"]
 M, N = 14, 9  # points along x and y
 STEP = 2.0**-20  # between points, so that sides and coordinates are exact in single precision
 
 
-class MapFiles(unittest.TestCase):
-    program = ""
-
+class MapFiles(ProgramTest):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
         self.addCleanup(os.chdir, os.getcwd())
-        os.chdir(folder.name)
+        os.chdir(new_folder(self.addCleanup))
         self.heights = numpy.random.default_rng(5).standard_normal((N, M))*STEP
         self.single = self.heights.astype(numpy.float32)
 
@@ -169,18 +151,9 @@ def words_of(rows):
     return " ".join(rows).split()
 
 
-def main():
-    program, environment = (str(pathlib.Path(sys.argv[sys.argv.index(name) + 1]).resolve())
-                            for name in ("--program", "--environment"))
-    python = python_with(environment, PACKAGES, PACKAGES, options=["--only-binary", ":all:"])
-    if not python:
-        print(f"SKIPPED: {', '.join(PACKAGES)} cannot be installed; see {environment}.log")
-        sys.exit(SKIPPED)
-    if pathlib.Path(sys.prefix).resolve() != pathlib.Path(environment):
-        os.execv(python, [python, *sys.argv])
-    MapFiles.program = program
-    unittest.main(argv=sys.argv[:1])
-
-
 if __name__ == "__main__":
+    go_on_with("numpy", "gsffile", "SurfaceTopography")
+    import gsffile
+    import numpy
+    from SurfaceTopography import NonuniformLineScan, Topography
     main()

@@ -3,20 +3,14 @@
 
 usage: test_maps.py --program WAVYCON
 """
-import ast
 import math
-import pathlib
-import random
 import shutil
-import struct
 import subprocess
-import sys
-import tempfile
-import unittest
 
-sys.dont_write_bytecode = True
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from tables import Table  # noqa: E402
+from npy import read_npy
+from program import ProgramTest, main
+from rough_map import rough_map, text_of
+from tables import Table
 
 NAMES = ["x", "y", "pressure", "gap", "displacement", "undeformed_gap"]
 LOADS = 0.0, 0.05, 0.2, 0.6, 0.9, 1.0
@@ -42,56 +36,36 @@ DECKS = {
 }
 
 
-def heights():
-    """A few random waves: an uneven surface."""
-    number = random.Random(5)
-    waves = [(i, j, number.gauss(0, 1)/(i*i + j*j), 2*math.pi*number.random())
-             for i in range(-5, 6) for j in range(6) if i*i + j*j > 0]
-    turn = 2*math.pi/SIDE
-    return [[sum(a*math.cos(turn*(i*k + j*l) + phase) for i, j, a, phase in waves) for k in range(SIDE)]
-            for l in range(SIDE)]
-
-
-def read_npy(path):
+def records_of(path):
     """Shape, and a dictionary for each record."""
-    data = path.read_bytes()
-    if data[:10] != b"\x93NUMPY\x01\x00" + struct.pack("<H", 246) or data[255:256] != b"\n":
-        raise ValueError(f"{path}: a header of numpy's format of 256 bytes is expected")
-    header = ast.literal_eval(data[10:256].decode("ascii"))
-    names = [name for name, kind in header["descr"]]
-    order, = {kind for name, kind in header["descr"]}
-    if header["fortran_order"] or order not in ("<f8", ">f8"):
-        raise ValueError(f"{path}: {header}")
-    rows = struct.iter_unpack(order[0] + len(names)*"d", data[256:])
-    return header["shape"], [dict(zip(names, row)) for row in rows]
+    head, values = read_npy(path)
+    if head["fortran_order"]:
+        raise ValueError(f"{path}: {head}")
+    names = [name for name, _ in head["descr"]]
+    return head["shape"], [dict(zip(names, row)) for row in zip(*[iter(values)]*len(names), strict=True)]
 
 
 def mean(values):
     return math.fsum(values)/len(values)
 
 
-class Maps(unittest.TestCase):
-    program = ""
-
+class Maps(ProgramTest):
     @classmethod
     def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        cls.folder = pathlib.Path(folder.name)
-        (cls.folder / "heights.dat").write_text("\n".join(" ".join(map(repr, row)) for row in heights()))
+        super().setUpClass()
+        (cls.folder/"heights.dat").write_text(text_of(rough_map(SIDE, SIDE, 5)))
         cls.summaries, cls.maps = {}, {}
         for name, (surface, method, output, own) in DECKS.items():
-            cls.run_deck(name, surface + method, output)
+            cls.run_map(name, surface + method, output)
             cls.summaries[name] = [{key: word if key in ("solver", "status") else float(word)
                                     for key, word in record.items()}
                                    for record in Table(cls.folder / f"{name}.summary.dat").records()]
             cls.maps[name] = cls.blocks(name)
 
     @classmethod
-    def run_deck(cls, name, groups, output):
-        (cls.folder / f"{name}.nml").write_text(
-            f"{groups}&load pbar_over_pstar = {', '.join(map(str, LOADS))} /\n&output map = t, {output} /\n")
-        subprocess.run([cls.program, f"{name}.nml", "--quiet", "--output", "."], cwd=cls.folder, check=True)
+    def run_map(cls, name, groups, output):
+        cls.run_deck(name, f"{groups}&load pbar_over_pstar = {', '.join(map(str, LOADS))} /\n"
+                     f"&output map = t, {output} /\n")
 
     @classmethod
     def blocks(cls, name):
@@ -164,8 +138,8 @@ class Maps(unittest.TestCase):
     def test_numpys_format_has_the_same_numbers(self):
         for name in ("own", "file", "line"):
             surface, method, output, own = DECKS[name]
-            self.run_deck("binary", surface + method, output + " map_format = 'npy'")
-            shape, records = read_npy(self.folder / "binary.map.npy")
+            self.run_map("binary", surface + method, output + " map_format = 'npy'")
+            shape, records = records_of(self.folder / "binary.map.npy")
             rows = len({point["y"] for point in self.maps[name][0]})
             self.assertEqual((len(LOADS), rows, len(self.maps[name][0])//rows), shape)
             for expected, record in zip([point for load in self.maps[name] for point in load], records, strict=True):
@@ -174,17 +148,17 @@ class Maps(unittest.TestCase):
                     self.assertTrue(math.isclose(expected[key], record[key], rel_tol=1e-15), (key, expected, record))
 
     def test_large_maps_are_in_numpys_format(self):
-        self.run_deck("at_limit", WAVE + GRID, "map_points = 257")
-        self.run_deck("beyond", WAVE + GRID, "map_points = 257, 258")
+        self.run_map("at_limit", WAVE + GRID, "map_points = 257")
+        self.run_map("beyond", WAVE + GRID, "map_points = 257, 258")
         self.assertTrue((self.folder / "at_limit.map.dat").exists())
         self.assertFalse((self.folder / "at_limit.map.npy").exists())
         self.assertFalse((self.folder / "beyond.map.dat").exists())
-        self.assertEqual((len(LOADS), 258, 257), read_npy(self.folder / "beyond.map.npy")[0])
+        self.assertEqual((len(LOADS), 258, 257), records_of(self.folder / "beyond.map.npy")[0])
 
     def test_gnuplot_reads_numpys_format(self):
         if not shutil.which("gnuplot"):
             self.skipTest("gnuplot is not installed")
-        self.run_deck("binary", WAVE + GRID, "map_format = 'npy'")
+        self.run_map("binary", WAVE + GRID, "map_format = 'npy'")
         script = ("set print '-'\nstats 'binary.map.npy' binary record=(64,96) skip=256+2*48*64*96 format='%6double' "
                   "using 3 nooutput\nprint sprintf('%d %.16e', STATS_records, STATS_sum)\n")
         result = subprocess.run(["gnuplot"], input=script, capture_output=True, text=True, check=True, cwd=self.folder)
@@ -195,6 +169,4 @@ class Maps(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    Maps.program = str(pathlib.Path(sys.argv.pop(sys.argv.index("--program") + 1)).resolve())
-    sys.argv.remove("--program")
-    unittest.main()
+    main()

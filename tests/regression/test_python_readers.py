@@ -3,72 +3,57 @@
 
 usage: test_python_readers.py --program WAVYCON --environment FOLDER
 
-numpy and pandas are installed into a virtual environment in FOLDER, once. Exit status: 77 if they cannot be.
+Where this Python lacks numpy or pandas, both are installed into a virtual environment in FOLDER, once. Exit status: 77
+if they cannot be.
 """
 import contextlib
 import io
 import os
 import pathlib
 import re
-import subprocess
-import sys
-import tempfile
-import unittest
 
-sys.dont_write_bytecode = True
-HERE = pathlib.Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE), str(HERE.parent / "support")]
-from sample_tables import WORDS, blocks_of, make_tables, page_examples, run_page_decks  # noqa: E402
-from tables import Table  # noqa: E402
-from virtual_environment import python_with  # noqa: E402
+from program import ProgramTest, main
+from sample_tables import WORDS, blocks_of, make_tables, page_examples, run_page_decks
+from tables import Table
+from virtual_environment import go_on_with
 
-try:
-    import numpy
-except ImportError:  # this Python only makes the environment
-    pass
-
-SKIPPED = 77
 # pandas reads numbers fast, to within some units of the last of 16 digits.
 ROUNDING = 1e-15
-# The table in blocks that a library's example reads, beside the summary, and its name for these blocks.
-EXAMPLES = {"pandas": ("lines", "lines"), "numpy": ("map", "maps")}
+# The examples' names of a table in blocks; each also has a summary, which is one block.
+EXAMPLES = {"pandas": "lines", "numpy": "maps"}
+IN_BLOCKS = "lines", "map", "stress_section"
 
 
-def example_of(library):
-    """The example that reads text with a library."""
-    example, = [example for example in page_examples("python")
-                if f"import {library} " in example and f"demo.{EXAMPLES[library][0]}.dat" in example]
-    return example
+def read_as_in(library, table):
+    """The summary and the blocks that the example of a library has if it reads another table in place of its own."""
+    text, = [example.split("\nprint(")[0] for example in page_examples("python")
+             if f"import {library} " in example and f"\n{EXAMPLES[library]} =" in example]
+    for kind in re.findall(r"outputs/demo/demo\.(\w+)\.dat", text):
+        if kind in IN_BLOCKS or table.blocks == 1:
+            text = text.replace(f"outputs/demo/demo.{kind}.dat", str(table.path))
+    names = {}
+    exec(text, names)
+    return names["summary"], names[EXAMPLES[library]]
 
 
-def read_as_in(library, kind, name, path):
-    """What an example has under a name if it reads another table in the place of that kind."""
-    text, names = example_of(library), {}
-    exec(text[:text.index("\nprint(")].replace(f"outputs/demo/demo.{kind}.dat", str(path)), names)
-    return names[name]
-
-
-class PythonReaders(unittest.TestCase):
-    program = ""
-
+class PythonReaders(ProgramTest):
     @classmethod
     def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
+        super().setUpClass()
         cls.addClassCleanup(os.chdir, os.getcwd())
-        os.chdir(folder.name)
-        run_page_decks(cls.program, pathlib.Path(folder.name))
-        cls.tables = make_tables(cls.program, pathlib.Path(folder.name))
+        os.chdir(cls.folder)
+        run_page_decks(cls)
+        cls.tables = make_tables(cls)
 
     def test_all_tables(self):
         for table in self.tables:
-            for library, (kind, name) in EXAMPLES.items():
-                found = read_as_in(library, kind, name, table.path)
+            for library in EXAMPLES:
+                whole, found = read_as_in(library, table)
                 self.assertEqual(len(blocks_of(table)), len(found))
                 for records, block in zip(blocks_of(table), found):
                     self.check(table, records, block)
                 if table.blocks == 1:
-                    self.check(table, table.records(), read_as_in(library, "summary", "summary", table.path))
+                    self.check(table, table.records(), whole)
 
     def check(self, table, records, found):
         """A structured array or a frame: names, numbers and words."""
@@ -77,8 +62,8 @@ class PythonReaders(unittest.TestCase):
         for name in columns:
             values = found[name].tolist()
             self.assertEqual(len(records), len(values))
-            for record, value in zip(records, values):
-                with self.subTest(table=table.path.name, column=name, kind=type(found)):
+            with self.subTest(table=table.path.name, column=name, kind=type(found)):
+                for record, value in zip(records, values):
                     if name in WORDS:
                         self.assertEqual(record[name], value)
                     else:
@@ -92,13 +77,10 @@ class PythonReaders(unittest.TestCase):
             self.assertLessEqual(abs(value - expected), ROUNDING*abs(expected))
 
     def test_maps_in_numpys_format(self):
-        import numpy
-        pathlib.Path("binary.nml").write_text(
-            "&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0.1, 0.5 /\n&method solver = 'auto' /\n"
-            "&output map = t, map_points = 24, 16, map_format = 'npy' /\n")
         for map_format in "npy", "text":
-            subprocess.run([self.program, "binary.nml", "--quiet", "--output", ".", "--set",
-                            f"output.map_format={map_format}"], check=True)
+            self.run_deck("binary", "&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0.1, 0.5 /\n"
+                          "&method solver = 'auto' /\n"
+                          f"&output map = t, map_points = 24, 16, map_format = '{map_format}' /\n")
         found = numpy.load("binary.map.npy")
         self.assertEqual((2, 16, 24), found.shape)
         table = Table("binary.map.dat")
@@ -109,14 +91,11 @@ class PythonReaders(unittest.TestCase):
 
     def test_heights_in_numpys_format(self):
         """Heights are those of the file, over their mean, and the head has their statistics."""
-        import numpy
         rows = numpy.random.default_rng(1).normal(size=(12, 20))
         for height in rows, rows[:1]:
             numpy.savetxt("map.dat", height, fmt="%.17g")
-            pathlib.Path("map.nml").write_text("&surface kind = 'file', file = 'map.dat', length_x = 1, length_y = 1,\n"
-                                               "height_scale = 0.01 /\n"
-                                               "&load pbar_over_pstar = 1 /\n&output height = t, spectrum = t /\n")
-            subprocess.run([self.program, "map.nml", "--quiet", "--output", "."], check=True)
+            self.run_deck("map", "&surface kind = 'file', file = 'map.dat', length_x = 1, length_y = 1,\n"
+                          "height_scale = 0.01 /\n&load pbar_over_pstar = 1 /\n&output height = t, spectrum = t /\n")
             found, expected = numpy.load("map.height.npy"), 0.01*(height - height.mean())
             self.assertEqual((height.shape, numpy.float64), (found.shape, found.dtype))
             self.assertLess(abs(found - expected).max(), 1e-16)
@@ -142,32 +121,8 @@ class PythonReaders(unittest.TestCase):
             expected = r"6\.5616\d" if "fine" in example else "1.20195" if "reference" in example else "0.704"
             self.assertRegex(printed.getvalue(), expected, example)
 
-    def test_a_map_in_the_format_of_numpy(self):
-        found = numpy.load("outputs/fine/fine.map.npy")
-        text = pathlib.Path("deck.nml").read_text(encoding="utf-8").replace("'npy'", "'text'")
-        pathlib.Path("deck.nml").write_text(text, encoding="utf-8")
-        subprocess.run([self.program, "deck.nml", "--quiet", "--output", "text"], check=True)
-        table = Table("text/fine.map.dat")
-        self.assertEqual(table.columns[1:], list(found.dtype.names))
-        self.assertEqual((2, 64, 64), found.shape)
-        for expected, block in zip(blocks_of(table), found):
-            for name in found.dtype.names:
-                for record, value in zip(expected, block[name].flat):
-                    self.assert_close(float(record[name]), float(value))
-
-
-def main():
-    program, environment = (str(pathlib.Path(sys.argv[sys.argv.index(name) + 1]).resolve())
-                            for name in ("--program", "--environment"))
-    python = python_with(environment, ["numpy", "pandas"], ["numpy", "pandas"], options=["--only-binary", ":all:"])
-    if not python:
-        print(f"SKIPPED: numpy and pandas cannot be installed; see {environment}.log")
-        sys.exit(SKIPPED)
-    if pathlib.Path(sys.prefix).resolve() != pathlib.Path(environment):
-        os.execv(python, [python, *sys.argv])
-    PythonReaders.program = program
-    unittest.main(argv=sys.argv[:1])
-
 
 if __name__ == "__main__":
+    go_on_with("numpy", "pandas")
+    import numpy
     main()

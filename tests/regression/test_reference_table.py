@@ -3,16 +3,11 @@
 import math
 import pathlib
 import subprocess
-import sys
-import tempfile
-import unittest
 
-sys.dont_write_bytecode = True
-HERE = pathlib.Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE))
-from tables import Table  # noqa: E402
+from program import ProgramTest, main
+from tables import Table
 
-ROOT = HERE.parent.parent
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 REFERENCE = ROOT / "outputs" / "reference"
 OTHER_METHODS = ROOT / "inputs" / "reference_2d.dat"
 DECK = """\
@@ -47,7 +42,6 @@ def merging_of(surface):
 
 class ReferenceTable:
     """The tests of a surface's table."""
-    program = ""
     surface = ""
     loads = frozenset()            # that the table must have
     to_recompute = ()              # loads, at another accuracy, hence by other degrees; next to merging in both regimes
@@ -57,20 +51,17 @@ class ReferenceTable:
 
     @classmethod
     def setUpClass(cls):
+        super().setUpClass()
         cls.table = published(cls.surface)
         cls.merging = merging_of(cls.surface)
         cls.merging_load = cls.merging[0]["pbar_over_pstar"][0]
 
     def solve(self, loads, solver, accuracy, output, kind):
         """The records of a table of the program, loads in the order given."""
-        with tempfile.TemporaryDirectory() as scratch:
-            deck = pathlib.Path(scratch) / "case.nml"
-            deck.write_text(DECK.format(self.surface, ", ".join(map(repr, loads)), solver, accuracy, output))
-            # 2: a load misses the accuracy; its error estimate is larger.
-            command = [self.program, deck, "--quiet", "--output", scratch]
-            status = subprocess.run(command, check=False).returncode
-            self.assertIn(status, (0, 2))
-            records = Table(pathlib.Path(scratch) / f"case.{kind}.dat").records()
+        # 2: a load misses the accuracy; its error estimate is larger.
+        self.run_deck("case", DECK.format(self.surface, ", ".join(map(repr, loads)), solver, accuracy, output),
+                      statuses=(0, 2))
+        records = Table(self.folder/f"case.{kind}.dat").records()
         self.assertEqual(len(loads), len(records))
         return records
 
@@ -140,7 +131,7 @@ class ReferenceTable:
             self.assertAlmostEqual(work, gained[1] - gained[0], delta=allowed)
 
 
-class Wave2d(ReferenceTable, unittest.TestCase):
+class Wave2d(ReferenceTable, ProgramTest):
     surface = "wave_2d"
     loads = frozenset(i/100 for i in range(1, 100)) | {0.001, 0.002, 0.005, 0.995, 0.998, 0.999}
     to_recompute = 0.001, 0.05, 0.2, 0.226, 0.236, 0.3, 0.5, 0.8, 0.999
@@ -156,7 +147,7 @@ class Wave2d(ReferenceTable, unittest.TestCase):
                 self.check(float(record["pbar_over_pstar"]), name, float(word), 1.5*10.0**-len(word.partition(".")[2]))
 
 
-class Hexagonal(ReferenceTable, unittest.TestCase):
+class Hexagonal(ReferenceTable, ProgramTest):
     surface = "hexagonal"
     loads = frozenset(i/100 for i in range(1, 100)) | {0.001, 0.002, 0.005, 0.995, 0.998, 0.999}
     to_recompute = 0.001, 0.05, 0.3, 0.5, 0.65, 0.72, 0.75, 0.9, 0.999
@@ -165,7 +156,7 @@ class Hexagonal(ReferenceTable, unittest.TestCase):
     merging_loads = 5e-4, 1e-4, 1e-4
 
 
-class Yield(unittest.TestCase):
+class Yield(ProgramTest):
     """The largest von Mises stresses and their places."""
     surfaces = {"wave_2d": "kind = 'wave_2d'", "rectangular": "kind = 'wave_2d', wavelength_y = 2",
                 "hexagonal": "kind = 'hexagonal'"}
@@ -180,6 +171,7 @@ class Yield(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
+        super().setUpClass()
         cls.table = {(row["surface"], row["lateral"], float(row["nu"]), float(row["pbar_over_pstar"])): row
                      for row in Table(REFERENCE / "yield.dat").records()}
 
@@ -239,10 +231,8 @@ class Yield(unittest.TestCase):
     def recompute(self, surface, keys, lateral, solver, accuracy, loads, place_error):
         deck = (f"&surface {keys} /\n&load pbar_over_pstar = {', '.join(map(str, loads))} /\n"
                 f"&stress nu = 0.05, 0.4, lateral = '{lateral}' /\n&method solver = '{solver}', accuracy = {accuracy} /\n")
-        with tempfile.TemporaryDirectory() as scratch:
-            (pathlib.Path(scratch) / "case.nml").write_text(deck)
-            subprocess.run([ReferenceTable.program, "case.nml", "--quiet", "--output", "."], cwd=scratch, check=True)
-            records = Table(pathlib.Path(scratch) / "case.stress_largest.dat").records()
+        self.run_deck("case", deck)
+        records = Table(self.folder/"case.stress_largest.dat").records()
         self.assertEqual(2*len(loads), len(records))
         for record in records:
             key = surface, lateral, float(record["nu"]), float(record["pbar_over_pstar"])
@@ -253,7 +243,7 @@ class Yield(unittest.TestCase):
             self.assertAlmostEqual(self.place(key)[2], float(record["von_mises_depth"])/cell_x, delta=place_error)
 
 
-class Challenge(unittest.TestCase):
+class Challenge(ProgramTest):
     """Contact area, mean gap and stiffness of rough surfaces."""
     loads = 4e-5, 1e-4, 3e-4, 1e-3, 3e-3, 0.01, 0.03, 0.08
     e_star = 25.0
@@ -264,6 +254,7 @@ class Challenge(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
+        super().setUpClass()
         cls.table = {(int(row["seed"]), float(row["pressure_over_e_star_slope"])): row
                      for row in Table(REFERENCE / "challenge.dat").records()}
 
@@ -300,11 +291,10 @@ class Challenge(unittest.TestCase):
 
     def test_recomputed(self):
         load = 0.01
-        with tempfile.TemporaryDirectory() as scratch:
-            subprocess.run([ReferenceTable.program, ROOT / "inputs" / "challenge.nml", "--quiet", "--output", scratch,
-                            "--set", "scene.case=case", "--set", f"load.mean_pressure={load*self.e_star}",
-                            "--set", "surface.seed=2"], check=True)
-            record = Table(pathlib.Path(scratch) / "case.summary.dat").records()[0]
+        subprocess.run([self.program, ROOT / "inputs" / "challenge.nml", "--quiet", "--output", self.folder,
+                        "--set", "scene.case=case", "--set", f"load.mean_pressure={load*self.e_star}",
+                        "--set", "surface.seed=2"], check=True)
+        record = Table(self.folder/"case.summary.dat").records()[0]
         row = self.table[2, load]
         area = float(record["contact_area_fraction"])
         self.assertAlmostEqual(float(row["contact_area_fraction_2048"]), area, delta=self.of_pairs*area)
@@ -317,6 +307,4 @@ def simpson(values, step):
 
 
 if __name__ == "__main__":
-    ReferenceTable.program = str(pathlib.Path(sys.argv.pop(sys.argv.index("--program") + 1)).resolve())
-    sys.argv.remove("--program")
-    unittest.main()
+    main()

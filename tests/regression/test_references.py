@@ -1,13 +1,7 @@
 #!/usr/bin/env python3
 """The comparison with references: differences that must be found, and others that must be ignored."""
-import pathlib
-import sys
-import tempfile
-import unittest
-
-sys.dont_write_bytecode = True
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-import references  # noqa: E402
+import references
+from program import ProgramTest, main
 
 SUMMARY = """\
 # wavycon
@@ -42,12 +36,10 @@ load  curve  x  y
 """
 
 
-class References(unittest.TestCase):
+class References(ProgramTest):
     def excerpt(self, name, text):
-        with tempfile.TemporaryDirectory() as folder:
-            path = pathlib.Path(folder) / name
-            path.write_text(text)
-            return references.excerpt_of(path)
+        (self.folder/name).write_text(text)
+        return references.excerpt_of(self.folder/name)
 
     def words(self, name, text, *changes):
         """What differs after changes (old, new) to a table."""
@@ -62,11 +54,10 @@ class References(unittest.TestCase):
 
     def test_an_excerpt_reads_back(self):
         for name, text in (("a.summary.dat", SUMMARY), ("a.map.dat", MAP), ("a.contour.dat", CONTOUR)):
-            with self.subTest(name), tempfile.TemporaryDirectory() as folder:
+            with self.subTest(name):
                 new = self.excerpt(name, text)
-                path = pathlib.Path(folder) / name
-                path.write_text(new.text())
-                again = references.read_reference(path)
+                (self.folder/name).write_text(new.text())
+                again = references.read_reference(self.folder/name)
                 self.assertEqual((new.kind, new.head, new.columns, new.rows),
                                  (again.kind, again.head, again.columns, again.rows))
                 self.assertGreater(len(new.rows), 0)
@@ -125,4 +116,4 @@ class References(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1])  # no program is needed
+    main()

@@ -4,16 +4,10 @@
 usage: test_spots.py --program WAVYCON
 """
 import math
-import pathlib
-import random
-import subprocess
-import sys
-import tempfile
-import unittest
 
-sys.dont_write_bytecode = True
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from tables import Table  # noqa: E402
+from program import ProgramTest, main
+from rough_map import rough_map, text_of
+from tables import Table
 
 SIDE = 72
 LOADS = 0.02, 0.1, 0.25, 0.4, 0.6, 0.8, 0.95
@@ -25,13 +19,8 @@ MAP = "&surface kind = 'file', file = '{}.dat', length_x = 2, length_y = 3 /\n"
 
 
 def heights(seed):
-    """A rough surface: random waves down to six points, rows along x."""
-    number = random.Random(seed)
-    waves = [(i, j, number.gauss(0, 1)/math.hypot(i, j)**1.8, 2*math.pi*number.random())
-             for i in range(-12, 13) for j in range(13) if 2 <= math.hypot(i, j) <= 12]
-    turn = 2*math.pi/SIDE
-    return [[sum(a*math.cos(turn*(i*k + j*l) + phase) for i, j, a, phase in waves) for k in range(SIDE)]
-            for l in range(SIDE)]
+    """A rough surface: waves down to six points."""
+    return rough_map(SIDE, SIDE, seed, longest=2, shortest=12, power=1.8)
 
 
 def regions(inside, steps):
@@ -79,30 +68,24 @@ def total(rows, column):
     return math.fsum(float(row[column]) for row in rows)
 
 
-class Spots(unittest.TestCase):
-    program = ""
-
+class Spots(ProgramTest):
     @classmethod
     def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        cls.folder = pathlib.Path(folder.name)
+        super().setUpClass()
         rough = heights(7)
         rolled = [row[30:] + row[:30] for row in rough[50:] + rough[:50]]
         turned = [list(column) for column in zip(*rough)]
         for name, rows in (("rough", rough), ("rolled", rolled), ("turned", turned), ("other", heights(8))):
-            (cls.folder/f"{name}.dat").write_text("\n".join(" ".join(map(repr, row)) for row in rows))
+            (cls.folder/f"{name}.dat").write_text(text_of(rows))
             surface = MAP.format(name)
             if name == "turned":
                 surface = surface.replace("length_x = 2, length_y = 3", "length_x = 3, length_y = 2")
-            cls.run_deck(name, surface)
-        cls.run_deck("mirrored", MAP.format("other").replace("/", "edges = 'mirror' /"))
+            cls.run_spots(name, surface)
+        cls.run_spots("mirrored", MAP.format("other").replace("/", "edges = 'mirror' /"))
 
     @classmethod
-    def run_deck(cls, name, groups, loads=LOADS, tables="map = t, spots = t, histograms = t, histogram_bins = 17"):
-        (cls.folder/f"{name}.nml").write_text(
-            f"{groups}&load pbar_over_pstar = {', '.join(map(str, loads))} /\n&output {tables} /\n")
-        subprocess.run([cls.program, f"{name}.nml", "--quiet", "--output", "."], cwd=cls.folder, check=True)
+    def run_spots(cls, name, groups, loads=LOADS, tables="map = t, spots = t, histograms = t, histogram_bins = 17"):
+        cls.run_deck(name, f"{groups}&load pbar_over_pstar = {', '.join(map(str, loads))} /\n&output {tables} /\n")
 
     def table(self, name, kind):
         return Table(self.folder/f"{name}.{kind}.dat").records()
@@ -185,7 +168,7 @@ class Spots(unittest.TestCase):
                                     ("grids", "solver = 'grid', accuracy = 1e-3", (0.2, 0.224, 0.234, 0.3)),
                                     ("points", "solver = 'grid', grid_points = 256", (0.2, 0.225, 0.232, 0.3)),
                                     ("series", "solver = 'beale'", (0.1, 0.15, 0.4, 0.6))):
-            self.run_deck(name, wave + f"&method {method} /\n", loads, "spots = t")
+            self.run_spots(name, wave + f"&method {method} /\n", loads, "spots = t")
             for row in self.table(name, "spots"):
                 with self.subTest(deck=name, load=row["pbar_over_pstar"]):
                     apart = int(row["load"]) <= 2
@@ -203,15 +186,15 @@ class Spots(unittest.TestCase):
 
     def test_a_turned_cell_has_half_of_them(self):
         crossed = "&surface kind = 'crossed_1d', amplitude1 = 1, amplitude2 = 1, wavelength1 = 2, wavelength2 = 2 /\n"
-        for name, method in (("turned_grid", "solver = 'grid', accuracy = 1e-2"), ("turned_series", "solver = 'beale'"),
+        for name, method in (("turned_grid", "solver = 'grid', accuracy = 1e-2"), ("rotated_series", "solver = 'beale'"),
                              ("turned_expansion", "solver = 'fitted'")):
-            self.run_deck(name, crossed + f"&method {method} /\n", (0.1, 0.5), "spots = t")
+            self.run_spots(name, crossed + f"&method {method} /\n", (0.1, 0.5), "spots = t")
             found = [[row["spots"], row["closed_pools"]] for row in self.table(name, "spots")]
             self.assertEqual([["1", "0"], ["1", "1"]], found, name)
 
     def test_unlike_crossed_waves_touch_in_bands(self):
         for name, amplitudes, way in (("along_y", (1, 0.1), "y"), ("along_x", (0.1, 1), "x")):
-            self.run_deck(name, "&surface kind = 'crossed_1d', wavelength1 = 1, wavelength2 = 1, "
+            self.run_spots(name, "&surface kind = 'crossed_1d', wavelength1 = 1, wavelength2 = 1, "
                           f"amplitude1 = {amplitudes[0]}, amplitude2 = {amplitudes[1]} /\n"
                           "&method solver = 'grid', grid_points = 32 /\n", (0.4,))
             row, = self.table(name, "spots")
@@ -224,13 +207,13 @@ class Spots(unittest.TestCase):
 
     def test_strips_of_a_profile(self):
         profile = "&surface kind = 'sum', amplitudes = 1, 0.6, waves_x = 2, 3, length_x = 1 /\n"
-        self.run_deck("profile", profile + "&method solver = 'grid' /\n", (0.05, 0.5, 1.0))
+        self.run_spots("profile", profile + "&method solver = 'grid' /\n", (0.05, 0.5, 1.0))
         self.assertEqual(["1", "2", "1"], [row["spots"] for row in self.table("profile", "spots")])
         # The second strip lies about the middle of the cell.
         first, second = self.sizes("profile", 2, "spot")
         self.assertAlmostEqual(0.5, max(float(first["x"]), float(second["x"])), delta=ROUNDING)
         # Phases make it uneven, so that the whole cell is solved. Each strip carries the pressures at its points.
-        self.run_deck("uneven", profile.replace("length_x", "phases = 50, 20, length_x")
+        self.run_spots("uneven", profile.replace("length_x", "phases = 50, 20, length_x")
                       + "&method solver = 'grid', grid_points = 200 /\n", (0.1, 0.4, 0.8))
         strips = 0
         for load in 1, 2, 3:
@@ -278,7 +261,7 @@ class Spots(unittest.TestCase):
         # Areas and means of the summary, to the sampling: src/measure/README.md, (A6).
         for name, surface, method, area_error in (("wave", "wave_2d", "solver = 'auto', accuracy = 1e-5", 3e-4),
                                                   ("line", "wave_1d", "solver = 'auto'", 1e-5)):
-            self.run_deck(name, f"&surface kind = '{surface}' /\n&method {method} /\n", (0.05, 0.5, 0.9))
+            self.run_spots(name, f"&surface kind = '{surface}' /\n&method {method} /\n", (0.05, 0.5, 0.9))
             for load, summary in enumerate(self.table(name, "summary"), 1):
                 rows = [{key: float(word) for key, word in row.items()}
                         for row in self.table(name, "histogram") if int(row["load"]) == load]
@@ -290,7 +273,7 @@ class Spots(unittest.TestCase):
                     self.assertTrue(math.isclose(float(summary["mean_" + kind]), mean, rel_tol=1e-4))
 
     def test_loads_without_an_edge(self):
-        self.run_deck("edgeless", "&surface kind = 'wave_2d' /\n", (0.0, 1.0))
+        self.run_spots("edgeless", "&surface kind = 'wave_2d' /\n", (0.0, 1.0))
         none, full = self.table("edgeless", "spots")
         self.assertEqual(["0", "0", "1"], [none["spots"], none["closed_pools"], none["gap_percolates_x"]])
         self.assertEqual(["1", "0", "0"], [full["spots"], full["closed_pools"], full["gap_percolates_x"]])
@@ -298,6 +281,4 @@ class Spots(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    Spots.program = str(pathlib.Path(sys.argv.pop(sys.argv.index("--program") + 1)).resolve())
-    sys.argv.remove("--program")
-    unittest.main()
+    main()

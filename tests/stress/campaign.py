@@ -23,7 +23,6 @@ import fuzz_decks
 import fuzz_maps
 import honest_estimates
 import long_tests
-import names
 import quadratic_programmes
 import random_scenes
 import random_stresses
@@ -84,8 +83,6 @@ def decks(settings, results):
             yield fuzz(settings.program, settings.seed, amount, work, results)
     with work_folder() as work:
         yield fuzz_maps.odd_files(settings.program, work, results)
-    with work_folder() as work:
-        yield names.campaign(settings.program, ROOT/"scripts", settings.quick, work, results)
 
 
 def faults(settings, results):

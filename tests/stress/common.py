@@ -8,7 +8,7 @@ import subprocess
 import sys
 
 sys.dont_write_bytecode = True
-sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent/"regression"))
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent/"support"))
 from tables import Table  # noqa: E402
 
 SECONDS = 2.0  # most processor time of a deck that needs little work [s]
@@ -176,6 +176,29 @@ def table_complaints(table, may_be_missing):
     """Entries of a table that are no numbers and should be."""
     return [f"{name} is {word}" for row in table.rows() for name, word in zip(table.columns, row)
             if OVERFLOW.fullmatch(word) or word == "NaN" and not re.fullmatch(may_be_missing, name)]
+
+
+def check_all(part, program, cases, work, failures, limits=()):
+    """Runs `--check` of cases, which are a name, {file: bytes} with deck.nml among them, more words of the command, and
+    a function that says what is wrong with the outcome. Returns the part."""
+    slowest, accepted = ("", 0.0), 0
+    for name, files, words, judge in cases:
+        for file, content in files.items():
+            (work/file).write_bytes(content)
+        outcome = run([program, "--check", "deck.nml", *words], work, limits=limits)
+        complaints = complaints_about(outcome, (0, 1, 3)) + judge(outcome)
+        made = files_below(work) - set(files)
+        if made:
+            complaints.append(f"--check makes {sorted(made)[0]}")
+        slowest = max(slowest, (name, outcome.seconds), key=lambda pair: pair[1])
+        accepted += outcome.status == 0
+        if not part.count(name, complaints):
+            for file, content in files.items():
+                save(failures/name, file, content)
+        for file in files:
+            (work/file).unlink()
+    part.worst = f"{accepted} accepted, {slowest[1]:.2f} s ({slowest[0]})"
+    return part
 
 
 def save(folder, name, content):

@@ -3,7 +3,8 @@ import random
 import re
 import sys
 
-from common import SECONDS, Part, complaints_about, files_below, memory_limits, result_complaints, run, save
+from common import (SECONDS, Part, check_all, complaints_about, files_below, memory_limits, result_complaints, run,
+                    save)
 
 MEGABYTE = 1000000
 ADDRESS_SPACE = 4000*MEGABYTE  # of a run [byte]: a deck of 10 MB must not need more
@@ -241,24 +242,9 @@ def monsters(stream, size):
 
 def fuzz_checks(program, seed, count, work, failures):
     """Mutated decks with --check."""
-    part = Part("mutated decks, --check")
-    slowest = 0.0
-    accepted = 0
-    (work/"heights.dat").write_text(HEIGHTS)
-    for i in range(count):
-        content = mutated(random.Random(f"{seed} check {i}"), LARGE)
-        (work/"deck.nml").write_bytes(content)
-        outcome = run([program, "--check", "deck.nml"], work)
-        complaints = complaints_about(outcome, (0, 1, 3)) + message_complaints(outcome)
-        made = files_below(work) - {"deck.nml", "heights.dat"}
-        if made:
-            complaints.append(f"--check makes {sorted(made)[0]}")
-        slowest = max(slowest, outcome.seconds)
-        accepted += outcome.status == 0
-        if not part.count(f"check-{i}.nml", complaints):
-            save(failures, f"check-{i}.nml", content)
-    part.worst = f"{accepted} accepted, {slowest:.2f} s"
-    return part
+    cases = ((f"check-{i}", {"deck.nml": mutated(random.Random(f"{seed} check {i}"), LARGE),
+                             "heights.dat": HEIGHTS.encode()}, (), message_complaints) for i in range(count))
+    return check_all(Part("mutated decks, --check"), program, cases, work, failures)
 
 
 def message_complaints(outcome):
@@ -290,38 +276,28 @@ def random_setting(stream):
 
 def fuzz_settings(program, seed, count, work, failures):
     """Decks with keys that the command line sets, with --check."""
-    part = Part("keys that are set, --check")
-    accepted = 0
-    (work/"heights.dat").write_text(HEIGHTS)
-    for i in range(count):
-        stream = random.Random(f"{seed} set {i}")
-        (work/"deck.nml").write_text(stream.choice(LARGE))
-        words = [random_setting(stream) for _ in range(stream.choice((1, 1, 2, 4)))]
-        outcome = run([program, "--check", "deck.nml"] + [option for word in words for option in ("--set", word)], work)
-        complaints = complaints_about(outcome, (0, 1, 3)) + message_complaints(outcome)
-        accepted += outcome.status == 0
-        if not part.count(f"set-{i}.txt", complaints):
-            save(failures, f"set-{i}.txt", "\n".join(words).encode("utf-8", "surrogatepass"))
-    part.worst = f"{accepted} accepted"
-    return part
+    def cases():
+        for i in range(count):
+            stream = random.Random(f"{seed} set {i}")
+            text = stream.choice(LARGE)
+            words = [random_setting(stream) for _ in range(stream.choice((1, 1, 2, 4)))]
+            yield (f"set-{i}", {"deck.nml": text.encode(), "heights.dat": HEIGHTS.encode(),
+                                "settings": "\n".join(words).encode("utf-8", "surrogatepass")},
+                   [option for word in words for option in ("--set", word)], message_complaints)
+
+    return check_all(Part("keys that are set, --check"), program, cases(), work, failures)
 
 
 def fuzz_monsters(program, seed, size, work, failures):
     """Large decks with --check, with limits of memory and time."""
+    def judge(outcome):
+        too_long = [f"says {len(outcome.stderr)} bytes"] if len(outcome.stderr) > MEGABYTE else []
+        return message_complaints(outcome) + too_long
+
     part = Part(f"decks of {size/MEGABYTE:g} MB, --check")
-    limits = memory_limits(program, part, ADDRESS_SPACE)
-    slowest = ("", 0.0)
-    for name, content in monsters(random.Random(f"{seed} monsters"), size):
-        (work/"deck.nml").write_bytes(content)
-        outcome = run([program, "--check", "deck.nml"], work, limits=limits)
-        complaints = complaints_about(outcome, (0, 1, 3)) + message_complaints(outcome)
-        if len(outcome.stderr) > MEGABYTE:
-            complaints.append(f"says {len(outcome.stderr)} bytes")
-        slowest = max(slowest, (name, outcome.seconds), key=lambda pair: pair[1])
-        if not part.count(name, complaints):
-            save(failures, f"monster-{name.replace(' ', '-')}.nml", content)
-    part.worst = f"{slowest[1]:.2f} s ({slowest[0]})"
-    return part
+    cases = ((f"monster-{name.replace(' ', '-')}", {"deck.nml": content}, (), judge)
+             for name, content in monsters(random.Random(f"{seed} monsters"), size))
+    return check_all(part, program, cases, work, failures, memory_limits(program, part, ADDRESS_SPACE))
 
 
 def fuzz_runs(program, seed, count, work, failures, seconds=SECONDS):

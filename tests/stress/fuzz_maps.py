@@ -2,6 +2,7 @@
 
 Every one ends with a status and clean words. What is accepted is read a second time, here: size, extremes and rms must
 be those that the log names."""
+import functools
 import os
 import random
 import re
@@ -9,7 +10,8 @@ import resource
 import struct
 import sys
 
-from common import SECONDS, Part, complaints_about, files_below, memory_limits, result_complaints, run, save
+from common import (SECONDS, Part, check_all, complaints_about, files_below, memory_limits, result_complaints, run,
+                    save)
 from fuzz_decks import empty, mutate_bytes
 
 MEGABYTE = 1000000
@@ -287,24 +289,14 @@ def keep(failures, name, text, content):
 
 def fuzz_checks(program, seed, count, work, failures):
     """Mutated maps with --check."""
-    part = Part("mutated height maps, --check")
-    slowest, accepted = 0.0, 0
-    for i in range(count):
-        stream = random.Random(f"{seed} map {i}")
-        content, text = mutated(stream), deck(stream)
-        (work/"heights.dat").write_bytes(content)
-        (work/"deck.nml").write_text(text)
-        outcome = run([program, "--check", "deck.nml"], work)
-        complaints = complaints_about(outcome, (0, 1, 3)) + message_complaints(outcome, content)
-        made = files_below(work) - {"deck.nml", "heights.dat"}
-        if made:
-            complaints.append(f"--check makes {sorted(made)[0]}")
-        slowest = max(slowest, outcome.seconds)
-        accepted += outcome.status == 0
-        if not part.count(f"map-check-{i}.nml", complaints):
-            keep(failures, f"map-check-{i}", text, content)
-    part.worst = f"{accepted} accepted, {slowest:.2f} s"
-    return part
+    def cases():
+        for i in range(count):
+            stream = random.Random(f"{seed} map {i}")
+            content, text = mutated(stream), deck(stream)
+            yield (f"map-check-{i}", {"deck.nml": text.encode(), "heights.dat": content}, (),
+                   functools.partial(message_complaints, content=content))
+
+    return check_all(Part("mutated height maps, --check"), program, cases(), work, failures)
 
 
 def npy_file(stream, columns, rows):
@@ -346,49 +338,48 @@ def mutate_head(stream, head):
     return head[:place.start()] + word + head[place.end():]
 
 
+def binary_case(stream):
+    """Name, content and deck of a binary map, and what its log must say if nothing of it was changed, else None."""
+    make, ending = stream.choice(((npy_file, "npy"), (gsf_file, "gsf")))
+    columns, lines = stream.choice(((4, 4), (5, 7), (16, 9), (31, 1)))
+    head, numbers = make(stream, columns, lines)
+    is_good = stream.random() < 0.1
+    if not is_good:
+        head = mutate_head(stream, head) if stream.random() < 0.7 else head
+        if stream.random() < 0.3:
+            numbers = mutate_bytes(stream, numbers)
+        if stream.random() < 0.3:
+            numbers = stream.choice((numbers[:stream.randrange(len(numbers))], numbers*2, numbers + b"\n", b""))
+        if stream.random() < 0.2:
+            place = 4*stream.randrange(len(numbers)//4 + 1)
+            numbers = numbers[:place] + stream.choice(ODD_NUMBERS) + numbers[place + 4:]
+    name = f"heights.{stream.choice((ending, ending, 'dat'))}"
+    form = stream.choice(("", "", "", *(f", file_format = '{word}'" for word in ("npy", "gsf"))))
+    text = f"&surface kind = 'file', file = '{name}'{'' if is_good else form} /\n&load pbar_over_pstar = 0.05 /\n"
+    return name, head + numbers, text, f"map       {columns} x {lines} points".encode() if is_good else None
+
+
+def binary_complaints(outcome, name, words):
+    # A cell that is too long is a mistake of the deck, which names the map.
+    unlike = b": error 1 of 1: the cell is " in outcome.stderr and f"sides in {name} in".encode() in outcome.stderr
+    complaints = []
+    if outcome.status in (1, 3) and not unlike and not outcome.stderr.startswith(name.encode() + b":"):
+        complaints.append(f"no map is named: {outcome.stderr.decode(errors='replace')[:80]}")
+    if words and not unlike and (outcome.status != 0 or words not in outcome.stdout):
+        complaints.append("a good map is not read as it is")
+    return complaints
+
+
 def fuzz_binary(program, seed, count, work, failures):
     """Binary maps with mutated heads, numbers and lengths, with --check and limits of memory."""
+    def cases():
+        for i in range(count):
+            name, content, text, words = binary_case(random.Random(f"{seed} binary map {i}"))
+            yield (f"map-binary-{i}", {"deck.nml": text.encode(), name: content}, (),
+                   functools.partial(binary_complaints, name=name, words=words))
+
     part = Part("mutated binary height maps, --check")
-    limits = memory_limits(program, part, BINARY_ADDRESS_SPACE)
-    slowest, accepted = 0.0, 0
-    for i in range(count):
-        stream = random.Random(f"{seed} binary map {i}")
-        make, ending = stream.choice(((npy_file, "npy"), (gsf_file, "gsf")))
-        columns, lines = stream.choice(((4, 4), (5, 7), (16, 9), (31, 1)))
-        head, numbers = make(stream, columns, lines)
-        is_good = stream.random() < 0.1
-        if not is_good:
-            head = mutate_head(stream, head) if stream.random() < 0.7 else head
-            if stream.random() < 0.3:
-                numbers = mutate_bytes(stream, numbers)
-            if stream.random() < 0.3:
-                numbers = stream.choice((numbers[:stream.randrange(len(numbers))], numbers*2, numbers + b"\n", b""))
-            if stream.random() < 0.2:
-                place = 4*stream.randrange(len(numbers)//4 + 1)
-                numbers = numbers[:place] + stream.choice(ODD_NUMBERS) + numbers[place + 4:]
-        name = f"heights.{stream.choice((ending, ending, 'dat'))}"
-        form = stream.choice(("", "", "", *(f", file_format = '{word}'" for word in ("npy", "gsf"))))
-        text = (f"&surface kind = 'file', file = '{name}'{'' if is_good else form} /\n"
-                "&load pbar_over_pstar = 0.05 /\n")
-        (work/name).write_bytes(head + numbers)
-        (work/"deck.nml").write_text(text)
-        outcome = run([program, "--check", "deck.nml"], work, limits=limits)
-        # A cell that is too long is a mistake of the deck, which names the map.
-        unlike = b": error 1 of 1: the cell is " in outcome.stderr and f"sides in {name} in".encode() in outcome.stderr
-        is_good = is_good and not unlike
-        complaints = complaints_about(outcome, (0,) if is_good else (0, 1, 3))
-        if outcome.status in (1, 3) and not unlike and not outcome.stderr.startswith(name.encode() + b":"):
-            complaints.append(f"no map is named: {outcome.stderr.decode(errors='replace')[:80]}")
-        if is_good and f"map       {columns} x {lines} points".encode() not in outcome.stdout:
-            complaints.append("a good map is not read as it is")
-        slowest = max(slowest, outcome.seconds)
-        accepted += outcome.status == 0
-        if not part.count(f"map-binary-{i}.nml", complaints):
-            save(failures, f"map-binary-{i}.nml", text.replace(name, f"map-binary-{i}.{name[-3:]}").encode())
-            save(failures, f"map-binary-{i}.{name[-3:]}", head + numbers)
-        empty(work)
-    part.worst = f"{accepted} accepted, {slowest:.2f} s"
-    return part
+    return check_all(part, program, cases(), work, failures, memory_limits(program, part, BINARY_ADDRESS_SPACE))
 
 
 def fuzz_runs(program, seed, count, work, failures):

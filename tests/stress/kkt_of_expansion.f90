@@ -279,10 +279,10 @@ contains
          do j = -far, far
             do i = -far, far
                if (i == 0 .and. j == 0) cycle
-               place = turned(cmplx(i + shift*j, height*j, dp))
+               place = rotated(cmplx(i + shift*j, height*j, dp))
                ! The two points are less than two cells apart.
                if (ewald%e*(abs(place) - 1.25_dp*(1.0_dp + height)) < cut_off) ewald%place = [ewald%place, place]
-               k = turned(cmplx(i, (j - shift*i)/height, dp))
+               k = rotated(cmplx(i, (j - shift*i)/height, dp))
                if (j < 0 .or. (j == 0 .and. i < 0) .or. pi*abs(k)/ewald%e > cut_off) cycle
                ewald%wave = [ewald%wave, k]
                ewald%weight = [ewald%weight, 2*erfc(pi*abs(k)/ewald%e)/(height*abs(k))]
@@ -293,12 +293,12 @@ contains
 
    contains
 
-      pure complex(dp) function turned(z)
+      pure complex(dp) function rotated(z)
          complex(dp), intent(in) :: z   !! with rows along x
 
-         turned = z
-         if (lattice%rows%along_y) turned = cmplx(z%im, z%re, dp)
-      end function turned
+         rotated = z
+         if (lattice%rows%along_y) rotated = cmplx(z%im, z%re, dp)
+      end function rotated
 
    end subroutine start_ewald
 

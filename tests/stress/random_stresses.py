@@ -11,7 +11,7 @@ POINTS = 24  # of planes along each side
 WAVES_LEFT = 37.0  # planes bear the load to rounding where waves that the points do not see are below exp(-37)
 ROUNDING = 1e-9  # of sums over the points, and of the digits of the tables, over the peak pressure
 COMPONENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
-# As tests/README.md states of error estimates: the fraction that holds. Near edges of contact, where the pressure has
+# As tests/evidence.md states of error estimates: the fraction that holds. Near edges of contact, where the pressure has
 # an infinite slope, a point of a coarse grid may be off by more than 3 times: by 5.3 in 412,416 comparisons.
 CONFIDENCE, LARGEST_RATIO = 0.95, 8.0
 SYMMETRIC_RATIO = 3.0  # of largest stresses

@@ -71,7 +71,8 @@ program stress_loads
          write (name, '(3(i0, "-"), i0, ".qp")') dimension, harmonics, points, i
          call write_problem(word(5)//'/case-'//word(4)//'-'//trim(name), problem, problem%bounds)
       end if
-      write (*, '(es24.16, 4("|", i0), 2("|", a), 5("|", es10.2e3), "|", i0, "|", f0.3)') loads(i), dimension, harmonics, &
+      write (*, '(es24.16, 4("|", i0), 2("|", a), 5("|", es10.2e3), "|", i0, "|", f0.3)') loads(i), dimension, &
+            harmonics, &
          size(problem%linear), size(problem%bounds), &
          trim(status_name(status_of_programme(solution%status))), trim(verdict), kkt%stationarity, &
          kkt%feasibility, kkt%sign, kkt%complementarity, solution%kkt_residual, solution%pivots, seconds

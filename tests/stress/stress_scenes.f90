@@ -1,8 +1,8 @@
 !> Solves the loads of a deck as the program does, and checks the contact conditions of every solution. Prints a line
 !> for each load, of a grid, of an expansion, or of neither if no solution was needed or found.
 !>
-!> usage: stress_scenes DECK SEED SAMPLES [HARDNESS]   expansions are checked at so many random points; the hardness, over
-!> the mean pressure of each load, takes the place of that of the deck
+!> usage: stress_scenes DECK SEED SAMPLES [HARDNESS]   expansions are checked at so many random points; the hardness,
+!> over the mean pressure of each load, takes the place of that of the deck
 program stress_scenes
    use command_words, only: number, word
    use stress_kkt_of_expansion, only: check_expansion, expansion_kkt
@@ -66,7 +66,7 @@ program stress_scenes
          write (*, '(a, "|", es24.16, "|", a, 8("|", es23.15e3), "|", i0)') 'grid', scene%target(i), &
             trim(status_name(solution%status)), of_grid%load, of_grid%residual, of_grid%complementarity, of_grid%gap, &
             solution%residual, &
-            solution%measures%mean_gap_over_amplitude + source%imprint, of_grid%edge_gap, of_grid%depth, &
+            solution%measures%mean_gap_over_amplitude + source%residual_indentation, of_grid%edge_gap, of_grid%depth, &
             solution%iterations
       end select
    end do

@@ -8,5 +8,8 @@ set(wavycon_failure_words
 # Tests with the label `long` are left out by scripts/test and run by scripts/stress.
 function(wavycon_test_properties name labels)
   set_property(TEST ${name} PROPERTY LABELS ${labels})
+  # What tests in Python import.
+  set_property(TEST ${name} PROPERTY ENVIRONMENT
+    "PYTHONPATH=${CMAKE_CURRENT_FUNCTION_LIST_DIR}" PYTHONDONTWRITEBYTECODE=1)
   set_property(TEST ${name} APPEND PROPERTY FAIL_REGULAR_EXPRESSION ${wavycon_failure_words})
 endfunction()

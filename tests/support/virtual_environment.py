@@ -1,7 +1,10 @@
 """Virtual environments with packages from the Python package index."""
+import importlib
 import os
 import subprocess
 import sys
+
+from program import skip, take_options
 
 PIP = ["-m", "pip", "install", "--disable-pip-version-check", "--no-input", "--no-compile", "--timeout", "10", "--retries", "1"]
 PATIENCE = 600  # [s] for one installation
@@ -25,6 +28,22 @@ def python_with(home, requirements, imports, interpreters=(sys.executable,), opt
                     and succeeds([python, *PIP, *options, *requirements], log) and succeeds(probe, log)):
                 return python
     return None
+
+
+def go_on_with(*packages):
+    """Returns in a Python that has the packages, wheels alone: this one if it has them, else one that is made in the
+    folder of the option --environment, in which the file is started again; the test is skipped if that fails."""
+    words, home = list(sys.argv), os.path.abspath(take_options("environment").environment)
+    try:
+        for package in packages:
+            importlib.import_module(package)
+    except ImportError:
+        python = python_with(home, packages, packages, options=["--only-binary", ":all:"])
+        if not python:
+            skip(f"{', '.join(packages)} cannot be installed; see {home}.log")
+        # What it compiles is kept in the folder: compiling pandas takes as long as these tests.
+        variables = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
+        os.execve(python, [python, *words], dict(variables, PYTHONPYCACHEPREFIX=os.path.join(home, "cache")))
 
 
 def succeeds(command, log):

@@ -2,11 +2,10 @@
 module wavycon_auto_method
    use wavycon_auto_contact, only: auto_contact, has_a_hardness, has_closed_form, has_expansions, has_neither, &
       points_are_given, points_are_of_the_map
-   use wavycon_closed_form_method, only: describe_closed_form
+   use wavycon_closed_form_method, only: closed_form_in_words
    use wavycon_contact_solver, only: contact_solver, solver_traits
-   use wavycon_fitted_method, only: describe_fitted
-   use wavycon_grid_keys, only: accuracy_key, check_grid_points, describe_grid, grid_points_key, residual_key, &
-      set_grid_defaults, start_on_grids
+   use wavycon_fitted_method, only: expansions_in_words
+   use wavycon_grid_method, only: check_grid_points, grid_in_words, grid_keys, set_grid_defaults, start_on_grids
    use wavycon_group_values, only: group_values
    use wavycon_solver_method, only: solver_method
    use wavycon_surface, only: surface_type
@@ -23,43 +22,36 @@ contains
       method%name = 'auto'
       method%meaning = "the closed form where there is one, otherwise 'fitted' where its expansions exist, with "// &
                        "'grid' for loads at which these are not accurate enough, otherwise and with a hardness 'grid'"
-      allocate (method%keys, source=[accuracy_key(), grid_points_key(), residual_key()])
+      allocate (method%keys, source=grid_keys())
       method%traits = solver%traits()
       method%set_defaults => set_grid_defaults
       method%check => check_grid_points
       method%make => make
-      method%describe => describe
    end function auto_method
 
-   subroutine make(values, surface, keep_fields, solver)
+   subroutine make(values, surface, keep_fields, solver, description)
       type(group_values), intent(in) :: values
       type(surface_type), intent(in) :: surface
       logical, intent(in) :: keep_fields
       class(contact_solver), allocatable, intent(out) :: solver
+      character(:), allocatable, intent(out) :: description
 
       type(auto_contact), allocatable :: own
+      type(solver_traits) :: traits
 
       allocate (own)
       call start_on_grids(values, surface, keep_fields, own)
+      traits = own%traits()
       call move_alloc(own, solver)
-   end subroutine make
-
-   subroutine describe(values, surface, traits, words)
-      type(group_values), intent(in) :: values
-      type(surface_type), intent(in) :: surface
-      type(solver_traits), intent(in) :: traits
-      character(:), allocatable, intent(out) :: words
-
       select case (traits%choice)
       case (has_closed_form)
-         call describe_closed_form(values, surface, traits, words)
+         description = closed_form_in_words
       case (has_expansions)
-         call describe_fitted(values, surface, traits, words)
-         words = words//', grids where these cannot'
+         description = expansions_in_words(values)//', grids where these cannot'
       case default
-         call describe_grid(values, surface, traits, words)
+         description = grid_in_words(values, surface)
       end select
-   end subroutine describe
+   end subroutine make
 
    !> Why the solvers were taken, as a sentence for --check; empty for other solvers than 'auto'.
    pure function why_chosen(traits) result(words)

@@ -2,7 +2,7 @@
 module wavycon_beale_method
    use wavycon_beale_contact, only: beale_contact, paper_constraint_points, paper_harmonics, qp_options
    use wavycon_constraint_points, only: choose_points
-   use wavycon_contact_solver, only: contact_solver, solver_traits
+   use wavycon_contact_solver, only: contact_solver
    use wavycon_fourier_terms, only: choose_terms, fourier_terms, symmetry_diagonal, symmetry_full, symmetry_none
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: choice_key, integer_key, real_key
@@ -11,7 +11,7 @@ module wavycon_beale_method
    use wavycon_problems, only: problem_list_type
    use wavycon_solver_method, only: solver_method
    use wavycon_surface, only: surface_type
-   use wavycon_surface_kinds, only: is_paper_kind, paper_waves
+   use wavycon_surface_kinds, only: paper_waves
    implicit none (type, external)
    private
 
@@ -34,7 +34,8 @@ contains
             integer_key('harmonics', '9 (2-D), 10 (1-D)', 'highest harmonic of the pressure, in each direction.', &
                1, most_harmonics), &
             integer_key('constraint_points', 'in proportion to harmonics', &
-               'equally spaced points on half a wavelength, ends included, in each direction, at which the pressure '// &
+               'equally spaced points on half a wavelength, ends included, in each direction, '// &
+                     'at which the pressure '// &
                'is constrained. More than harmonics; at most 601 in 2-D. The default is 3 harmonics in 2-D '// &
                "and 2.5 harmonics + 1 in 1-D: the paper's 27 for 9 and 26 for 10.", 2, &
                maxval(most_constraint_points)), &
@@ -44,20 +45,20 @@ contains
                ['full    ', 'diagonal', 'none    ']), &
             choice_key('minimiser', "'dual'", &
                "how the minimum of the energy is found, which is one and the same. 'dual': Goldfarb and Idnani's "// &
-                  "method, "// &
-               "from the load before; 'beale': Beale's method as in the paper, each load from an even pressure.", &
+               "method, from the load before; 'beale': Beale's method as in the paper, "// &
+                     "each load from an even pressure.", &
                ['dual ', 'beale']), &
-            real_key('edge_level', short_number(default%edge_level), 'p*', 'the isobar that is taken as the edge of contact.', &
-               above=0.0_dp, below=1.0_dp)])
+            real_key('edge_level', short_number(default%edge_level), 'p*', &
+               'the isobar that is taken as the edge of contact.', above=0.0_dp, below=1.0_dp)])
       method%traits = solver%traits()
-      method%no_accuracy = ': its series has no error estimate'
-      method%no_grid = ': it has harmonics and constraint_points'
+      method%lacks = ['accuracy   ', 'grid_points']
+      method%because = [character(40) :: ': its series has no error estimate', &
+                        ': it has harmonics and constraint_points']
       method%refusal => refusal
-      method%is_default_for => is_default_for
+      method%is_for_paper_waves = .true.
       method%set_defaults => set_defaults
       method%check => check
       method%make => make
-      method%describe => describe
       method%why_no_area => why_no_area
    end function beale_method
 
@@ -69,23 +70,13 @@ contains
       if (.not. surface%is_paper_wave()) words = 'is for the waves of the paper: '//paper_waves()
    end subroutine refusal
 
-   !> Kinds that are waves of the paper by definition. A sum of waves that equals one is solved to an accuracy by
-   !> default, as all other sums are.
-   logical function is_default_for(surface, kind)
-      type(surface_type), intent(in) :: surface
-      character(*), intent(in) :: kind
-
-      is_default_for = is_paper_kind(kind)
-      if (is_default_for) is_default_for = surface%is_paper_wave()
-   end function is_default_for
-
    subroutine set_defaults(values, surface)
       type(group_values), intent(inout) :: values
       type(surface_type), intent(in) :: surface
 
-      call values%set_default('harmonics', paper_harmonics(surface%dimension))
-      call values%set_default('constraint_points', paper_constraint_points(surface%dimension, &
-                                                                           values%integer('harmonics')))
+      call values%set_default('harmonics', [paper_harmonics(surface%dimension)])
+      call values%set_default('constraint_points', [paper_constraint_points(surface%dimension, &
+                                                                            values%integer('harmonics'))])
       if (surface%dimension == 1) call values%leave_out('symmetry')
    end subroutine set_defaults
 
@@ -94,9 +85,7 @@ contains
       type(surface_type), intent(in) :: surface
       type(problem_list_type), intent(inout) :: problems
 
-      type(fourier_terms) :: terms
-      integer, allocatable :: k(:), l(:)
-      integer :: harmonics, points
+      integer :: constraints, harmonics, points, unknowns
 
       if (surface%dimension == 1 .and. values%has('symmetry')) call values%complain(problems, 'symmetry', &
          'symmetry means nothing in 1-D: leave it out')
@@ -112,15 +101,29 @@ contains
             'constraint_points must be more than harmonics, got '//integer_text(points)//' and '// &
             integer_text(harmonics)//trim(merge('              ', ' (the default)', values%has('harmonics'))))
       else if (.not. values%is_bad('symmetry')) then
-         terms = choose_terms(surface%dimension, harmonics, symmetry_of(values))
-         call choose_points(surface%dimension, points, symmetry_of(values), k, l)
-         if (real(terms%count(), dp)*size(k)*merge(2, 1, surface%has_hardness()) > most_elements) &
+         call find_size(values, surface, unknowns, constraints)
+         if (real(unknowns, dp)*constraints*merge(2, 1, surface%has_hardness()) > most_elements) &
             call values%complain(problems, 'constraint_points', 'harmonics = '//integer_text(harmonics)// &
-               ' and constraint_points = '//integer_text(points)//' make '//integer_text(terms%count())// &
-               ' unknowns and '//integer_text(size(k))//' constraints: too many for the memory. Give fewer '// &
+               ' and constraint_points = '//integer_text(points)//' make '//integer_text(unknowns)// &
+               ' unknowns and '//integer_text(constraints)//' constraints: too many for the memory. Give fewer '// &
                'constraint_points (harmonics + 1 serve well), or a symmetry')
       end if
    end subroutine check
+
+   !> The size of the quadratic programme.
+   subroutine find_size(values, surface, unknowns, constraints)
+      type(group_values), intent(in) :: values
+      type(surface_type), intent(in) :: surface
+      integer, intent(out) :: unknowns, constraints   !! without those of a hardness, which are as many again
+
+      type(fourier_terms) :: terms
+      integer, allocatable :: k(:), l(:)
+
+      terms = choose_terms(surface%dimension, values%integer('harmonics'), symmetry_of(values))
+      call choose_points(surface%dimension, values%integer('constraint_points'), symmetry_of(values), k, l)
+      unknowns = terms%count()
+      constraints = size(k)
+   end subroutine find_size
 
    pure integer function symmetry_of(values) result(symmetry)
       type(group_values), intent(in) :: values
@@ -135,13 +138,15 @@ contains
       end select
    end function symmetry_of
 
-   subroutine make(values, surface, keep_fields, solver)
+   subroutine make(values, surface, keep_fields, solver, description)
       type(group_values), intent(in) :: values
       type(surface_type), intent(in) :: surface
       logical, intent(in) :: keep_fields
       class(contact_solver), allocatable, intent(out) :: solver
+      character(:), allocatable, intent(out) :: description
 
       type(beale_contact), allocatable :: own
+      integer :: constraints, unknowns
 
       associate (fields_are_always_kept => keep_fields); end associate
       allocate (own)
@@ -149,24 +154,11 @@ contains
                                          symmetry_of(values), values%real('edge_level'), &
                                          values%text('minimiser') == 'beale'))
       call move_alloc(own, solver)
+      call find_size(values, surface, unknowns, constraints)
+      description = integer_text(values%integer('harmonics'))//' harmonics ('//integer_text(unknowns)// &
+                    ' unknowns), '//integer_text(constraints*merge(2, 1, surface%has_hardness()))// &
+                    ' constraint points, edge_level[p*] = '//short_number(values%real('edge_level'))
    end subroutine make
-
-   subroutine describe(values, surface, traits, words)
-      type(group_values), intent(in) :: values
-      type(surface_type), intent(in) :: surface
-      type(solver_traits), intent(in) :: traits
-      character(:), allocatable, intent(out) :: words
-
-      type(fourier_terms) :: terms
-      integer, allocatable :: k(:), l(:)
-
-      associate (unused => traits); end associate
-      terms = choose_terms(surface%dimension, values%integer('harmonics'), symmetry_of(values))
-      call choose_points(surface%dimension, values%integer('constraint_points'), symmetry_of(values), k, l)
-      words = integer_text(terms%harmonics)//' harmonics ('//integer_text(terms%count())//' unknowns), '// &
-              integer_text(size(k)*merge(2, 1, surface%has_hardness()))//' constraint points, edge_level[p*] = '// &
-              short_number(values%real('edge_level'))
-   end subroutine describe
 
    subroutine why_no_area(values, words)
       type(group_values), intent(in) :: values

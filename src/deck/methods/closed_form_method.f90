@@ -1,14 +1,16 @@
 !> solver = 'closed_form': Westergaard's solution of the 1-D wave.
 module wavycon_closed_form_method
    use wavycon_closed_form_contact, only: closed_form_contact, closed_form_exists
-   use wavycon_contact_solver, only: contact_solver, solver_traits
+   use wavycon_contact_solver, only: contact_solver
    use wavycon_group_values, only: group_values
    use wavycon_solver_method, only: solver_method
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
 
-   public :: closed_form_method, describe_closed_form
+   public :: closed_form_method
+
+   character(*), parameter, public :: closed_form_in_words = "closed form (Westergaard's solution)"
 
 contains
 
@@ -21,7 +23,6 @@ contains
       method%traits = solver%traits()
       method%refusal => refusal
       method%make => make
-      method%describe => describe_closed_form
    end function closed_form_method
 
    subroutine refusal(surface, words)
@@ -33,11 +34,12 @@ contains
       if (.not. closed_form_exists(surface)) words = 'is for the 1-D wave'
    end subroutine refusal
 
-   subroutine make(values, surface, keep_fields, solver)
+   subroutine make(values, surface, keep_fields, solver, description)
       type(group_values), intent(in) :: values
       type(surface_type), intent(in) :: surface
       logical, intent(in) :: keep_fields
       class(contact_solver), allocatable, intent(out) :: solver
+      character(:), allocatable, intent(out) :: description
 
       type(closed_form_contact), allocatable :: own
 
@@ -45,16 +47,7 @@ contains
       allocate (own)
       call own%start(surface)
       call move_alloc(own, solver)
+      description = closed_form_in_words
    end subroutine make
-
-   subroutine describe_closed_form(values, surface, traits, words)
-      type(group_values), intent(in) :: values
-      type(surface_type), intent(in) :: surface
-      type(solver_traits), intent(in) :: traits
-      character(:), allocatable, intent(out) :: words
-
-      associate (unused => values, unused_too => surface, also_unused => traits); end associate
-      words = "closed form (Westergaard's solution)"
-   end subroutine describe_closed_form
 
 end module wavycon_closed_form_method

@@ -1,10 +1,10 @@
 !> solver = 'fitted': expansions fitted to the edge of contact.
 module wavycon_fitted_method
-   use wavycon_contact_solver, only: contact_solver, solver_traits
+   use wavycon_contact_solver, only: contact_solver
    use wavycon_contact_tuning, only: largest_aspect_ratio, largest_curvature_ratio
    use wavycon_fitted_contact, only: fitted_contact, fitted_options
    use wavycon_fitted_frame, only: find_frame, fitted_frame
-   use wavycon_grid_keys, only: accuracy_key
+   use wavycon_grid_method, only: accuracy_key
    use wavycon_group_values, only: group_values
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: short_number
@@ -13,7 +13,7 @@ module wavycon_fitted_method
    implicit none (type, external)
    private
 
-   public :: fitted_method, describe_fitted
+   public :: fitted_method, expansions_in_words
 
 contains
 
@@ -24,10 +24,10 @@ contains
       method%meaning = 'expansions fitted to the edge of contact, of spots or of open islands'
       allocate (method%keys, source=[accuracy_key()])
       method%traits = solver%traits()
-      method%no_grid = ': it has no grid'
+      method%lacks(1) = 'grid_points'
+      method%because(1) = ': it has no grid'
       method%refusal => refusal
       method%make => make
-      method%describe => describe_fitted
    end function fitted_method
 
    subroutine refusal(surface, words)
@@ -40,39 +40,33 @@ contains
       words = ''
       if (surface%has_hardness()) words = 'has no solution with a hardness'
       ! A flat surface is in full contact at every load: no expansion is needed.
-      if (.not. frame%is_found() .and. surface%amplitude > 0.0_dp) words = 'has expansions for '//its_surfaces()
+      if (.not. frame%is_found() .and. surface%amplitude > 0.0_dp) words = &
+         "has expansions for the paper's wave, also with two wavelengths up to "//short_number(largest_aspect_ratio)// &
+         ':1, for crossed waves with crest curvatures up to '//short_number(largest_curvature_ratio)// &
+         ':1 and for three equal waves at 60 degrees'
    end subroutine refusal
 
-   !> The surfaces that have a frame, for messages and the key reference.
-   pure function its_surfaces() result(words)
-      character(:), allocatable :: words
-
-      words = "the paper's wave, also with two wavelengths up to "//short_number(largest_aspect_ratio)// &
-              ':1, for crossed waves with crest curvatures up to '//short_number(largest_curvature_ratio)// &
-              ':1 and for three equal waves at 60 degrees'
-   end function its_surfaces
-
-   subroutine make(values, surface, keep_fields, solver)
+   subroutine make(values, surface, keep_fields, solver, description)
       type(group_values), intent(in) :: values
       type(surface_type), intent(in) :: surface
       logical, intent(in) :: keep_fields
       class(contact_solver), allocatable, intent(out) :: solver
+      character(:), allocatable, intent(out) :: description
 
       type(fitted_contact), allocatable :: own
 
       allocate (own)
       call own%start(surface, fitted_options(values%real('accuracy')), keep_fields)
       call move_alloc(own, solver)
+      description = expansions_in_words(values)
    end subroutine make
 
-   subroutine describe_fitted(values, surface, traits, words)
-      type(group_values), intent(in) :: values
-      type(surface_type), intent(in) :: surface
-      type(solver_traits), intent(in) :: traits
-      character(:), allocatable, intent(out) :: words
+   !> The expansions in words.
+   pure function expansions_in_words(values) result(words)
+      type(group_values), intent(in) :: values   !! of &method
+      character(:), allocatable :: words
 
-      associate (unused => surface, unused_too => traits); end associate
       words = 'boundary-fitted expansions to within '//short_number(values%real('accuracy'))
-   end subroutine describe_fitted
+   end function expansions_in_words
 
 end module wavycon_fitted_method

@@ -10,6 +10,7 @@ module wavycon_method_list
    use wavycon_plain_text, only: in_quotes, listed
    use wavycon_solver_method, only: solver_method
    use wavycon_surface, only: surface_type
+   use wavycon_surface_kinds, only: is_paper_kind
    implicit none (type, external)
    private
 
@@ -20,7 +21,7 @@ module wavycon_method_list
 
 contains
 
-   !> All solvers, in the order of the key reference. The last is the default where no other is.
+   !> All solvers, in the order of the key reference. The last is the default but for waves of the paper.
    subroutine get_methods(methods)
       type(solver_method), intent(out) :: methods(number_of_methods)
 
@@ -53,10 +54,9 @@ contains
       integer :: i
 
       call get_methods(methods)
-      do i = 1, number_of_methods - 1
-         if (.not. associated(methods(i)%is_default_for)) cycle
-         if (methods(i)%is_default_for(surface, kind)) exit
-      end do
+      i = number_of_methods
+      ! A sum of waves that equals a wave of the paper is solved to an accuracy by default, as all other sums are.
+      if (is_paper_kind(kind) .and. surface%is_paper_wave()) i = findloc(methods%is_for_paper_waves, .true., dim=1)
       name = trim(methods(i)%name)
    end function default_solver
 
@@ -118,12 +118,13 @@ contains
       class(contact_solver), allocatable, intent(out) :: solver
       character(:), allocatable, intent(out), optional :: description   !! the discretisation in words
 
+      character(:), allocatable :: words
       type(solver_method) :: method
 
       method = method_of(values)
       if (.not. associated(method%make)) return
-      call method%make(values, surface, keep_fields, solver)
-      if (present(description)) call method%describe(values, surface, solver%traits(), description)
+      call method%make(values, surface, keep_fields, solver, words)
+      if (present(description)) call move_alloc(words, description)
    end subroutine start_solver
 
 end module wavycon_method_list

@@ -15,14 +15,11 @@ module wavycon_solver_method
    !> meaning may differ.
    type, extends(alternative_type) :: solver_method
       type(solver_traits) :: traits         !! of the solver before it is started
-      !> Why it has no key `accuracy` or `grid_points`, as the end of a sentence such as ': it has no grid'.
-      character(40) :: no_accuracy = '', no_grid = ''
       procedure(refusal_interface), pointer, nopass :: refusal => null()          !! null: it refuses no surface
-      procedure(default_interface), pointer, nopass :: is_default_for => null()   !! null: for none
+      logical :: is_for_paper_waves = .false.   !! whether it is the default for the kinds that are waves of the paper
       procedure(defaults_interface), pointer, nopass :: set_defaults => null()    !! null: none depends on the surface
       procedure(check_interface), pointer, nopass :: check => null()              !! null: none contradicts another
       procedure(make_interface), pointer, nopass :: make => null()
-      procedure(describe_interface), pointer, nopass :: describe => null()
       procedure(reason_interface), pointer, nopass :: why_no_area => null()       !! null: contact always has an area
    end type solver_method
 
@@ -35,15 +32,8 @@ module wavycon_solver_method
          character(:), allocatable, intent(out) :: words
       end subroutine refusal_interface
 
-      !> `is_default_for`: whether this solver is the default for a surface. If several are, the first of the list is.
-      logical function default_interface(surface, kind)
-         import :: surface_type
-         type(surface_type), intent(in) :: surface
-         character(*), intent(in) :: kind              !! of the surface, as the deck names it
-      end function default_interface
-
-      !> `set_defaults`: sets the defaults that depend on the surface and leaves keys without a meaning for it out of the
-      !> resolved deck.
+      !> `set_defaults`: sets the defaults that depend on the surface and leaves keys without a meaning for it out of
+      !> the resolved deck.
       subroutine defaults_interface(values, surface)
          import :: group_values, surface_type
          type(group_values), intent(inout) :: values   !! of &method
@@ -59,22 +49,14 @@ module wavycon_solver_method
       end subroutine check_interface
 
       !> `make`: starts the solver with the values of &method.
-      subroutine make_interface(values, surface, keep_fields, solver)
+      subroutine make_interface(values, surface, keep_fields, solver, description)
          import :: contact_solver, group_values, surface_type
          type(group_values), intent(in) :: values      !! of &method, after `set_defaults` and `check`, without problems
          type(surface_type), intent(in) :: surface     !! for which `refusal` is empty
          logical, intent(in) :: keep_fields            !! whether fields, edges or details of solutions will be needed
          class(contact_solver), allocatable, intent(out) :: solver
+         character(:), allocatable, intent(out) :: description   !! the discretisation, for log and heads of tables
       end subroutine make_interface
-
-      !> `describe`: the discretisation in words, for the log and the heads of tables.
-      subroutine describe_interface(values, surface, traits, words)
-         import :: group_values, solver_traits, surface_type
-         type(group_values), intent(in) :: values      !! as of `make`
-         type(surface_type), intent(in) :: surface
-         type(solver_traits), intent(in) :: traits     !! of the started solver
-         character(:), allocatable, intent(out) :: words
-      end subroutine describe_interface
 
       !> `why_no_area`: why a converged solution may have no contact area, such as 'no pressure reaches 0.1 p*'.
       subroutine reason_interface(values, words)

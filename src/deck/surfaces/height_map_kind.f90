@@ -16,8 +16,7 @@ module wavycon_height_map_kind
    use wavycon_prepare_map, only: map_preparation
    use wavycon_problems, only: problem_list_type
    use wavycon_surface, only: surface_type
-   use wavycon_surface_keys, only: length_x_key, length_y_key
-   use wavycon_surface_kind, only: surface_kind
+   use wavycon_surface_kind, only: length_x_key, length_y_key, surface_kind
    use wavycon_system, only: full_path, path_absent, path_kind
    implicit none (type, external)
    private
@@ -74,8 +73,8 @@ contains
    end subroutine check
 
    !> Reads the map. Errors: exit_file_trouble if the file cannot be read, exit_bad_input if it is not a map, its holes
-   !> are not to be filled, its heights are out of range, its unit is unknown, or the deck gives sides of the cell beside
-   !> those of the file, which may be in another unit.
+   !> are not to be filled, its heights are out of range, its unit is unknown, or the deck gives sides of the cell
+   !> beside those of the file, which may be in another unit.
    subroutine make(values, surface, map, error)
       type(group_values), intent(inout) :: values
       type(surface_type), intent(out) :: surface
@@ -83,10 +82,8 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(measured_map) :: heights
-      character(:), allocatable :: assumed_sides, file, path
-      real(dp) :: length(2)
+      character(:), allocatable :: file, path
 
-      if (values%text('edges') /= 'window') call values%leave_out('window_width')
       file = values%text('file')
       path = place_of_map(values%deck_path, file)
       call read_map(values, path, heights, error)
@@ -94,36 +91,34 @@ contains
          if (allocated(error)) error%message = escaped(file)// &
             ': there is no such file beside the deck, nor where the program was started'
       end if
-      if (.not. allocated(error)) call take_sides(values, path, heights, length, assumed_sides, error)
-      if (.not. allocated(error)) call surface_of_map(path, preparation_of(values), values%real('height_scale'), &
-                                                      length, heights, surface, map, error)
+      if (.not. allocated(error)) call make_of(path, values, heights, surface, map, error)
       if (allocated(error)) then
          error%message = error%message//' (the height map of '//escaped(values%deck_path)//')'
          return
       end if
       map%path = full_path(path)
-      map%assumed_sides = assumed_sides
       map%lacks_missing_value = values%has('missing_value') .and. .not. heights%has_missing_value
       if (allocated(heights%length_unit)) map%length_unit = heights%length_unit
    end subroutine make
 
-   !> The surface of heights in memory in place of those of the file, whose name messages use. Errors: exit_bad_input for
-   !> another kind of surface, for keys that only a file can have, and as of `make`; exit_file_trouble without memory.
+   !> The surface of heights in memory in place of those of the file, whose name messages use. Errors: exit_bad_input
+   !> for another kind of surface, for keys that only a file can have, and as of `make`; exit_file_trouble without
+   !> memory.
    subroutine surface_of_heights(values, heights, surface, map, error)
       type(group_values), intent(inout) :: values     !! of &surface, as for `make`
-      real(dp), intent(in) :: heights(:, :)           !! upwards to the other body, NaN: missing; x first, one column: a profile
+      real(dp), intent(in) :: heights(:, :)   !! upwards to the other body, NaN: missing; x first, one column: a profile
       type(surface_type), intent(out) :: surface
       type(map_statistics), allocatable, intent(out) :: map
       type(error_type), allocatable, intent(out) :: error
 
       character(*), parameter :: of_files(*) = [character(13) :: 'file_format', 'missing_value']
-      character(:), allocatable :: assumed_sides, source
+      character(:), allocatable :: source
       integer :: i
-      real(dp) :: length(2)
       type(measured_map) :: measured
 
       if (values%text('kind') /= 'file') then
-         call fatal_error(error, exit_bad_input, "heights in memory are for kind = 'file', not '"//values%text('kind')//"'")
+         call fatal_error(error, exit_bad_input, "heights in memory are for kind = 'file', not '"// &
+               values%text('kind')//"'")
          return
       end if
       do i = 1, size(of_files)
@@ -132,7 +127,6 @@ contains
             return
          end if
       end do
-      if (values%text('edges') /= 'window') call values%leave_out('window_width')
       source = values%text('file')
       call check_map_size(source, shape(heights), error)
       if (.not. allocated(error)) call check_room(source, shape(heights), error)
@@ -144,11 +138,29 @@ contains
       else
          deallocate (measured%missing)
       end if
-      call take_sides(values, source, measured, length, assumed_sides, error)
-      if (.not. allocated(error)) call surface_of_map(source, preparation_of(values), values%real('height_scale'), &
-                                                      length, measured, surface, map, error)
-      if (.not. allocated(error)) map%assumed_sides = assumed_sides
+      call make_of(source, values, measured, surface, map, error)
    end subroutine surface_of_heights
+
+   !> Makes the surface of heights, prepared as the keys say. Errors: as of `make`.
+   subroutine make_of(source, values, heights, surface, map, error)
+      character(*), intent(in) :: source              !! of the heights, for messages
+      type(group_values), intent(inout) :: values
+      type(measured_map), intent(inout) :: heights
+      type(surface_type), intent(out) :: surface
+      type(map_statistics), allocatable, intent(out) :: map
+      type(error_type), allocatable, intent(out) :: error
+
+      character(:), allocatable :: assumed_sides
+      real(dp) :: length(2)
+
+      if (values%text('edges') /= 'window') call values%leave_out('window_width')
+      call take_sides(values, source, heights, length, assumed_sides, error)
+      if (.not. allocated(error)) call surface_of_map(source, &
+         map_preparation(values%text('detrend'), values%text('fill_missing'), values%text('edges'), &
+                         values%real('window_width')), values%real('height_scale'), length, heights, surface, map, &
+                               error)
+      if (.not. allocated(error)) map%assumed_sides = assumed_sides
+   end subroutine make_of
 
    !> Reads the map and converts its lengths to the deck's unit. Errors: as of `make`.
    subroutine read_map(values, path, heights, error)
@@ -169,14 +181,6 @@ contains
       if (allocated(values%length_unit)) unit = values%length_unit
       call convert_lengths(path, unit, heights, error)
    end subroutine read_map
-
-   !> How the keys say that the map is prepared.
-   type(map_preparation) function preparation_of(values)
-      type(group_values), intent(in) :: values
-
-      preparation_of = map_preparation(values%text('detrend'), values%text('fill_missing'), values%text('edges'), &
-                                       values%real('window_width'))
-   end function preparation_of
 
    !> The sides of the cell: those of the file, those of the deck, or assumed ones. Errors: exit_bad_input if file and
    !> deck give one.
@@ -227,7 +231,7 @@ contains
             if (m /= n) sides = sides//'*'//integer_text(n)//'/'//integer_text(m)
             assumed = clauses(assumed, sides//': the points are equally far apart along x and y')
          end if
-         call values%set_default('length_y', length(2))
+         call values%set_default('length_y', length(2:))
          length(2) = values%real('length_y')
       end associate
    end subroutine take_sides

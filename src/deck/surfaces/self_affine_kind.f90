@@ -11,12 +11,11 @@ module wavycon_self_affine_kind
    use wavycon_self_affine, only: self_affine_surface
    use wavycon_self_affine_heights, only: has_waves, least_points_of, self_affine_spectrum
    use wavycon_surface, only: surface_type
-   use wavycon_surface_keys, only: length_x_key, length_y_key
-   use wavycon_surface_kind, only: surface_kind
+   use wavycon_surface_kind, only: length_x_key, length_y_key, surface_kind
    implicit none (type, external)
    private
 
-   public :: self_affine_kind, is_another_way
+   public :: self_affine_kind
 
    !> Most points along a side that a deck without `points` gets.
    integer, parameter :: most_default_points = 8192
@@ -29,9 +28,10 @@ contains
       allocate (kind%keys, source=[ &
          length_x_key(), length_y_key(), &
          real_key('hurst', '0.8', '-', 'Hurst exponent of the roughness.', least=0.0_dp, most=1.0_dp), &
-         real_key('rms_height', '', 'length', 'root mean square of the height; or give rms_slope.', above=0.0_dp), &
+         real_key('rms_height', '', 'length', 'root mean square of the height; or give rms_slope.', &
+                  above=0.0_dp, way=1), &
          real_key('rms_slope', '', '-', 'root mean square of the slope, the size of the gradient; or give '// &
-                  'rms_height.', above=0.0_dp), &
+                  'rms_height.', above=0.0_dp, way=2), &
          real_key('long_wavelength', 'the longer side of the cell', 'length', 'longest wave, the long cut-off.', &
                   above=0.0_dp), &
          real_key('rolloff_wavelength', 'long_wavelength', 'length', &
@@ -60,31 +60,19 @@ contains
       real(dp) :: length(2)
       integer :: points(2)
 
-      points = given_points(values)
+      points = 0
+      if (values%has('points') .and. .not. values%is_bad('points')) points = nint(values%pair('points'))
       length = values%real('length_x')
       ! Without length_y points are as far apart along y as along x.
       if (points(2) > 1) length(2) = length(1)*points(2)/points(1)
-      call values%set_default('length_y', length(2))
+      call values%set_default('length_y', length(2:))
       length(2) = values%real('length_y')
-      call values%set_default('long_wavelength', merge(length(1), maxval(length), points(2) == 1))
-      call values%set_default('rolloff_wavelength', values%real('long_wavelength'))
-      call values%set_default('short_wavelength', values%real('rolloff_wavelength')/64)
+      call values%set_default('long_wavelength', [merge(length(1), maxval(length), points(2) == 1)])
+      call values%set_default('rolloff_wavelength', values%reals('long_wavelength'))
+      call values%set_default('short_wavelength', values%reals('rolloff_wavelength')/64)
       if (points(1) == 0) points = default_points(length/values%real('short_wavelength'))
       if (.not. values%is_bad('points')) call values%set('points', points)
    end subroutine set_defaults
-
-   !> The points that the deck gives along x and y; zeros if it gives none.
-   pure function given_points(values) result(points)
-      type(group_values), intent(in) :: values
-      integer :: points(2)
-
-      points = 0
-      if (.not. values%has('points') .or. values%is_bad('points')) return
-      associate (given => values%integers('points'))
-         points = given(1)
-         points(2) = given(size(given))
-      end associate
-   end function given_points
 
    !> The least power of two with four points to the shortest wave.
    elemental integer function default_points(waves) result(points)
@@ -199,13 +187,5 @@ contains
       call self_affine_surface(escaped(values%deck_path)//": kind = 'self_affine'", spectrum_of(values), &
                                values%integers('points'), surface, map, error)
    end subroutine make
-
-   !> Whether two keys of &surface give the roughness in different ways: rms_height, or rms_slope.
-   pure logical function is_another_way(key, other)
-      character(*), intent(in) :: key, other
-
-      is_another_way = (key == 'rms_height' .and. other == 'rms_slope') .or. &
-                       (key == 'rms_slope' .and. other == 'rms_height')
-   end function is_another_way
 
 end module wavycon_self_affine_kind

@@ -4,13 +4,15 @@ module wavycon_surface_kind
    use wavycon_error, only: error_type
    use wavycon_group_values, only: group_values
    use wavycon_key_alternatives, only: alternative_type
+   use wavycon_key_table, only: key_type, real_key
+   use wavycon_kinds, only: dp
    use wavycon_map_statistics, only: map_statistics
    use wavycon_problems, only: problem_list_type
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
 
-   public :: surface_kind
+   public :: length_x_key, length_y_key, surface_kind
 
    !> A value of the key `kind`. A key that two kinds read must have the same type, unit and bounds in both; its meaning
    !> may differ.
@@ -47,5 +49,19 @@ module wavycon_surface_kind
          type(problem_list_type), intent(inout) :: problems   !! to which they are added
       end subroutine check_interface
    end interface
+
+contains
+
+   !> Keys that several kinds read.
+   pure type(key_type) function length_x_key() result(key)
+      key = real_key('length_x', '1.0', 'length', 'side of the periodic cell along x.', above=0.0_dp)
+   end function length_x_key
+
+   pure type(key_type) function length_y_key(meaning) result(key)
+      character(*), intent(in), optional :: meaning   !! if it is not only the side of the cell
+
+      key = real_key('length_y', 'length_x', 'length', 'side of the periodic cell along y.', above=0.0_dp)
+      if (present(meaning)) key%meaning = meaning
+   end function length_y_key
 
 end module wavycon_surface_kind

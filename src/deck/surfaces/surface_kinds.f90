@@ -1,18 +1,16 @@
 !> The list of all kinds of surface. A new kind adds its line to `get_surface_kinds`.
 module wavycon_surface_kinds
-   use wavycon_crossed_1d_kind, only: crossed_1d_kind
+   use wavycon_group_values, only: group_values
    use wavycon_height_map_kind, only: height_map_kind
-   use wavycon_hexagonal_kind, only: hexagonal_kind
    use wavycon_plain_text, only: listed
    use wavycon_self_affine_kind, only: self_affine_kind
    use wavycon_surface_kind, only: surface_kind
-   use wavycon_wave_1d_kind, only: wave_1d_kind
-   use wavycon_wave_2d_kind, only: wave_2d_kind
+   use wavycon_wave_kinds, only: get_wave_kinds, number_of_wave_kinds
    use wavycon_wave_sum_kind, only: wave_sum_kind
    implicit none (type, external)
    private
 
-   public :: get_surface_kinds, paper_waves, is_paper_kind
+   public :: get_surface_kinds, kind_of, paper_waves, is_paper_kind
 
    integer, parameter, public :: number_of_kinds = 7
 
@@ -22,14 +20,23 @@ contains
    subroutine get_surface_kinds(kinds)
       type(surface_kind), intent(out) :: kinds(number_of_kinds)
 
-      kinds(1) = wave_1d_kind()
-      kinds(2) = wave_2d_kind()
-      kinds(3) = crossed_1d_kind()
-      kinds(4) = hexagonal_kind()
+      call get_wave_kinds(kinds(:number_of_wave_kinds))
       kinds(5) = wave_sum_kind()
       kinds(6) = height_map_kind()
       kinds(7) = self_affine_kind()
    end subroutine get_surface_kinds
+
+   !> The kind that &surface names. Its pointers are null if there is none of that name.
+   type(surface_kind) function kind_of(values) result(kind)
+      type(group_values), intent(in) :: values   !! of &surface
+
+      type(surface_kind) :: kinds(number_of_kinds)
+      integer :: i
+
+      call get_surface_kinds(kinds)
+      i = findloc(kinds%name == values%text('kind'), .true., dim=1)
+      if (i > 0) kind = kinds(i)
+   end function kind_of
 
    !> The kinds that are waves of Johnson, Greenwood & Higginson (1985), eqs. (3) and (21), and their conditions, for
    !> messages.

@@ -9,8 +9,7 @@ module wavycon_wave_sum_kind
    use wavycon_plain_text, only: integer_text
    use wavycon_problems, only: problem_list_type
    use wavycon_surface, only: surface_type
-   use wavycon_surface_keys, only: length_x_key, length_y_key
-   use wavycon_surface_kind, only: surface_kind
+   use wavycon_surface_kind, only: length_x_key, length_y_key, surface_kind
    use wavycon_wave_sum, only: wave_sum
    implicit none (type, external)
    private
@@ -44,7 +43,7 @@ contains
    subroutine set_defaults(values)
       type(group_values), intent(inout) :: values
 
-      call values%set_default('length_y', values%real('length_x'))
+      call values%set_default('length_y', values%reals('length_x'))
       call values%set_default('waves_y', 0*values%integers('waves_x'))
       call values%set_default('phases', 0*values%reals('amplitudes'))
    end subroutine set_defaults

@@ -45,6 +45,11 @@ class Table:
                 raise ValueError(f"{self.path}: a row of {len(row)} words below {len(self.columns)} column names")
         return rows
 
+    def column(self, name):
+        """The words of a column."""
+        place = self.columns.index(name)
+        return [row[place] for row in self.rows()]
+
     def records(self):
         """The words of each line, by the names of the columns."""
         return [dict(zip(self.columns, row)) for row in self.rows()]

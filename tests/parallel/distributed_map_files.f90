@@ -2,7 +2,7 @@
 !> preparation and statistics must be the same to the last bit, on any number of ranks, but for a sum over lines.
 !>
 !> Run by mpirun; the exit status is 1 if a number differs on any rank.
-program spread_map_files
+program distributed_map_files
    use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_quiet_nan, ieee_value
    use rank_checks, only: check, end_checks, same
    use wavycon_error, only: error_type
@@ -17,7 +17,7 @@ program spread_map_files
    use wavycon_self_affine_heights, only: make_heights, self_affine_spectrum
    implicit none (type, external)
 
-   character(*), parameter :: path = 'spread_map_files.tmp.npy'
+   character(*), parameter :: path = 'distributed_map_files.tmp.npy'
    integer, parameter :: points(2) = [311, 260]
    integer :: kind
 
@@ -52,7 +52,7 @@ contains
       call prepared(detrend, edges, spread, changes(2))
       statistics(2) = statistics_of(spread%height, 'npy', '', spread%points())
       call slab%start(points)
-      call check(slab%is_spread .eqv. rank_count() > 1, 'maps of this size are spread')
+      call check(slab%is_distributed .eqv. rank_count() > 1, 'maps of this size are spread')
       call check(size(spread%height, 2) == slab%columns(), 'own columns')
       call work_alone(.true.)
       call prepared(detrend, edges, alone, changes(1))
@@ -168,4 +168,4 @@ contains
                  statistics%largest_step(2), statistics%border_step]
    end function numbers_of
 
-end program spread_map_files
+end program distributed_map_files

@@ -1,5 +1,5 @@
 !> The edge of contact as closed curves.
-module wavycon_edge_curves
+module wavycon_contact_contours
    use, intrinsic :: iso_fortran_env, only: int8
    use wavycon_constants, only: pi
    use wavycon_contact_edge, only: contact_edge, corner_k, corner_l, edge_point
@@ -8,11 +8,12 @@ module wavycon_edge_curves
    implicit none (type, external)
    private
 
-   public :: edge_curve, keep_curves_of_quarter, shift_curve, strip_ends, trace_edges, turn_curves, whole_strips
+   public :: contact_contour, keep_curves_of_quarter, shift_contour, strip_ends, trace_edges, rotate_contours, &
+         whole_strips
 
    !> A curve with the contact on its left. Its last point is the first again; that of a curve through the whole plane
    !> is one period on. In 1-D it is the two ends of a strip.
-   type :: edge_curve
+   type :: contact_contour
       real(dp), allocatable :: phi(:), theta(:)   !! [rad], not reduced to one cell, so that the curve does not jump
       !> 1: closed, about contact; -1: closed, about a gap; 0: it goes around the periodic cell.
       integer :: turns = 0
@@ -21,14 +22,14 @@ module wavycon_edge_curves
       integer :: spot = 0, pool = 0
       real(dp) :: area = 0.0_dp       !! (A1), of a strip its width times 2 pi [rad^2]
       real(dp) :: length = 0.0_dp     !! [length] if it is known better than from the points; otherwise 0
-   end type edge_curve
+   end type contact_contour
 
 contains
 
    !> All curves of one cell, which is the period of phi and theta unless another is given.
    subroutine trace_edges(edge, curves, cell, skew, numbers, with_images)
       class(contact_edge), intent(in) :: edge
-      type(edge_curve), allocatable, intent(out) :: curves(:)
+      type(contact_contour), allocatable, intent(out) :: curves(:)
       !> Points of the cell along phi and theta, and the steps along phi after which it comes again in the next row of
       !> cells. Absent: those of the period, 0.
       integer, intent(in), optional :: cell(2), skew
@@ -37,7 +38,6 @@ contains
 
       type(region_numbers) :: own
       integer(int8), allocatable :: seen(:, :)   ! a bit for each side of a cell
-      type(edge_curve) :: curve
       integer :: count, k, l, number, points(2), steps
 
       points = edge%period
@@ -53,8 +53,9 @@ contains
             if (is_uniform(own, k, l)) cycle
             do number = 1, 4
                if (btest(seen(k, l), number) .or. .not. leaves_contact(own, k, l, number)) cycle
-               call trace(edge, own, k, l, number, seen, curve)
-               call append(curves, count, curve)
+               if (count == size(curves)) call resize(curves, max(8, 2*count))
+               count = count + 1
+               call trace(edge, own, k, l, number, seen, curves(count))
             end do
          end do
       end do
@@ -62,49 +63,25 @@ contains
       if (present(numbers)) numbers = own
    end subroutine trace_edges
 
-   !> Adds a curve to the first `count` of an array, which grows as needed.
-   subroutine append(curves, count, curve)
-      type(edge_curve), allocatable, intent(inout) :: curves(:)
-      integer, intent(inout) :: count
-      type(edge_curve), intent(inout) :: curve   !! without its points afterwards
-
-      if (count == size(curves)) call resize(curves, max(8, 2*count))
-      count = count + 1
-      call move_curve(curve, curves(count))
-   end subroutine append
-
+   !> Gives an array another length.
    subroutine resize(curves, length)
-      type(edge_curve), allocatable, intent(inout) :: curves(:)
+      type(contact_contour), allocatable, intent(inout) :: curves(:)
       integer, intent(in) :: length
 
-      type(edge_curve), allocatable :: other(:)
-      integer :: i
+      type(contact_contour), allocatable :: other(:)
+      integer :: kept
 
       allocate (other(length))
-      do i = 1, min(length, size(curves))
-         call move_curve(curves(i), other(i))
-      end do
+      kept = min(length, size(curves))
+      other(:kept) = curves(:kept)
       call move_alloc(other, curves)
    end subroutine resize
-
-   subroutine move_curve(from, to)
-      type(edge_curve), intent(inout) :: from   !! without its points afterwards
-      type(edge_curve), intent(inout) :: to
-
-      call move_alloc(from%phi, to%phi)
-      call move_alloc(from%theta, to%theta)
-      to%turns = from%turns
-      to%spot = from%spot
-      to%pool = from%pool
-      to%area = from%area
-      to%length = from%length
-   end subroutine move_curve
 
    !> The strips of a 1-D contact that is even, over a whole period, as curves of two points each.
    pure subroutine strip_ends(edges, crest_in_contact, curves)
       real(dp), intent(in) :: edges(:)             !! between 0 and pi, ascending [rad]
       logical, intent(in) :: crest_in_contact      !! whether 0 is
-      type(edge_curve), allocatable, intent(out) :: curves(:)
+      type(contact_contour), allocatable, intent(out) :: curves(:)
 
       associate (mirrored => 2*pi - edges(size(edges):1:-1))
          call whole_strips([edges, mirrored], crest_in_contact, curves)
@@ -117,9 +94,9 @@ contains
    !> moved by whole periods to where it has the most points there. A curve across the border of the quarter is its own
    !> mirror image and extends beyond it.
    subroutine keep_curves_of_quarter(curves)
-      type(edge_curve), allocatable, intent(inout) :: curves(:)
+      type(contact_contour), allocatable, intent(inout) :: curves(:)
 
-      type(edge_curve), allocatable :: kept(:)
+      type(contact_contour), allocatable :: kept(:)
       integer :: i, k, l, most, number, shift(2)
       logical :: keep(size(curves))
 
@@ -151,30 +128,30 @@ contains
       call move_alloc(kept, curves)
    end subroutine keep_curves_of_quarter
 
-   !> Transforms curves to axes turned by 45 degrees: factor times the sum and the difference of the angles.
-   pure subroutine turn_curves(curves, factor)
-      type(edge_curve), intent(inout) :: curves(:)
+   !> Transforms curves to axes rotated by 45 degrees: factor times the sum and the difference of the angles.
+   pure subroutine rotate_contours(curves, factor)
+      type(contact_contour), intent(inout) :: curves(:)
       real(dp), intent(in) :: factor
 
-      real(dp), allocatable :: turned(:)
+      real(dp), allocatable :: rotated(:)
       integer :: i
 
       do i = 1, size(curves)
          associate (x => curves(i)%phi, y => curves(i)%theta)
             ! The new axes mirror the old ones: the points are reversed, so that the contact stays on the left.
-            turned = factor*(x(size(x):1:-1) + y(size(y):1:-1))
+            rotated = factor*(x(size(x):1:-1) + y(size(y):1:-1))
             y = factor*(x(size(x):1:-1) - y(size(y):1:-1))
-            x = turned
+            x = rotated
             curves(i)%area = 2*factor**2*curves(i)%area
          end associate
       end do
-   end subroutine turn_curves
+   end subroutine rotate_contours
 
    !> The strips of a 1-D contact over a whole period, as curves of two points each.
    pure subroutine whole_strips(edges, starts_in_contact, curves)
       real(dp), intent(in) :: edges(:)   !! an even number, ascending, within a period [rad]
       logical, intent(in) :: starts_in_contact
-      type(edge_curve), allocatable, intent(out) :: curves(:)
+      type(contact_contour), allocatable, intent(out) :: curves(:)
 
       real(dp) :: ends(size(edges))
       integer :: i
@@ -193,8 +170,8 @@ contains
 
    !> Moves a curve into the contact, at right angles to it where the steps of the grid are 1: by the given number of
    !> steps, but at most by half of its mean radius, so that the curve of the smallest contact stays about it.
-   pure subroutine shift_curve(curve, period, shift)
-      type(edge_curve), intent(inout) :: curve
+   pure subroutine shift_contour(curve, period, shift)
+      type(contact_contour), intent(inout) :: curve
       integer, intent(in) :: period(2)   !! points to a period of phi and theta
       real(dp), intent(in) :: shift      !! >= 0
 
@@ -218,7 +195,7 @@ contains
          curve%phi = curve%phi - distance*along_y/length*(2*pi/period(1))
          curve%theta = curve%theta + distance*along_x/length*(2*pi/period(2))
       end associate
-   end subroutine shift_curve
+   end subroutine shift_contour
 
    !> Follows one curve from an edge of a cell back to it.
    subroutine trace(edge, numbers, first_k, first_l, first_number, seen, curve)
@@ -226,7 +203,7 @@ contains
       type(region_numbers), intent(in) :: numbers
       integer, intent(in) :: first_k, first_l, first_number
       integer(int8), intent(inout) :: seen(0:, 0:)
-      type(edge_curve), intent(out) :: curve
+      type(contact_contour), intent(out) :: curve
 
       integer, parameter :: step_k(4) = [0, 1, 0, -1], step_l(4) = [-1, 0, 1, 0]
       integer, parameter :: opposite(4) = [3, 4, 1, 2]
@@ -259,9 +236,9 @@ contains
             next = edge%side(k, l, number)
             if (next%exists) exit
          end do
-         associate (turned => modulo(number - entered, 4) - 2)
-            quarters = quarters + turned
-            curve%area = curve%area - edge%beside_chord(last, next) + edge%area_correction(k, l, 0.25_dp*turned) &
+         associate (rotated => modulo(number - entered, 4) - 2)
+            quarters = quarters + rotated
+            curve%area = curve%area - edge%beside_chord(last, next) + edge%area_correction(k, l, 0.25_dp*rotated) &
                + 0.5_dp*((last%phi - first%phi)*(next%theta - first%theta) &
                          - (next%phi - first%phi)*(last%theta - first%theta))
          end associate
@@ -308,4 +285,4 @@ contains
                        numbers%of_point(k + corner_k(number + 1), l + corner_l(number + 1)) < 0
    end function leaves_contact
 
-end module wavycon_edge_curves
+end module wavycon_contact_contours

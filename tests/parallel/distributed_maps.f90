@@ -1,8 +1,8 @@
-!> Surfaces whose heights are spread over the ranks, against the same surfaces that each rank makes by itself: every
-!> number must be the same to the last bit, on any number of ranks.
+!> Surfaces whose heights are distributed over the ranks, against the same surfaces that each rank makes by itself:
+!> every number must be the same to the last bit, on any number of ranks.
 !>
 !> Run by mpirun; the exit status is 1 if a number differs on any rank.
-program spread_maps
+program distributed_maps
    use rank_checks, only: check, end_checks, same
    use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp
@@ -36,17 +36,17 @@ contains
       integer :: parts(2)
 
       call slab%start(points)
-      call check(slab%is_spread .eqv. rank_count() > 1, 'grids of this size are spread')
+      call check(slab%is_distributed .eqv. rank_count() > 1, 'grids of this size are spread')
       height = heights_of(points, slab%first, slab%last)
       spread = surface_of_points([1.0_dp, 0.7_dp], height, mirrored, points)
       roughness(2) = spread%roughness()
-      call check(spread%is_spread() .eqv. rank_count() > 1, 'is_spread')
+      call check(spread%is_distributed() .eqv. rank_count() > 1, 'is_distributed')
       call work_alone(.true.)
       height = heights_of(points, 1, points(2))
       alone = surface_of_points([1.0_dp, 0.7_dp], height, mirrored)
       roughness(1) = alone%roughness()
       call work_alone(.false.)
-      call check(.not. alone%is_spread(), 'not spread')
+      call check(.not. alone%is_distributed(), 'not spread')
       call check(same([alone%amplitude, alone%crest, alone%stiffness, alone%full_contact_peak, alone%crest_curvature, &
                        alone%length], &
                       [spread%amplitude, spread%crest, spread%stiffness, spread%full_contact_peak, &
@@ -64,7 +64,7 @@ contains
       call whole_surface(spread, first_only=.true.)
    end subroutine compare_maps
 
-   !> Waves, which are whole on all ranks, on grids that are spread.
+   !> Waves, which are whole on all ranks, on grids that are distributed.
    subroutine compare_waves()
       type(surface_type) :: surface
 
@@ -118,11 +118,11 @@ contains
    logical function same_shapes(a, b)
       type(surface_type), intent(in) :: a, b
 
-      same_shapes = all(shape(a%shape%c) == shape(b%shape%c)) .and. .not. b%is_spread()
+      same_shapes = all(shape(a%shape%c) == shape(b%shape%c)) .and. .not. b%is_distributed()
       if (same_shapes) same_shapes = same([a%shape%c], [b%shape%c])
       if (.not. same_shapes .or. a%shape%is_even()) return
       same_shapes = same([a%shape%cs], [b%shape%cs]) .and. same([a%shape%sc], [b%shape%sc]) .and. &
                     same([a%shape%ss], [b%shape%ss])
    end function same_shapes
 
-end program spread_maps
+end program distributed_maps

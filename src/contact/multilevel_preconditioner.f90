@@ -1,20 +1,20 @@
 !> Continues a field from the contact to the points outside it, over grids of ever larger steps, and the adjoint of
 !> that: equations (C4a) to (C4c) of README.md in this directory.
 !>
-!> Each coarser grid has half the points each way: a point of it has the mean of four. It needs even numbers of points;
-!> where they become odd the sequence ends. If the grid is spread, so are those coarser ones that are large; small ones
-!> are whole.
-module wavycon_contact_extension
+!> The multilevel preconditioner uses it. A point of each coarser grid has the mean of two by two points of the finer
+!> one; the sequence ends where a number of points is odd. If the grid is distributed, so are the large ones of the
+!> coarser grids; small ones are whole.
+module wavycon_multilevel_preconditioner
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_tuning, only: decay_alone, decay_growth
    use wavycon_grid_points, only: image_of_point
-   use wavycon_grid_slab, only: grid_slab, least_spread_points
+   use wavycon_grid_slab, only: grid_slab, least_distributed_points
    use wavycon_kinds, only: dp, sp
    use wavycon_threads, only: threads_for
    implicit none (type, external)
    private
 
-   public :: contact_extension
+   public :: multilevel_preconditioner
 
    !> The coarsest grid has at least this many points each way.
    integer, parameter :: least_points = 4
@@ -26,7 +26,7 @@ module wavycon_contact_extension
       real(sp), allocatable :: values(:, :)
    end type coarse_grid
 
-   type :: contact_extension
+   type :: multilevel_preconditioner
       private
       logical :: even = .false.                !! whether the field is mirrored at the borders; otherwise it is periodic
       real(sp) :: decay = 1.0_sp               !! factor of a value for each doubling of the distance from the contact
@@ -37,13 +37,13 @@ module wavycon_contact_extension
       procedure :: set_contact
       procedure :: extend
       procedure :: collect
-   end type contact_extension
+   end type multilevel_preconditioner
 
 contains
 
    !> Allocates the coarser grids of a grid.
    subroutine start(self, points, even)
-      class(contact_extension), intent(out) :: self
+      class(multilevel_preconditioner), intent(out) :: self
       integer, intent(in) :: points(2)   !! M, N of the whole grid; N = 1 in 1-D
       logical, intent(in) :: even        !! whether the points are those of a quarter of an even field's cell
 
@@ -63,7 +63,7 @@ contains
       do k = 1, levels
          associate (grid_k => self%grids(k))
             grid_k%part = finer%coarser()
-            grid_k%slab = spread_or_whole(grid_k%part)
+            grid_k%slab = distributed_or_whole(grid_k%part)
             allocate (grid_k%contact(grid_k%slab%points(1), grid_k%slab%columns()))
             allocate (grid_k%values, mold=grid_k%contact)
             finer = grid_k%slab
@@ -73,17 +73,17 @@ contains
 
    !> The own columns of a coarser grid: those whose means are taken here, or all of them if the grid is small or some
    !> means of the next one would need columns of two slabs.
-   pure type(grid_slab) function spread_or_whole(part) result(slab)
+   pure type(grid_slab) function distributed_or_whole(part) result(slab)
       type(grid_slab), intent(in) :: part
 
       slab = part
-      if (mod(part%width, 2) /= 0 .or. product(int(part%points, int64)) < least_spread_points) &
+      if (mod(part%width, 2) /= 0 .or. product(int(part%points, int64)) < least_distributed_points) &
          slab = grid_slab(points=part%points, width=part%points(2), last=part%points(2))
-   end function spread_or_whole
+   end function distributed_or_whole
 
    !> Sets the points in contact.
    subroutine set_contact(self, contact)
-      class(contact_extension), intent(inout) :: self
+      class(multilevel_preconditioner), intent(inout) :: self
       real(sp), intent(in), contiguous :: contact(:, :)   !! 1 in contact, 0 outside, own columns, shape (M, columns)
 
       real(dp) :: total(1)
@@ -105,7 +105,7 @@ contains
 
    !> Continues a field to the points outside the contact.
    subroutine extend(self, contact, field)
-      class(contact_extension), intent(inout) :: self
+      class(multilevel_preconditioner), intent(inout) :: self
       real(sp), intent(in), contiguous :: contact(:, :)    !! that of `set_contact`
       real(sp), intent(inout), contiguous :: field(:, :)   !! zero outside the contact, own columns, shape (M, columns)
 
@@ -124,9 +124,9 @@ contains
       call fill(self, self%grids(1), contact, field)
    end subroutine extend
 
-   !> The adjoint of `extend`: adds to the values in contact those outside that the extension takes from them.
+   !> The adjoint of `extend`: adds to the values in contact the values outside, with the weights that `extend` uses.
    subroutine collect(self, contact, field)
-      class(contact_extension), intent(inout) :: self
+      class(multilevel_preconditioner), intent(inout) :: self
       real(sp), intent(in), contiguous :: contact(:, :)    !! that of `set_contact`
       real(sp), intent(inout), contiguous :: field(:, :)   !! own columns, shape (M, columns); its values outside the
                                                            !! contact are of no use afterwards
@@ -147,7 +147,7 @@ contains
       call adjoint_average(self%grids(1), field)
    end subroutine collect
 
-   !> Divides the values by the part of their area in contact; points without contact get zero.
+   !> Divides each value by the part of its area in contact; points without contact get zero.
    pure subroutine normalise(grid)
       type(coarse_grid), intent(inout) :: grid
 
@@ -181,12 +181,13 @@ contains
       call complete(part, slab, coarse)
    end subroutine average
 
-   !> Takes the columns of the other slabs where a grid that is whole follows one that is spread.
+   !> Gathers the columns of the other slabs where a whole grid follows a distributed one.
    subroutine complete(part, slab, coarse)
       type(grid_slab), intent(in) :: part, slab
       real(sp), intent(inout), contiguous :: coarse(:, :)
 
-      if (part%is_spread .and. .not. slab%is_spread) call part%gather((coarse(:, part%first:part%last)), coarse)
+      if (part%is_distributed .and. .not. slab%is_distributed) call part%gather((coarse(:, part%first:part%last)), &
+            coarse)
    end subroutine complete
 
    !> The adjoint of `average`, added to a field.
@@ -211,10 +212,10 @@ contains
 
    !> Adds to a field, outside the contact, the decayed values of the coarser grid, linear between its points.
    subroutine fill(self, coarse, contact, fine)
-      type(contact_extension), intent(in) :: self
+      type(multilevel_preconditioner), intent(in) :: self
       type(coarse_grid), intent(in) :: coarse
       real(sp), intent(in), contiguous :: contact(:, :)   !! own columns
-      real(sp), intent(inout), contiguous :: fine(:, :)   !! likewise
+      real(sp), intent(inout), contiguous :: fine(:, :)   !! own columns
 
       real(sp) :: column(0:size(coarse%values, 1) + 1)
       real(sp) :: beside(size(coarse%values, 1), 2)   !! the columns before and after those of the coarser grid
@@ -251,7 +252,7 @@ contains
 
    !> The adjoint of `fill` without the field itself.
    subroutine adjoint_fill(self, slab, fine, contact, coarse)
-      type(contact_extension), intent(in) :: self
+      type(multilevel_preconditioner), intent(in) :: self
       type(grid_slab), intent(in) :: slab                             !! of the finer grid
       real(sp), intent(in), contiguous :: fine(:, :), contact(:, :)   !! own columns
       type(coarse_grid), intent(inout) :: coarse
@@ -307,4 +308,4 @@ contains
       total = total + factor*(1.0_sp - contact)*column
    end subroutine add_open
 
-end module wavycon_contact_extension
+end module wavycon_multilevel_preconditioner

@@ -3,7 +3,7 @@
 !>
 !> The solution on one grid is the start on the next, and the error estimates follow from the changes from grid to grid.
 !> Numbers (C..) are the equations of README.md in this directory.
-module wavycon_grid_cascade
+module wavycon_grid_sequence
    use wavycon_compliance_operator, only: compliance_operator
    use wavycon_contact_measures, only: known_errors, unknown
    use wavycon_contact_tuning, only: iteration_limit, iterations_of_root
@@ -25,15 +25,15 @@ module wavycon_grid_cascade
    implicit none (type, external)
    private
 
-   public :: cascade_answer, solve_by_cascade
+   public :: sequence_answer, solve_by_sequence
 
-   type :: cascade_answer
+   type :: sequence_answer
       type(grid_state) :: state            !! on the finest grid, without the gap
       !> On the finest grid; not allocated if the first did not fit into memory, or if `progress` stopped the solver.
       type(grid_edge), allocatable :: edge
       real(dp) :: values(3) = 0.0_dp       !! mean gap [Delta], contact area fraction, peak pressure [p*]
       real(dp) :: errors(3) = unknown      !! their error estimates, in the same units, or `unknown`
-      !> The area by the number of points in contact, and in 2-D corrected by (C26), otherwise `unknown`.
+      !> The area by the number of points in contact, and that area corrected by (C26), in 1-D `unknown`.
       real(dp) :: counted_area = unknown, corrected_area = unknown
       real(dp) :: area_at_hardness = 0.0_dp         !! fraction of the area at which p = H
       real(dp) :: area_at_hardness_error = 0.0_dp   !! its error estimate, or `unknown`
@@ -42,19 +42,19 @@ module wavycon_grid_cascade
       integer :: grids = 0
       integer :: iterations = 0            !! on all grids
       real(dp) :: transform_pairs = 0.0_dp !! in both precisions, in units of one on the finest grid
-   end type cascade_answer
+   end type sequence_answer
 
 contains
 
    !> Solves one load, to an accuracy or up to a given grid. The sequence ends early if a grid does not fit into memory
    !> (`out_of_memory`), the iteration on it does not converge (`state%converged` is false), or `progress` says that it
    !> shall stop (`state%interrupted`): then there is no edge.
-   subroutine solve_by_cascade(surface, mean_pressure, accuracy, points, answer, progress, residual)
+   subroutine solve_by_sequence(surface, mean_pressure, accuracy, points, answer, progress, residual)
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: mean_pressure           !! P in (0, 1), or in (0, H) if the surface has a hardness
       real(dp), intent(in) :: accuracy                !! largest error estimate allowed of the three values, >= 0
       integer, intent(in) :: points(2)                !! of the last grid, on the whole cell; zeros: to the accuracy
-      type(cascade_answer), intent(out) :: answer
+      type(sequence_answer), intent(out) :: answer
       !> Is called after each grid, and asked in its iterations whether to stop.
       class(solver_progress), intent(in), optional :: progress
       !> Residual (C9) of the last grid that `points` gives; absent or 0: as its edge needs it (C10).
@@ -96,7 +96,7 @@ contains
             call progress%grid_solved(grid*merge(2, 1, surface%shape%is_even() .and. grid > 1)/surface%parts(), &
                                       answer%state%iterations, answer%state%local_iterations, &
                                       answer%state%plain_iterations, answer%state%residual)
-         ! A solution that has not converged is no start for a finer grid.
+         ! No finer grid starts from a solution that has not converged.
          if (answer%accurate .or. last .or. .not. answer%state%converged) exit
          grid = finer_grid(grid)
          if (.not. fits_memory(grid)) then
@@ -112,13 +112,13 @@ contains
       answer%errors = known_errors(answer%errors, surface%full_contact_peak)
       ! No pressure is negative: an estimate as large as the peak says nothing of it.
       if (.not. answer%accurate .and. answer%errors(3) >= answer%values(3)) answer%errors(3) = unknown
-   end subroutine solve_by_cascade
+   end subroutine solve_by_sequence
 
    !> Solves on one grid, that of answer%state%pressure, and starts from that pressure.
    subroutine solve_level(surface, mean_pressure, residual, answer, progress)
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: mean_pressure, residual
-      type(cascade_answer), intent(inout) :: answer
+      type(sequence_answer), intent(inout) :: answer
       class(solver_progress), intent(in), optional :: progress
 
       type(compliance_operator) :: half_space
@@ -161,15 +161,15 @@ contains
       most_iterations = max(most_iterations, iteration_limit)
    end function most_iterations
 
-   !> Mean gap, contact area (C11), (C12) and peak pressure (C13) on the present grid, and their error estimates (C14)
-   !> to (C17). The area is at least that which carries the load at the hardness; its estimate is that of the area
-   !> without this bound, which would hide its changes. The error is unknown where (C12) gives no area although there is
-   !> contact. The edge takes the memory of the gap, which no longer exists afterwards.
+   !> Computes mean gap, contact area (C11), (C12) and peak pressure (C13) on the present grid, and their error
+   !> estimates (C14) to (C17). The area is at least P/H, the smallest that carries the load at the hardness; its error
+   !> is estimated before this bound is applied, which would hide changes. The error is unknown where (C12) gives no
+   !> area although there is contact. The edge takes over the memory of the gap, which no longer exists afterwards.
    subroutine measure_level(surface, mean_pressure, history, answer)
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: mean_pressure
       type(change_history), intent(inout) :: history
-      type(cascade_answer), intent(inout) :: answer
+      type(sequence_answer), intent(inout) :: answer
 
       real(dp) :: area
       integer :: j
@@ -209,14 +209,14 @@ contains
       call edge%fetch_neighbours()
    end subroutine find_edge_at_hardness
 
-   !> The area at which p = H, and its error estimate. It is at most that which carries the load; its estimate is that of
-   !> the area without this bound.
+   !> The area at which p = H, and its error estimate. The area is at most P/H, the area that carries the load at the
+   !> hardness; its error is estimated before this bound is applied.
    subroutine measure_at_hardness(surface, mean_pressure, edge, history, answer)
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: mean_pressure
       type(grid_edge), intent(in) :: edge             !! from find_edge_at_hardness
       type(change_history), intent(inout) :: history
-      type(cascade_answer), intent(inout) :: answer
+      type(sequence_answer), intent(inout) :: answer
 
       real(dp) :: area, errors(3)
 
@@ -229,4 +229,4 @@ contains
       answer%area_at_hardness_error = errors(2)
    end subroutine measure_at_hardness
 
-end module wavycon_grid_cascade
+end module wavycon_grid_sequence

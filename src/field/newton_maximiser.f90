@@ -1,29 +1,29 @@
 !> Newton's method for the maximum of a smooth field of two variables.
-module wavycon_hill
+module wavycon_newton_maximiser
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
 
-   public :: hill
+   public :: newton_maximiser
 
-   type, abstract :: hill
+   type, abstract :: newton_maximiser
       real(dp) :: least = -huge(1.0_dp), most = huge(1.0_dp)   !! limits of both variables in the search
    contains
       procedure(height_at_point), deferred :: height
       procedure(derivatives_at_point), deferred :: derivatives
-      procedure :: climb
-   end type hill
+      procedure :: maximise
+   end type newton_maximiser
 
    abstract interface
       pure real(dp) function height_at_point(self, place)
-         import :: dp, hill
-         class(hill), intent(in) :: self
+         import :: dp, newton_maximiser
+         class(newton_maximiser), intent(in) :: self
          real(dp), intent(in) :: place(2)
       end function height_at_point
 
       pure subroutine derivatives_at_point(self, place, gradient, hessian)
-         import :: dp, hill
-         class(hill), intent(in) :: self
+         import :: dp, newton_maximiser
+         class(newton_maximiser), intent(in) :: self
          real(dp), intent(in) :: place(2)
          real(dp), intent(out) :: gradient(2)   !! by X, Y
          real(dp), intent(out) :: hessian(3)    !! by XX, XY, YY; of one variable by XX, 0, by XX
@@ -35,10 +35,10 @@ contains
    !> Climbs from a place to the maximum near it, until a step gains nothing more.
    !>
    !> The Hessian is shifted by its largest eigenvalue, where that is positive, and by a little more, so that each step
-   !> goes uphill also near a saddle or at a crest that has the same height all along a line. The latter shortens the
-   !> steps: convergence is linear, by a factor of a thousand a step.
-   pure subroutine climb(self, place)
-      class(hill), intent(in) :: self
+   !> goes uphill also near a saddle or on a ridge of constant height. The extra shift shortens the steps: convergence
+   !> is linear, by a factor of a thousand a step.
+   pure subroutine maximise(self, place)
+      class(newton_maximiser), intent(in) :: self
       real(dp), intent(inout) :: place(2)
 
       integer, parameter :: most_steps = 20
@@ -48,7 +48,7 @@ contains
 
       do i = 1, most_steps
          call self%derivatives(place, g, h)
-         ! Squares of curvatures in unlike units may overflow.
+         ! Squares of curvatures may overflow in some units.
          scale = maxval(abs(h))
          if (.not. scale > 0.0_dp) return
          g = g/scale
@@ -63,6 +63,6 @@ contains
          if (.not. self%height(next) > self%height(place)) return
          place = next
       end do
-   end subroutine climb
+   end subroutine maximise
 
-end module wavycon_hill
+end module wavycon_newton_maximiser

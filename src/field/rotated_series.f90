@@ -1,8 +1,8 @@
-!> Even fields of a square lattice in axes turned by 45 degrees: X = phi + theta, Y = phi - theta.
+!> Even fields of a square lattice in axes rotated by 45 degrees: X = phi + theta, Y = phi - theta.
 !>
 !> A field that is even in both pairs of angles, and does not change when the two angles of a pair are exchanged, is a
 !> sum of cos iX cos jY + cos jX cos iY = cos(i+j)phi cos(i-j)theta + cos(i-j)phi cos(i+j)theta.
-module wavycon_turned_series
+module wavycon_rotated_series
    use wavycon_fourier_series, only: fourier_series
    use wavycon_kinds, only: dp
    implicit none (type, external)
@@ -12,41 +12,41 @@ module wavycon_turned_series
 
 contains
 
-   !> From phi and theta to X and Y, of a field that has the period (pi, pi) too: the terms (i, j) become terms
-   !> ((i+j)/2, |i-j|/2) and (|i-j|/2, (i+j)/2), half each.
-   pure type(fourier_series) function to_sum_angles(series) result(turned)
+   !> Converts a series in phi and theta to one in X and Y. The field also has the period (pi, pi). A term (i, j)
+   !> becomes the terms ((i+j)/2, |i-j|/2) and (|i-j|/2, (i+j)/2), each with half its coefficient.
+   pure type(fourier_series) function to_sum_angles(series) result(rotated)
       type(fourier_series), intent(in) :: series   !! in phi and theta; terms with odd i + j are zero but for rounding
 
       integer :: i, j, low, high, last
 
       last = sum(ubound(series%c))/2
-      allocate (turned%c(0:last, 0:last), source=0.0_dp)
+      allocate (rotated%c(0:last, 0:last), source=0.0_dp)
       do j = 0, ubound(series%c, 2)
          do i = 0, ubound(series%c, 1)
             if (mod(i + j, 2) /= 0) cycle
             high = (i + j)/2
             low = abs(i - j)/2
-            turned%c(high, low) = turned%c(high, low) + 0.5_dp*series%c(i, j)
-            turned%c(low, high) = turned%c(low, high) + 0.5_dp*series%c(i, j)
+            rotated%c(high, low) = rotated%c(high, low) + 0.5_dp*series%c(i, j)
+            rotated%c(low, high) = rotated%c(low, high) + 0.5_dp*series%c(i, j)
          end do
       end do
    end function to_sum_angles
 
-   !> The inverse: from X and Y to phi and theta. The terms (i, j) and (j, i) become terms (i + j, |i - j|) and
-   !> (|i - j|, i + j).
-   pure type(fourier_series) function to_difference_angles(series) result(turned)
+   !> The inverse, from X and Y to phi and theta. The terms (i, j) and (j, i) become the terms (i + j, |i - j|) and (|i
+   !> - j|, i + j).
+   pure type(fourier_series) function to_difference_angles(series) result(rotated)
       type(fourier_series), intent(in) :: series   !! in X and Y; does not change when these are exchanged
 
       integer :: i, j, last
 
       last = sum(ubound(series%c))
-      allocate (turned%c(0:last, 0:last), source=0.0_dp)
+      allocate (rotated%c(0:last, 0:last), source=0.0_dp)
       do j = 0, ubound(series%c, 2)
          do i = 0, ubound(series%c, 1)
-            turned%c(i + j, abs(i - j)) = turned%c(i + j, abs(i - j)) + 0.5_dp*series%c(i, j)
-            turned%c(abs(i - j), i + j) = turned%c(abs(i - j), i + j) + 0.5_dp*series%c(i, j)
+            rotated%c(i + j, abs(i - j)) = rotated%c(i + j, abs(i - j)) + 0.5_dp*series%c(i, j)
+            rotated%c(abs(i - j), i + j) = rotated%c(abs(i - j), i + j) + 0.5_dp*series%c(i, j)
          end do
       end do
    end function to_difference_angles
 
-end module wavycon_turned_series
+end module wavycon_rotated_series

@@ -1,0 +1,132 @@
+!> Tables of numbers at the points of a grid over the whole cell: a text in gnuplot's grid format, with a blank line
+!> between rows, or an array of records for numpy.
+module wavycon_cell_file
+   use, intrinsic :: iso_fortran_env, only: int64
+   use wavycon_contact_fields, only: contact_fields
+   use wavycon_kinds, only: dp
+   use wavycon_memory_table, only: column_name
+   use wavycon_npy_header, only: npy_header
+   use wavycon_output_file, only: output_file
+   use wavycon_plain_text, only: integer_text
+   use wavycon_results, only: results_type
+   use wavycon_system, only: has_memory_for
+   implicit none (type, external)
+   private
+
+   public :: cell_file, check_memory, is_text, map_points
+
+   !> A map of more points than the square of this is written in numpy's format, unless the deck says otherwise.
+   integer, parameter, public :: text_side = 257
+
+   type :: cell_file
+      type(output_file) :: file
+      logical :: as_text = .true.
+      integer :: points(2) = 0                !! along x and y
+      real(dp) :: offset(2) = 0.0_dp          !! of the first point, in steps
+      real(dp), private :: side(2) = 0.0_dp   !! of the cell [length]
+   contains
+      procedure :: open => open_cell_file
+      procedure :: put_row
+   end type cell_file
+
+contains
+
+   !> Opens <case>.<kind>.dat or <case>.<kind>.npy. `file%is_open` says whether there is the memory too.
+   subroutine open_cell_file(self, results, kind, columns, numbers, planes, numbers_a_point, what)
+      class(cell_file), intent(out) :: self
+      type(results_type), intent(in) :: results
+      character(*), intent(in) :: kind          !! name of the table
+      character(*), intent(in) :: columns(:)    !! name[unit]: integers, x, y and others
+      integer, intent(in) :: numbers            !! of columns of integers, which the file of numpy does not have
+      integer, intent(in) :: planes(:)          !! their number along each of the first indices of the file of numpy
+      integer, intent(in) :: numbers_a_point    !! that are in memory at a time
+      character(*), intent(in) :: what          !! before the number of points, for the message on memory
+
+      self%points = map_points(results)
+      self%as_text = is_text(results%scene%output%text('map_format'), self%points)
+      if (self%as_text) then
+         call results%open_table(kind, columns, self%file)
+      else
+         call self%file%open(results%scene%directory, results%scene%case//'.'//kind//'.npy', &
+                             npy_header([planes, self%points([2, 1])], column_name(columns(numbers + 1:))))
+      end if
+      call check_memory(self%file, self%points, numbers_a_point, what)
+      if (.not. self%file%is_open()) return
+      self%side = results%solver%surface%sides()
+      self%offset = map_offset(results, self%points)
+   end subroutine open_cell_file
+
+   !> Notes trouble if there is not the memory for a grid.
+   subroutine check_memory(file, points, numbers_a_point, what)
+      type(output_file), intent(inout) :: file
+      integer, intent(in) :: points(2)
+      integer, intent(in) :: numbers_a_point
+      character(*), intent(in) :: what         !! before the number of points
+
+      if (has_memory_for(numbers_a_point*product(int(points, int64)))) return
+      call file%note_trouble('there is not enough memory for '//what//integer_text(points(1))//' x '// &
+                             integer_text(points(2))//' points')
+   end subroutine check_memory
+
+   !> Writes a row of points along x. The point after the last is the first again and is not written.
+   subroutine put_row(self, integers, row, values)
+      class(cell_file), intent(inout) :: self
+      integer, intent(in) :: integers(:)     !! of the first columns
+      integer, intent(in) :: row             !! its number, from 1
+      real(dp), intent(in) :: values(:, :)   !! of the columns after x and y, shape (columns, points)
+
+      real(dp), allocatable :: rows(:, :)
+      integer :: k
+
+      allocate (rows(size(values, 1) + 2, size(values, 2)))
+      do k = 1, size(rows, 2)
+         rows(:2, k) = self%side*([k, row] - 1 + self%offset)/self%points
+      end do
+      rows(3:, :) = values
+      if (self%as_text) then
+         if (row > 1) call self%file%put('')
+         call self%file%put_rows(integers, rows)
+      else
+         call self%file%put_numbers(rows)
+      end if
+   end subroutine put_row
+
+   !> The points of maps along x and y.
+   function map_points(results) result(points)
+      type(results_type), intent(in) :: results
+      integer :: points(2)
+
+      points = 1
+      associate (given => results%scene%output%integers('map_points'))
+         points(:size(given)) = given
+      end associate
+   end function map_points
+
+   !> Whether a map is written as a text.
+   pure logical function is_text(map_format, points)
+      character(*), intent(in) :: map_format   !! the key
+      integer, intent(in) :: points(2)
+
+      is_text = map_format == 'text' .or. (map_format == 'auto' .and. product(int(points, int64)) <= text_side**2)
+   end function is_text
+
+   !> The place of the first point, in steps, the same for all loads: that of a grid that was solved with as many
+   !> points.
+   function map_offset(results, points) result(offset)
+      type(results_type), intent(in) :: results
+      integer, intent(in) :: points(2)
+      real(dp) :: offset(2)
+
+      class(contact_fields), allocatable :: fields
+      integer :: load
+
+      do load = 1, size(results%loads)
+         call results%loads(load)%fields(results%solver%surface, fields)
+         offset = fields%own_offset
+         if (all(points == fields%own_points)) return
+      end do
+      ! Of a mirrored map the points are in the middle of their steps, so that none lies on a border.
+      offset = merge(0.5_dp, 0.0_dp, results%solver%surface%parts() > 1)
+   end function map_offset
+
+end module wavycon_cell_file

@@ -1,0 +1,88 @@
+!> The lines of the log that show the solved loads and the largest stresses. No line is longer than 120 characters.
+module wavycon_result_lines
+   use wavycon_constants, only: pi
+   use wavycon_contact_measures, only: or_nan
+   use wavycon_contact_status, only: status_name
+   use wavycon_kinds, only: dp
+   use wavycon_log_columns, only: log_line
+   use wavycon_results, only: results_type
+   use wavycon_solution_record, only: solver_names
+   implicit none (type, external)
+   private
+
+   public :: line_of_load, line_of_stress
+
+   integer, parameter :: body_width = 5
+
+contains
+
+   !> One load: mean gap, area and peak pressure, each followed by its error estimate if the solver has them; mean and
+   !> peak pressure in the deck's unit if the deck gives a modulus; solver and status.
+   subroutine line_of_load(results, load, line)
+      type(results_type), intent(in) :: results   !! with a solution for each load
+      integer, intent(in) :: load                 !! number in the deck's order
+      type(log_line), intent(out) :: line
+
+      integer :: solver_width
+
+      ! The longest name of a solver among the loads.
+      solver_width = max(len('solver'), maxval(len_trim(solver_names(results%loads%solver))))
+      associate (solution => results%loads(load), measures => results%loads(load)%measures)
+         call start_line(results, load, line)
+         call add('gap/Delta', measures%mean_gap_over_amplitude, measures%mean_gap_error)
+         call add('area/A0', measures%contact_area_fraction, measures%contact_area_error)
+         call add('peak/p*', measures%peak_pressure_over_pstar, measures%peak_pressure_error)
+         if (results%scene%gives_modulus) &
+            call line%add_number('peak', results%peak_pressure(load), results%scene%pressure_unit)
+         line%names = line%names//' solver'//repeat(' ', solver_width - len('solver') + 2)//'status'
+         line%words = line%words//' '//solver_names(solution%solver)(:solver_width)//'  '// &
+                      trim(status_name(solution%status))
+      end associate
+
+   contains
+
+      subroutine add(name, number, error)
+         character(*), intent(in) :: name
+         real(dp), intent(in) :: number, error
+
+         call line%add_number(name, number)
+         if (results%traits%has_errors) call line%add_error(or_nan(error))
+      end subroutine add
+
+   end subroutine line_of_load
+
+   !> One load and body: von Mises stress and shear stress, each followed by its error estimate, and the depth of the
+   !> first over the side of the cell along x; in the deck's units if it gives a modulus; if the deck gives a yield
+   !> stress the ratio to it.
+   subroutine line_of_stress(results, load, body, line)
+      type(results_type), intent(in) :: results   !! with the largest stresses
+      integer, intent(in) :: load                 !! number in the deck's order
+      integer, intent(in) :: body
+      type(log_line), intent(out) :: line
+
+      associate (yielding => results%von_mises(body, load), shear => results%shear(body, load), scene => results%scene)
+         call start_line(results, load, line)
+         call line%add_word('body', achar(iachar('0') + body), body_width)
+         call line%add_number('vMises/p*', yielding%value)
+         call line%add_error(yielding%error)
+         call line%add_number('depth/cell', yielding%place(3)/(2*pi))
+         call line%add_number('shear/p*', shear%value)
+         call line%add_error(shear%error)
+         if (scene%gives_modulus) call line%add_number('vMises', scene%p_star*yielding%value, scene%pressure_unit)
+         if (allocated(scene%stress_setting%yield_stress)) call line%add_number( &
+            'over yield', scene%stress_setting%over_yield_stress(body, yielding%value, shear%value))
+      end associate
+   end subroutine line_of_stress
+
+   !> The mean pressure.
+   subroutine start_line(results, load, line)
+      type(results_type), intent(in) :: results
+      integer, intent(in) :: load
+      type(log_line), intent(out) :: line
+
+      call line%start(results%loads(load)%pbar_over_pstar)
+      if (results%scene%gives_modulus) &
+         call line%add_number('pbar', results%mean_pressure(load), results%scene%pressure_unit)
+   end subroutine start_line
+
+end module wavycon_result_lines
