@@ -39,7 +39,7 @@ contains
       call solve_for(solver, root_search(target=contact_area_fraction, of_gap=.false.), solution)
    end subroutine solve_for_contact_area
 
-   !> Solves for the load at which the mean gap has a given value, likewise.
+   !> Solves for the load at which the mean gap has a given value, with the statuses of solve_for_contact_area.
    subroutine solve_for_mean_gap(solver, mean_gap_over_amplitude, solution)
       class(contact_solver), intent(inout) :: solver        !! started
       real(dp), intent(in) :: mean_gap_over_amplitude       !! G, 0 .. 1: P = 1 at 0, no load at 1

@@ -71,13 +71,13 @@ contains
       real(dp) :: at_hardness, at_largest, error, high, largest, last_log_p, last_miss, light_slope, low, &
                   miss, next, slope
       integer :: i
-      !> Of the logarithm of a stress.
+      !> Rounding of the logarithm of a stress.
       real(dp), parameter :: rounding = 1e-10_dp
 
       low = -huge(low)
       at_hardness = log(solver%surface%hardness)
       high = at_hardness
-      ! Of a line contact and of a point contact at light load.
+      ! The slopes of a line contact and of a point contact at light load.
       light_slope = merge(0.5_dp, 1.0_dp/3, solver%surface%dimension == 1)
       slope = light_slope
       last_log_p = log_p

@@ -180,7 +180,7 @@ contains
             n = b - a + 1
             pressure(:n) = state%start_pressure(a:b) + state%change(a:b)
             contact(:n) = state%contact(a:b)
-            ! Of points that have left; at others the pressure is not negative.
+            ! What points that have left are below zero; at others the pressure is not negative.
             image(:n) = max(-pressure(:n), 0.0_sp)
             if (shrinks) then
                growth(:n) = contact(:n)*(factor*pressure(:n) - state%start_pressure(a:b) - state%change(a:b))

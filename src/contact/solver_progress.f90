@@ -20,7 +20,7 @@ module wavycon_solver_progress
          integer, intent(in) :: points(2)     !! of the grid, on the whole cell along x and y
          integer, intent(in) :: iterations    !! on this grid
          integer, intent(in) :: local_iterations   !! those of them preconditioned by the stencil
-         integer, intent(in) :: plain_iterations   !! those without extension of the gap
+         integer, intent(in) :: plain_iterations   !! those without the multilevel preconditioner
          real(dp), intent(in) :: residual     !! (C9)
       end subroutine grid_is_solved
    end interface

@@ -13,7 +13,8 @@ module wavycon_contact_tuning
    !> Most points of the last grid in 1-D, on half the cell of an even surface; others have as many on each half. It
    !> bounds the time of a load whose accuracy no grid attains.
    integer, parameter, public :: most_points_line = 524288
-   !> Likewise in 2-D, on a quarter of the cell: 84 MB of arrays; on the whole cell four times as many.
+   !> Most points of the last grid in 2-D, on a quarter of the cell: 84 MB of arrays; on the whole cell four times as
+   !> many.
    integer, parameter, public :: most_points_plane = 1048576
 
    ! Tolerance of the iteration.
@@ -62,15 +63,16 @@ module wavycon_contact_tuning
    !> Factor on the change of the mean gap from grid to grid, whose errors fall to a fifth. Above 1, as their fall is
    !> not regular.
    real(dp), parameter, public :: gap_safety = 1.25_dp
-   !> Likewise of the contact area, whose errors fall to a quarter.
+   !> Factor on the change of the contact area, whose errors fall to a quarter.
    real(dp), parameter, public :: area_safety = 1.25_dp
-   !> Likewise of the peak pressure.
+   !> Factor on the change of the peak pressure.
    real(dp), parameter, public :: peak_safety = 1.25_dp
    !> The part of the change before that the error estimates of gap and peak keep, so that one change that is small by
    !> chance does not pass for accuracy.
    real(dp), parameter, public :: kept_change = 0.5_dp
-   !> Likewise of the area: a quarter, as its changes fall. With it, this safety and the scatter below all of 2465 area
-   !> estimates of 697 random scenes held, the largest error was 0.87 of its estimate; 1.09 without the factor 1.25.
+   !> The part of the change before that the area's estimate keeps: a quarter, as its changes fall. With it, this safety
+   !> and the scatter below all of 2465 area estimates of 697 random scenes held, the largest error was 0.87 of its
+   !> estimate; 1.09 without the factor 1.25.
    real(dp), parameter, public :: area_kept_change = 0.25_dp
    !> Uncertainty of the edge's place at one point of it, in steps, for where the errors of three grids are alike by
    !> chance. The root mean square of the area's error that it stands for was, on the same scenes, 0.02 to 0.1 for
@@ -113,7 +115,8 @@ module wavycon_contact_tuning
    !> Least slope that the secant may have. Slopes lie between 1/2 and 5/2 (C18); where two values differ by less than
    !> their errors the secant may have any slope.
    real(dp), parameter, public :: flattest = 0.2_dp
-   !> Largest slope, likewise. The margin over 5/2 is wide: too steep a secant makes short steps, not wrong ones.
+   !> Largest slope that the secant may have. The margin over 5/2 is wide: too steep a secant makes short steps, not
+   !> wrong ones.
    real(dp), parameter, public :: steepest = 20.0_dp
    !> Longest step of ln P upwards in the search for first yield: a longer one may pass the first root.
    real(dp), parameter, public :: longest_rise = 0.7_dp

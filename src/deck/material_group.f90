@@ -33,7 +33,7 @@ contains
             way=2), &
          real_key('nu2', '', '-', "Poisson's ratio of the second body.", above=-1.0_dp, most=0.5_dp, way=2), &
          real_key('hardness', '', 'unit of e_star', &
-            'Largest contact pressure: where it is reached the softer body flows, and a residual indentation is left. '// &
+            'Largest contact pressure: where it is reached the softer body flows, and an indentation is left. '// &
             'Without it the bodies stay elastic. Mean pressures must be lower.', above=0.0_dp)])
    end function material_table
 

@@ -94,7 +94,7 @@ contains
       answer%iterations = 0
       required = peak_measure
       if (present(fields)) required = merge(centre_measure, peak_measure, fields .and. island)
-      ! Of the shape. Smaller ones are rounding; larger ones show in the differences of degrees.
+      ! Tolerance of the shape: a smaller one is rounding, a larger one shows in the differences between degrees.
       tolerance = min(max(0.1_dp*accuracy, 1e-13_dp), 1e-7_dp)
       call start_at_load(lattice, answer%pbar_over_pstar, island, now, degree, answer%iterations, valid, merged, start)
       if (merged) answer%status = fitted_merged

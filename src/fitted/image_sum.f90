@@ -32,7 +32,7 @@ contains
          !! centre as seen from theirs [s]
 
       real(dp), dimension(2*shape%fold*size(rule%point)) :: value, slope_x, slope_y
-      !> Of each target: the kernel, and its gradient turned back to the source's sector, summed over the copies.
+      !> For each target: the kernel, and its gradient turned back to the source's sector, summed over the copies.
       real(dp), dimension(size(target), size(rule%point)) :: folded, gradient_x, gradient_y
       real(dp), dimension(size(rule%point), 0:ubound(shape%b, 1)) :: moment_x, moment_y, strength_slope
       real(dp) :: strength(size(rule%point)), weighted(size(rule%point), size(c))

@@ -20,8 +20,8 @@ module wavycon_periodic_kernel
 
    public :: periodic_kernel, start_periodic_kernels
 
-   !> Of the point sources, the lattice points near the origin that are summed one by one, x is along the rows. Power 1
-   !> is Gp, power 3 its Laplacian.
+   !> The point sources are the lattice points near the origin, which are summed one by one; x is along the rows. Power
+   !> 1 is Gp, power 3 its Laplacian.
    type, extends(point_sources) :: periodic_kernel
       type(row_lattice) :: rows
       type(even_polynomial) :: fit      !! of the smooth part without them; x along the rows

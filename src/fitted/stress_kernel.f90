@@ -1,12 +1,12 @@
 !> Stresses in a half-space below point sources on its surface, as eight fields that do not depend on Poisson's ratio.
 !>
-!> Of the pressure p on z = 0, z into the solid, let H be the harmonic function that is p on the surface and vanishes at
-!> depth, V and L its integrals, H = -dV/dz, V = -dL/dz, and D = d/dx + i d/dy. Then (F51)
+!> The pressure p acts on z = 0, z into the solid. Let H be the harmonic function that is p on the surface and vanishes
+!> at depth, V and L its integrals, H = -dV/dz, V = -dL/dz, and D = d/dx + i d/dy. Then (F51)
 !>
 !>     s_zz = -H + z H_z,                        s_xx + s_yy = -(1 + 2 nu) H - z H_z,
 !>     s_xx - s_yy + 2 i s_xy = (1 - 2 nu) D^2 L - z D^2 V,        s_xz + i s_yz = z D H.
 !>
-!> Of a point force V is 1/(2 pi R): Boussinesq's solution.
+!> A point force has V = 1/(2 pi R): Boussinesq's solution.
 module wavycon_stress_kernel
    use wavycon_constants, only: pi
    use wavycon_kinds, only: dp

@@ -81,7 +81,7 @@ contains
       allocate (lattice%wave(2, 2), lattice%amplitude(2))
       lattice%wave(:, :) = reshape([1.0_dp, 0.0_dp, 0.0_dp, 1.0_dp/side_ratio], [2, 2])
       lattice%amplitude(:) = [amplitude_x, 1.0_dp - amplitude_x]
-      ! Of two equally low saddles the one on the longer side: spots extend that way.
+      ! Two saddles are equally low: the one on the longer side is taken, as spots extend that way.
       if (amplitude_x >= 0.5_dp) lattice%saddle = cmplx(0.0_dp, 0.5_dp*side_ratio, dp)
       lattice%trough = cmplx(0.5_dp, 0.5_dp*side_ratio, dp)
       lattice%to_next_crest = [cmplx(0.5_dp, 0.0_dp, dp), cmplx(0.0_dp, 0.5_dp*side_ratio, dp)]

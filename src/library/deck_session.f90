@@ -74,7 +74,7 @@ module wavycon_deck_session
       real(dp) :: mean_pressure = 0.0_dp              !! [pressure]
       type(memory_table) :: summary                   !! of one row, made at its first use
       class(contact_fields), allocatable :: fields    !! made at their first use
-      class(stress_fields), allocatable :: stresses   !! likewise
+      class(stress_fields), allocatable :: stresses   !! made at their first use
    end type solved_load
 
 contains

@@ -18,15 +18,15 @@ module wavycon_contact_measures
 
    type :: contact_measures
       real(dp) :: mean_gap_over_amplitude = 1.0_dp       !! G: eqs. (19), (28)
-      !> Of the mean planes of the elastic bodies, delta'/Delta: 1 - G, and with a hardness more by the mean depth of
-      !> imprints.
+      !> Approach of the mean planes of the elastic bodies, delta'/Delta: 1 - G, plus the mean residual indentation
+      !> (C22) if there is a hardness.
       real(dp) :: approach_over_amplitude = 0.0_dp
       real(dp) :: contact_area_fraction = 0.0_dp         !! of the nominal area; 1 by definition from P = 1 on
       real(dp) :: peak_pressure_over_pstar = 0.0_dp      !! largest
       real(dp) :: min_pressure_over_pstar = 0.0_dp       !! smallest; negative between the points of a series
       real(dp) :: mean_gap_error = 0.0_dp                !! error estimate of the mean gap, in its unit, or `unknown`
-      real(dp) :: contact_area_error = 0.0_dp            !! likewise of the contact area
-      real(dp) :: peak_pressure_error = 0.0_dp           !! likewise of the peak pressure
+      real(dp) :: contact_area_error = 0.0_dp            !! error estimate of the contact area, or `unknown`
+      real(dp) :: peak_pressure_error = 0.0_dp           !! error estimate of the peak pressure, or `unknown`
       !> Where the pressure is the hardness: fraction of the nominal area and of the load, and their error estimates or
       !> `unknown`.
       real(dp) :: area_at_hardness_fraction = 0.0_dp

@@ -29,7 +29,7 @@ module wavycon_contact_spots
    type :: contact_spots
       logical :: known = .true.                              !! .false. if there is no solution
       type(contact_region), allocatable :: spots(:)          !! of contact, the largest first
-      type(contact_region), allocatable :: pools(:)          !! of gap, likewise
+      type(contact_region), allocatable :: pools(:)          !! of gap, the largest first
    contains
       procedure :: perimeter => total_perimeter
    end type contact_spots

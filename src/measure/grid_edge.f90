@@ -45,8 +45,8 @@ module wavycon_grid_edge
    !> Columns of the neighbours that area and peak pressure of a distributed grid need.
    integer, parameter :: reach = 3
 
-   !> Of an edge that runs along a line of the grid (C11): the weight of the first gap, times E*/(2 h), against the last
-   !> pressure; and how far inside the last point in contact the edge lies when that pressure vanishes, in steps.
+   !> For an edge that runs along a line of the grid (C11): the weight of the first gap, times E*/(2 h), against the
+   !> last pressure; and how far inside the last point in contact the edge lies when that pressure vanishes, in steps.
    real(dp), parameter, public :: aligned_weight = pi/exp(1.0_dp), aligned_offset = 0.19000928592905364_dp
 
 contains

@@ -125,7 +125,7 @@ contains
          offset = fields%own_offset
          if (all(points == fields%own_points)) return
       end do
-      ! Of a mirrored map the points are in the middle of their steps, so that none lies on a border.
+      ! The points of a mirrored map are in the middle of their steps, so that none lies on a border.
       offset = merge(0.5_dp, 0.0_dp, results%solver%surface%parts() > 1)
    end function map_offset
 

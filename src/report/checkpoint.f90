@@ -237,7 +237,7 @@ contains
          end if
          rank = rank + 1
       end do
-      ! Of a load that was interrupted some ranks may have written their columns, others not.
+      ! Some ranks may have written their columns of the load that was interrupted, others not.
       do load = 1, size(known)
          if (allocated(results%loads(load)%source) .and. .not. known(load)) deallocate (results%loads(load)%source)
       end do

@@ -20,7 +20,7 @@ module wavycon_height_table
    !> Numbers for each point: the height and its spectrum.
    integer, parameter :: numbers_a_point = 2
 
-   !> Of the table in memory.
+   !> Columns of the table in memory.
    character(16), parameter :: columns(*) = [character(16) :: 'x[length]', 'y[length]', 'height[length]']
 
 contains

@@ -18,7 +18,7 @@ contains
    !> The bytes before the elements. These follow with the last index changing fastest.
    pure function npy_header(elements, names) result(header)
       integer, intent(in) :: elements(:)     !! their number along each index
-      !> Of the numbers of a record, short enough for the header; absent: the elements are numbers.
+      !> Names of the numbers of a record, short enough for the header; absent: the elements are numbers.
       character(*), intent(in), optional :: names(:)
       character(:), allocatable :: header
 

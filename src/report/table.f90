@@ -27,7 +27,7 @@ module wavycon_table
       !> Null: it is written if its key is .true. and, without a key, always; never without its group &stress.
       procedure(request_interface), pointer, nopass :: requested => null()
       procedure(refusal_interface), pointer, nopass :: refuse => null()        !! null: it can always be written
-      procedure(by_all_interface), pointer, nopass :: written_by_all => null() !! null: the first rank writes it
+      procedure(by_all_interface), pointer, nopass :: written_by_all => null() !! null: rank 0 writes it
       !> One of these two: the rows of a load, for a table that has rows of each load; or all of the table.
       procedure(load_interface), pointer, nopass :: put_load => null()
       procedure(write_interface), pointer, nopass :: write_all => null()

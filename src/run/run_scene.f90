@@ -221,7 +221,7 @@ contains
       if (allocated(error)) return
       ranks_that_know = merge(1, 0, known)
       call results%sharing%add(ranks_that_know)
-      ! Of a load that was interrupted some ranks may have their columns, others not.
+      ! Some ranks may have their columns of the load that was interrupted, others not.
       if (results%sharing%kind == distributed_grids) then
          ranks_that_know = ranks_that_know/results%sharing%ranks
          known = ranks_that_know > 0
@@ -274,7 +274,7 @@ contains
    end subroutine write_tables
 
    !> Brings what is distributed over the ranks to the first one: the fields load by load, the surface. Errors:
-   !> exit_file_trouble if it has not the memory.
+   !> exit_file_trouble if it lacks the memory.
    subroutine collect(results, fields, surface, error)
       type(results_type), intent(inout) :: results
       logical, intent(in) :: fields, surface   !! what is needed

@@ -26,7 +26,7 @@ module wavycon_scene
       type(map_statistics), allocatable :: map      !! allocated for a height map
       type(roughness_type) :: roughness             !! of the surface
       character(:), allocatable :: pressure_unit    !! label of the deck's unit of pressures, such as 'MPa'
-      character(:), allocatable :: length_unit      !! likewise of lengths
+      character(:), allocatable :: length_unit      !! label of its unit of lengths
       real(dp) :: e_star = 1.0_dp                   !! plane-strain modulus [pressure]
       logical :: gives_modulus = .false.            !! whether the deck gives it
       logical :: has_units = .false.                !! whether it gives a modulus or labels of units: not normalised

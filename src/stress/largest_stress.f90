@@ -86,7 +86,7 @@ contains
       where (parts > 1) place(:2) = abs(place(:2) - anint(place(:2)))
    end function place_in_cell
 
-   !> Of a load without a solution.
+   !> What stands for the largest stress of a load without a solution.
    pure type(largest_stress) function no_stress()
       no_stress%value = ieee_value(1.0_dp, ieee_quiet_nan)
       no_stress%error = no_stress%value

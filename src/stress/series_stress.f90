@@ -230,7 +230,7 @@ contains
       real(dp), allocatable, intent(out) :: widths(:)
       real(dp), allocatable, intent(out) :: stresses(:, :)
 
-      !> Of a plane: stresses and their spectra, and two measures.
+      !> Numbers that a plane needs for each point: stresses and their spectra, and two measures.
       integer(int64), parameter :: numbers_a_point = 16
       real(dp), allocatable :: depth(:), shear(:, :), stress(:, :, :), yielding(:, :)
       real(dp) :: here(6), least, step

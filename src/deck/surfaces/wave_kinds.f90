@@ -66,7 +66,7 @@ contains
       if (key%required) key%default = ''
    end function amplitude_key
 
-   !> A wavelength, likewise.
+   !> A wavelength, 1 by default unless it is required.
    pure type(key_type) function wavelength_key(name, meaning, required) result(key)
       character(*), intent(in) :: name, meaning
       logical, intent(in), optional :: required
