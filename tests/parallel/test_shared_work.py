@@ -74,14 +74,14 @@ class SharedWork(ProgramTest):
             self.assertEqual((self.folder/"serial"/name).read_bytes(), (self.folder/"ranks"/name).read_bytes())
 
     def interrupt(self, text, ranks):
-        """A run that cannot write its summary, and whose last checkpoint has lost the end of its last load."""
+        """A run that cannot write its summary, and whose first checkpoint has lost the end of its last load."""
         shutil.rmtree(self.folder/"results", ignore_errors=True)
         (self.folder/"results"/"deck.summary.dat").mkdir(parents=True)
         outcome = self.solve(text, ranks, "results")
         self.assertNotEqual("", outcome.stderr)
         (self.folder/"results"/"deck.summary.dat").rmdir()
-        last = sorted((self.folder/"results").glob("deck.checkpoint*"))[-1]
-        last.write_bytes(last.read_bytes()[:-1])
+        first = min((self.folder/"results").glob("deck.checkpoint*"))
+        first.write_bytes(first.read_bytes()[:-1])
 
     def test_interrupted_runs_are_resumed_on_any_number_of_ranks(self):
         """All but the load that was not written whole are restored, and the tables are those of one run."""
