@@ -20,7 +20,8 @@ contains
    !> Adds the numbers of a line to those of the lines before it. Callers must switch off traps of overflow.
    subroutine read_line(line, values, used, ends_open, trouble)
       character(*), intent(in) :: line         !! without comment and line end
-      real(dp), intent(inout) :: values(:)     !! with room for the numbers; a missing one is NaN
+      !> With room for the numbers; a missing one is NaN. Of no size: the numbers are only counted, not checked.
+      real(dp), intent(inout) :: values(:)
       integer, intent(inout) :: used           !! number of values so far
       logical, intent(out) :: ends_open        !! whether the line ends in a separator: a last number may be missing
       character(:), allocatable, intent(out) :: trouble   !! message of the problem; not allocated if there is none
@@ -73,7 +74,7 @@ contains
       integer, intent(inout) :: used
 
       if (holes <= 0) return
-      values(used + 1:used + holes) = ieee_value(0.0_dp, ieee_quiet_nan)
+      if (size(values) > 0) values(used + 1:used + holes) = ieee_value(0.0_dp, ieee_quiet_nan)
       used = used + holes
    end subroutine add_holes
 
@@ -159,6 +160,7 @@ contains
       logical :: is_number
 
       used = used + 1
+      if (size(values) == 0) return
       call read_decimal(word, values(used), is_number)
       if (is_number .and. abs(values(used)) <= largest_number) return
       if (is_number) then
