@@ -13,7 +13,7 @@ module wavycon_number_line
 
    public :: read_line
 
-   character(*), parameter :: tab = achar(9)
+   character(*), parameter :: tab = achar(9), gaps = ' ,;'//tab
 
 contains
 
@@ -46,7 +46,9 @@ contains
             if (commas == 1 .and. first - behind == 1) tight = first
             is_loose = is_loose .or. commas == 0
             if (tight > 0 .and. is_loose) then
-               trouble = "is '"//excerpt(line(word_start(line, tight - 2):word_end(line, tight)))// &
+               first = scan(line(:tight - 2), gaps, back=.true.) + 1
+               last = scan(line(tight:)//' ', gaps) + tight - 2
+               trouble = "is '"//excerpt(line(first:last))// &
                          "' a number with a decimal comma? Write a point, or separate all numbers of a line by "// &
                          'commas alone'
                return
@@ -129,26 +131,6 @@ contains
       is_before_tab = i > 0
       if (is_before_tab) is_before_tab = line(place + i - 1:place + i - 1) == tab
    end function is_before_tab
-
-   !> First and last place of the word that a place is in.
-   pure integer function word_start(line, place)
-      character(*), intent(in) :: line
-      integer, intent(in) :: place
-
-      do word_start = place, 2, -1
-         if (is_gap(line(word_start - 1:word_start - 1))) exit
-      end do
-      word_start = max(word_start, 1)
-   end function word_start
-
-   pure integer function word_end(line, place)
-      character(*), intent(in) :: line
-      integer, intent(in) :: place
-
-      do word_end = place, len(line) - 1
-         if (is_gap(line(word_end + 1:word_end + 1))) exit
-      end do
-   end function word_end
 
    !> Reads a word as a number and adds it to the values.
    subroutine read_number(word, values, used, trouble)

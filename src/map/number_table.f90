@@ -24,6 +24,7 @@ module wavycon_number_table
    contains
       procedure :: rows
       procedure :: length
+      procedure :: refuse
    end type number_table
 
    character(*), parameter :: line_feed = achar(10), carriage_return = achar(13), tab = achar(9)
@@ -44,6 +45,16 @@ contains
 
       length = self%first(row + 1) - self%first(row)
    end function length
+
+   !> Makes an error with the name of the file and the line of a row, and the status exit_bad_input.
+   pure subroutine refuse(self, row, words, error)
+      class(number_table), intent(in) :: self
+      integer, intent(in) :: row
+      character(*), intent(in) :: words
+      type(error_type), allocatable, intent(out) :: error
+
+      call fatal_error(error, exit_bad_input, escaped(self%path)//':'//integer_text(self%line(row))//': '//words)
+   end subroutine refuse
 
    !> Reads a file. Errors: exit_file_trouble if it cannot be read; exit_bad_input for a word that is not a number, a
    !> number above largest_number, a possible decimal comma, a line of separators, and a file without numbers.

@@ -29,7 +29,10 @@ contains
 
    !> Opening of a crack of any radius by the pressure (A4): (A6), both faces together; 0 for r >= b.
    !>
-   !>     g = 4 2^(1/2) b (1 - rho^2)^(1/2) [1 - pbar/p* - 4 pi^2 b^2 (1 + 2 rho^2)/9],   rho = r/b,   b in lambda.
+   !>     g_n = 2 b A_n/(sqrt(pi) E*) (n/2)!/((n+1)/2)! I_n(r/b),   I_0 = (1 - r^2/b^2)^(1/2),
+   !>     I_2 = (I_0 + 2 (r/b)^2 I_0)/3,
+   !>
+   !> is the opening by the pressure A_n (r/b)^n, (A5).
    !>
    !> With a radius above that of (A7) it is negative near the edge: such a crack would close there.
    elemental real(dp) function penny_crack_opening_over_amplitude(rho, radius_over_wavelength, &
@@ -38,8 +41,15 @@ contains
       real(dp), intent(in) :: radius_over_wavelength  !! b [lambda]
       real(dp), intent(in) :: pbar_over_pstar         !! mean pressure [p*]
 
-      opening = 4*sqrt2*radius_over_wavelength*sqrt(max(0.0_dp, (1 - rho)*(1 + rho))) &
-         *(1 - pbar_over_pstar - 4*(pi*radius_over_wavelength)**2*(1 + 2*rho**2)/9)
+      real(dp), parameter :: pstar_wavelength_over_modulus_amplitude = sqrt2*pi
+      real(dp) :: a_0, a_2, i_0, i_2, scale
+
+      a_0 = 1 - pbar_over_pstar
+      a_2 = -2*(pi*radius_over_wavelength)**2
+      i_0 = sqrt(max(0.0_dp, (1 - rho)*(1 + rho)))
+      i_2 = (i_0 + 2*rho**2*i_0)/3
+      scale = pstar_wavelength_over_modulus_amplitude*2*radius_over_wavelength
+      opening = scale*a_0/sqrt(pi)/gamma(1.5_dp)*i_0 + scale*a_2/sqrt(pi)/gamma(2.5_dp)*i_2
    end function penny_crack_opening_over_amplitude
 
    !> Radius of a closed pool, (A7): b/lambda = (3 (1 - pbar/p*))^(1/2)/(2 pi); 0 from pbar = p* on.
