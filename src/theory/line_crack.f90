@@ -9,24 +9,18 @@ module wavycon_line_crack
    implicit none (type, external)
    private
 
-   public :: line_crack_half_width_over_wavelength, line_crack_contact_area_fraction
+   public :: line_crack_contact_area_fraction
 
 contains
 
-   !> Half width of an open strip, equation (11): b/lambda = (1 - pbar/p*)^(1/2)/pi; 0 from pbar = p* on.
+   !> Fraction of the nominal area in contact, 1 - 2 b/lambda with the half width of an open strip, equation (11):
+   !> b/lambda = (1 - pbar/p*)^(1/2)/pi; 1 from pbar = p* on.
    !>
-   !> Applies near pbar = p*; elsewhere the formula's value is returned: 0.32 at pbar = 0, where 1/2 is exact.
-   elemental real(dp) function line_crack_half_width_over_wavelength(pbar_over_pstar) result(b)
-      real(dp), intent(in) :: pbar_over_pstar  !! mean pressure [p*]
-
-      b = sqrt(max(0.0_dp, 1 - pbar_over_pstar))/pi
-   end function line_crack_half_width_over_wavelength
-
-   !> Fraction of the nominal area in contact, 1 - 2 b/lambda; 1 from pbar = p* on.
+   !> Applies near pbar = p*; elsewhere the formula's value is returned: 0.36 at pbar = 0, where 0 is exact.
    elemental real(dp) function line_crack_contact_area_fraction(pbar_over_pstar) result(fraction)
       real(dp), intent(in) :: pbar_over_pstar  !! mean pressure [p*]
 
-      fraction = 1 - 2*line_crack_half_width_over_wavelength(pbar_over_pstar)
+      fraction = 1 - 2*(sqrt(max(0.0_dp, 1 - pbar_over_pstar))/pi)
    end function line_crack_contact_area_fraction
 
 end module wavycon_line_crack
