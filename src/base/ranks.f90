@@ -16,8 +16,7 @@ module wavycon_ranks
    public :: communicator, row_exchange, use_communicator
    public :: this_rank, rank_count, ranks_at_work, is_first_rank, work_alone, ranks_on_this_machine, rank_library
    public :: add_over_ranks, add_integers_over_ranks, largest_over_ranks, any_rank
-   public :: exchange_columns, gather_columns, move_columns, new_row_exchange
-   public :: share_error, share_text, write_shared_columns, end_ranks
+   public :: share_error, share_text, end_ranks
 
    !> Exchanges a matrix whose columns are distributed over the ranks for the same matrix with its rows distributed, and
    !> back. In both the elements of a column follow each other. An element has one or two real numbers of one precision.
@@ -36,15 +35,16 @@ module wavycon_ranks
       procedure(exchange_rows_and_columns), deferred :: to_columns
    end type row_exchange
 
-   !> What the ranks exchange; the parallel program extends the type and does it by MPI.
+   !> What the ranks exchange; the parallel program extends the type and does it by MPI. Columns are exchanged by the
+   !> procedures of `comm`, only where there is more than one rank; all else by the procedures of this module.
    type, abstract :: communicator
    contains
       procedure(get_number), deferred :: rank                  !! of this process, from 0
       procedure(get_number), deferred :: ranks                 !! their number
       procedure(get_number), deferred :: ranks_on_machine      !! those that share this machine's memory
-      procedure(add_real_numbers), deferred :: add_reals
+      procedure(combine_reals), deferred :: add_reals
       procedure(add_whole_numbers), deferred :: add_integers
-      procedure(find_largest), deferred :: largest
+      procedure(combine_reals), deferred :: largest
       procedure(exchange_two_blocks), deferred :: exchange
       procedure(gather_blocks), deferred :: gather
       procedure(move_blocks), deferred :: move
@@ -68,11 +68,11 @@ module wavycon_ranks
          class(communicator), intent(in) :: self
       end function get_number
 
-      subroutine add_real_numbers(self, values)
+      subroutine combine_reals(self, values)
          import :: dp, communicator
          class(communicator), intent(in) :: self
          real(dp), intent(inout), contiguous :: values(:)
-      end subroutine add_real_numbers
+      end subroutine combine_reals
 
       subroutine add_whole_numbers(self, values)
          import :: int64, communicator
@@ -80,44 +80,49 @@ module wavycon_ranks
          integer(int64), intent(inout), contiguous :: values(:)
       end subroutine add_whole_numbers
 
-      subroutine find_largest(self, values)
-         import :: dp, communicator
-         class(communicator), intent(in) :: self
-         real(dp), intent(inout), contiguous :: values(:)
-      end subroutine find_largest
-
+      !> Sends columns to the neighbours and receives theirs.
       subroutine exchange_two_blocks(self, low, high, bytes, to_low, to_high, from_low, from_high)
          import :: communicator
          class(communicator), intent(in) :: self
-         integer, intent(in) :: low, high     !! ranks; -1: there is none
-         integer, intent(in) :: bytes         !! of each block
-         type(*), intent(in), target :: to_low(*), to_high(*)
-         type(*), intent(inout), target :: from_low(*), from_high(*)   !! unchanged where there is no rank
+         integer, intent(in) :: low, high    !! ranks that have the columns before and after the own ones; -1: none
+         integer, intent(in) :: bytes        !! of the columns for one neighbour
+         type(*), intent(in), target :: to_low(*), to_high(*)            !! the own first and last columns
+         type(*), intent(inout), target :: from_low(*), from_high(*)     !! theirs; unchanged where there is none
       end subroutine exchange_two_blocks
 
+      !> Gathers the columns of all ranks into whole matrices, on all ranks or on rank 0 alone.
       subroutine gather_blocks(self, column_bytes, columns, own, whole, first_only)
          import :: communicator
          class(communicator), intent(in) :: self
-         integer, intent(in) :: column_bytes
+         integer, intent(in) :: column_bytes             !! of a column
          integer, intent(in) :: columns(0:)              !! of each rank
-         type(*), intent(in), target :: own(*)
-         type(*), intent(inout), target :: whole(*)
-         logical, intent(in) :: first_only
+         type(*), intent(in), target :: own(*)           !! columns(rank) columns
+         type(*), intent(inout), target :: whole(*)      !! sum(columns) columns; of any size where not needed
+         logical, intent(in) :: first_only               !! whether rank 0 alone needs it
       end subroutine gather_blocks
 
+      !> Moves columns of a matrix from the ranks that have them to those that want them.
+      !>
+      !> N.B. Every rank knows what all others have and want, so that only the columns are sent.
       subroutine move_blocks(self, column_bytes, have, own, want, wanted)
          import :: communicator
          class(communicator), intent(in) :: self
-         integer, intent(in) :: column_bytes
-         integer, intent(in) :: have(:, 0:), want(:, 0:)   !! first and last column of each rank, shape (2, ranks)
-         type(*), intent(in), target :: own(*)
-         type(*), intent(inout), target :: wanted(*)
+         integer, intent(in) :: column_bytes               !! of a column
+         !> First and last column of each rank, shape (2, ranks); last < first: none. No rank has a column of another,
+         !> but several may want the same.
+         integer, intent(in) :: have(:, 0:), want(:, 0:)
+         type(*), intent(in), target :: own(*)             !! the own columns
+         type(*), intent(inout), target :: wanted(*)       !! what this rank wants
       end subroutine move_blocks
 
+      !> Prepares the exchange of columns and rows of a matrix.
       subroutine make_row_exchange(self, columns, rows, width, numbers, precision, exchange)
          import :: communicator, row_exchange
          class(communicator), intent(in) :: self
-         integer, intent(in) :: columns, rows, width, numbers, precision
+         integer, intent(in) :: columns, rows   !! of the matrix
+         integer, intent(in) :: width           !! columns of each rank but the last ones
+         integer, intent(in) :: numbers         !! of an element: 1 or, for complex numbers, 2
+         integer, intent(in) :: precision       !! kind of the numbers: dp or sp
          class(row_exchange), allocatable, intent(out) :: exchange
       end subroutine make_row_exchange
 
@@ -128,6 +133,7 @@ module wavycon_ranks
          character(:), allocatable, intent(inout) :: text
       end subroutine send_text
 
+      !> All ranks write their columns of a matrix, one after the other, to a file that exists.
       subroutine put_columns(self, path, start, number_bytes, rows, first, columns, values, failure)
          import :: int64, communicator
          class(communicator), intent(in) :: self
@@ -159,7 +165,7 @@ module wavycon_ranks
       procedure :: add_reals_over_ranks, add_integers_over_ranks
    end interface add_over_ranks
 
-   class(communicator), allocatable :: comm   !! not allocated: this process is the only one
+   class(communicator), allocatable, protected, public :: comm   !! not allocated: this process is the only one
    logical :: is_alone = .false.           !! whether each rank works on something else, see work_alone
 
 contains
@@ -246,53 +252,6 @@ contains
       any_rank = number(1) > 0
    end function any_rank
 
-   !> Sends columns to the neighbours and receives theirs. Only for more than one rank.
-   subroutine exchange_columns(low, high, bytes, to_low, to_high, from_low, from_high)
-      integer, intent(in) :: low, high    !! ranks that have the columns before and after the own ones; -1: none
-      integer, intent(in) :: bytes        !! of the columns for one neighbour
-      type(*), intent(in), target :: to_low(*), to_high(*)            !! the own first and last columns
-      type(*), intent(inout), target :: from_low(*), from_high(*)     !! theirs; unchanged where there is none
-
-      call comm%exchange(low, high, bytes, to_low, to_high, from_low, from_high)
-   end subroutine exchange_columns
-
-   !> Gathers the columns of all ranks into whole matrices, on all ranks or on rank 0 alone. Only for more than one
-   !> rank.
-   subroutine gather_columns(column_bytes, columns, own, whole, first_only)
-      integer, intent(in) :: column_bytes                !! of a column
-      integer, intent(in) :: columns(0:)                 !! of each rank
-      type(*), intent(in), target :: own(*)              !! columns(this_rank()) columns
-      type(*), intent(inout), target :: whole(*)         !! sum(columns) columns; of any size where not needed
-      logical, intent(in) :: first_only                  !! whether rank 0 alone needs it
-
-      call comm%gather(column_bytes, columns, own, whole, first_only)
-   end subroutine gather_columns
-
-   !> Moves columns of a matrix from the ranks that have them to those that want them. Only for more than one rank.
-   !>
-   !> N.B. Every rank knows what all others have and want, so that only the columns are sent.
-   subroutine move_columns(column_bytes, have, own, want, wanted)
-      integer, intent(in) :: column_bytes                  !! of a column
-      integer, intent(in) :: have(:, 0:)                   !! first and last column of each rank, shape (2, ranks);
-                                                           !! last < first: none. No column is there twice
-      type(*), intent(in), target :: own(*)                !! the own columns
-      integer, intent(in) :: want(:, 0:)                   !! what each wants; several may want the same
-      type(*), intent(inout), target :: wanted(*)          !! what this rank wants
-
-      call comm%move(column_bytes, have, own, want, wanted)
-   end subroutine move_columns
-
-   !> Prepares the exchange of columns and rows of a matrix.
-   subroutine new_row_exchange(columns, rows, width, numbers, precision, exchange)
-      integer, intent(in) :: columns, rows   !! of the matrix
-      integer, intent(in) :: width           !! columns of each rank but the last ones
-      integer, intent(in) :: numbers         !! of an element: 1 or, for complex numbers, 2
-      integer, intent(in) :: precision       !! kind of the numbers: dp or sp
-      class(row_exchange), allocatable, intent(out) :: exchange
-
-      call comm%new_row_exchange(columns, rows, width, numbers, precision, exchange)
-   end subroutine new_row_exchange
-
    !> Reports an error of any rank to all ranks, with the message of the lowest rank that has one. Without errors
    !> nothing happens.
    subroutine share_error(error)
@@ -329,20 +288,6 @@ contains
 
       if (ranks_at_work() > 1) call comm%share_text(from, text)
    end subroutine share_text
-
-   !> All ranks write their columns of a matrix, one after the other, to a file that exists. Only for more than one
-   !> rank.
-   subroutine write_shared_columns(path, start, number_bytes, rows, first, columns, values, failure)
-      character(*), intent(in) :: path
-      integer(int64), intent(in) :: start            !! bytes of the file before the first column of all
-      integer, intent(in) :: number_bytes            !! of a number
-      integer, intent(in) :: rows                    !! numbers of a column
-      integer, intent(in) :: first, columns          !! the own columns; columns may be 0
-      type(*), intent(inout), target :: values(*)    !! shape (rows, columns)
-      character(:), allocatable, intent(out) :: failure   !! the system's words, on the ranks that failed
-
-      call comm%write_columns(path, start, number_bytes, rows, first, columns, values, failure)
-   end subroutine write_shared_columns
 
    !> Ends the work of all ranks, before the program ends; it need not be called by all of them.
    subroutine end_ranks(status)

@@ -4,6 +4,8 @@
 #include <errno.h>
 #include <limits.h>
 #include <signal.h>
+#include <stdbool.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -105,9 +107,9 @@ int wavycon_process_id(void)
     return (int)getpid();
 }
 
-int wavycon_stdout_is_terminal(void)
+bool wavycon_stdout_is_terminal(void)
 {
-    return isatty(STDOUT_FILENO);
+    return isatty(STDOUT_FILENO) != 0;
 }
 
 /* The message for an errno, cut to fit. */
@@ -219,7 +221,7 @@ static long long address_space_in_use(void)
 /* Bytes that the process may still allocate and use without swapping: what is free of the machine's memory or can be
    freed, and at most what limits leave: those of a container or a batch job (control groups) and that on the address
    space (ulimit -v). -1 where the system does not say. */
-long long wavycon_available_memory(void)
+int64_t wavycon_available_memory(void)
 {
     struct rlimit limit;
     long long kilobytes = number_in_file("/proc/meminfo", "MemAvailable:");

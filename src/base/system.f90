@@ -1,6 +1,6 @@
 !> Files, memory, signals and the terminal: interfaces of the C functions in system.c.
 module wavycon_system
-   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int, c_long_long, c_null_char, c_size_t
+   use, intrinsic :: iso_c_binding, only: c_bool, c_char, c_double, c_int, c_int64_t, c_long_long, c_null_char, c_size_t
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_kinds, only: dp
    implicit none (type, external)
@@ -45,20 +45,26 @@ module wavycon_system
          character(kind=c_char), intent(in) :: path(*)
       end subroutine c_remove_when_interrupted
 
-      subroutine c_outlive_file_size_limit() bind(c, name='wavycon_outlive_file_size_limit')
-      end subroutine c_outlive_file_size_limit
+      !> Makes a write beyond the limit on file sizes (ulimit -f) fail as on a full disk; otherwise it ends the program.
+      subroutine outlive_file_size_limit() bind(c, name='wavycon_outlive_file_size_limit')
+      end subroutine outlive_file_size_limit
 
-      integer(c_int) function c_process_id() bind(c, name='wavycon_process_id')
+      !> The number of this process, for file names that no other process uses.
+      integer(c_int) function process_id() bind(c, name='wavycon_process_id')
          import :: c_int
-      end function c_process_id
+      end function process_id
 
-      integer(c_int) function c_stdout_is_terminal() bind(c, name='wavycon_stdout_is_terminal')
-         import :: c_int
-      end function c_stdout_is_terminal
+      !> Whether standard output is a terminal.
+      logical(c_bool) function stdout_is_terminal() bind(c, name='wavycon_stdout_is_terminal')
+         import :: c_bool
+      end function stdout_is_terminal
 
-      integer(c_long_long) function c_available_memory() bind(c, name='wavycon_available_memory')
-         import :: c_long_long
-      end function c_available_memory
+      !> Memory that this process may still allocate and use without swapping [byte]: memory of the machine that is free
+      !> or can be freed, but at most what is left by the limits of a container or a batch job (control groups of Linux)
+      !> and by that on the address space (ulimit -v). -1 if the system does not say.
+      integer(c_int64_t) function available_memory() bind(c, name='wavycon_available_memory')
+         import :: c_int64_t
+      end function available_memory
 
       integer(c_long_long) function c_memory_of_group(directory) bind(c, name='wavycon_memory_of_group')
          import :: c_char, c_long_long
@@ -172,18 +178,6 @@ contains
       call c_remove_when_interrupted(path//c_null_char)
    end subroutine remove_when_interrupted
 
-   !> Makes a write beyond the limit on file sizes (ulimit -f) fail as on a full disk; otherwise it ends the program.
-   subroutine outlive_file_size_limit()
-      call c_outlive_file_size_limit()
-   end subroutine outlive_file_size_limit
-
-   !> Memory that this process may still allocate and use without swapping [byte]: memory of the machine that is free or
-   !> can be freed, but at most what is left by the limits of a container or a batch job (control groups of Linux) and
-   !> by that on the address space (ulimit -v). -1 if the system does not say.
-   integer(int64) function available_memory()
-      available_memory = int(c_available_memory(), int64)
-   end function available_memory
-
    !> Memory that a control group of Linux leaves to its processes [byte]: limit less use, where files that can be
    !> dropped from memory count as free. -1 if it has no limit.
    integer(int64) function memory_of_group(directory)
@@ -214,16 +208,6 @@ contains
          has_memory_for = status == 0
       end if
    end function has_memory_for
-
-   !> The number of this process, for file names that no other process uses.
-   integer function process_id()
-      process_id = int(c_process_id())
-   end function process_id
-
-   !> Whether standard output is a terminal.
-   logical function stdout_is_terminal()
-      stdout_is_terminal = c_stdout_is_terminal() /= 0
-   end function stdout_is_terminal
 
    !> The system's message of an error.
    function error_text(number) result(text)

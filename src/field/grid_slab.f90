@@ -13,8 +13,8 @@ module wavycon_grid_slab
    use wavycon_column_layout, only: column_layout, least_distributed_points, most_reach, strip_columns
    use wavycon_grid_points, only: image_of_point
    use wavycon_kinds, only: dp, sp
-   use wavycon_ranks, only: add_over_ranks, any_rank, exchange_columns, gather_columns, largest_over_ranks, &
-      move_columns, new_row_exchange, row_exchange, share_error, this_rank
+   use wavycon_ranks, only: add_over_ranks, any_rank, comm, largest_over_ranks, &
+      row_exchange, share_error, this_rank
    implicit none (type, external)
    private
 
@@ -166,7 +166,7 @@ contains
          call self%find_neighbours(even, before, behind)
          allocate (first_columns, source=field(:, :reach))
          allocate (last_columns, source=field(:, self%columns() - reach + 1:))
-         call exchange_columns(before, behind, size(low)*storage_size(low)/8, first_columns, last_columns, low, high)
+         call comm%exchange(before, behind, size(low)*storage_size(low)/8, first_columns, last_columns, low, high)
       end if
       do k = 1, reach
          associate (before => self%place_of_image(even, self%first - k), &
@@ -193,7 +193,7 @@ contains
          call self%find_neighbours(even, before, behind)
          allocate (first_columns, source=field(:, :reach))
          allocate (last_columns, source=field(:, self%columns() - reach + 1:))
-         call exchange_columns(before, behind, size(low)*storage_size(low)/8, first_columns, last_columns, low, high)
+         call comm%exchange(before, behind, size(low)*storage_size(low)/8, first_columns, last_columns, low, high)
       end if
       do k = 1, reach
          associate (before => self%place_of_image(even, self%first - k), &
@@ -230,11 +230,11 @@ contains
          call add_over_ranks(every)
          bounds = int(reshape(every, shape(have)))
          column_bytes = size(field, 1)*storage_size(field)/8
-         call move_columns(column_bytes, have, field, images_for_ranks(0), wanted(:, first:min(last, 0)))
-         call move_columns(column_bytes, have, field, &
+         call comm%move(column_bytes, have, field, images_for_ranks(0), wanted(:, first:min(last, 0)))
+         call comm%move(column_bytes, have, field, &
                            reshape([max(bounds(1, :), 1), min(bounds(2, :), n)], shape(have), order=[2, 1]), &
                            wanted(:, max(first, 1):min(last, n)))
-         call move_columns(column_bytes, have, field, images_for_ranks(n + 1), wanted(:, max(first, n + 1):last))
+         call comm%move(column_bytes, have, field, images_for_ranks(n + 1), wanted(:, max(first, n + 1):last))
       end associate
 
    contains
@@ -260,7 +260,7 @@ contains
       real(dp), intent(inout), contiguous :: whole(:, :)    !! shape (any, N)
 
       if (self%is_distributed) then
-         call gather_columns(size(own, 1)*storage_size(own)/8, self%columns_of_ranks(), own, whole, first_only=.false.)
+         call comm%gather(size(own, 1)*storage_size(own)/8, self%columns_of_ranks(), own, whole, first_only=.false.)
       else
          whole = own
       end if
@@ -272,7 +272,7 @@ contains
       real(sp), intent(inout), contiguous :: whole(:, :)
 
       if (self%is_distributed) then
-         call gather_columns(size(own, 1)*storage_size(own)/8, self%columns_of_ranks(), own, whole, first_only=.false.)
+         call comm%gather(size(own, 1)*storage_size(own)/8, self%columns_of_ranks(), own, whole, first_only=.false.)
       else
          whole = own
       end if
@@ -290,7 +290,7 @@ contains
          return
       end if
       allocate (whole(size(own, 1), merge(self%points(2), 0, this_rank() == 0)))
-      call gather_columns(size(own, 1)*storage_size(own)/8, self%columns_of_ranks(), own, whole, first_only=.true.)
+      call comm%gather(size(own, 1)*storage_size(own)/8, self%columns_of_ranks(), own, whole, first_only=.true.)
       if (this_rank() > 0) deallocate (whole)
    end subroutine gather_to_first
 
@@ -303,7 +303,7 @@ contains
       integer, intent(in) :: precision    !! kind of the numbers: dp or sp
       class(row_exchange), allocatable, intent(out) :: exchange
 
-      call new_row_exchange(self%points(2), rows, self%width, numbers, precision, exchange)
+      call comm%new_row_exchange(self%points(2), rows, self%width, numbers, precision, exchange)
    end subroutine exchange_rows
 
 end module wavycon_grid_slab

@@ -1,12 +1,12 @@
 !> Makes height maps from lines with a row of heights each.
 module wavycon_matrix_map
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-   use wavycon_error, only: error_type, exit_bad_input, fatal_error
+   use wavycon_error, only: error_type
    use wavycon_kinds, only: dp
    use wavycon_map_size, only: check_map_size, laid_along_x
    use wavycon_measured_map, only: measured_map
    use wavycon_number_table, only: number_table
-   use wavycon_plain_text, only: escaped, integer_text
+   use wavycon_plain_text, only: integer_text
    implicit none (type, external)
    private
 
@@ -30,10 +30,9 @@ contains
       do j = 2, table%rows()
          length = table%length(j)
          if (length == columns .or. (length == columns - 1 .and. table%ends_open(j))) cycle
-         call fatal_error(error, exit_bad_input, escaped(table%path)//':'//integer_text(table%line(j))// &
-                          ': this row has '//integer_text(length)//' heights, the first has '// &
-                          integer_text(table%length(1))//': all must have the same number (write nan for a height '// &
-                          "that is missing). Is it file_format = 'xyz'?")
+         call table%refuse(j, 'this row has '//integer_text(length)//' heights, the first has '// &
+                           integer_text(table%length(1))//': all must have the same number (write nan for a height '// &
+                           "that is missing). Is it file_format = 'xyz'?", error)
          return
       end do
       call check_map_size(table%path, laid_along_x([columns, table%rows()]), error)

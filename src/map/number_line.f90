@@ -13,14 +13,15 @@ module wavycon_number_line
 
    public :: read_line
 
-   character(*), parameter :: tab = achar(9)
+   character(*), parameter :: tab = achar(9), gaps = ' ,;'//tab
 
 contains
 
    !> Adds the numbers of a line to those of the lines before it. Callers must switch off traps of overflow.
    subroutine read_line(line, values, used, ends_open, trouble)
       character(*), intent(in) :: line         !! without comment and line end
-      real(dp), intent(inout) :: values(:)     !! with room for the numbers; a missing one is NaN
+      !> With room for the numbers; a missing one is NaN. Of no size: the numbers are only counted, not checked.
+      real(dp), intent(inout) :: values(:)
       integer, intent(inout) :: used           !! number of values so far
       logical, intent(out) :: ends_open        !! whether the line ends in a separator: a last number may be missing
       character(:), allocatable, intent(out) :: trouble   !! message of the problem; not allocated if there is none
@@ -45,7 +46,9 @@ contains
             if (commas == 1 .and. first - behind == 1) tight = first
             is_loose = is_loose .or. commas == 0
             if (tight > 0 .and. is_loose) then
-               trouble = "is '"//excerpt(line(word_start(line, tight - 2):word_end(line, tight)))// &
+               first = scan(line(:tight - 2), gaps, back=.true.) + 1
+               last = scan(line(tight:)//' ', gaps) + tight - 2
+               trouble = "is '"//excerpt(line(first:last))// &
                          "' a number with a decimal comma? Write a point, or separate all numbers of a line by "// &
                          'commas alone'
                return
@@ -73,7 +76,7 @@ contains
       integer, intent(inout) :: used
 
       if (holes <= 0) return
-      values(used + 1:used + holes) = ieee_value(0.0_dp, ieee_quiet_nan)
+      if (size(values) > 0) values(used + 1:used + holes) = ieee_value(0.0_dp, ieee_quiet_nan)
       used = used + holes
    end subroutine add_holes
 
@@ -129,26 +132,6 @@ contains
       if (is_before_tab) is_before_tab = line(place + i - 1:place + i - 1) == tab
    end function is_before_tab
 
-   !> First and last place of the word that a place is in.
-   pure integer function word_start(line, place)
-      character(*), intent(in) :: line
-      integer, intent(in) :: place
-
-      do word_start = place, 2, -1
-         if (is_gap(line(word_start - 1:word_start - 1))) exit
-      end do
-      word_start = max(word_start, 1)
-   end function word_start
-
-   pure integer function word_end(line, place)
-      character(*), intent(in) :: line
-      integer, intent(in) :: place
-
-      do word_end = place, len(line) - 1
-         if (is_gap(line(word_end + 1:word_end + 1))) exit
-      end do
-   end function word_end
-
    !> Reads a word as a number and adds it to the values.
    subroutine read_number(word, values, used, trouble)
       character(*), intent(in) :: word
@@ -159,6 +142,7 @@ contains
       logical :: is_number
 
       used = used + 1
+      if (size(values) == 0) return
       call read_decimal(word, values(used), is_number)
       if (is_number .and. abs(values(used)) <= largest_number) return
       if (is_number) then

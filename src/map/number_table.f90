@@ -24,6 +24,7 @@ module wavycon_number_table
    contains
       procedure :: rows
       procedure :: length
+      procedure :: refuse
    end type number_table
 
    character(*), parameter :: line_feed = achar(10), carriage_return = achar(13), tab = achar(9)
@@ -45,6 +46,16 @@ contains
       length = self%first(row + 1) - self%first(row)
    end function length
 
+   !> Makes an error with the name of the file and the line of a row, and the status exit_bad_input.
+   pure subroutine refuse(self, row, words, error)
+      class(number_table), intent(in) :: self
+      integer, intent(in) :: row
+      character(*), intent(in) :: words
+      type(error_type), allocatable, intent(out) :: error
+
+      call fatal_error(error, exit_bad_input, escaped(self%path)//':'//integer_text(self%line(row))//': '//words)
+   end subroutine refuse
+
    !> Reads a file. Errors: exit_file_trouble if it cannot be read; exit_bad_input for a word that is not a number, a
    !> number above largest_number, a possible decimal comma, a line of separators, and a file without numbers.
    subroutine read_number_table(path, most_bytes, table, error)
@@ -55,14 +66,16 @@ contains
 
       character(:), allocatable :: content
       type(ieee_status_type) :: floating_point
-      integer :: most_numbers, most_rows, status
+      integer :: numbers, rows, status
 
       call read_file(path, most_bytes, content, error)
       if (allocated(error)) return
       table%path = path
-      call count_numbers(content, most_numbers, most_rows)
-      allocate (table%values(most_numbers), table%first(most_rows + 1), table%line(most_rows), &
-                table%ends_open(most_rows), stat=status)
+      ! The first pass counts, the second keeps.
+      allocate (table%values(0), table%first(0), table%line(0), table%ends_open(0))
+      call take_numbers(content, table, numbers, rows, error)
+      deallocate (table%values, table%first, table%line, table%ends_open)
+      allocate (table%values(numbers), table%first(rows + 1), table%line(rows), table%ends_open(rows), stat=status)
       if (status /= 0) then
          call fatal_error(error, exit_file_trouble, escaped(path)//': there is not the memory for its numbers')
          return
@@ -70,61 +83,20 @@ contains
       ! 1e999 must be reported as bad input in builds that trap overflow too.
       call ieee_get_status(floating_point)
       call ieee_set_halting_mode(ieee_overflow, .false.)
-      call take_numbers(content, table, error)
+      call take_numbers(content, table, numbers, rows, error)
       call ieee_set_status(floating_point)
    end subroutine read_number_table
 
-   !> Counts numbers, missing ones too, and lines that have some: upper bounds, because those of comments count too.
-   pure subroutine count_numbers(content, numbers, lines)
-      character(*), intent(in) :: content
-      integer, intent(out) :: numbers, lines
-
-      character(1) :: byte
-      integer :: place
-      logical :: in_word     !! whether the byte before belongs to a word
-      logical :: in_line     !! whether the line has had a word or a separator
-      logical :: is_closed   !! whether a word has come since the last separator
-
-      numbers = 0
-      lines = 0
-      in_word = .false.
-      in_line = .false.
-      is_closed = .false.
-      do place = 1, len(content)
-         byte = content(place:place)
-         if (in_word .and. byte >= '0' .and. byte <= '9') cycle
-         select case (byte)
-         case (' ')
-            in_word = .false.
-         case (line_feed, carriage_return)
-            in_word = .false.
-            is_closed = .false.
-            in_line = .false.
-         case (',', ';', tab)
-            if (.not. is_closed) numbers = numbers + 1
-            in_word = .false.
-            is_closed = .false.
-            if (.not. in_line) lines = lines + 1
-            in_line = .true.
-         case default
-            if (in_word) cycle
-            numbers = numbers + 1
-            in_word = .true.
-            is_closed = .true.
-            if (.not. in_line) lines = lines + 1
-            in_line = .true.
-         end select
-      end do
-   end subroutine count_numbers
-
+   !> Takes the numbers of all lines, or counts them if the table has no room, up to the first line that is wrong.
    !> Errors: exit_bad_input.
-   subroutine take_numbers(content, table, error)
+   subroutine take_numbers(content, table, used, rows, error)
       character(*), intent(in) :: content
-      type(number_table), intent(inout) :: table   !! with room for the numbers
+      type(number_table), intent(inout) :: table   !! with room for all numbers and rows, or for none
+      integer, intent(out) :: used, rows           !! how many numbers and rows there are
       type(error_type), allocatable, intent(out) :: error
 
       character(:), allocatable :: trouble
-      integer :: behind, first, last, line, rows, used, used_before
+      integer :: behind, first, last, line, used_before
       logical :: ends_open
 
       rows = 0
@@ -145,6 +117,7 @@ contains
          end if
          if (used == used_before) cycle
          rows = rows + 1
+         if (size(table%line) == 0) cycle
          table%line(rows) = line
          table%first(rows) = used_before + 1
          table%ends_open(rows) = ends_open
@@ -153,13 +126,7 @@ contains
          call fatal_error(error, exit_bad_input, escaped(table%path)//': there are no numbers in this file')
          return
       end if
-      table%first(rows + 1) = used + 1
-      if (used < size(table%values)) table%values = table%values(:used)
-      if (rows < size(table%line)) then
-         table%first = table%first(:rows + 1)
-         table%line = table%line(:rows)
-         table%ends_open = table%ends_open(:rows)
-      end if
+      if (size(table%line) > 0) table%first(rows + 1) = used + 1
    end subroutine take_numbers
 
    !> The next line, without its comment.

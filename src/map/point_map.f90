@@ -65,16 +65,16 @@ contains
 
       do k = 1, table%rows()
          if (.not. has_numbers(table, k, 3)) then
-            call bad_line(k, 'this line has '//integer_text(table%length(k))// &
-                          " numbers: file_format = 'xyz' needs x, y and z")
+            call table%refuse(k, 'this line has '//integer_text(table%length(k))// &
+                              " numbers: file_format = 'xyz' needs x, y and z", error)
             return
          else if (any(ieee_is_nan(table%values(table%first(k):table%first(k) + 1)))) then
-            call bad_line(k, 'x and y must be numbers; a missing height is nan, or its line is left out')
+            call table%refuse(k, 'x and y must be numbers; a missing height is nan, or its line is left out', error)
             return
          end if
       end do
       if (table%rows() < 2) then
-         call bad_line(1, 'one point is no map')
+         call table%refuse(1, 'one point is no map', error)
          return
       end if
       do i = 1, 2
@@ -99,8 +99,8 @@ contains
             i = index_on(axis(1), point(1))
             j = index_on(axis(2), point(2))
             if (is_there(i, j)) then
-               call bad_line(k, 'x = '//short_number(point(1))//', y = '//short_number(point(2))// &
-                             ' is a point of a line before')
+               call table%refuse(k, 'x = '//short_number(point(1))//', y = '//short_number(point(2))// &
+                                 ' is a point of a line before', error)
                return
             end if
             is_there(i, j) = .true.
@@ -118,9 +118,9 @@ contains
          do k = 1, table%rows()
             associate (x => table%values(table%first(k)), y => table%values(table%first(k) + 1))
                if (is_on(axis(1), x) .and. is_on(axis(2), y)) cycle
-               call bad_line(k, 'x = '//short_number(x)//', y = '//short_number(y)//' is out of step: the points '// &
-                             'must form a regular grid, of '//grid_words()//' as it seems. Interpolate the heights '// &
-                             'to one')
+               call table%refuse(k, 'x = '//short_number(x)//', y = '//short_number(y)//' is out of step: the '// &
+                                 'points must form a regular grid, of '//grid_words()//' as it seems. Interpolate '// &
+                                 'the heights to one', error)
                return
             end associate
          end do
@@ -131,14 +131,6 @@ contains
 
          words = integer_text(points(1))//' x '//integer_text(points(2))//' points'
       end function grid_words
-
-      subroutine bad_line(number, words)
-         integer, intent(in) :: number
-         character(*), intent(in) :: words
-
-         call fatal_error(error, exit_bad_input, escaped(table%path)//':'//integer_text(table%line(number))// &
-                          ': '//words)
-      end subroutine bad_line
 
    end subroutine take_points
 

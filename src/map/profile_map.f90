@@ -32,7 +32,8 @@ contains
       n = table%rows()
       do k = 1, n
          if (.not. has_numbers(table, k, 2)) then
-            call bad_line('this line has '//integer_text(table%length(k))//" numbers: file_format = 'xz' needs x and z")
+            call table%refuse(k, 'this line has '//integer_text(table%length(k))// &
+                              " numbers: file_format = 'xz' needs x and z", error)
             return
          end if
       end do
@@ -42,13 +43,13 @@ contains
       x = table%values(table%first(:n))
       k = findloc(ieee_is_nan(x), .true., dim=1)
       if (k > 0) then
-         call bad_line('x must be a number; a missing height is nan, or its line is left out')
+         call table%refuse(k, 'x must be a number; a missing height is nan, or its line is left out', error)
          return
       end if
       do k = 2, n
          if ((x(k) - x(k - 1))*(x(n) - x(1)) > 0.0_dp) cycle
-         call bad_line('x = '//short_number(x(k))//' after '//short_number(x(k - 1))// &
-                       ': from line to line x must rise, or fall')
+         call table%refuse(k, 'x = '//short_number(x(k))//' after '//short_number(x(k - 1))// &
+                           ': from line to line x must rise, or fall', error)
          return
       end do
       allocate (map%height(n, 1), source=ieee_value(0.0_dp, ieee_quiet_nan))
@@ -61,15 +62,6 @@ contains
       end if
       call find_step(x, map%step(1), is_regular)
       if (.not. is_regular) call move_alloc(x, map%x)
-
-   contains
-
-      subroutine bad_line(words)
-         character(*), intent(in) :: words
-
-         call fatal_error(error, exit_bad_input, escaped(table%path)//':'//integer_text(table%line(k))//': '//words)
-      end subroutine bad_line
-
    end subroutine take_profile
 
    !> Replaces the heights of a profile whose steps are not equal by those at as many points that are equally far apart,

@@ -4,7 +4,7 @@ module wavycon_shared_file
    use wavycon_error, only: error_type, exit_file_trouble, fatal_error
    use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
-   use wavycon_ranks, only: add_over_ranks, any_rank, is_first_rank, share_error, share_text, write_shared_columns
+   use wavycon_ranks, only: add_over_ranks, any_rank, comm, is_first_rank, share_error, share_text
    implicit none (type, external)
    private
 
@@ -60,8 +60,8 @@ contains
       type(error_type), allocatable :: error
 
       if (.not. self%is_open) return
-      call write_shared_columns(self%path, self%head + before*bytes_of_number, bytes_of_number, rows, first, columns, &
-                                values, failure)
+      call comm%write_columns(self%path, self%head + before*bytes_of_number, bytes_of_number, rows, first, columns, &
+                              values, failure)
       if (allocated(failure)) call fatal_error(error, exit_file_trouble, failure)
       call share_error(error)
       self%is_open = .not. allocated(error)

@@ -11,7 +11,7 @@ module wavycon_hertz_line
    private
 
    public :: hertz_line_half_width_over_wavelength, hertz_line_contact_area_fraction
-   public :: hertz_line_peak_pressure_over_pstar, hertz_line_pressure_over_pstar
+   public :: hertz_line_peak_pressure_over_pstar
 
 contains
 
@@ -35,17 +35,5 @@ contains
 
       p0 = 2*sqrt(max(0.0_dp, pbar_over_pstar))
    end function hertz_line_peak_pressure_over_pstar
-
-   !> Pressure about one crest, p0 (1 - x^2/a^2)^(1/2), and 0 outside of |x| < a.
-   elemental real(dp) function hertz_line_pressure_over_pstar(x_over_wavelength, pbar_over_pstar) result(p)
-      real(dp), intent(in) :: x_over_wavelength  !! from the crest [lambda]
-      real(dp), intent(in) :: pbar_over_pstar    !! mean pressure [p*]
-
-      real(dp) :: a
-
-      a = hertz_line_half_width_over_wavelength(pbar_over_pstar)
-      ! p0/a = 2 pi: written so there is no division by the load.
-      p = 2*pi*sqrt(max(0.0_dp, (a - x_over_wavelength)*(a + x_over_wavelength)))
-   end function hertz_line_pressure_over_pstar
 
 end module wavycon_hertz_line

@@ -14,7 +14,7 @@ program test_slabs
    use wavycon_kinds, only: dp, sp
    use wavycon_local_stiffness, only: local_stiffness
    use wavycon_mpi_ranks, only: start_mpi
-   use wavycon_ranks, only: add_over_ranks, new_row_exchange, rank_count, row_exchange, this_rank, work_alone
+   use wavycon_ranks, only: add_over_ranks, comm, rank_count, row_exchange, this_rank, work_alone
    use wavycon_surface, only: surface_of_points, surface_type
    use wavycon_wave_2d, only: wave_2d
    implicit none (type, external)
@@ -236,7 +236,7 @@ contains
             whole = reshape(numbers([number*rows, columns]), [number, rows, columns])
             associate (first => min(this_rank()*width, columns) + 1, last => min((this_rank() + 1)*width, columns))
                by_columns = whole(:, :, first:last)
-               call new_row_exchange(columns, rows, width, number, dp, exchange)
+               call comm%new_row_exchange(columns, rows, width, number, dp, exchange)
                call check(exchange%own_columns == last - first + 1)
             end associate
             all_rows = exchange%own_rows
@@ -249,7 +249,7 @@ contains
             allocate (back, mold=by_columns)
             call exchange%to_columns(by_rows, back)
             call check(same(pack(back, .true.), pack(by_columns, .true.)))
-            call new_row_exchange(columns, rows, width, number, sp, exchange)
+            call comm%new_row_exchange(columns, rows, width, number, sp, exchange)
             allocate (single(number, exchange%own_rows, columns), back_single(number, rows, exchange%own_columns))
             call exchange%to_rows(real(by_columns, sp), single)
             call check(same(real(pack(single, .true.), dp), real(real(pack(whole, .true.), sp), dp)))

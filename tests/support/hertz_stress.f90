@@ -1,5 +1,5 @@
-!> Stresses below a Hertzian contact: on the axis and on the surface of a circular point contact, everywhere below a
-!> line contact, and the largest shear of both.
+!> Stresses below a Hertzian contact: on the axis of a circular point contact, everywhere below a line contact,
+!> and the largest shear of both.
 !>
 !> K. L. Johnson, Contact Mechanics, Cambridge University Press (1985), sections 3.4 and 4.2. The pressure is
 !> p0 (1 - r^2/a^2)^(1/2), in a line contact p0 (1 - x^2/a^2)^(1/2). Lengths are in a, stresses in p0, positive in
@@ -10,7 +10,7 @@ module wavycon_hertz_stress
    implicit none (type, external)
    private
 
-   public :: hertz_point_axis_stress, hertz_point_surface_stress, hertz_point_largest_shear
+   public :: hertz_point_axis_stress, hertz_point_largest_shear
    public :: hertz_line_stress, hertz_line_largest_shear
 
    !> Places of the components that are not zero.
@@ -32,30 +32,6 @@ contains
       parts(zz, 1) = -1/(1 + z**2)
       parts(xx:yy, 2) = -lateral
    end subroutine hertz_point_axis_stress
-
-   !> On the surface of a point contact, at x = r, y = 0: Johnson (3.42) for r < 1, (3.43) for r >= 1.
-   !>
-   !> With q = (1 - r^2)^(1/2), 0 outside, and g = (1 - q^3)/r^2: s_xx = (1 - 2 nu) g/3 - q,
-   !> s_yy = -(1 - 2 nu) g/3 - 2 nu q, s_zz = -q.
-   pure subroutine hertz_point_surface_stress(r, parts)
-      real(dp), intent(in) :: r             !! distance from the axis, >= 0 [a]
-      real(dp), intent(out) :: parts(6, 2)  !! stress in two parts [p0]
-
-      real(dp) :: g, q
-
-      if (r < 1) then
-         q = sqrt((1 - r)*(1 + r))
-         ! (1 - q^3)/(1 - q^2), without 0/0 on the axis.
-         g = (1 + q + q**2)/(1 + q)
-      else
-         q = 0
-         g = 1/r**2
-      end if
-      parts = 0
-      parts(xx, :) = [g/3 - q, -2*g/3]
-      parts(yy, :) = [-g/3, 2*g/3 - 2*q]
-      parts(zz, 1) = -q
-   end subroutine hertz_point_surface_stress
 
    !> Largest shear on the axis of a point contact, (s_xx - s_zz)/2, and its depth; 0.31 p0 at 0.48 a for nu = 0.3.
    !>
