@@ -3,9 +3,9 @@ program writes, and on twice the points; a measured one is prepared by the progr
 solved a second time on the whole cell. Spots and summary have the same area, contours about the same."""
 import math
 import random
-import struct
 
 from common import Part
+from npy import read_npy
 from random_scenes import random_loads
 from same_contact import LARGEST_RATIO, difference
 from spot_areas import area_complaints
@@ -24,12 +24,9 @@ TRENDS = ("none", "mean", "plane", "quadratic")
 
 def read_heights(path):
     """The rows of <case>.height.npy."""
-    content = path.read_bytes()
-    begin = content.index(b"\n") + 1
-    shape = content[:begin].decode("latin-1").split("'shape': (")[1].split(")")[0]
-    rows, columns = (int(word) for word in shape.split(",")[:2])
-    numbers = struct.unpack(f"<{rows*columns}d", content[begin:])
-    return [list(numbers[columns*j:columns*(j + 1)]) for j in range(rows)]
+    head, numbers = read_npy(path)
+    columns = head["shape"][1]
+    return [numbers[first:first + columns] for first in range(0, len(numbers), columns)]
 
 
 def map_text(heights):

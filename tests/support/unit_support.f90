@@ -5,6 +5,7 @@
 module unit_support
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use wavycon, only: dp, error_type, surface_type, wave_1d, wave_2d
+   use wavycon_contact_measures, only: contact_measures
    use wavycon_deck, only: deck_type
    use wavycon_deck_text, only: deck_text_type
    use wavycon_map_file, only: read_height_map
@@ -16,7 +17,8 @@ module unit_support
    implicit none (type, external)
    private
 
-   public :: deck_trouble, good_deck, integral_of, lines, map_trouble, read_map, spread_number, unit_wave, write_file
+   public :: deck_trouble, errors_of, good_deck, integral_of, lines, map_trouble, read_map, spread_number, unit_wave, values_of, &
+      write_file
 
 contains
 
@@ -29,6 +31,22 @@ contains
       if (dimension == 2) surface = wave_2d(1.0_dp, 1.0_dp, 1.0_dp)
       if (present(hardness)) surface%hardness = hardness
    end function unit_wave
+
+   !> Mean gap [Delta], contact area over the nominal one and peak pressure [p*].
+   pure function values_of(measures) result(values)
+      type(contact_measures), intent(in) :: measures
+      real(dp) :: values(3)
+
+      values = [measures%mean_gap_over_amplitude, measures%contact_area_fraction, measures%peak_pressure_over_pstar]
+   end function values_of
+
+   !> Their error estimates.
+   pure function errors_of(measures) result(errors)
+      type(contact_measures), intent(in) :: measures
+      real(dp) :: errors(3)
+
+      errors = [measures%mean_gap_error, measures%contact_area_error, measures%peak_pressure_error]
+   end function errors_of
 
    !> Numbers spread evenly over 0 .. 1.
    elemental real(dp) function spread_number(i, j)
