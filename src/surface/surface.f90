@@ -10,6 +10,7 @@ module wavycon_surface
    use wavycon_paper_wave, only: no_paper_wave, paper_wave_of, rounding, straight_paper_wave, rotated_paper_wave
    use wavycon_roughness, only: roughness_of, roughness_type
    use wavycon_series_peak, only: find_peak
+   use wavycon_series_weights, only: divide_series, divided, weighted
    use wavycon_rotated_series, only: to_sum_angles
    implicit none (type, external)
    private
@@ -74,12 +75,12 @@ contains
       if (.not. surface%amplitude > 0.0_dp) surface%amplitude = 0.0_dp
       surface%shape = divided(waves, surface%amplitude)
       if (surface%amplitude <= 0.0_dp) return
-      waves = weighted(surface, surface%shape, 1)
+      waves = weighted(surface%shape, surface%length, 1)
       call find_peak(waves, surface%full_contact_peak, unused)
       call find_peak(divided(waves, -1.0_dp), lowest, unused)
       surface%stiffness = 1.0_dp/lowest
       surface%full_contact_peak = surface%full_contact_peak/lowest
-      call find_peak(weighted(surface, surface%shape, 2), surface%crest_curvature, unused)
+      call find_peak(weighted(surface%shape, surface%length, 2), surface%crest_curvature, unused)
    end function surface_of_series
 
    !> The surface through given heights on a grid. Between the points it is their Fourier series. Crest, full-contact
@@ -116,7 +117,7 @@ contains
       surface%crest = point_angle(crest, transform%points, transform%even)
       if (surface%dimension == 1) surface%crest(2) = 0.0_dp
       if (surface%amplitude <= 0.0_dp) return
-      call divide(surface%shape, surface%amplitude)
+      call divide_series(surface%shape, surface%amplitude)
       per_wave = 1.0_dp/surface%length
       call transform%sample(surface%shape, values, 1, per_wave)
       extremes = [maxval(values), -minval(values)]
@@ -237,7 +238,7 @@ contains
       class(surface_type), intent(in) :: self
       type(fourier_series), intent(in) :: displacement
 
-      pressure = divided(weighted(self, displacement, 1), 1.0_dp/self%stiffness)
+      pressure = divided(weighted(displacement, self%length, 1), 1.0_dp/self%stiffness)
    end function pressure_of
 
    !> The displacement (u - ubar)/Delta of a pressure (p - pbar)/p*: the inverse of `pressure_of`.
@@ -245,7 +246,7 @@ contains
       class(surface_type), intent(in) :: self
       type(fourier_series), intent(in) :: pressure
 
-      displacement = divided(weighted(self, pressure, -1), self%stiffness)
+      displacement = divided(weighted(pressure, self%length, -1), self%stiffness)
    end function displacement_of
 
    !> p/p* in full contact, where the displacement is the shape; eq. (22) for the paper's wave.
@@ -256,61 +257,6 @@ contains
       pressure = self%pressure_of(self%shape)
       pressure%c(0, 0) = pbar_over_pstar
    end function full_contact_series
-
-   !> A series with each term multiplied by a power of its frequency; the mean becomes 0.
-   type(fourier_series) function weighted(surface, series, power)
-      class(surface_type), intent(in) :: surface
-      type(fourier_series), intent(in) :: series
-      integer, intent(in) :: power
-
-      weighted = series
-      call weigh(surface, weighted, power)
-   end function weighted
-
-   !> Multiplies each term of a series by a power of its frequency; the mean becomes 0.
-   subroutine weigh(surface, series, power)
-      class(surface_type), intent(in) :: surface
-      type(fourier_series), intent(inout) :: series
-      integer, intent(in) :: power
-
-      real(dp) :: weight(lbound(series%c, 1):ubound(series%c, 1))
-      logical :: has_mean
-      integer :: i, j
-
-      do j = 0, ubound(series%c, 2)
-         has_mean = j == 0 .and. lbound(series%c, 1) == 0
-         weight = surface%frequency([(i, i=lbound(series%c, 1), ubound(series%c, 1))], j)
-         if (has_mean) weight(0) = 1.0_dp
-         weight = weight**power
-         if (has_mean) weight(0) = 0.0_dp
-         series%c(:, j) = weight*series%c(:, j)
-         if (series%is_even()) cycle
-         series%cs(:, j) = weight*series%cs(:, j)
-         series%sc(:, j) = weight*series%sc(:, j)
-         series%ss(:, j) = weight*series%ss(:, j)
-      end do
-   end subroutine weigh
-
-   !> A series divided by a number; unchanged if that is 0.
-   type(fourier_series) function divided(series, unit)
-      type(fourier_series), intent(in) :: series
-      real(dp), intent(in) :: unit
-
-      divided = series
-      if (abs(unit) > 0.0_dp) call divide(divided, unit)
-   end function divided
-
-   !> Divides a series by a number, which is not 0.
-   pure subroutine divide(series, unit)
-      type(fourier_series), intent(inout) :: series
-      real(dp), intent(in) :: unit
-
-      series%c = series%c/unit
-      if (series%is_even()) return
-      series%cs = series%cs/unit
-      series%sc = series%sc/unit
-      series%ss = series%ss/unit
-   end subroutine divide
 
    !> Whether the surface is a wave of the paper: no_paper_wave, straight_paper_wave or rotated_paper_wave. A
    !> distributed surface counts as none.
