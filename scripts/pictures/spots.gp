@@ -8,7 +8,7 @@ set xlabel load_label
 # On the axis p* is `full`.
 x(r) = full*column("pbar_over_pstar")
 set bmargin at screen 67.5/height
-set tmargin at screen 1 - 62.0/height
+set tmargin at screen 1 - 80.0/height
 set key at graph 0.5, 1.02 center bottom horizontal maxrows 2 samplen 1.5
 set multiplot
 
