@@ -1,4 +1,4 @@
-!> The result of the boundary-fitted solver for one load.
+!> The result of collocation fitted to the edge for one load.
 module wavycon_fitted_answer
    use wavycon_expansion, only: expansion
    use wavycon_kinds, only: dp

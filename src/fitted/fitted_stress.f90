@@ -1,4 +1,4 @@
-!> Stresses in the half-space under the pressure of an answer of the boundary-fitted solver: README.md, section 13.
+!> Stresses in the half-space under the pressure of an answer of the collocation: README.md, section 13.
 !>
 !> They are exact to ten digits of the peak pressure at any depth, the surface included, as far as the answer is.
 module wavycon_fitted_stress

@@ -1,4 +1,5 @@
-!> Tuned constants of the boundary-fitted solver: numbers whose best value is found by trial, not by a derivation.
+!> Tuned constants of the collocation fitted to the edge: numbers whose best value is found by trial, not by a
+!> derivation.
 !>
 !> Each is one statement; its comment says what it controls and what a smaller or a larger value costs.
 !> scripts/constants measures the effect of a factor of 2 on time and error. Mathematical constants and rounding

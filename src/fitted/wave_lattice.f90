@@ -1,4 +1,5 @@
-!> The wavy surfaces of the boundary-fitted solver: their crests are the points of a lattice, one in a primitive cell.
+!> The wavy surfaces that collocation fitted to the edge solves: their crests are the points of a lattice, one in a
+!> primitive cell.
 !>
 !>     h/Delta = 1 - sum over i of a_i cos(2 pi k_i.x),   sum of a_i = 1,   README.md (F1),
 !>

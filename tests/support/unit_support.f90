@@ -17,7 +17,8 @@ module unit_support
    implicit none (type, external)
    private
 
-   public :: deck_trouble, errors_of, good_deck, integral_of, lines, map_trouble, read_map, spread_number, unit_wave, values_of, &
+   public :: deck_trouble, errors_of, good_deck, integral_of, lines, map_trouble, read_map, spread_number, unit_wave, &
+         values_of, &
       write_file
 
 contains
