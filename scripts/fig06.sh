@@ -40,11 +40,11 @@ do for [i = 0:loads - 1] {
       center rotate by 90 front font ',10' boxed
 }
 
-# The circles of one load: contact spots of the first, open islands of the second.
+# The circles of one load: contact spots of the first, open pools of the second.
 set datafile columnheaders
 of_load(number, value) = column('load') == number ? value : NaN
 contact(x) = of_load(1, x)
-island(x) = of_load(2, x)
+pool(x) = of_load(2, x)
 
 # The table has the edges of one cell; the next ones are a wavelength away.
 set style fill empty
@@ -53,8 +53,8 @@ plot for [i = 0:loads - 1] for [k = 0:2] for [l = 0:2] edges index i \
         with lines lc palette cb P[i + 1] lw 1.4, \
      for [k = 0:1] for [l = 0:1] circles using (contact(k)):(l):"hertz_radius" with circles ls 4, \
      circles using (contact(0.5)):(0.5):"hertz_radius" with circles ls 4, \
-     for [k = 0:1] circles using (island(k)):(0.5):"crack_radius" with circles ls 4, \
-     for [k = 0:1] circles using (island(0.5)):(k):"crack_radius" with circles ls 4, \
+     for [k = 0:1] circles using (pool(k)):(0.5):"crack_radius" with circles ls 4, \
+     for [k = 0:1] circles using (pool(0.5)):(k):"crack_radius" with circles ls 4, \
      NaN with lines lc palette cb P[loads] lw 1.4 \
         title sprintf('%s = %.1f %s, %s = %.1f to %.1f', p, edge_level, p_star, load, P[1], P[loads]), \
      NaN with lines ls 4 title sprintf('(23) at %.1f, (24) at %.1f', P[1], P[loads])

@@ -159,8 +159,8 @@ contains
       to_surface = self%frame%side/self%frame%turn
       edge = (fields%edge(edge_points) - fields%centre)*to_surface
       ! The contact lies on the left of the curve.
-      if (self%answer%island) edge = edge(edge_points:1:-1)
-      ! The second of two islands is the first one rotated by 180 degrees; the second half of a cell is the first one
+      if (self%answer%pool) edge = edge(edge_points:1:-1)
+      ! The second of two pools is the first one rotated by 180 degrees; the second half of a cell is the first one
       ! translated.
       allocate (curves(self%frame%crests*fields%places))
       do k = 1, size(curves)
@@ -172,14 +172,14 @@ contains
             curves(k)%theta = in_cell(2*pi*centre%im/length(2) + pi*half_cells) + 2*pi*rotated*edge(places)%im/length(2)
          end associate
          ! All are alike: the area is that of the expansion itself, not that of polygons.
-         curves(k)%turns = merge(-1, 1, self%answer%island)
-         curves(k)%spot = merge(1, k, self%answer%island)
-         curves(k)%pool = merge(k, 1, self%answer%island)
+         curves(k)%turns = merge(-1, 1, self%answer%pool)
+         curves(k)%spot = merge(1, k, self%answer%pool)
+         curves(k)%pool = merge(k, 1, self%answer%pool)
          curves(k)%area = (2*pi)**2/size(curves)* &
-                          (record%measures%contact_area_fraction - merge(1, 0, self%answer%island))
+                          (record%measures%contact_area_fraction - merge(1, 0, self%answer%pool))
          curves(k)%length = self%answer%perimeter*self%frame%side
       end do
-      associate (count => merge(1, size(curves), self%answer%island))
+      associate (count => merge(1, size(curves), self%answer%pool))
          allocate (loads(count), source=1.0_dp/count)
       end associate
 

@@ -135,7 +135,7 @@ contains
       rotated = [mean + deviator%re, mean - deviator%re, stress(zz), deviator%im, shear%re, shear%im]
    end function rotated
 
-   !> Places below the spot or, above merging, below the crest and about the island, on the lines of symmetry of the
+   !> Places below the spot or, above merging, below the crest and about the pool, on the lines of symmetry of the
    !> lattice.
    subroutine start_places(self, body, places, widths, stresses)
       class(fitted_stress_fields), intent(inout) :: self
@@ -152,14 +152,14 @@ contains
 
       associate (shape => self%answer%solution%shape)
          centre = (0.0_dp, 0.0_dp)
-         if (self%answer%island) centre = self%trough
+         if (self%answer%pool) centre = self%trough
          directions = 2*shape%fold
          allocate (edge(directions/2 + 1))
          edge(:) = [(shape%place(exp(cmplx(0.0_dp, 2*pi*i/directions, dp))), i=0, directions/2)]
          radius = maxval(abs(edge))
       end associate
       allocate (at_surface, source=[(centre + edge_ratios(i)*edge, i=1, size(edge_ratios))])
-      if (self%answer%island) then
+      if (self%answer%pool) then
          at_surface = [at_surface, (0.0_dp, 0.0_dp), self%saddle, 0.5_dp*self%saddle, &
                        0.5_dp*self%trough, 0.25_dp*self%trough]
          below = [radius*depths_of_spot, depths_of_cell]

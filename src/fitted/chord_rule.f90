@@ -35,7 +35,7 @@ contains
    !> Prepares for one basis and one number of shape terms.
    !>
    !> The weight determines the kernel: the power 1/2, of a spot's pressure, has 1/|z - z'|, the power 3/2, of an
-   !> island's gap, 1/|z - z'|^3.
+   !> pool's gap, 1/|z - z'|^3.
    subroutine start_chord_rule(rule, basis, shape_terms, angles, points)
       type(chord_rule), intent(out) :: rule
       type(disc_polynomials), intent(in) :: basis

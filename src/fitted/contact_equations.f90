@@ -1,7 +1,7 @@
-!> The equations of contact of one spot below merging, or of one open island above, at points of the mapped disc.
+!> The equations of contact of one spot below merging, or of one open pool above, at points of the mapped disc.
 !>
 !> Spot: its pressure p and that of all its images displace the surface by u, and u + h = delta in contact. The pressure
-!> bears the load, P times the area of a cell: README.md (F8) and (F9). Island: its gap g makes the pressure vanish in
+!> bears the load, P times the area of a cell: README.md (F8) and (F9). Pool: its gap g makes the pressure vanish in
 !> it. In full contact the pressure is P + the sum of a_i |k_i| cos 2 pi k_i.x; a gap changes it by -(1/4 pi^2) times
 !> the finite part of the integral of g and the Laplacian of Gp. Therefore
 !>
@@ -16,8 +16,8 @@ module wavycon_contact_equations
    use wavycon_disc_rule, only: disc_rule, start_disc_rule
    use wavycon_disc_sources, only: linearise_sources
    use wavycon_expansion, only: expansion
-   use wavycon_fitted_tuning, only: chords_per_degree, extra_chord_points, extra_disc_angles, island_extra_angles, &
-      island_extra_radii, near_images_ratio, sharp_chords_per_degree, sharp_collocation_factor, &
+   use wavycon_fitted_tuning, only: chords_per_degree, extra_chord_points, extra_disc_angles, pool_extra_angles, &
+      pool_extra_radii, near_images_ratio, sharp_chords_per_degree, sharp_collocation_factor, &
       sharp_collocation_ratio, sharp_quadrature_ratio, spot_extra_angles, spot_extra_radii
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgemv
@@ -31,12 +31,12 @@ module wavycon_contact_equations
    type :: contact_equations
       integer :: unknowns = 0                    !! N coefficients, a spot's approach, 1+K of the shape
       integer :: before_shape = 0                !! unknowns before those of the shape
-      type(chord_rule) :: chords                 !! for the spot or island itself
+      type(chord_rule) :: chords                 !! for the spot or pool itself
       type(disc_rule) :: rule                    !! for its images and for integrals over it
       complex(dp), allocatable :: target(:)      !! points of collocation in the disc, shape (m)
       real(dp), allocatable :: values(:, :)      !! of the basis at the rule's points, shape (n, N)
       real(dp), allocatable :: matrix(:, :)      !! derivatives of the left sides, shape (m, unknowns)
-      real(dp), allocatable :: residual(:)       !! right sides less left sides, shape (m) [Delta], an island's [p*]
+      real(dp), allocatable :: residual(:)       !! right sides less left sides, shape (m) [Delta], a pool's [p*]
       real(dp), allocatable :: load_row(:)       !! derivatives of the load that a spot bears, shape (unknowns)
       type(lattice_images) :: images
    contains
@@ -57,7 +57,7 @@ contains
 
       integer :: n
 
-      equations%before_shape = like%basis%terms + merge(0, 1, like%island)
+      equations%before_shape = like%basis%terms + merge(0, 1, like%pool)
       equations%unknowns = equations%before_shape + size(like%shape%b)
       call choose_rules(equations, like, merging_ratio)
       call choose_targets(equations, like, merging_ratio)
@@ -110,8 +110,8 @@ contains
       fold = like%basis%fold
       ! At least two more radii than round functions have unknowns: with as many the size of the shape is not
       ! determined.
-      radii = like%basis%degree/2 + merge(island_extra_radii, spot_extra_radii, like%island)
-      angles = like%basis%degree/fold + merge(island_extra_angles, spot_extra_angles, like%island)
+      radii = like%basis%degree/2 + merge(pool_extra_radii, spot_extra_radii, like%pool)
+      angles = like%basis%degree/fold + merge(pool_extra_angles, spot_extra_angles, like%pool)
       if (merging_ratio > sharp_collocation_ratio) angles = int(sharp_collocation_factor*angles)
       ! For a round shape each term b_k is one harmonic of the angle; with K angles the last one vanishes at all of
       ! them.
@@ -146,14 +146,14 @@ contains
          end do
          call self%images%add_rows(lattice, now, self%rule, self%values, self%target, self%matrix(:, :terms), &
                                    self%matrix(:, first:))
-         if (now%island) self%matrix = self%matrix/(4*pi**2)
+         if (now%pool) self%matrix = self%matrix/(4*pi**2)
          call dgemv('N', m, terms, -1.0_dp, self%matrix, m, now%c, 1, 0.0_dp, self%residual, 1)
       end associate
       call self%linearise_known_side(lattice, load, now)
-      if (.not. now%island) call self%linearise_load(now)
+      if (.not. now%pool) call self%linearise_load(now)
    end subroutine linearise
 
-   !> Adds what does not depend on the coefficients: a spot's approach and undeformed gap, the pressure that an island
+   !> Adds what does not depend on the coefficients: a spot's approach and undeformed gap, the pressure that a pool
    !> would have in full contact; and how they change with the targets' places.
    subroutine linearise_known_side(self, lattice, load, now)
       class(contact_equations), intent(inout) :: self
@@ -166,7 +166,7 @@ contains
 
       do i = 1, size(self%target)
          z = now%shape%place(self%target(i))
-         if (now%island) then
+         if (now%pool) then
             self%residual(i) = self%residual(i) + lattice%pressure_rise(z) - (lattice%closing_pressure - load)
             slope = -lattice%pressure_rise_slope(z)
          else
@@ -195,7 +195,7 @@ contains
       self%load_row(self%before_shape + 1:) = sum(strength_slope, 1)
    end subroutine linearise_load
 
-   !> Integral over the spot or island of an expansion, p or g, times a function of the place.
+   !> Integral over the spot or pool of an expansion, p or g, times a function of the place.
    real(dp) function integral(self, now, factor)
       class(contact_equations), intent(in) :: self
       type(expansion), intent(in) :: now            !! like the one the equations were started for

@@ -67,7 +67,7 @@ contains
       self%solutions = self%solutions + 1
    end subroutine push
 
-   !> Estimates the errors of a new solution. An island's gap at its trough converges as fields do, later than
+   !> Estimates the errors of a new solution. A pool's gap at its trough converges as fields do, later than
    !> integrals of them, and energy and perimeter converge at rates of their own: they are estimated apart from the
    !> rest.
    pure subroutine estimate(self, measures, difference, remaining)

@@ -12,12 +12,12 @@ module wavycon_disc_sources
 
    public :: copies, disc_sources, linearise_sources, start_disc_sources
 
-   !> A whole spot or island as point sources.
+   !> A whole spot or pool as point sources.
    type :: disc_sources
-      logical :: island = .false.
+      logical :: pool = .false.
       real(dp), allocatable :: x(:), y(:)          !! from the centre, shape (n) [s]
       real(dp), allocatable :: strength(:, :)
-         !! times area, shape (n, 2): a spot's pressure or an island's gap, and 0; or the gap's gradient
+         !! times area, shape (n, 2): a spot's pressure or a pool's gap, and 0; or the gap's gradient
    contains
       procedure :: add_at
    end type disc_sources
@@ -28,14 +28,14 @@ contains
    subroutine start_disc_sources(sources, solution, gradient, radii, angles)
       type(disc_sources), intent(out) :: sources
       type(expansion), intent(in) :: solution
-      logical, intent(in) :: gradient      !! whether the gradient of an island's gap is wanted; false for a spot
+      logical, intent(in) :: gradient      !! whether the gradient of a pool's gap is wanted; false for a spot
       integer, intent(in) :: radii         !! points per radius, >= 1
       integer, intent(in) :: angles        !! and per turn, rounded up to a multiple of 2 fold
 
       type(disc_rule) :: rule
       complex(dp), allocatable :: density(:), strength(:), z(:)
 
-      sources%island = solution%island
+      sources%pool = solution%pool
       associate (fold => solution%basis%fold)
          ! The gradient behaves as the root of 1 - |w|^2, as a pressure does.
          call start_disc_rule(rule, merge(0.5_dp, solution%basis%power, gradient), fold, radii, &
@@ -62,7 +62,7 @@ contains
       real(dp), intent(in) :: depth                     !! >= 0 [s]
       real(dp), intent(inout) :: fields(stress_fields)
 
-      call add_sources(kernel, self%island, size(self%x), place%re - self%x, place%im - self%y, depth, &
+      call add_sources(kernel, self%pool, size(self%x), place%re - self%x, place%im - self%y, depth, &
                        self%strength(:, 1), self%strength(:, 2), fields)
    end subroutine add_at
 

@@ -1,12 +1,12 @@
-!> A contact spot or an open island as an expansion over the unit disc.
+!> A contact spot or an open pool as an expansion over the unit disc.
 !>
-!> Below merging it is the pressure on one spot about a crest, above merging the gap over one island about a trough:
+!> Below merging it is the pressure on one spot about a crest, above merging the gap over one pool about a trough:
 !>
 !>     (1 - |w|^2)^power times the sum over i of c_i P_i(w),
 !>
 !> README.md (F23), power 1/2 or 3/2, with the disc polynomials P_i orthonormal with this weight, and the disc mapped to
-!> the spot or island. Lengths in s, pressures in pi E* Delta/s, gaps in Delta; places from the centre of the spot or
-!> island.
+!> the spot or pool. Lengths in s, pressures in pi E* Delta/s, gaps in Delta; places from the centre of the spot or
+!> pool.
 module wavycon_expansion
    use wavycon_disc_polynomials, only: disc_polynomials, start_disc_polynomials
    use wavycon_kinds, only: dp
@@ -17,7 +17,7 @@ module wavycon_expansion
    public :: expansion
 
    type :: expansion
-      logical :: island = .false.            !! the gap over an island; otherwise the pressure on a spot
+      logical :: pool = .false.            !! the gap over a pool; otherwise the pressure on a spot
       type(disc_polynomials) :: basis
       type(shape_map) :: shape
       real(dp), allocatable :: c(:)          !! coefficients of the basis, shape (N)
@@ -41,7 +41,7 @@ contains
 
       integer :: i, n
 
-      copy%island = self%island
+      copy%pool = self%pool
       call start_disc_polynomials(copy%basis, self%basis%fold, degree, self%basis%power)
       allocate (copy%c(copy%basis%terms), source=0.0_dp)
       do i = 1, copy%basis%terms
@@ -60,7 +60,7 @@ contains
       copy%approach = self%approach
    end function resized
 
-   !> The value at the centre: a spot's peak pressure, an island's gap at the trough.
+   !> The value at the centre: a spot's peak pressure, a pool's gap at the trough.
    real(dp) function at_centre(self)
       class(expansion), intent(in) :: self
 

@@ -1,7 +1,7 @@
 !> How large an expansion is: its sequence of degrees, its number of shape terms, and the clustering of its map.
 module wavycon_expansion_size
    use wavycon_fitted_tuning, only: degree_per_shape_term, degree_per_shape_term_twofold, degree_step, first_degree, &
-      full_step_degree, island_clustering, island_clustering_power, least_clustering, round_shape_ratio, &
+      full_step_degree, pool_clustering, pool_clustering_power, least_clustering, round_shape_ratio, &
       spot_clustering, spot_clustering_power
    use wavycon_kinds, only: dp
    implicit none (type, external)
@@ -48,14 +48,14 @@ contains
 
    !> The map's clustering tau for the next degree, on the square lattice: a power of the merging ratio. Small changes
    !> are not made, and rises are limited to what Newton's method follows.
-   pure real(dp) function next_clustering(tau, merging_ratio, island)
+   pure real(dp) function next_clustering(tau, merging_ratio, pool)
       real(dp), intent(in) :: tau             !! of the shape at hand
       real(dp), intent(in) :: merging_ratio   !! of the shape
-      logical, intent(in) :: island
+      logical, intent(in) :: pool
 
       associate (ratio => min(merging_ratio, 1.0_dp))
-         next_clustering = merge(island_clustering*ratio**island_clustering_power, &
-                                 spot_clustering*ratio**spot_clustering_power, island)
+         next_clustering = merge(pool_clustering*ratio**pool_clustering_power, &
+                                 spot_clustering*ratio**spot_clustering_power, pool)
       end associate
       if (next_clustering < least_clustering) next_clustering = 0.0_dp
       if (abs(next_clustering - tau) < 0.2_dp*next_clustering) next_clustering = tau

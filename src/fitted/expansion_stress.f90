@@ -1,6 +1,6 @@
 !> Stresses in the half-space under one expansion and all its images: README.md, section 13.
 !>
-!> At depth they are a Fourier series. Near the surface they are those of the spots or islands near the place, each by a
+!> At depth they are a Fourier series. Near the surface they are those of the spots or pools near the place, each by a
 !> rule over the disc or, next to it, along rays, and those of all others, which are smooth, by a table.
 module wavycon_expansion_stress
    use wavycon_constants, only: pi
@@ -21,8 +21,8 @@ module wavycon_expansion_stress
 
    type :: expansion_stress
       type(wave_lattice), private :: lattice
-      type(spot_integral) :: spot                            !! one of the spots or islands
-      complex(dp), allocatable, private :: centre(:)         !! of the spots or islands near the cell [s]
+      type(spot_integral) :: spot                            !! one of the spots or pools
+      complex(dp), allocatable, private :: centre(:)         !! of the spots or pools near the cell [s]
       real(dp), allocatable, private :: half_turn(:)         !! 1, or -1 if turned by half a turn
       complex(dp), allocatable, private :: edge(:)           !! edge_points of the shape
       ! Made when first needed.
@@ -80,14 +80,14 @@ contains
             fields(7:8) = self%half_turn(i)*fields(7:8)
          end do
       end if
-      if (self%spot%solution%island) then
+      if (self%spot%solution%pool) then
          do i = 1, size(self%lattice%pressure)
             call add_wave(2*pi*self%lattice%wave(:, i), self%lattice%pressure(i), place, depth, fields)
          end do
       end if
    end subroutine fields_at
 
-   !> Distance on the surface from the nearest edge of a spot or island [s].
+   !> Distance on the surface from the nearest edge of a spot or pool [s].
    pure real(dp) function distance_from_edges(self, place) result(distance)
       class(expansion_stress), intent(in) :: self
       complex(dp), intent(in) :: place                    !! from a crest [s]
@@ -104,20 +104,20 @@ contains
       end do
    end function distance_from_edges
 
-   !> Finds the spots or islands near the rectangle that places are reduced to.
+   !> Finds the spots or pools near the rectangle that places are reduced to.
    subroutine find_centres(stress)
       type(expansion_stress), intent(inout) :: stress
 
       complex(dp), allocatable :: second(:)
 
       associate (lattice => stress%lattice, reach => near_clearance + stress%spot%radius)
-         if (.not. stress%spot%solution%island) then
+         if (.not. stress%spot%solution%pool) then
             stress%centre = lattice%rows%points_about(reach, (0.0_dp, 0.0_dp))
          else
             stress%centre = lattice%rows%points_about(reach, lattice%trough)
          end if
          allocate (stress%half_turn(size(stress%centre)), source=1.0_dp)
-         if (lattice%troughs == 1 .or. .not. stress%spot%solution%island) return
+         if (lattice%troughs == 1 .or. .not. stress%spot%solution%pool) return
          second = lattice%rows%points_about(reach, -lattice%trough)
          stress%centre = [stress%centre, second]
          stress%half_turn = [stress%half_turn, spread(-1.0_dp, 1, size(second))]
@@ -138,7 +138,7 @@ contains
       call start_series(self, self%series, sources, series_depth, self%spot%digits)
    end subroutine prepare_series
 
-   !> Starts the series of all spots or islands from the sources of one of them: pressure or gap.
+   !> Starts the series of all spots or pools from the sources of one of them: pressure or gap.
    subroutine start_series(stress, series, sources, depth, digits)
       type(expansion_stress), intent(in) :: stress
       type(stress_series), intent(out) :: series
@@ -150,13 +150,13 @@ contains
 
       centre = 0.0_dp
       count = 1
-      if (stress%spot%solution%island) then
+      if (stress%spot%solution%pool) then
          centre = stress%lattice%trough
-         ! The half-turn of an island about a crest has the same even terms.
+         ! The half-turn of a pool about a crest has the same even terms.
          count = stress%lattice%troughs
       end if
       call start_stress_series(series, stress%lattice%rows, centre%re + sources%x, centre%im + sources%y, &
-                               count*sources%strength(:, 1), stress%spot%solution%island, depth, digits)
+                               count*sources%strength(:, 1), stress%spot%solution%pool, depth, digits)
    end subroutine start_series
 
    !> Makes the table: at its nodes the series of all, less the sum of the near ones, of the same point sources.
@@ -178,7 +178,7 @@ contains
          if (rows%along_y) sides = sides([2, 1])
          terms = far_sizes(sides, self%spot%digits - 1.0_dp)
          allocate (self%far)
-         call start_far_stress(self%far, sides(1), sides(2), far_top, far_bottom, self%spot%solution%island, terms)
+         call start_far_stress(self%far, sides(1), sides(2), far_top, far_bottom, self%spot%solution%pool, terms)
          allocate (x(terms(1)), y(terms(2)), z(terms(3)), values(terms(1), terms(2), terms(3), stress_fields))
          call far_nodes(self%far, x, y, z)
          do k = 1, terms(3)
@@ -188,7 +188,7 @@ contains
                   do m = 1, size(self%centre)
                      at = self%half_turn(m)*(cmplx(x(i), y(j), dp) - self%centre(m))
                      fields(7:8) = self%half_turn(m)*fields(7:8)
-                     if (self%spot%solution%island) then
+                     if (self%spot%solution%pool) then
                         call add_gap(size(sources%x), at%re - sources%x, at%im - sources%y, z(k), &
                                      sources%strength(:, 1), fields)
                      else

@@ -1,4 +1,4 @@
-!> What one spot or island adds to the displacement or the pressure outside of it, as a series in coordinates that
+!> What one spot or pool adds to the displacement or the pressure outside of it, as a series in coordinates that
 !> follow its edge:
 !>
 !>     sum over j, k of c_jk cos(fold j arg v) T_k(2 (1 - 1/|v|)^(1/2) - 1),   README.md (F49),
@@ -94,7 +94,7 @@ contains
    pure subroutine at(self, shape, z, value, found)
       class(exterior_series), intent(in) :: self
       type(shape_map), intent(in) :: shape          !! the expansion's
-      complex(dp), intent(in) :: z                  !! from the centre of the spot or island, outside of it [s]
+      complex(dp), intent(in) :: z                  !! from the centre of the spot or pool, outside of it [s]
       real(dp), intent(out) :: value
       logical, intent(out) :: found                 !! false without a preimage, next to the edge
 

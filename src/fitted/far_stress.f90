@@ -1,4 +1,4 @@
-!> Stresses near the surface below all spots or islands of a lattice but those nearest to a cell, as a table.
+!> Stresses near the surface below all spots or pools of a lattice but those nearest to a cell, as a table.
 !>
 !> The far ones' fields are analytic down to the surface and beyond, and even or odd in x, y and z: README.md, section
 !> 13. They are the difference of the Fourier series of all and the sum of the near ones, which is taken at some depth
@@ -17,14 +17,14 @@ module wavycon_far_stress
    type :: far_stress
       real(dp) :: width = 0.5_dp, height = 0.5_dp       !! of the quarter of the cell [s]
       real(dp) :: top = 0.0_dp, bottom = 0.0_dp         !! of the depths of the nodes [s]
-      logical :: island = .false.
+      logical :: pool = .false.
       integer :: n(3) = 0                               !! terms in x, y and z
       real(dp), allocatable :: coefficient(:, :, :, :)  !! shape (0:n_x-1, 0:n_y-1, 0:n_z, 8); last in z the constant
    contains
       procedure :: add_at
    end type far_stress
 
-   !> Whether a field is odd in x, in y, and, below a spot, in z. Below an island it is the other way round in z.
+   !> Whether a field is odd in x, in y, and, below a spot, in z. Below a pool it is the other way round in z.
    logical, parameter :: odd_x(stress_fields) = &
       [.false., .false., .false., .true., .false., .true., .true., .false.]
    logical, parameter :: odd_y(stress_fields) = &
@@ -34,18 +34,18 @@ module wavycon_far_stress
 
 contains
 
-   subroutine start_far_stress(table, width, height, top, bottom, island, terms)
+   subroutine start_far_stress(table, width, height, top, bottom, pool, terms)
       type(far_stress), intent(out) :: table
       real(dp), intent(in) :: width, height    !! half the sides of the rectangle about a crest [s]
       real(dp), intent(in) :: top, bottom      !! depths between which the values are taken [s]
-      logical, intent(in) :: island
+      logical, intent(in) :: pool
       integer, intent(in) :: terms(3)          !! in x, y and z
 
       table%width = width
       table%height = height
       table%top = top
       table%bottom = bottom
-      table%island = island
+      table%pool = pool
       table%n = terms
       allocate (table%coefficient(0:terms(1) - 1, 0:terms(2) - 1, 0:terms(3), stress_fields), source=0.0_dp)
    end subroutine start_far_stress
@@ -66,7 +66,7 @@ contains
    !> Sets the table.
    subroutine set_far_values(table, mean, values)
       type(far_stress), intent(inout) :: table
-      real(dp), intent(in) :: mean                   !! H on the surface: less the mean pressure of spots, 0 of islands
+      real(dp), intent(in) :: mean                   !! H on the surface: less the mean pressure of spots, 0 of pools
       real(dp), intent(inout) :: values(:, :, :, :)  !! at the nodes, shape (n_x, n_y, n_z, 8); used up
 
       real(dp) :: constant(table%n(1), table%n(2), 2), of_x(table%n(1), table%n(1)), of_y(table%n(2), table%n(2)), &
@@ -82,7 +82,7 @@ contains
          values(:, :, k, [2, 5, 6, 7, 8]) = values(:, :, k, [2, 5, 6, 7, 8])/z(k)
       end do
       constant = 0.0_dp
-      if (.not. table%island) then
+      if (.not. table%pool) then
          ! D^2 L is its value on the surface less the integral of D^2 V over the depth.
          constant = surface_values()
          values(:, :, :, h_field) = values(:, :, :, h_field) - mean
@@ -92,7 +92,7 @@ contains
       end if
       do f = 1, stress_fields
          do k = 1, table%n(3)
-            if (odd_z(f) .neqv. table%island) values(:, :, k, f) = values(:, :, k, f)/z(k)
+            if (odd_z(f) .neqv. table%pool) values(:, :, k, f) = values(:, :, k, f)/z(k)
             call divide(values(:, :, k, f))
          end do
          values(:, :, :, f) = reshape(matmul(reshape(values(:, :, :, f), [table%n(1)*table%n(2), table%n(3)]), &
@@ -106,7 +106,7 @@ contains
          table%coefficient(:, :, table%n(3), f) = &
             matmul(of_x, matmul(constant(:, :, f - l_field + 1), transpose(of_y)))
       end do
-      if (.not. table%island) table%coefficient(0, 0, table%n(3), h_field) = mean
+      if (.not. table%pool) table%coefficient(0, 0, table%n(3), h_field) = mean
 
    contains
 
@@ -177,7 +177,7 @@ contains
       rest = size(plane)
       call dgemv('T', self%n(1), rest, 1.0_dp, self%coefficient, self%n(1), of_x, 1, 0.0_dp, plane, 1)
       do f = 1, stress_fields
-         i = merge(2, 1, odd_z(f) .neqv. self%island)
+         i = merge(2, 1, odd_z(f) .neqv. self%pool)
          value = 0.0_dp
          do k = 0, self%n(3)
             value = value + of_z(k, i)*dot_product(of_y, plane(:, k, f))

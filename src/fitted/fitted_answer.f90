@@ -13,7 +13,7 @@ module wavycon_fitted_answer
    integer, parameter, public :: fitted_less_exact = 1
       !! There is a solution; its estimated errors are larger than the accuracy.
    integer, parameter, public :: fitted_merged = 2
-      !! Neither separate spots nor separate islands were found: only load and status are set.
+      !! Neither separate spots nor separate pools were found: only load and status are set.
    integer, parameter, public :: fitted_bad_input = 3
       !! The load is not between 0 and the closing pressure, or the accuracy is not > 0: only load and status are set.
    integer, parameter, public :: fitted_failed = 4
@@ -30,18 +30,18 @@ module wavycon_fitted_answer
       real(dp) :: area_fraction = 0.0_dp              !! A_real/A_0
       real(dp) :: peak_pressure = 0.0_dp              !! at a crest
       real(dp) :: energy = 0.0_dp                     !! half the integral of p u, per cell [Delta s^2]
-      real(dp) :: perimeter = 0.0_dp                  !! of one spot or island
+      real(dp) :: perimeter = 0.0_dp                  !! of one spot or pool
       real(dp) :: mean_gap_error = huge(1.0_dp)       !! estimated errors of the above
       real(dp) :: area_error = huge(1.0_dp)
       real(dp) :: peak_error = huge(1.0_dp)
       real(dp) :: energy_error = huge(1.0_dp)
       real(dp) :: perimeter_error = huge(1.0_dp)
-      real(dp) :: residual = huge(1.0_dp)             !! largest of the equations [Delta], an island's [p*]
+      real(dp) :: residual = huge(1.0_dp)             !! largest of the equations [Delta], a pool's [p*]
       real(dp) :: misfit_decay(2) = 1.0_dp            !! r_n and r_(n-1) of README.md (F43)
       real(dp) :: merging_ratio = 0.0_dp              !! of the shape: 0 for a point, 1 where neighbours touch
       integer :: degree = 0                           !! of the polynomials
       integer :: iterations = 0                       !! Gauss-Newton steps of all degrees
-      logical :: island = .false.                     !! above merging: the expansion is an island's gap
+      logical :: pool = .false.                     !! above merging: the expansion is a pool's gap
       type(expansion) :: solution
       !> Solutions of the lower degrees that the estimates are from, the last one first, shape (1..most_previous).
       type(expansion), allocatable :: previous(:)
@@ -60,7 +60,7 @@ contains
       case (fitted_less_exact)
          text = 'solved, less exactly than asked for'
       case (fitted_merged)
-         text = 'neither separate spots nor separate islands'
+         text = 'neither separate spots nor separate pools'
       case (fitted_bad_input)
          text = 'load or accuracy out of range'
       case default

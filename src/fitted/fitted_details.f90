@@ -33,20 +33,20 @@ contains
       older = answer
       do k = 1, size(answer%previous)
          older%solution = answer%previous(k)
-         if (.not. answer%island) older%mean_gap = 1.0_dp - older%solution%approach
+         if (.not. answer%pool) older%mean_gap = 1.0_dp - older%solution%approach
          at(:, k) = fitted_separations(lattice, older)
       end do
       difference = abs(at(:, 0) - at(:, 1))
       previous_difference = huge(1.0_dp)
       if (size(answer%previous) > 1) previous_difference = abs(at(:, 1) - at(:, 2))
-      ! All but the gap inside an island are differences of numbers of order 1: their rounding is absolute.
+      ! All but the gap inside a pool are differences of numbers of order 1: their rounding is absolute.
       scale = 1.0_dp
-      if (answer%island) scale(1) = at(1, 0)
+      if (answer%pool) scale(1) = at(1, 0)
       ! One by one: the saddle may be about to close while the trough is wide open.
       do i = 1, size(values)
          call error_estimate(difference(i:i), previous_difference(i:i), answer%misfit_decay, scale(i:i), error(i:i))
       end do
-      if (answer%island) then
+      if (answer%pool) then
          ! A value of the expansion, where the others are integrals of it.
          call error_estimate(difference(1:1), previous_difference(1:1), at_point(answer%misfit_decay), scale(1:1), &
                              error(1:1))
@@ -56,7 +56,7 @@ contains
       end if
       error = error + abs(fitted_separations(lattice, answer, finer) - values)
       ! A gap in contact and a pressure outside of it are 0 by definition.
-      error(merge(2, 3, answer%island)) = 0.0_dp
+      error(merge(2, 3, answer%pool)) = 0.0_dp
    end subroutine find_fitted_details
 
 end module wavycon_fitted_details

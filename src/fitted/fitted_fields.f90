@@ -1,6 +1,6 @@
 !> Pressure, displacement and gap anywhere on the surface, from an expansion and without a grid.
 !>
-!> Places are from a crest, in s. Inside the spot or island the fields are the expansion and the condition of contact.
+!> Places are from a crest, in s. Inside the spot or pool the fields are the expansion and the condition of contact.
 !> Elsewhere they are integrals over the expansion and all its images: README.md (F2) and (F10). Those over near images
 !> are taken by fine rules or along rays, and those over all others by one coarse rule: README.md, section 12.
 module wavycon_fitted_fields
@@ -22,13 +22,13 @@ module wavycon_fitted_fields
    type :: fitted_fields
       type(wave_lattice) :: lattice
       type(fitted_answer) :: answer
-      complex(dp) :: centre = 0.0_dp                     !! of the spot or the island [s]
+      complex(dp) :: centre = 0.0_dp                     !! of the spot or the pool [s]
       integer :: places = 1                              !! in a cell: the centre and, if there are two, -centre
-      complex(dp), allocatable, private :: image(:)      !! centres of the spot or island, 0, and of its near images [s]
+      complex(dp), allocatable, private :: image(:)      !! centres of the spot or pool, 0, and of its near images [s]
       type(spot_integral), private :: spot
       type(disc_sources), private :: sources             !! those of its rule at far_level
       ! For maps.
-      type(exterior_series), allocatable :: series       !! of the spot or island
+      type(exterior_series), allocatable :: series       !! of the spot or pool
       type(even_polynomial), private :: far(2)           !! of all but the near images: even in x, and odd over x
    contains
       procedure :: at
@@ -55,7 +55,7 @@ contains
       if (present(accuracy)) asked = accuracy
       fields%lattice = lattice
       fields%answer = answer
-      if (answer%island) then
+      if (answer%pool) then
          fields%centre = lattice%trough
          fields%places = lattice%troughs
       end if
@@ -84,12 +84,12 @@ contains
       gap = 0.0_dp
       without_gap = 1.0_dp - self%answer%mean_gap - self%lattice%undeformed_gap(place)
       displacement = without_gap
-      ! The second island of a cell is the first one turned by half a turn about a crest, with all its fields.
+      ! The second pool of a cell is the first one turned by half a turn about a crest, with all its fields.
       do i = 1, self%places
          z(i) = self%lattice%rows%reduced(merge(place, -place, i == 1) - self%centre)
          call self%find_inside(z(i), w, inside)
          if (.not. inside) cycle
-         if (self%answer%island) then
+         if (self%answer%pool) then
             gap = self%answer%solution%at(w)
             displacement = gap + without_gap
          else
@@ -97,7 +97,7 @@ contains
          end if
          return
       end do
-      if (self%answer%island) then
+      if (self%answer%pool) then
          pressure = self%answer%pbar_over_pstar - self%lattice%closing_pressure &
             + self%lattice%pressure_rise(place - self%lattice%trough)
          do i = 1, self%places
@@ -109,7 +109,7 @@ contains
       end if
    end subroutine at
 
-   !> Whether a place is inside the spot or island at the centre, or inside a near image of it; and its preimage there.
+   !> Whether a place is inside the spot or pool at the centre, or inside a near image of it; and its preimage there.
    pure subroutine find_inside(self, z, w, inside)
       class(fitted_fields), intent(in) :: self
       complex(dp), intent(in) :: z          !! from the centre, reduced [s]
@@ -118,14 +118,14 @@ contains
 
       integer :: k
 
-      ! Long spots and islands of a rhombic lattice reach beyond the rectangle that places are reduced to.
+      ! Long spots and pools of a rhombic lattice reach beyond the rectangle that places are reduced to.
       do k = 1, size(self%image)
          call self%spot%find_inside(z - self%image(k), w, inside)
          if (inside) return
       end do
    end subroutine find_inside
 
-   !> What one spot or island and all its images add to the displacement [Delta] or the pressure [pi E* Delta/s] at a
+   !> What one spot or pool and all its images add to the displacement [Delta] or the pressure [pi E* Delta/s] at a
    !> place outside of all.
    real(dp) function sum_over_images(self, z) result(total)
       class(fitted_fields), intent(inout) :: self
@@ -160,7 +160,7 @@ contains
 
       x = z%re - self%sources%x
       y = z%im - self%sources%y
-      if (self%answer%island) then
+      if (self%answer%pool) then
          call self%lattice%pressure_kernel%evaluate(size(x), x, y, value)
          value = -value/(4*pi**2)
       else
@@ -177,7 +177,7 @@ contains
       total = total + of_centre(1) - removed(1)
    end function coarse_sum
 
-   !> Prepares for many places: a series of the spot or island itself and of its near images, and a polynomial of the
+   !> Prepares for many places: a series of the spot or pool itself and of its near images, and a polynomial of the
    !> others. Without such a series, or for few places, each place is evaluated for itself.
    subroutine prepare_map(self, accuracy, places)
       class(fitted_fields), intent(inout) :: self
@@ -193,7 +193,7 @@ contains
       integer :: i, j
 
       associate (answer => self%answer)
-         outside = places*merge(answer%area_fraction, 1.0_dp - answer%area_fraction, answer%island)
+         outside = places*merge(answer%area_fraction, 1.0_dp - answer%area_fraction, answer%pool)
          if (outside < least_map) return
          allocate (self%series)
          call start_exterior_series(self%series, answer%solution, max(share*accuracy, least), nint(0.5_dp*outside), &
@@ -203,7 +203,7 @@ contains
             return
          end if
          ! Displacements are of order 1, pressures of the order of their peak.
-         tolerance = merge(answer%peak_pressure, 1.0_dp, answer%island)*max(share*accuracy, least)
+         tolerance = merge(answer%peak_pressure, 1.0_dp, answer%pool)*max(share*accuracy, least)
       end associate
       none = .false.
       associate (rows => self%lattice%rows)
@@ -264,7 +264,7 @@ contains
       call fields%at(lattice%saddle, values(3), displacement, values(2))
    end function fitted_separations
 
-   !> Points of the edge, once around the spot or island.
+   !> Points of the edge, once around the spot or pool.
    function edge(self, points) result(z)
       class(fitted_fields), intent(in) :: self
       integer, intent(in) :: points

@@ -14,11 +14,11 @@ module wavycon_fitted_measures
 
    !> The order of the measures in an array, and their number.
    integer, parameter, public :: gap_measure = 1        !! mean gap G [Delta]
-   integer, parameter, public :: area_measure = 2       !! area of one spot or island [s^2]
+   integer, parameter, public :: area_measure = 2       !! area of one spot or pool [s^2]
    integer, parameter, public :: peak_measure = 3       !! pressure at a crest [pi E* Delta/s]
-   integer, parameter, public :: centre_measure = 4     !! a spot's peak pressure; an island's gap at its trough [Delta]
+   integer, parameter, public :: centre_measure = 4     !! a spot's peak pressure; a pool's gap at its trough [Delta]
    integer, parameter, public :: energy_measure = 5     !! half the integral of p u over a cell [Delta s^2]
-   integer, parameter, public :: perimeter_measure = 6  !! of one spot or island [s]
+   integer, parameter, public :: perimeter_measure = 6  !! of one spot or pool [s]
    integer, parameter, public :: all_measures = 6
 
 contains
@@ -39,21 +39,21 @@ contains
       measures(perimeter_measure) = now%shape%perimeter()
    end subroutine measure_expansion
 
-   !> G: 1 - delta of a spot, README.md (F5), the mean of an island's gap.
+   !> G: 1 - delta of a spot, README.md (F5), the mean of a pool's gap.
    real(dp) function mean_gap(equations, lattice, now)
       type(contact_equations), intent(in) :: equations
       type(wave_lattice), intent(in) :: lattice
       type(expansion), intent(in) :: now
 
-      if (now%island) then
+      if (now%pool) then
          mean_gap = lattice%troughs*equations%integral(now)/lattice%area
       else
          mean_gap = 1.0_dp - now%approach
       end if
    end function mean_gap
 
-   !> Pressure at a crest, where it is highest. Between islands it is that of full contact less 1/(4 pi^2) times the
-   !> integral of the Laplacian of Gp and the gap, README.md (F45). The islands of a cell are mirror images about the
+   !> Pressure at a crest, where it is highest. Between pools it is that of full contact less 1/(4 pi^2) times the
+   !> integral of the Laplacian of Gp and the gap, README.md (F45). The pools of a cell are mirror images about the
    !> crest, so that each contributes the same.
    real(dp) function peak_pressure(equations, lattice, load, now)
       type(contact_equations), intent(in) :: equations
@@ -65,7 +65,7 @@ contains
       complex(dp), allocatable :: from_crest(:)
       real(dp), allocatable :: value(:)
 
-      if (.not. now%island) then
+      if (.not. now%pool) then
          peak_pressure = now%at_centre()
          return
       end if
@@ -95,7 +95,7 @@ contains
       complex(dp) :: z(size(equations%rule%point))
 
       z = now%shape%place(equations%rule%point)
-      if (now%island) then
+      if (now%pool) then
          associate (rise => lattice%pressure_rise(z) - lattice%closing_pressure, &
                     full => 0.5_dp*lattice%area*sum(lattice%amplitude*lattice%pressure))
             energy = 0.5_dp*(full + lattice%troughs*equations%integral(now, rise) &

@@ -47,36 +47,36 @@ contains
       type(fitted_answer), intent(in), optional :: start
          !! of another load of the same lattice, not the same variable as `answer`; saves time where the load is near
       logical, intent(in), optional :: fields
-         !! whether an island's gap at its trough is to be as accurate, as fields need it; false if absent
+         !! whether a pool's gap at its trough is to be as accurate, as fields need it; false if absent
 
-      logical :: first_is_island
+      logical :: first_is_pool
 
       answer%pbar_over_pstar = pbar_over_pstar
       answer%status = fitted_bad_input
       if (ieee_is_nan(pbar_over_pstar) .or. ieee_is_nan(accuracy)) return
       if (.not. (pbar_over_pstar > 0.0_dp .and. pbar_over_pstar < lattice%closing_pressure)) return
       if (.not. accuracy > 0.0_dp) return
-      first_is_island = pbar_over_pstar > lattice%about_merging
+      first_is_pool = pbar_over_pstar > lattice%about_merging
       if (present(start)) then
-         ! Spots that have merged at a lighter load have merged at this one; islands apart at a heavier one are apart.
+         ! Spots that have merged at a lighter load have merged at this one; pools apart at a heavier one are apart.
          if (start%status <= fitted_less_exact .and. &
-             (start%island .eqv. pbar_over_pstar >= start%pbar_over_pstar)) first_is_island = start%island
+             (start%pool .eqv. pbar_over_pstar >= start%pbar_over_pstar)) first_is_pool = start%pool
       end if
-      call solve_regime(lattice, accuracy, first_is_island, answer, start, fields)
+      call solve_regime(lattice, accuracy, first_is_pool, answer, start, fields)
       ! A start with sharp tips may not lead to a much rounder shape.
       if (answer%status >= fitted_merged .and. present(start)) then
-         if (is_start(lattice, start, pbar_over_pstar, first_is_island)) &
-            call solve_regime(lattice, accuracy, first_is_island, answer, fields=fields)
+         if (is_start(lattice, start, pbar_over_pstar, first_is_pool)) &
+            call solve_regime(lattice, accuracy, first_is_pool, answer, fields=fields)
       end if
       if (answer%status >= fitted_merged) &
-         call solve_regime(lattice, accuracy, .not. first_is_island, answer, start, fields)
+         call solve_regime(lattice, accuracy, .not. first_is_pool, answer, start, fields)
    end subroutine solve_fitted
 
-   !> Solves as a spot or as an island, by degrees.
-   subroutine solve_regime(lattice, accuracy, island, answer, start, fields)
+   !> Solves as a spot or as a pool, by degrees.
+   subroutine solve_regime(lattice, accuracy, pool, answer, start, fields)
       type(wave_lattice), intent(in) :: lattice
       real(dp), intent(in) :: accuracy
-      logical, intent(in) :: island
+      logical, intent(in) :: pool
       type(fitted_answer), intent(inout) :: answer   !! its load is set
       type(fitted_answer), intent(in), optional :: start
       logical, intent(in), optional :: fields
@@ -89,14 +89,14 @@ contains
       integer :: degree, failed, required
       logical :: merged, valid
 
-      answer%island = island
+      answer%pool = pool
       answer%status = fitted_failed
       answer%iterations = 0
       required = peak_measure
-      if (present(fields)) required = merge(centre_measure, peak_measure, fields .and. island)
+      if (present(fields)) required = merge(centre_measure, peak_measure, fields .and. pool)
       ! Tolerance of the shape: a smaller one is rounding, a larger one shows in the differences between degrees.
       tolerance = min(max(0.1_dp*accuracy, 1e-13_dp), 1e-7_dp)
-      call start_at_load(lattice, answer%pbar_over_pstar, island, now, degree, answer%iterations, valid, merged, start)
+      call start_at_load(lattice, answer%pbar_over_pstar, pool, now, degree, answer%iterations, valid, merged, start)
       if (merged) answer%status = fitted_merged
       if (.not. valid) return
       ratio = merging_ratio(lattice, now)
@@ -147,7 +147,7 @@ contains
 
       ratio = merging_ratio(lattice, now)
       clustering = now%shape%clustering
-      if (lattice%square) clustering = next_clustering(clustering, ratio, now%island)
+      if (lattice%square) clustering = next_clustering(clustering, ratio, now%pool)
       now = now%resized(degree, shape_terms(degree, now%basis%fold, ratio), clustering)
    end subroutine resize
 
@@ -173,7 +173,7 @@ contains
       answer%mean_gap = history%measures(gap_measure)
       answer%area_fraction = history%measures(area_measure)/lattice%area
       answer%area_error = error(area_measure)/lattice%area
-      if (now%island) then
+      if (now%pool) then
          answer%area_fraction = 1.0_dp - lattice%troughs*answer%area_fraction
          answer%area_error = lattice%troughs*answer%area_error
       end if

@@ -50,17 +50,17 @@ contains
       do i = 1, ubound(stress%of_degree, 1)
          call start_expansion_stress(stress%of_degree(i), lattice, answer%previous(i), accuracy)
       end do
-      ! The area of one spot or island, and its error.
+      ! The area of one spot or pool, and its error.
       area = answer%solution%shape%area()
       area_error = answer%area_error*lattice%area
-      if (answer%island) area_error = area_error/lattice%troughs
+      if (answer%pool) area_error = area_error/lattice%troughs
       stress%relative_error = max(answer%peak_error/answer%peak_pressure, area_error/area)
       stress%edge_error = area_error/answer%perimeter
    end subroutine start_fitted_stress
 
    !> The stresses at a place, less those of the mean pressure.
    !>
-   !> N.B. On the surface inside an island the pressure is what the equations leave, not 0.
+   !> N.B. On the surface inside a pool the pressure is what the equations leave, not 0.
    subroutine at(self, place, depth, parts, error)
       class(fitted_stress), intent(inout) :: self
       complex(dp), intent(in) :: place             !! x + i y from a crest [s]

@@ -87,14 +87,14 @@ contains
       if (.not. (all(ieee_is_finite(equations%residual)) .and. all(ieee_is_finite(equations%matrix)))) return
       residual = maxval(abs(equations%residual))
       missing_load = 0.0_dp
-      if (.not. now%island) missing_load = load*lattice%area - equations%integral(now)
-      call least_squares_step(equations, .not. now%island, missing_load, step, misfit, finite)
+      if (.not. now%pool) missing_load = load*lattice%area - equations%integral(now)
+      call least_squares_step(equations, .not. now%pool, missing_load, step, misfit, finite)
       if (.not. finite) return
       associate (terms => now%basis%terms, before_shape => equations%before_shape)
          change = maxval(abs(step(before_shape + 1:)))/now%shape%b(0)
          part = min(1.0_dp, longest_shape_change/max(change, tiny(change)))
          now%c = now%c + part*step(:terms)
-         if (.not. now%island) now%approach = now%approach + part*step(terms + 1)
+         if (.not. now%pool) now%approach = now%approach + part*step(terms + 1)
          now%shape%b = now%shape%b + part*step(before_shape + 1:)
       end associate
       valid = now%shape%b(0) > 0.0_dp &

@@ -43,7 +43,7 @@ contains
    subroutine start_image_series(series, kernel, fold, radius, tolerance)
       type(image_series), intent(out) :: series
       type(periodic_kernel), intent(in) :: kernel
-      integer, intent(in) :: fold               !! of the symmetry of the lattice about a spot or island
+      integer, intent(in) :: fold               !! of the symmetry of the lattice about a spot or pool
       real(dp), intent(in) :: radius            !! R > 0 [s]
       real(dp), intent(in) :: tolerance
          !! > 0, error of F relative to its largest value; the error of the Laplacian, whose weight in the equations is

@@ -1,8 +1,8 @@
-!> What all other spots or islands of the lattice, and the mean, add to the equations of one of them: README.md,
+!> What all other spots or pools of the lattice, and the mean, add to the equations of one of them: README.md,
 !> section 7.
 !>
 !> Where it pays and is as accurate this is a series made once for a size of the shape, otherwise a sum with the kernel
-!> itself between all targets and sources. A cell with two islands has them too near to each other for the series.
+!> itself between all targets and sources. A cell with two pools has them too near to each other for the series.
 module wavycon_lattice_images
    use wavycon_disc_rule, only: disc_rule
    use wavycon_expansion, only: expansion
@@ -36,7 +36,7 @@ contains
 
       if (self%series%holds_for(now%shape)) return
       if (two_in_a_cell(lattice, now)) return
-      if (now%island) then
+      if (now%pool) then
          call start_image_series(self%series, lattice%pressure_kernel, now%basis%fold, growth*now%shape%radius(), &
                                  tolerance)
       else
@@ -72,25 +72,25 @@ contains
          call self%series%add_rows(now%shape, rule, values, now%c, target, rows, shape_rows)
          if (size(self%series%near%point, 2) > 0) &
             call add_image_sum(self%series%near, now%shape, rule, values, now%c, target, rows, shape_rows)
-      else if (now%island) then
+      else if (now%pool) then
          call add_image_sum(lattice%pressure_kernel, now%shape, rule, values, now%c, target, rows, shape_rows)
       else
          call add_image_sum(lattice%displacement_kernel, now%shape, rule, values, now%c, target, rows, shape_rows)
       end if
       if (two_in_a_cell(lattice, now)) then
-         ! None of the second islands is the target's own.
+         ! None of the second pools is the target's own.
          whole = lattice%pressure_kernel
          whole%whole = .true.
          call add_image_sum(whole, now%shape, rule, values, now%c, target, rows, shape_rows, opposite=2*lattice%trough)
       end if
    end subroutine add_rows
 
-   !> Whether a cell has a second island, the first one turned by half a turn about a crest.
+   !> Whether a cell has a second pool, the first one turned by half a turn about a crest.
    pure logical function two_in_a_cell(lattice, now)
       type(wave_lattice), intent(in) :: lattice
       type(expansion), intent(in) :: now
 
-      two_in_a_cell = now%island .and. lattice%troughs == 2
+      two_in_a_cell = now%pool .and. lattice%troughs == 2
    end function two_in_a_cell
 
 end module wavycon_lattice_images

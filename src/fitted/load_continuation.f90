@@ -8,7 +8,7 @@ module wavycon_load_continuation
    use wavycon_kinds, only: dp
    use wavycon_lattice_images, only: lattice_images
    use wavycon_merging_ratio, only: merging_ratio
-   use wavycon_start_expansion, only: crack_island, hertz_spot, scaled_to_load
+   use wavycon_start_expansion, only: crack_pool, hertz_spot, scaled_to_load
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
    private
@@ -24,12 +24,12 @@ contains
    !> An approximation at a load, and the degree to go on with.
    !>
    !> A solution of a load that is within one step is scaled to the load. Otherwise an asymptote is followed in steps
-   !> of the load to the one wanted: Hertz's for a spot, a penny-shaped crack for an island. Where it touches its
+   !> of the load to the one wanted: Hertz's for a spot, a penny-shaped crack for a pool. Where it touches its
    !> neighbours on the way, the regime has ended.
-   subroutine start_at_load(lattice, load, island, now, degree, iterations, found, merged, start)
+   subroutine start_at_load(lattice, load, pool, now, degree, iterations, found, merged, start)
       type(wave_lattice), intent(in) :: lattice
       real(dp), intent(in) :: load                    !! P
-      logical, intent(in) :: island                   !! the regime
+      logical, intent(in) :: pool                   !! the regime
       type(expansion), intent(out) :: now
       integer, intent(out) :: degree
       integer, intent(inout) :: iterations            !! Gauss-Newton steps are added
@@ -42,7 +42,7 @@ contains
       degree = first_degree
       merged = .false.
       if (present(start)) then
-         found = is_start(lattice, start, load, island)
+         found = is_start(lattice, start, load, pool)
          if (found) then
             now = scaled_to_load(lattice, start%solution, start%pbar_over_pstar, load)
             ! Degrees below the last load's, or a sweep would never come down to lower ones again.
@@ -50,9 +50,9 @@ contains
             return
          end if
       end if
-      if (island) then
+      if (pool) then
          first_load = max(load, heavy_load_start*lattice%closing_pressure)
-         now = crack_island(lattice, first_load)
+         now = crack_pool(lattice, first_load)
       else
          ! From heavier ones Newton's method would start too far off.
          first_load = min(load, 0.06_dp)
@@ -63,14 +63,14 @@ contains
 
    !> Whether a solution of another load is a start: in the same regime, within one step, and still apart from its
    !> neighbours when it is scaled to the load.
-   logical function is_start(lattice, start, load, island)
+   logical function is_start(lattice, start, load, pool)
       type(wave_lattice), intent(in) :: lattice
       type(fitted_answer), intent(in) :: start
       real(dp), intent(in) :: load                    !! P
-      logical, intent(in) :: island                   !! the regime
+      logical, intent(in) :: pool                   !! the regime
 
-      is_start = start%status <= fitted_less_exact .and. (start%island .eqv. island)
-      if (is_start) is_start = load_steps(lattice, start%pbar_over_pstar, load, island) <= 1
+      is_start = start%status <= fitted_less_exact .and. (start%pool .eqv. pool)
+      if (is_start) is_start = load_steps(lattice, start%pbar_over_pstar, load, pool) <= 1
       if (is_start) is_start = &
          merging_ratio(lattice, scaled_to_load(lattice, start%solution, start%pbar_over_pstar, load)) < 1.0_dp
    end function is_start
@@ -100,27 +100,27 @@ contains
          ! The start of a load that was solved has come to a ratio of 0.92 at most, of many next to merging.
          merged = merging_ratio(lattice, now) >= 1.0_dp
          found = .not. merged
-         if (merged .or. load_steps(lattice, load, last_load, now%island) == 0) exit
+         if (merged .or. load_steps(lattice, load, last_load, now%pool) == 0) exit
          next = last_load
-         if (load_steps(lattice, load, last_load, now%island) > 1) then
+         if (load_steps(lattice, load, last_load, now%pool) > 1) then
             next = load_step_ratio*load
-            if (now%island) next = lattice%closing_pressure - load_step_ratio*(lattice%closing_pressure - load)
+            if (now%pool) next = lattice%closing_pressure - load_step_ratio*(lattice%closing_pressure - load)
          end if
          now = scaled_to_load(lattice, now, load, next)
          load = next
       end do
    end subroutine follow_load
 
-   !> Number of steps from one load to the other: of the ratio of P or, for islands, of the closing pressure less P.
-   pure integer function load_steps(lattice, from, to, island) result(steps)
+   !> Number of steps from one load to the other: of the ratio of P or, for pools, of the closing pressure less P.
+   pure integer function load_steps(lattice, from, to, pool) result(steps)
       type(wave_lattice), intent(in) :: lattice
       real(dp), intent(in) :: from, to      !! P
-      logical, intent(in) :: island
+      logical, intent(in) :: pool
 
       real(dp) :: ratio
 
       ratio = to/from
-      if (island) ratio = (lattice%closing_pressure - to)/(lattice%closing_pressure - from)
+      if (pool) ratio = (lattice%closing_pressure - to)/(lattice%closing_pressure - from)
       steps = ceiling(abs(log(ratio))/log(load_step_ratio))
    end function load_steps
 

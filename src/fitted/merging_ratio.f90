@@ -1,4 +1,4 @@
-!> How close a spot or an island is to merging with its neighbours.
+!> How close a spot or a pool is to merging with its neighbours.
 module wavycon_merging_ratio
    use wavycon_expansion, only: expansion
    use wavycon_kinds, only: dp
@@ -12,7 +12,7 @@ module wavycon_merging_ratio
 
 contains
 
-   !> The part of the way to the midpoint towards the nearest neighbour that a spot or island takes up: 0 for a point, 1
+   !> The part of the way to the midpoint towards the nearest neighbour that a spot or pool takes up: 0 for a point, 1
    !> where it touches its neighbour, more where they overlap.
    pure real(dp) function merging_ratio(lattice, now) result(ratio)
       type(wave_lattice), intent(in) :: lattice
@@ -21,7 +21,7 @@ contains
       complex(dp), allocatable :: midpoints(:)
       integer :: i
 
-      if (now%island) then
+      if (now%pool) then
          allocate (midpoints, source=lattice%to_next_trough)
       else
          allocate (midpoints, source=lattice%to_next_crest)

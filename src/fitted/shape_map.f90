@@ -1,9 +1,9 @@
-!> The map of the unit disc to a contact spot or an open island,
+!> The map of the unit disc to a contact spot or an open pool,
 !>
 !>     z(w) = b_0 (w - tau w^(fold+1)) + sum over k = 1..K of b_k conj(w)^(fold k - 1),   README.md (F15).
 !>
 !> With tau = 0 and one term the edge is a hypotrochoid, with b_1 = b_0/(fold - 1) one with cusps such as the astroid.
-!> Spots and islands are very nearly such curves up to the load at which they merge, so that a few terms suffice. A
+!> Spots and pools are very nearly such curves up to the load at which they merge, so that a few terms suffice. A
 !> small tau, with b_1 larger by tau b_0, leaves the edge nearly as it is and clusters the images of the disc's points
 !> towards the tips, which become sharp near merging.
 !>

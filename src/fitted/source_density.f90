@@ -1,4 +1,4 @@
-!> What of an expansion is the source of fields: a spot's pressure, an island's gap or its gradient.
+!> What of an expansion is the source of fields: a spot's pressure, a pool's gap or its gradient.
 !>
 !> A pressure and the gradient of a gap are the root of 1 - |w|^2 times a smooth function, so that one rule serves both:
 !> README.md, section 13.

@@ -1,6 +1,6 @@
-!> Integrals over one spot or island for a place in the half-space or on its surface: README.md, section 12.
+!> Integrals over one spot or pool for a place in the half-space or on its surface: README.md, section 12.
 !>
-!> They are taken by the coarsest of some rules over the disc that resolves the kernel or, next to the spot or island,
+!> They are taken by the coarsest of some rules over the disc that resolves the kernel or, next to the spot or pool,
 !> along rays.
 module wavycon_spot_integral
    use wavycon_disc_sources, only: disc_sources, start_disc_sources
@@ -18,7 +18,7 @@ module wavycon_spot_integral
 
    !> Rules of rising fineness, before rays are taken.
    integer, parameter :: levels = 6
-   !> The rule for spots or islands that are far. The coarsest one leaves 1e-7 where sharp shapes have a low degree.
+   !> The rule for spots or pools that are far. The coarsest one leaves 1e-7 where sharp shapes have a low degree.
    integer, parameter, public :: far_level = 2
 
    type :: spot_integral
@@ -85,7 +85,7 @@ contains
       if (level <= levels) then
          if (.not. allocated(self%rules(level)%x)) &
             call start_disc_sources(self%rules(level), self%solution, &
-                                    self%solution%island .and. self%kernel == all_fields, self%radii(level), &
+                                    self%solution%pool .and. self%kernel == all_fields, self%radii(level), &
                                     self%angles(level))
          call self%rules(level)%add_at(self%kernel, z, depth, fields)
       else
@@ -97,7 +97,7 @@ contains
       end if
    end subroutine add_at
 
-   !> Whether the rule of far spots or islands resolves the kernel for a place on the surface.
+   !> Whether the rule of far spots or pools resolves the kernel for a place on the surface.
    pure logical function is_resolved(self, z)
       class(spot_integral), intent(in) :: self
       complex(dp), intent(in) :: z                        !! the place from the centre [s]
@@ -109,7 +109,7 @@ contains
       is_resolved = resolves(self%angles(far_level), self%radii(far_level), angular, radial, self%digits)
    end function is_resolved
 
-   !> Whether a place on the surface is inside the spot or island, and its preimage there.
+   !> Whether a place on the surface is inside the spot or pool, and its preimage there.
    pure subroutine find_inside(self, z, w, inside)
       class(spot_integral), intent(in) :: self
       complex(dp), intent(in) :: z                        !! from the centre [s]

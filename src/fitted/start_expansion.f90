@@ -9,7 +9,7 @@ module wavycon_start_expansion
    implicit none (type, external)
    private
 
-   public :: hertz_spot, crack_island, scaled_to_load
+   public :: hertz_spot, crack_pool, scaled_to_load
 
 contains
 
@@ -33,10 +33,10 @@ contains
 
    !> The opening of a penny-shaped crack at a trough, elliptical where the curvatures of the full contact's pressure
    !> differ: README.md (F42); paper, (24) and (A4)-(A8).
-   function crack_island(lattice, load) result(island)
+   function crack_pool(lattice, load) result(pool)
       type(wave_lattice), intent(in) :: lattice
       real(dp), intent(in) :: load  !! P < the closing pressure
-      type(expansion) :: island
+      type(expansion) :: pool
 
       real(dp) :: curvature(2), missing, radius
       integer :: i
@@ -45,21 +45,21 @@ contains
       missing = lattice%closing_pressure - load
       radius = sqrt(3*missing/sqrt(product(curvature)))
       ! Exact for slender ellipses.
-      island = ellipse(.true., lattice%trough_fold, radius, sqrt(curvature(1)/curvature(2)))
+      pool = ellipse(.true., lattice%trough_fold, radius, sqrt(curvature(1)/curvature(2)))
       ! The opening is g_0 (1 - rho^2)^(3/2), g_0 = (8/3) b (closing pressure - P), b the radius.
-      island%c(1) = 8*missing*radius/3*sqrt(0.4_dp*pi)
-   end function crack_island
+      pool%c(1) = 8*missing*radius/3*sqrt(0.4_dp*pi)
+   end function crack_pool
 
    !> An expansion of low degree without coefficients, over a circle or, with two-fold symmetry, an ellipse.
-   function ellipse(island, fold, radius, ratio) result(now)
-      logical, intent(in) :: island
+   function ellipse(pool, fold, radius, ratio) result(now)
+      logical, intent(in) :: pool
       integer, intent(in) :: fold          !! of the symmetry
       real(dp), intent(in) :: radius       !! mean of the semi-axes [s]
       real(dp), intent(in) :: ratio        !! of the axes along y and x
       type(expansion) :: now
 
-      now%island = island
-      call start_disc_polynomials(now%basis, fold, start_degree, merge(1.5_dp, 0.5_dp, island))
+      now%pool = pool
+      call start_disc_polynomials(now%basis, fold, start_degree, merge(1.5_dp, 0.5_dp, pool))
       allocate (now%c(now%basis%terms), source=0.0_dp)
       now%shape%fold = fold
       allocate (now%shape%b(0:1))
@@ -77,7 +77,7 @@ contains
       real(dp) :: factor
 
       scaled = from
-      if (from%island) then
+      if (from%pool) then
          factor = sqrt((lattice%closing_pressure - new_load)/(lattice%closing_pressure - old_load))
          scaled%c = from%c*factor**3
       else

@@ -33,12 +33,12 @@ contains
    !> N.B. On the surface, z = 0, no source may be at the place.
    pure subroutine add_sources(kernel, gap, n, x, y, z, strength_x, strength_y, fields)
       integer, intent(in) :: kernel                           !! all_fields or surface_field
-      logical, intent(in) :: gap                              !! whether they are of an island
+      logical, intent(in) :: gap                              !! whether they are of a pool
       integer, intent(in) :: n
       real(dp), intent(in) :: x(n), y(n)                      !! the place as seen from the sources [s]
       real(dp), intent(in) :: z                               !! depth >= 0 [s]
       real(dp), intent(in) :: strength_x(n), strength_y(n)
-         !! times area: a spot's pressure, or an island's gap for surface_field, and 0; the gap's gradient for
+         !! times area: a spot's pressure, or a pool's gap for surface_field, and 0; the gap's gradient for
          !! all_fields
       real(dp), intent(inout) :: fields(stress_fields)        !! of surface_field the first one
 

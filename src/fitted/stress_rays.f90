@@ -1,4 +1,4 @@
-!> Stresses near a spot or island, by integration along rays from its point next to the place: README.md, section 13.
+!> Stresses near a spot or pool, by integration along rays from its point next to the place: README.md, section 13.
 !>
 !> The rays start at w_0, the preimage of the place, or at a point of the edge where the place is outside. Directions
 !> and points are dense where the integrand varies fast: at directions along the edge if w_0 is near the edge, and on
@@ -52,7 +52,7 @@ contains
       end associate
    end subroutine start_stress_rays
 
-   !> Adds the fields of a spot or island at a place.
+   !> Adds the fields of a spot or pool at a place.
    subroutine add_at(self, solution, origin, offset, depth, fields)
       class(stress_rays), intent(inout) :: self
       type(expansion), intent(in) :: solution
@@ -79,7 +79,7 @@ contains
       normal = 1.0_dp
       if (abs(origin) > 0.0_dp) normal = origin/abs(origin)
       density = 0.0_dp
-      if (on_surface) call find_density(solution, solution%island, 1, [origin], [edge], density)
+      if (on_surface) call find_density(solution, solution%pool, 1, [origin], [edge], density)
       ! The integrand is singular at complex directions of imaginary part kappa, where the map's derivative vanishes.
       kappa = 0.5_dp*log(abs(slope(1))/max(abs(conjugate_slope(1)), tiny(1.0_dp)))
       rule = rule_for(self, (self%least_points + self%angles_per_unit*asinh(0.5_dp*pi/width)) &
@@ -96,7 +96,7 @@ contains
             end do
          end do
       end associate
-      if (on_surface .and. .not. solution%island) &
+      if (on_surface .and. .not. solution%pool) &
          fields(h_field) = fields(h_field) + density(1)%re*sqrt(edge) &
          /(slope(1)%re**2 + slope(1)%im**2 - (conjugate_slope(1)%re**2 + conjugate_slope(1)%im**2))
    end subroutine add_at
@@ -194,25 +194,25 @@ contains
          step = t*direction
          w = origin + step
          call place_differences(solution%shape, origin, n, step, w, difference)
-         gradient = solution%island .and. self%kernel == all_fields
+         gradient = solution%pool .and. self%kernel == all_fields
          call find_density(solution, gradient, n, w, root**2, density)
          ! dt = root dsigma, and the density's own root, of a gap itself its cube.
          at_t = weight*0.5_dp*(last - first)*node_weight*width*cosh(eta)*root
          density = density*(at_t*root*t)
-         if (solution%island .and. .not. gradient) density = density*root**2
+         if (solution%pool .and. .not. gradient) density = density*root**2
          difference = offset - difference
          x = difference%re
          y = difference%im
          strength = density%re
          own = 0.0_dp
          strength_y = density%im
-         call add_sources(self%kernel, solution%island, n, x, y, depth, strength, strength_y, own)
+         call add_sources(self%kernel, solution%pool, n, x, y, depth, strength, strength_y, own)
          if (on_surface) then
             ! Less 1/t times the value at t = 0, of which the integral to a small circle in z is known.
             squared_stretch = stretch%re**2 + stretch%im**2
             associate (remainder => weight*log(forward*sqrt(squared_stretch)/solution%shape%b(0)) - sum(at_t/t), &
                        at_origin => density_at_origin*sqrt(edge))
-               if (solution%island) then
+               if (solution%pool) then
                   kernel = -conjg(stretch)*at_origin/sqrt(squared_stretch)**3/(4*pi**2)
                   own(h_field) = own(h_field) + remainder*kernel%re
                   kernel = stretch*at_origin/sqrt(squared_stretch)**3/(4*pi**2)

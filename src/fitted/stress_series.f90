@@ -1,4 +1,4 @@
-!> Stresses below all spots or islands of a lattice as a Fourier series: README.md (F55).
+!> Stresses below all spots or pools of a lattice as a Fourier series: README.md (F55).
 !>
 !> All lattices here are even in x and in y about a crest, so that their series has the terms cos(k_x x) cos(k_y y)
 !> alone. Those of a lattice of shifted rows are those of the rectangle of two rows with an even sum of the numbers of

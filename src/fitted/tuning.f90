@@ -5,7 +5,7 @@
 !> scripts/constants measures the effect of a factor of 2 on time and error. Mathematical constants and rounding
 !> thresholds are declared where they are used.
 !>
-!> The merging ratio is 0 for a point and 1 for a spot or an island that touches its neighbours. Loads are in units of
+!> The merging ratio is 0 for a point and 1 for a spot or a pool that touches its neighbours. Loads are in units of
 !> the pressure that closes the lattice's troughs, where nothing else is said.
 module wavycon_fitted_tuning
    use wavycon_kinds, only: dp
@@ -64,13 +64,13 @@ module wavycon_fitted_tuning
    integer, parameter, public :: spot_extra_radii = 4
       !! Collocation radii of a spot beyond half the degree. At least two more than round functions have terms, or any
       !! size of a spot would do. Larger: more expensive steps.
-   integer, parameter, public :: island_extra_radii = 5
-      !! The same of an island.
+   integer, parameter, public :: pool_extra_radii = 5
+      !! The same of a pool.
    integer, parameter, public :: spot_extra_angles = 1
       !! Collocation angles of a spot beyond degree/fold. Smaller: terms with the highest harmonic are not determined.
       !! Larger: more expensive steps.
-   integer, parameter, public :: island_extra_angles = 2
-      !! The same of an island.
+   integer, parameter, public :: pool_extra_angles = 2
+      !! The same of a pool.
    real(dp), parameter, public :: sharp_quadrature_ratio = 0.7_dp
       !! Merging ratio from which quadrature is finer. Larger: the quadrature's error shows. Smaller: points that are
       !! not needed.
@@ -110,9 +110,9 @@ module wavycon_fitted_tuning
    real(dp), parameter, public :: spot_clustering_power = 4.0_dp
       !! Power of the merging ratio with which it falls off. Smaller: clustering away from merging, which costs
       !! degrees. Larger: none where it would help.
-   real(dp), parameter, public :: island_clustering = 0.095_dp
-      !! Clustering of an island at merging. As of a spot.
-   real(dp), parameter, public :: island_clustering_power = 17.0_dp
+   real(dp), parameter, public :: pool_clustering = 0.095_dp
+      !! Clustering of a pool at merging. As of a spot.
+   real(dp), parameter, public :: pool_clustering_power = 17.0_dp
       !! Power with which it falls off. As of a spot.
    real(dp), parameter, public :: least_clustering = 0.004_dp
       !! Clustering below which none is used. Smaller values cost a Newton step and do not improve the area. Larger:
@@ -124,7 +124,7 @@ module wavycon_fitted_tuning
       !! The misfit is not taken to fall by more than this from degree to degree. Smaller: estimates that are too small
       !! where it falls faster than the errors. Larger: a degree more than needed.
    real(dp), parameter, public :: fastest_decay_at_point = 0.3_dp
-      !! The same of values at a point. With 0.2 the gap at an island's trough is as far off as its estimate allows.
+      !! The same of values at a point. With 0.2 the gap at a pool's trough is as far off as its estimate allows.
    real(dp), parameter, public :: previous_difference_share = 0.5_dp
       !! Part of the difference before, carried on by the decay of the misfit, that a difference counts as at least.
       !! Smaller: a difference that is small by chance is believed. Larger: a degree more than needed.
@@ -140,7 +140,7 @@ module wavycon_fitted_tuning
    ! Fields.
 
    real(dp), parameter, public :: field_accuracy = 1e-12_dp
-      !! Accuracy of the integrals over spots or islands over the fields' scale. Larger: the error of rules and rays
+      !! Accuracy of the integrals over spots or pools over the fields' scale. Larger: the error of rules and rays
       !! shows in fields. Smaller: more expensive fields.
 
    integer, parameter, public :: least_map = 150
@@ -150,10 +150,10 @@ module wavycon_fitted_tuning
    ! Stresses in the half-space.
 
    real(dp), parameter, public :: series_depth = 0.3_dp
-      !! Depth from which stresses are Fourier series [s]. Smaller: longer series. Larger: rules over spots or islands,
+      !! Depth from which stresses are Fourier series [s]. Smaller: longer series. Larger: rules over spots or pools,
       !! and a table of the far ones, to a larger depth.
    real(dp), parameter, public :: near_clearance = 0.8_dp
-      !! Spots or islands are summed one by one within this distance from the cell [s]. Smaller: a larger table of the
+      !! Spots or pools are summed one by one within this distance from the cell [s]. Smaller: a larger table of the
       !! others. Larger: more of them at every place.
    real(dp), parameter, public :: far_top = 0.12_dp
       !! Least depth of the table's nodes [s]. Smaller: longer series for its values. Larger: rounding grows more
@@ -163,7 +163,7 @@ module wavycon_fitted_tuning
 
    real(dp), parameter, public :: rule_angles_per_degree = 2.0_dp
       !! Angles of the coarsest rule over the disc, over the degree. Smaller: the expansion is not resolved near
-      !! merging. Larger: more points for every spot or island near by.
+      !! merging. Larger: more points for every spot or pool near by.
    real(dp), parameter, public :: rule_radii_per_degree = 0.5_dp
       !! The same of its radii.
    real(dp), parameter, public :: rule_fineness = 1.6_dp
@@ -175,7 +175,7 @@ module wavycon_fitted_tuning
       !! The same of radii.
    real(dp), parameter, public :: ray_points = 17.0_dp
       !! Points on a ray, and directions in a quarter of a turn, at an accuracy of 2e-12, beside the following. Smaller:
-      !! the quadrature's error shows next to spots and islands. Larger: slower rays.
+      !! the quadrature's error shows next to spots and pools. Larger: slower rays.
    real(dp), parameter, public :: ray_points_per_degree = 0.2_dp
       !! More of both for each degree.
    real(dp), parameter, public :: ray_angles_per_unit = 4.8_dp

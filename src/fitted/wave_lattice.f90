@@ -36,14 +36,14 @@ module wavycon_wave_lattice
       logical :: square = .true.                     !! whether it is the square lattice
       real(dp) :: area = 1.0_dp                      !! of a cell [s^2]
       real(dp) :: closing_pressure = 1.0_dp          !! mean pressure that just closes the troughs, p* (F7)
-      real(dp) :: about_merging = 0.0_dp             !! mean pressure near which spots merge and islands separate
+      real(dp) :: about_merging = 0.0_dp             !! mean pressure near which spots merge and pools separate
       real(dp), allocatable :: wave(:, :)            !! k_i [1/s], shape (2, n)
       real(dp), allocatable :: amplitude(:)          !! a_i > 0 [Delta], shape (n)
       real(dp), allocatable :: pressure(:)           !! of each wave in full contact, a_i |k_i|, shape (n)
       complex(dp), allocatable :: phase(:)           !! of each wave at the trough, exp(2 pi i k_i.x), shape (n)
       complex(dp) :: saddle = 0.5_dp                 !! the lowest one between neighbouring crests, x + i y [s]
       complex(dp) :: trough = (0.5_dp, 0.5_dp)       !! x + i y [s]
-      !> Midpoints towards the neighbours that spots and islands may touch, one of each kind, from the crest and from
+      !> Midpoints towards the neighbours that spots and pools may touch, one of each kind, from the crest and from
       !> the trough [s].
       complex(dp), allocatable :: to_next_crest(:), to_next_trough(:)
       type(row_lattice) :: rows                      !! the crests
@@ -135,14 +135,14 @@ contains
                           hexagonal_merging - 2.0_dp/3)
    end function hexagonal_lattice
 
-   !> Sets what follows from waves, trough and midpoints between crests: the kernels and what islands need. On all
+   !> Sets what follows from waves, trough and midpoints between crests: the kernels and what pools need. On all
    !> lattices but the hexagonal one troughs have the same neighbours as crests, and all waves are lowest at the
    !> trough.
    subroutine finish_lattice(lattice, rows, at_merging)
       type(wave_lattice), intent(inout) :: lattice
       type(row_lattice), intent(in) :: rows          !! the crests
       real(dp), intent(in) :: at_merging
-         !! pressure of full contact at the midpoint between troughs where it is lowest, at the load at which islands
+         !! pressure of full contact at the midpoint between troughs where it is lowest, at the load at which pools
          !! merge, over the closing pressure
 
       complex(dp), allocatable :: middle(:)

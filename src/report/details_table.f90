@@ -17,7 +17,7 @@ module wavycon_details_table
 
    public :: details_table
 
-   !> The energy is per nominal area. The perimeter is that of one contact spot or, above merging, of one open island;
+   !> The energy is per nominal area. The perimeter is that of one contact spot or, above merging, of one open pool;
    !> the paper's cell has two of each.
    character(45), parameter :: columns(*) = [character(45) :: &
       'load[-]', 'pbar_over_pstar[-]', 'mean_gap_over_amplitude[-]', 'mean_gap_over_amplitude_error[-]', &

@@ -29,9 +29,9 @@ module wavycon_stress_tuning
    ! Start places of expansions. Fewer: a maximum may be missed. More: each is another place to evaluate.
 
    real(dp), parameter, public :: edge_ratios(*) = [0.5_dp, 0.9_dp, 1.0_dp, 1.1_dp, 1.4_dp]
-      !! Distances from the centre of a spot or island, over that of its edge.
+      !! Distances from the centre of a spot or pool, over that of its edge.
    real(dp), parameter, public :: depths_of_spot(*) = [0.0_dp, 0.1_dp, 0.25_dp, 0.5_dp, 0.9_dp]
-      !! Depths over the radius of a spot or island.
+      !! Depths over the radius of a spot or pool.
    real(dp), parameter, public :: depths_of_cell(*) = [0.03_dp, 0.07_dp, 0.12_dp, 0.2_dp]
       !! Depths over the distance of crests, where spots have merged.
 

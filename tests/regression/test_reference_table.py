@@ -93,7 +93,7 @@ class ReferenceTable:
             self.assertLess(abs(value - other), error + other_error)
             self.assertLess(error, digits_below*value)
             self.assertLess(other_error, digits_above*value)
-        # The loads next to merging lie between those of the last spots and the first island, and so do their values.
+        # The loads next to merging lie between those of the last spots and the first pool, and so do their values.
         last = max(load for load in self.table if load < self.merging_load)
         first = min(load for load in self.table if load > self.merging_load)
         self.assertLess(first - last, apart)

@@ -78,7 +78,7 @@ def grid_complaints(line, requested):
 def expansion_complaints(line, accuracy):
     """What is wrong with an expansion, and its worst violation over what is allowed; 0 if the check is less sharp.
 
-    Next to merging the pressure of an island is less accurate than mean gap, area and peak: its accuracy is the
+    Next to merging the pressure of a pool is less accurate than mean gap, area and peak: its accuracy is the
     residual reported."""
     contact, noise, tension, overlap, balance, reported, *errors = map(float, line[3:])
     accuracy = max(accuracy, *errors)

@@ -19,11 +19,11 @@ module stress_kkt_of_expansion
 
    !> Violations; pressures in pi E* Delta/s, s the cell's shorter side.
    type :: expansion_kkt
-      real(dp) :: contact = huge(1.0_dp)   !! largest |gap| of a spot [Delta], largest |pressure| of an island
+      real(dp) :: contact = huge(1.0_dp)   !! largest |gap| of a spot [Delta], largest |pressure| of a pool
       real(dp) :: noise = huge(1.0_dp)     !! change of `contact` with half as many rays
       real(dp) :: tension = huge(1.0_dp)   !! largest at random points
       real(dp) :: overlap = huge(1.0_dp)   !! likewise [Delta]
-      real(dp) :: balance = huge(1.0_dp)   !! of a spot's load, of an island's mean gap; relative, less its noise
+      real(dp) :: balance = huge(1.0_dp)   !! of a spot's load, of a pool's mean gap; relative, less its noise
    end type expansion_kkt
 
    !> Number of rays from a point, a multiple of four, and of points on a ray. Next to merging the number of rays limits
@@ -77,7 +77,7 @@ contains
          place = answer%solution%shape%place(farthest*sqrt(stream%uniform()) &
                                              *exp(cmplx(0.0_dp, 2*pi*stream%uniform(), dp)))
          call cast_rays(fields, place, ray)
-         if (answer%island) then
+         if (answer%pool) then
             violation = [bending(ewald, ray), bending(ewald, ray(::2))]
             if (lattice%troughs == 2) violation = violation + &
                [bending_of_other(ewald, ray, lattice%trough + place), &
@@ -98,7 +98,7 @@ contains
       end do
 
       call cast_rays(fields, (0.0_dp, 0.0_dp), ray)
-      if (answer%island) then
+      if (answer%pool) then
          violation = lattice%troughs*[moment(ray), moment(ray(::2))]/(lattice%area*answer%mean_gap) - 1.0_dp
       else
          violation = [moment(ray), moment(ray(::2))]/(lattice%area*answer%pbar_over_pstar) - 1.0_dp
@@ -106,7 +106,7 @@ contains
       kkt%balance = max(abs(violation(1)) - abs(violation(1) - violation(2)), 0.0_dp)
    end function check_expansion
 
-   !> Rays from a place inside a spot or an island, from its centre.
+   !> Rays from a place inside a spot or a pool, from its centre.
    subroutine cast_rays(fields, place, ray)
       type(fitted_fields), intent(inout) :: fields
       complex(dp), intent(in) :: place
@@ -127,7 +127,7 @@ contains
          ray(i)%weight = ray(i)%length*2*node*weight
          do j = 1, points
             call fields%at(fields%centre + place + ray(i)%distance(j)*ray(i)%direction, pressure, displacement, gap)
-            ray(i)%value(j) = merge(gap, pressure, fields%answer%island)
+            ray(i)%value(j) = merge(gap, pressure, fields%answer%pool)
          end do
       end do
    end subroutine cast_rays
@@ -169,7 +169,7 @@ contains
 
    end function way_out
 
-   !> Integral of the value over the spot or the island, about its centre.
+   !> Integral of the value over the spot or the pool, about its centre.
    pure real(dp) function moment(ray)
       type(ray_type), intent(in) :: ray(:)
 
@@ -219,7 +219,7 @@ contains
       bending = 2*pi/size(ray)*bending
    end function bending
 
-   !> The same of a cell's other island, this one turned by half a turn about a crest.
+   !> The same of a cell's other pool, this one turned by half a turn about a crest.
    real(dp) function bending_of_other(ewald, ray, place) result(bending)
       type(ewald_type), intent(in) :: ewald
       type(ray_type), intent(in) :: ray(:)
