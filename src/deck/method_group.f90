@@ -1,7 +1,7 @@
 !> The &method group: the solver and its parameters. Its keys are those of the solvers.
 module wavycon_method_group
    use wavycon_group_values, only: group_values
-   use wavycon_key_alternatives, only: alternative_group, check_alternatives
+   use wavycon_key_alternatives, only: alternative_group, alternative_type, check_alternatives
    use wavycon_key_table, only: key_group_type
    use wavycon_problems, only: problem_list_type
    use wavycon_method_list, only: default_solver, get_methods, method_of, number_of_methods, refusal, solvers_for
@@ -18,11 +18,13 @@ contains
    function method_table() result(table)
       type(key_group_type) :: table
 
+      type(alternative_type) :: alternatives(number_of_methods)
       type(solver_method) :: methods(number_of_methods)
 
       call get_methods(methods)
+      alternatives = methods%alternative_type
       table = alternative_group('method', 'how the contact is computed', 'solver', 'by the surface', &
-                                methods%alternative_type, required=.false.)
+                                alternatives, required=.false.)
    end function method_table
 
    !> Sets the defaults that depend on the surface and checks the keys against the solver.

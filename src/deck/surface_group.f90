@@ -3,7 +3,7 @@ module wavycon_surface_group
    use wavycon_error, only: error_type
    use wavycon_group_values, only: group_values
    use wavycon_height_map_kind, only: surface_of_heights
-   use wavycon_key_alternatives, only: alternative_group, check_alternatives
+   use wavycon_key_alternatives, only: alternative_group, alternative_type, check_alternatives
    use wavycon_key_table, only: key_group_type
    use wavycon_kinds, only: dp
    use wavycon_map_statistics, only: map_statistics
@@ -28,11 +28,13 @@ contains
    function surface_table() result(table)
       type(key_group_type) :: table
 
+      type(alternative_type) :: alternatives(number_of_kinds)
       type(surface_kind) :: kinds(number_of_kinds)
 
       call get_surface_kinds(kinds)
-      table = alternative_group('surface', 'which waves or heights the bodies carry', 'kind', '', &
-                                kinds%alternative_type, required=.true.)
+      alternatives = kinds%alternative_type
+      table = alternative_group('surface', 'which waves or heights the bodies carry', 'kind', '', alternatives, &
+                                required=.true.)
    end function surface_table
 
    !> Checks the keys against the kind and sets the defaults that depend on it.

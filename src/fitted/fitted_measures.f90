@@ -63,7 +63,7 @@ contains
 
       type(periodic_kernel) :: kernel
       complex(dp), allocatable :: from_crest(:)
-      real(dp), allocatable :: value(:)
+      real(dp), allocatable :: value(:), x(:), y(:)
 
       if (.not. now%pool) then
          peak_pressure = now%at_centre()
@@ -73,8 +73,10 @@ contains
       kernel%whole = .true.
       associate (points => equations%rule%point, copies_of_each => 2*now%basis%fold)
          from_crest = lattice%trough + copies(now%basis%fold, now%shape%place(points))
-         allocate (value(size(from_crest)))
-         call kernel%evaluate(size(value), from_crest%re, from_crest%im, value)
+         x = from_crest%re
+         y = from_crest%im
+         allocate (value(size(x)))
+         call kernel%evaluate(size(x), x, y, value)
          ! The rule's points are those of one sector: the mean over their copies is taken.
          value = sum(reshape(value, [size(points), copies_of_each]), 2)/copies_of_each
       end associate

@@ -37,8 +37,10 @@ contains
 
       character(:), allocatable :: meanings
       type(key_type), allocatable :: keys(:)
+      character(len(alternatives%name)) :: names(size(alternatives))
       integer :: i, k, own
 
+      names = alternatives%name
       allocate (keys(0))
       meanings = ''
       do i = 1, size(alternatives)
@@ -58,7 +60,7 @@ contains
             end associate
          end do
       end do
-      group = key_group(name, meaning, [choice_key(selector, default, meanings, alternatives%name, required), keys], &
+      group = key_group(name, meaning, [choice_key(selector, default, meanings, names, required), keys], &
                         required)
       group%selector = selector
    end function alternative_group
@@ -70,9 +72,11 @@ contains
       character(:), allocatable :: words
 
       character(meaning_length) :: meaning(size(alternatives))   ! empty where an alternative does not read the key
+      character(len(alternatives%name)) :: names(size(alternatives))
       logical :: same(size(alternatives))
       integer :: i, k
 
+      names = alternatives%name
       meaning = ''
       do i = 1, size(alternatives)
          k = key_index(alternatives(i)%keys, key)
@@ -83,7 +87,7 @@ contains
          same = meaning == meaning(i)
          if (meaning(i) == '' .or. findloc(same, .true., dim=1) < i) cycle
          if (words /= '') words = words//' '
-         words = words//'Of '//listed(pack(alternatives%name, same), ' and ')//': '//trim(meaning(i))
+         words = words//'Of '//listed(pack(names, same), ' and ')//': '//trim(meaning(i))
       end do
    end function merged_meaning
 

@@ -107,7 +107,10 @@ contains
       logical, intent(in) :: selected(:)   !! of each
       character(:), allocatable :: words
 
-      words = listed(in_quotes(pack(methods%name, selected)), ' or ')
+      character(len(methods%name)) :: names(size(methods))
+
+      names = methods%name
+      words = listed(in_quotes(pack(names, selected)), ' or ')
    end function names_of
 
    !> Makes the solver that &method names and starts it. Not allocated if no solver has that name.
