@@ -166,14 +166,16 @@ contains
       class(row_exchange), allocatable :: exchange
       real(dp), allocatable :: height(:, :)
       type(grid_slab) :: lines, slab   ! of the file and of the map
+      integer :: across(2)             ! points along y and x
 
       call check_length(self, start, points, error)
       call slab%start(points, whole=.not. self%in_slabs)
       if (.not. allocated(error)) call check_room(self%path, points, error, slab)
       lines = slab
       if (by_columns) then
-         call lines%start(points(2:1:-1), whole=.true.)
-         if (slab%is_distributed) call lines%divide(points(2:1:-1))
+         across = [points(2), points(1)]
+         call lines%start(across, whole=.true.)
+         if (slab%is_distributed) call lines%divide(across)
       end if
       if (.not. allocated(error)) call read_lines(self, start, lines, by_columns, map%height, error)
       call slab%share_error(error)
