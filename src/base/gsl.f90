@@ -2,27 +2,17 @@
 !>
 !> Names, arguments and return values are the library's own.
 module wavycon_gsl
-   use, intrinsic :: iso_c_binding, only: c_double, c_funptr, c_int, c_long, c_null_funptr, c_null_ptr, &
-      c_ptr, c_size_t
+   use, intrinsic :: iso_c_binding, only: c_double, c_funptr, c_int, c_long, c_ptr, c_size_t
    implicit none (type, external)
    private
 
-   public :: gsl_function
    public :: gsl_sort_index
    public :: gsl_sf_legendre_pl_array, gsl_sf_zeta, gsl_sf_hzeta
-   public :: gsl_integration_workspace_alloc, gsl_integration_workspace_free
-   public :: gsl_integration_qaws_table_alloc, gsl_integration_qaws_table_free, gsl_integration_qaws
    public :: gsl_integration_fixed_jacobi, gsl_integration_fixed_alloc, gsl_integration_fixed_free
    public :: gsl_integration_fixed_nodes, gsl_integration_fixed_weights
    public :: gsl_rng_mt19937, gsl_rng_alloc, gsl_rng_set, gsl_rng_uniform, gsl_rng_free
    public :: gsl_interp_steffen, gsl_interp_alloc, gsl_interp_init, gsl_interp_eval, gsl_interp_free
    public :: return_gsl_errors
-
-   !> A real function of one real variable, with its parameters.
-   type, bind(c) :: gsl_function
-      type(c_funptr) :: function = c_null_funptr  !! double (*)(double x, void *params)
-      type(c_ptr) :: params = c_null_ptr
-   end type gsl_function
 
    !> The weight (b-x)^alpha (x-a)^beta of a fixed rule.
    type(c_ptr), protected, bind(c, name='gsl_integration_fixed_jacobi') :: gsl_integration_fixed_jacobi
@@ -54,42 +44,6 @@ module wavycon_gsl
          import :: c_double
          real(c_double), value :: s, q
       end function gsl_sf_hzeta
-
-      !> Workspace for n intervals of an adaptive quadrature; a null pointer if there is not enough memory.
-      type(c_ptr) function gsl_integration_workspace_alloc(n) bind(c, name='gsl_integration_workspace_alloc')
-         import :: c_ptr, c_size_t
-         integer(c_size_t), value :: n
-      end function gsl_integration_workspace_alloc
-
-      subroutine gsl_integration_workspace_free(w) bind(c, name='gsl_integration_workspace_free')
-         import :: c_ptr
-         type(c_ptr), value :: w
-      end subroutine gsl_integration_workspace_free
-
-      !> The weight (x-a)^alpha (b-x)^beta log^mu(x-a) log^nu(b-x), alpha, beta > -1, mu, nu = 0 or 1;
-      !> a null pointer if an argument is out of range or there is not enough memory.
-      type(c_ptr) function gsl_integration_qaws_table_alloc(alpha, beta, mu, nu) &
-         bind(c, name='gsl_integration_qaws_table_alloc')
-         import :: c_double, c_int, c_ptr
-         real(c_double), value :: alpha, beta
-         integer(c_int), value :: mu, nu
-      end function gsl_integration_qaws_table_alloc
-
-      subroutine gsl_integration_qaws_table_free(t) bind(c, name='gsl_integration_qaws_table_free')
-         import :: c_ptr
-         type(c_ptr), value :: t
-      end subroutine gsl_integration_qaws_table_free
-
-      !> Integral of f times the weight t over a..b, a < b; returns 0 on success.
-      integer(c_int) function gsl_integration_qaws(f, a, b, t, epsabs, epsrel, limit, workspace, &
-         result, abserr) bind(c, name='gsl_integration_qaws')
-         import :: c_double, c_int, c_ptr, c_size_t, gsl_function
-         type(gsl_function), intent(in) :: f
-         real(c_double), value :: a, b, epsabs, epsrel
-         type(c_ptr), value :: t, workspace
-         integer(c_size_t), value :: limit
-         real(c_double), intent(out) :: result, abserr
-      end function gsl_integration_qaws
 
       !> A Gauss rule of n nodes on a..b for one of the library's weights; a null pointer if an argument is out of range
       !> or there is not enough memory.

@@ -1,11 +1,9 @@
 !> Definite integrals, with algebraic singularities at the ends where there are any, by GSL's QAWS.
 module wavycon_quadrature
-   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_funloc, c_int, c_loc, c_ptr, &
-      c_size_t
+   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_funloc, c_funptr, c_int, c_loc, &
+      c_null_funptr, c_null_ptr, c_ptr, c_size_t
    use wavycon_error, only: error_type, exit_not_converged, fatal_error
-   use wavycon_gsl, only: gsl_function, gsl_integration_qaws, gsl_integration_qaws_table_alloc, &
-      gsl_integration_qaws_table_free, gsl_integration_workspace_alloc, gsl_integration_workspace_free, &
-      return_gsl_errors
+   use wavycon_gsl, only: return_gsl_errors
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
@@ -21,6 +19,50 @@ module wavycon_quadrature
          real(dp), intent(in) :: x
          real(dp), intent(in) :: parameters(:)
       end function integrand
+   end interface
+
+   !> A real function of one real variable, with its parameters.
+   type, bind(c) :: gsl_function
+      type(c_funptr) :: function = c_null_funptr  !! double (*)(double x, void *params)
+      type(c_ptr) :: params = c_null_ptr
+   end type gsl_function
+
+   interface
+      !> Workspace for n intervals of an adaptive quadrature; a null pointer if there is not enough memory.
+      type(c_ptr) function gsl_integration_workspace_alloc(n) bind(c, name='gsl_integration_workspace_alloc')
+         import :: c_ptr, c_size_t
+         integer(c_size_t), value :: n
+      end function gsl_integration_workspace_alloc
+
+      subroutine gsl_integration_workspace_free(w) bind(c, name='gsl_integration_workspace_free')
+         import :: c_ptr
+         type(c_ptr), value :: w
+      end subroutine gsl_integration_workspace_free
+
+      !> The weight (x-a)^alpha (b-x)^beta log^mu(x-a) log^nu(b-x), alpha, beta > -1, mu, nu = 0 or 1;
+      !> a null pointer if an argument is out of range or there is not enough memory.
+      type(c_ptr) function gsl_integration_qaws_table_alloc(alpha, beta, mu, nu) &
+         bind(c, name='gsl_integration_qaws_table_alloc')
+         import :: c_double, c_int, c_ptr
+         real(c_double), value :: alpha, beta
+         integer(c_int), value :: mu, nu
+      end function gsl_integration_qaws_table_alloc
+
+      subroutine gsl_integration_qaws_table_free(t) bind(c, name='gsl_integration_qaws_table_free')
+         import :: c_ptr
+         type(c_ptr), value :: t
+      end subroutine gsl_integration_qaws_table_free
+
+      !> Integral of f times the weight t over a..b, a < b; returns 0 on success.
+      integer(c_int) function gsl_integration_qaws(f, a, b, t, epsabs, epsrel, limit, workspace, &
+         result, abserr) bind(c, name='gsl_integration_qaws')
+         import :: c_double, c_int, c_ptr, c_size_t, gsl_function
+         type(gsl_function), intent(in) :: f
+         real(c_double), value :: a, b, epsabs, epsrel
+         type(c_ptr), value :: t, workspace
+         integer(c_size_t), value :: limit
+         real(c_double), intent(out) :: result, abserr
+      end function gsl_integration_qaws
    end interface
 
    !> The data of the C callback.
