@@ -179,8 +179,8 @@ contains
       note = ''
       if (is_parallel) &
          note = 'The RANKS processes share the work: large grids are divided among them, or else the loads.'// &
-               newline// &
-                'Each needs the memory of its part, and has N threads of its own. The results are those of'//newline// &
+                newline//'Each needs the memory of its part, and has N threads of its own. The results are those of'// &
+                newline// &
                 'wavycon.'//newline//newline
       text = 'wavycon: elastic contact of regular wavy surfaces, from namelist decks to tables.'//newline// &
              newline// &

@@ -44,7 +44,7 @@ module wavycon_fitted_source
       procedure :: on_grid
    end type fitted_contact_fields
 
-   !> Points of each edge curve.
+   !> Points of each contour.
    integer, parameter :: edge_points = 256
 
 contains

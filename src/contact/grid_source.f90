@@ -4,9 +4,9 @@ module wavycon_grid_source
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_fields, only: contact_fields
+   use wavycon_contact_contours, only: contact_contour, rotate_contours, shift_contour, strip_ends, trace_edges, &
+      whole_strips
    use wavycon_contact_measures, only: or_nan
-   use wavycon_contact_contours, only: contact_contour, shift_contour, strip_ends, trace_edges, rotate_contours, &
-         whole_strips
    use wavycon_field_source, only: field_source
    use wavycon_fourier_series, only: fourier_series
    use wavycon_grid_area, only: grid_strip_edges
@@ -17,12 +17,12 @@ module wavycon_grid_source
    use wavycon_kinds, only: dp
    use wavycon_measure_tuning, only: edge_offset
    use wavycon_region_numbers, only: region_numbers
+   use wavycon_rotated_series, only: to_difference_angles
    use wavycon_series_stress, only: series_stress, start_series_stress
    use wavycon_solution_record, only: solution_record
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type
    use wavycon_system, only: has_memory_for
-   use wavycon_rotated_series, only: to_difference_angles
    implicit none (type, external)
    private
 
@@ -30,8 +30,8 @@ module wavycon_grid_source
 
    type, extends(field_source) :: grid_source
       type(grid_edge), allocatable :: edge    !! pressure and gap at the grid points; always allocated
-      logical :: rotated = .false.             !! the grid's cell is the smaller one, rotated by 45 degrees
-      real(dp) :: residual_indentation = 0.0_dp            !! mean overlap where p = H [Delta] (C22)
+      logical :: rotated = .false.            !! the grid's cell is the smaller one, rotated by 45 degrees
+      real(dp) :: residual_indentation = 0.0_dp   !! mean overlap where p = H [Delta] (C22)
    contains
       procedure :: take_edge
       procedure :: fields
@@ -55,7 +55,7 @@ contains
 
       call move_alloc(edge, self%edge)
       self%distributed_points = merge(product(int(self%edge%slab%points, int64)), 0_int64, &
-            self%edge%slab%is_distributed)
+                                      self%edge%slab%is_distributed)
    end subroutine take_edge
 
    !> Gathers the pressures and gaps of a distributed grid on the rank that writes the tables.
@@ -88,8 +88,7 @@ contains
 
       allocate (own)
       call start_grid_fields(own, surface, self%edge, &
-            record%measures%mean_gap_over_amplitude - self%residual_indentation, &
-                             self%rotated)
+                             record%measures%mean_gap_over_amplitude - self%residual_indentation, self%rotated)
       call move_alloc(own, answer)
    end subroutine fields
 
@@ -166,8 +165,8 @@ contains
       call move_alloc(own, answer)
    end subroutine stresses
 
-   !> What a checkpoint keeps: the residual_indentation, the stiffness of `edge`, the points along x and y, the first of
-   !> the own columns, whether the cell is turned, whether the grid covers a quarter of it, and the pressures and gaps
+   !> What a checkpoint keeps: the residual indentation, the stiffness of `edge`, the points along x and y, the first of
+   !> the own columns, whether the cell is rotated, whether the grid covers a quarter of it, and the pressures and gaps
    !> at the own columns.
    pure subroutine pack_source(self, values)
       class(grid_source), intent(in) :: self

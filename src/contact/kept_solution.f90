@@ -42,7 +42,7 @@ contains
    !> columns of it: called for one after the other, in any order.
    subroutine unpack_solution(words, whole, solution, complete, understood)
       integer(int64), intent(in) :: words(:)
-      logical, intent(in) :: whole   !! whether this rank needs all columns of a grid that was spread
+      logical, intent(in) :: whole   !! whether this rank needs all columns of a grid that was distributed
       type(contact_solution), intent(inout) :: solution  !! without a source at first
       logical, intent(out) :: complete                   !! whether nothing is missing any more
       logical, intent(out) :: understood                 !! .false. if these are not the words of a solution

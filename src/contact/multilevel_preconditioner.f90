@@ -186,8 +186,8 @@ contains
       type(grid_slab), intent(in) :: part, slab
       real(sp), intent(inout), contiguous :: coarse(:, :)
 
-      if (part%is_distributed .and. .not. slab%is_distributed) call part%gather((coarse(:, part%first:part%last)), &
-            coarse)
+      if (part%is_distributed .and. .not. slab%is_distributed) &
+         call part%gather((coarse(:, part%first:part%last)), coarse)
    end subroutine complete
 
    !> The adjoint of `average`, added to a field.

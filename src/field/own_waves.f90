@@ -15,7 +15,7 @@ contains
       type(fourier_series), intent(in) :: series
 
       wave_slab = slab_of_waves(merge(series%distributed_waves, size(series%c, 1), series%is_distributed()), &
-            series%is_distributed())
+                                series%is_distributed())
    end function wave_slab
 
    type(grid_slab) function slab_of_waves(number, is_distributed) result(slab)

@@ -6,7 +6,7 @@
 module wavycon_far_stress
    use wavycon_chebyshev, only: chebyshev_coefficients, chebyshev_node, chebyshev_polynomials
    use wavycon_kinds, only: dp
-   use wavycon_lapack, only: dgemm, dgemv
+   use wavycon_lapack, only: dgemv
    use wavycon_stress_kernel, only: dh_field, h_field, hz_field, l_field, stress_fields, v_field
    implicit none (type, external)
    private

@@ -10,7 +10,7 @@ module wavycon_fitted_measures
    implicit none (type, external)
    private
 
-   public :: measure_expansion, mean_gap, peak_pressure, strain_energy
+   public :: measure_expansion, mean_gap, peak_pressure
 
    !> The order of the measures in an array, and their number.
    integer, parameter, public :: gap_measure = 1        !! mean gap G [Delta]

@@ -26,8 +26,7 @@ contains
       call check_number(points, trouble)
       if (.not. allocated(trouble)) &
          call fields_at(contents%owner%scene, contents%solution, int(points), array(x, points), array(y, points), &
-               trouble, &
-                        array(pressure, points), array(gap, points), array(displacement, points))
+                        trouble, array(pressure, points), array(gap, points), array(displacement, points))
       get_fields = close_call(error, trouble)
    end function get_fields
 
@@ -43,8 +42,7 @@ contains
       call find_object(solution, 'solution', contents, trouble)
       if (.not. allocated(trouble)) &
          call fields_on_grid(contents%owner%scene, contents%solution, [points_x, points_y], offset_at(offset), &
-               trouble, &
-                             grid(pressure, points_x, points_y), grid(gap, points_x, points_y), &
+                             trouble, grid(pressure, points_x, points_y), grid(gap, points_x, points_y), &
                              grid(displacement, points_x, points_y))
       get_grid = close_call(error, trouble)
    end function get_grid
@@ -88,8 +86,7 @@ contains
       if (.not. allocated(trouble)) then
          call c_f_pointer(stress, plane, [6, sides(points_x, points_y)])
          call stresses_on_plane(contents%owner%scene, contents%solution, [points_x, points_y], offset_at(offset), &
-               depth, &
-                                nu, word, plane, trouble, grid(stress_error, points_x, points_y))
+                                depth, nu, word, plane, trouble, grid(stress_error, points_x, points_y))
       end if
       get_stress_plane = close_call(error, trouble)
    end function get_stress_plane

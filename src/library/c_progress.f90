@@ -32,9 +32,8 @@ contains
       integer, intent(in) :: points(2), iterations, local_iterations, plain_iterations
       real(dp), intent(in) :: residual
 
-      associate (unused => self, also_unused => points, unused_too => [iterations, local_iterations, &
-            plain_iterations], &
-                 not_used => residual); end associate
+      associate (unused => self, also_unused => points, &
+                 unused_too => [iterations, local_iterations, plain_iterations], not_used => residual); end associate
    end subroutine grid_solved
 
    logical function shall_stop(self, iterations, residual)

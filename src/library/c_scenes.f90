@@ -1,11 +1,9 @@
 !> Scenes, their solutions and tables in the C interface. wavycon.h documents each procedure.
 module wavycon_c_scenes
    use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_f_procpointer, c_funptr, c_int, &
-         c_ptr, &
-      c_size_t
+      c_ptr, c_size_t
    use wavycon_c_handles, only: begin_call, check_pointers, close_call, close_new, close_text, find_object, handle_at, &
       handle_type, kind_of, not_a_handle, text_at
-   use wavycon_c_progress, only: progress_callback
    use wavycon_deck_run, only: run_deck
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_key_json, only: key_json
@@ -37,7 +35,7 @@ contains
       nullify (height)
       if (c_associated(heights) .and. min(points_x, points_y) < 1) then
          if (.not. allocated(trouble)) call fatal_error(trouble, exit_bad_input, &
-               'points_x and points_y must be 1 or more')
+                                                       'points_x and points_y must be 1 or more')
       else if (c_associated(heights)) then
          call c_f_pointer(heights, height, [points_x, points_y])
       end if

@@ -315,8 +315,8 @@ contains
       if (present(solved)) then
          i = solved%summary%find_column(name)
          if (i > 0) then
-            if (solved%summary%kinds(i) == of_words) words = trim(solved%summary%words(nint(solved%summary%values(i, &
-                  1))))
+            if (solved%summary%kinds(i) == of_words) &
+               words = trim(solved%summary%words(nint(solved%summary%values(i, 1))))
          end if
       else
          select case (name)

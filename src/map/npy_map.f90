@@ -5,7 +5,7 @@ module wavycon_npy_map
    use wavycon_error, only: error_type
    use wavycon_map_size, only: laid_along_x
    use wavycon_measured_map, only: measured_map
-   use wavycon_plain_text, only: excerpt, integer_text
+   use wavycon_plain_text, only: excerpt
    implicit none (type, external)
    private
 

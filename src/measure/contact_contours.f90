@@ -8,8 +8,8 @@ module wavycon_contact_contours
    implicit none (type, external)
    private
 
-   public :: contact_contour, keep_curves_of_quarter, shift_contour, strip_ends, trace_edges, rotate_contours, &
-         whole_strips
+   public :: contact_contour, keep_curves_of_quarter, rotate_contours, shift_contour, strip_ends, trace_edges, &
+      whole_strips
 
    !> A curve with the contact on its left. Its last point is the first again; that of a curve through the whole plane
    !> is one period on. In 1-D it is the two ends of a strip.

@@ -55,7 +55,7 @@ contains
       own%number_of_rows = merge(1, 0, columns_of > 0 .and. own%own_rows > 0)
       do i = 0, ranks - 1
          own%in_columns(i) = part_of(number, own%own_columns, numbers*rows_of(i), numbers*rows, &
-               bytes*sum(rows_of(:i - 1)))
+                                      bytes*sum(rows_of(:i - 1)))
          own%in_rows(i) = part_of(number, columns_of(i), numbers*own%own_rows, numbers*own%own_rows, &
                                   bytes*own%own_rows*sum(columns_of(:i - 1)))
       end do

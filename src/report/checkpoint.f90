@@ -311,7 +311,7 @@ contains
       load = int(words(1))
       if (known(load) .or. .not. results%sharing%is_own_load(load)) return
       call unpack_solution(words(2:), results%sharing%kind /= distributed_grids, results%loads(load), known(load), &
-            understood)
+                           understood)
    end subroutine take_solution
 
    !> A text that identifies what is solved: version, surface, and the resolved deck without the paths of deck and

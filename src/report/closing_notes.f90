@@ -47,7 +47,7 @@ contains
          end if
          if (scene%loads_by == by_yield .and. .not. results%traits%has_errors) call log%say( &
             "note: solver = '"//scene%method%text('solver')// &
-                  "' estimates no errors; a light load of first yield may "// &
+            "' estimates no errors; a light load of first yield may "// &
             "be wrong by a factor of 2. solver = 'auto' estimates them")
          if (scene%loads_by == by_yield .and. unreached > 0) call log%say('note: for '//integer_text(unreached)// &
             ' loads no mean pressure was found that brings the stresses to the given part of the yield stress')

@@ -241,7 +241,7 @@ contains
       kinds = ''
       if (local_iterations > 0) kinds = kinds//', '//integer_text(local_iterations)//' with the stencil'
       if (plain_iterations > 0) kinds = kinds//', '//integer_text(plain_iterations)// &
-            ' without multilevel preconditioner'
+                                           ' without multilevel preconditioner'
 
       call self%log%say_progress('load '//integer_text(self%load)//' of '//integer_text(self%loads)//': '// &
                                  integer_text(points(1))//' x '//integer_text(points(2))//' points, '// &

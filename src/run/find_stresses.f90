@@ -39,7 +39,7 @@ contains
                                           results%shear(body, load))
             end do
             call log%say_progress('stresses of '//integer_text(load)//' of '//integer_text(size(results%loads))// &
-                  ' loads')
+                                  ' loads')
          end do
       end associate
       if (.not. are_distributed) return

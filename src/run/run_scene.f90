@@ -3,7 +3,7 @@ module wavycon_run_scene
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_checkpoint, only: checkpoint_file, checkpoint_name, read_checkpoints
    use wavycon_closing_notes, only: sum_up
-   use wavycon_error, only: error_type, exit_file_trouble, exit_fine, exit_not_converged, fatal_error
+   use wavycon_error, only: error_type, exit_file_trouble, exit_fine, fatal_error
    use wavycon_find_stresses, only: find_stresses
    use wavycon_kinds, only: dp
    use wavycon_method_list, only: start_solver

@@ -5,8 +5,7 @@ module wavycon_work_sharing
    use wavycon_grid_slab, only: grid_slab
    use wavycon_plain_text, only: integer_text
    use wavycon_ranks, only: add_integers_over_ranks, any_rank, rank_count, ranks_on_this_machine, share_error, &
-         this_rank, &
-      work_alone
+      this_rank, work_alone
    use wavycon_system, only: available_memory
    implicit none (type, external)
    private

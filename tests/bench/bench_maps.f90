@@ -11,7 +11,6 @@ program bench_maps
    use wavycon_grid_contact, only: grid_contact, grid_options
    use wavycon_hexagonal, only: hexagonal
    use wavycon_kinds, only: dp
-   use wavycon_surface, only: surface_type
    use wavycon_wave_1d, only: wave_1d
    use wavycon_wave_2d, only: wave_2d
    implicit none (type, external)

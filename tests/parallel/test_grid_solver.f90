@@ -6,7 +6,6 @@ program test_grid_solver
    use, intrinsic :: iso_fortran_env, only: int64, output_unit
    use wavycon_compliance_operator, only: compliance_operator
    use wavycon_constants, only: pi
-   use wavycon_grid_slab, only: grid_slab
    use wavycon_grid_solver, only: grid_state, solve_on_grid
    use wavycon_kinds, only: dp
    use wavycon_local_stiffness, only: local_stiffness

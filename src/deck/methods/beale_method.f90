@@ -36,9 +36,8 @@ contains
                1, most_harmonics), &
             integer_key('constraint_points', 'in proportion to harmonics', &
                'equally spaced points on half a wavelength, ends included, in each direction, '// &
-                     'at which the pressure '// &
-               'is constrained. More than harmonics; at most 601 in 2-D. The default is 3 harmonics in 2-D '// &
-               "and 2.5 harmonics + 1 in 1-D: the paper's 27 for 9 and 26 for 10.", 2, &
+               'at which the pressure is constrained. More than harmonics; at most 601 in 2-D. The default is '// &
+               "3 harmonics in 2-D and 2.5 harmonics + 1 in 1-D: the paper's 27 for 9 and 26 for 10.", 2, &
                maxval(most_constraint_points)), &
             choice_key('symmetry', "'full'", &
                "in 2-D, symmetry of the pressure. 'full': alike in x and y and at both crests (29 unknowns, 196 "// &
@@ -47,7 +46,7 @@ contains
             choice_key('minimiser', "'dual'", &
                "how the minimum of the energy is found, which is one and the same. 'dual': Goldfarb and Idnani's "// &
                "method, from the load before; 'beale': Beale's method as in the paper, "// &
-                     "each load from an even pressure.", &
+               "each load from an even pressure.", &
                ['dual ', 'beale']), &
             real_key('edge_level', short_number(default%edge_level), 'p*', &
                'the isobar that is taken as the edge of contact.', above=0.0_dp, below=1.0_dp)])

@@ -116,11 +116,10 @@ contains
 
       call values%forbid(problems, 'accuracy', 'grid_points', 'give the one or the other')
       call values%forbid(problems, 'accuracy', 'residual', &
-            'grids solved to an accuracy have the residual that it takes')
+                         'grids solved to an accuracy have the residual that it takes')
       if (values%has('residual') .and. .not. values%has('accuracy') .and. all(points_of_grid(values, surface) == 0)) &
-         call values%complain(problems, 'residual', 'residual needs grid_points, '// &
-               'or a height map on its own points: '// &
-                              'other grids have the residual that their accuracy takes')
+         call values%complain(problems, 'residual', 'residual needs grid_points, or a height map on '// &
+                              'its own points: other grids have the residual that their accuracy takes')
       if (.not. surface%mirrored .and. any(mod(values%integers('grid_points'), 2) /= 0)) &
          call values%complain(problems, 'grid_points', &
          'grid_points must be even: of surfaces with mirror symmetry half of them are solved each way')
@@ -140,7 +139,7 @@ contains
          if (surface%dimension == 2) words = words//' x '//integer_text(points(2))
          words = words//' points'
          if (values%real('residual') > 0.0_dp) words = words//' to a residual of '// &
-               short_number(values%real('residual'))
+                                                    short_number(values%real('residual'))
       else
          words = 'grids refined until mean gap, area and peak pressure are within '// &
                  short_number(values%real('accuracy'))

@@ -1,7 +1,7 @@
 !> kind = 'file': a height map.
 module wavycon_height_map_kind
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-   use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
+   use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_group_values, only: group_values
    use wavycon_height_map, only: surface_of_map
    use wavycon_key_table, only: choice_key, real_key, text_key
@@ -118,7 +118,7 @@ contains
 
       if (values%text('kind') /= 'file') then
          call fatal_error(error, exit_bad_input, "heights in memory are for kind = 'file', not '"// &
-               values%text('kind')//"'")
+                          values%text('kind')//"'")
          return
       end if
       do i = 1, size(of_files)
@@ -158,7 +158,7 @@ contains
       if (.not. allocated(error)) call surface_of_map(source, &
          map_preparation(values%text('detrend'), values%text('fill_missing'), values%text('edges'), &
                          values%real('window_width')), values%real('height_scale'), length, heights, surface, map, &
-                               error)
+                         error)
       if (.not. allocated(error)) map%assumed_sides = assumed_sides
    end subroutine make_of
 
