@@ -29,7 +29,7 @@ module wavycon_correction_state
       real(dp) :: residual = huge(1.0_dp)         !! as `solve_on_grid`'s, times G
       real(dp) :: hardness = huge(1.0_dp)
       real(dp) :: contact_points = 0.0_dp
-      real(dp) :: changed_points = 0.0_dp         !! that left or entered the contact in the last iteration
+      real(dp) :: entered_points = 0.0_dp         !! since the last direction: they have p = 0 or p = H
       real(sp) :: approach = 0.0_sp               !! what is to be subtracted from `gap`
       real(sp) :: mean_gap = 0.0_sp               !! over the contact, before points enter
       real(sp) :: allowance = huge(1.0_sp)        !! the least overlap of points that enter
@@ -41,6 +41,7 @@ module wavycon_correction_state
    contains
       procedure :: start
       procedure :: put_residual
+      procedure :: exclude_blocked
       procedure :: displace
       procedure :: add_image
       procedure :: measure_gap
@@ -103,6 +104,54 @@ contains
       end do
    end subroutine put_residual
 
+   !> Excludes from the free points those that have just entered and that z would move beyond their bound (C4d).
+   subroutine exclude_blocked(self, field, blocked)
+      class(correction_state), intent(inout) :: self
+      real(sp), intent(in), contiguous :: field(:, :)   !! z, shape (M, slab%columns())
+      real(dp), intent(out) :: blocked                  !! how many points are excluded
+
+      real(dp) :: sums(2)
+      real(dp), allocatable :: parts(:, :)
+      real(sp) :: mean
+      real(sp), dimension(longest_chunk) :: contact, excluded, gap, z
+      integer :: c, n
+
+      blocked = 0.0_dp
+      if (self%entered_points <= 0.0_dp) return
+      allocate (parts(size(sums), self%region%chunks), source=0.0_dp)
+      !$omp parallel do num_threads(self%region%threads) private(contact, n, z)
+      do c = 1, self%region%chunks
+         associate (a => self%region%chunk(c), b => self%region%chunk(c + 1) - 1)
+            n = b - a + 1
+            call self%region%take_chunk(c, field, z)
+            contact(:n) = self%contact(a:b)
+            parts(1, c) = sdot(n, contact, 1, z, 1)
+         end associate
+      end do
+      sums = self%totals(parts)
+      mean = real(sums(1)/max(self%contact_points, 1.0_dp), sp)
+      !$omp parallel do num_threads(self%region%threads) private(contact, excluded, gap, n, z)
+      do c = 1, self%region%chunks
+         associate (a => self%region%chunk(c), b => self%region%chunk(c + 1) - 1)
+            n = b - a + 1
+            call self%region%take_chunk(c, field, z)
+            contact(:n) = self%contact(a:b)
+            excluded(:n) = merge(contact(:n), 0.0_sp, z(:n) > mean .and. &
+                                 self%start_pressure(a:b) + self%change(a:b) <= 0.0_sp)
+            if (allocated(self%room)) &
+               excluded(:n) = merge(contact(:n), excluded(:n), z(:n) < mean .and. self%room(a:b) <= self%change(a:b))
+            contact(:n) = contact(:n) - excluded(:n)
+            self%contact(a:b) = int(contact(:n), int8)
+            gap(:n) = self%gap(a:b) - self%approach
+            parts(:, c) = [sdot(n, excluded, 1, excluded, 1), sdot(n, contact, 1, gap, 1)]
+         end associate
+      end do
+      sums = self%totals(parts)
+      blocked = sums(1)
+      self%contact_points = self%contact_points - blocked
+      self%approach = self%approach + real(sums(2)/max(self%contact_points, 1.0_dp), sp)
+   end subroutine exclude_blocked
+
    !> Replaces a pressure by its displacement, at the points of the region.
    subroutine displace(self, half_space, field)
       class(correction_state), intent(in) :: self
@@ -139,7 +188,6 @@ contains
       end do
       in_contact = self%totals(parts)
       self%mean_gap = real(in_contact(2)/max(in_contact(1), 1.0_dp), sp)
-      self%changed_points = self%contact_points - in_contact(1)
       sums = self%measure_gap()
    end subroutine add_image
 
@@ -208,7 +256,7 @@ contains
       integer :: c
 
       self%contact_points = sums(1)
-      self%changed_points = self%changed_points + sums(5)
+      self%entered_points = sums(5)
       ! Without free points the approach stays: the next step finds it from all points.
       shift = sums(2)/max(sums(1), 1.0_dp)
       self%residual = self%scale*sqrt(max(sums(3) - sums(1)*shift**2 + sums(4), 0.0_dp) &

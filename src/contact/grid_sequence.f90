@@ -94,8 +94,7 @@ contains
             max(maxval(answer%errors), answer%area_at_hardness_error) <= accuracy
          if (present(progress)) &
             call progress%grid_solved(grid*merge(2, 1, surface%shape%is_even() .and. grid > 1)/surface%parts(), &
-                                      answer%state%iterations, answer%state%local_iterations, &
-                                      answer%state%plain_iterations, answer%state%residual)
+                                      answer%state%iterations, answer%state%residual)
          ! No finer grid starts from a solution that has not converged.
          if (answer%accurate .or. last .or. .not. answer%state%converged) exit
          grid = finer_grid(grid)

@@ -38,8 +38,6 @@ module wavycon_grid_solver
       real(dp) :: residual = huge(1.0_dp)       !! root mean square of the violated conditions on the gap, over G (C9)
       integer :: corrections = 0                !! steps
       integer :: iterations = 0                 !! of all corrections
-      integer :: local_iterations = 0           !! those of them preconditioned by the stencil
-      integer :: plain_iterations = 0           !! those without the multilevel preconditioner or the stencil
       logical :: converged = .false.
       logical :: interrupted = .false.          !! by `progress`: the gap is not allocated
       logical, private :: is_open = .true.      !! whether any point has no pressure; only with a hardness
@@ -67,8 +65,6 @@ contains
       last_residual = huge(1.0_dp)
       state%corrections = 0
       state%iterations = 0
-      state%local_iterations = 0
-      state%plain_iterations = 0
       do
          touched = any(state%pressure > 0.0_dp, dim=1)
          call compute_gap(half_space, undeformed_gap, touched, state)
@@ -108,8 +104,6 @@ contains
       state%corrections = state%corrections + 1
       ! A correction without iterations corrects the approach alone. It counts, so that the number of steps is limited.
       state%iterations = state%iterations + max(1, correction%iterations)
-      state%local_iterations = state%local_iterations + correction%preconditioner%local_iterations
-      state%plain_iterations = state%plain_iterations + correction%preconditioner%plain_iterations
    end subroutine correct_pressure
 
    !> The mean gap G [Delta], where overlaps count as zero; zero if no point is open.

@@ -71,7 +71,7 @@ contains
       class(local_stiffness), intent(inout) :: self   !! which exists
       type(contact_region), intent(in) :: region      !! of the own columns
       integer, intent(in) :: points(2)                !! M, N of the whole grid, those of `start`
-      real(sp), intent(inout) :: vector(:)            !! shape (region%points)
+      real(sp), intent(inout), contiguous :: vector(:)   !! shape (region%points)
 
       integer, parameter :: r = stencil_reach
       type(grid_slab) :: slab

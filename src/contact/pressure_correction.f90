@@ -9,7 +9,7 @@ module wavycon_pressure_correction
    use wavycon_assertion, only: assert
    use wavycon_compliance_operator, only: compliance_operator
    use wavycon_contact_region, only: longest_chunk
-   use wavycon_contact_tuning, only: overlap_part
+   use wavycon_contact_tuning, only: blocked_part, overlap_part
    use wavycon_correction_preconditioner, only: correction_preconditioner
    use wavycon_correction_state, only: correction_state, gap_sums
    use wavycon_grid_slab, only: grid_slab
@@ -57,11 +57,11 @@ contains
       integer, intent(in) :: most_iterations   !! > 0
       class(solver_progress), intent(in), optional :: progress   !! is asked before each iteration
 
-      real(dp) :: descent, last_residual, sums(gap_sums)
+      real(dp) :: blocked, descent, sums(gap_sums)
       real(sp), allocatable :: r(:), d(:)      !! residual and direction of the last iteration, shape (region%points)
       real(sp), allocatable :: field(:, :)     !! own columns, shape (M, columns)
       real(sp) :: step
-      logical :: has_met_bounds, restarts
+      logical :: has_met_bounds
 
       call assert(part > 0.0_dp .and. part < 1.0_dp, '0 < part < 1')
       call assert(most_iterations > 0, 'most_iterations > 0')
@@ -69,19 +69,18 @@ contains
          allocate (r(state%region%points), d(state%region%points), source=0.0_sp)
          allocate (field(state%slab%points(1), state%slab%columns()))
          descent = 0.0_dp
-         last_residual = huge(last_residual)
          call state%update_contact(state%measure_gap())                              ! (C3)
          ! Smaller overlaps may be rounding: such points would enter and leave the contact without end.
          state%allowance = real(overlap_part*part, sp)
          do
-            call self%preconditioner%select(state, last_residual, restarts)
-            if (restarts) descent = 0.0_dp
             if (state%residual <= part*state%scale .or. self%iterations >= most_iterations) exit
             if (present(progress)) self%is_interrupted = progress%shall_stop(self%iterations, state%residual)
             if (self%is_interrupted) exit
-            last_residual = state%residual
             self%iterations = self%iterations + 1
             call self%preconditioner%apply(half_space, state, field)                 ! (C4): field = z
+            call state%exclude_blocked(field, blocked)                               ! (C4d)
+            if (blocked > blocked_part*state%contact_points) &
+               call self%preconditioner%apply(half_space, state, field)
             call find_direction(state, field, r, d, descent)                         ! (C5): field = d
             call state%displace(half_space, field)                                   !       field = Sd
             call find_step(state, field, r, d, step)                                 ! (C6)

@@ -31,7 +31,6 @@ contains
       real(dp) :: all_sums(gap_sums + 3)
 
       call assert(size(direction) == state%region%points, 'the direction is a vector of the region')
-      state%changed_points = 0.0_dp
       has_met_bounds = .true.
       if (passes_hardness(state, direction, step)) then
          call move_between_bounds(state, direction, step, field)

@@ -14,13 +14,11 @@ module wavycon_solver_progress
 
    abstract interface
       !> Called after each grid.
-      subroutine grid_is_solved(self, points, iterations, local_iterations, plain_iterations, residual)
+      subroutine grid_is_solved(self, points, iterations, residual)
          import :: dp, solver_progress
          class(solver_progress), intent(in) :: self
          integer, intent(in) :: points(2)     !! of the grid, on the whole cell along x and y
          integer, intent(in) :: iterations    !! on this grid
-         integer, intent(in) :: local_iterations   !! those of them preconditioned by the stencil
-         integer, intent(in) :: plain_iterations   !! those without the multilevel preconditioner
          real(dp), intent(in) :: residual     !! (C9)
       end subroutine grid_is_solved
    end interface

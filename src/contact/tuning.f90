@@ -51,12 +51,8 @@ module wavycon_contact_tuning
    !> single spot, as the displacement of a point load does, and not at all in gaps that contact surrounds.
    real(dp), parameter, public :: decay_alone = 0.65_dp
    real(dp), parameter, public :: decay_growth = 1.2_dp
-
-   !> A weaker preconditioner follows when the residual grows by more than this factor in an iteration: it falls to a
-   !> tenth where the extension does well.
-   real(dp), parameter, public :: largest_growth = 2.0_dp
-   !> The extension resumes when at most this part of the contact's points have changed in an iteration.
-   real(dp), parameter, public :: settled_part = 0.01_dp
+   !> The preconditioner is applied again if (C4d) excludes more than this part of the points in contact.
+   real(dp), parameter, public :: blocked_part = 0.003_dp
 
    ! Error estimates of the grids.
 

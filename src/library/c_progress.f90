@@ -27,13 +27,12 @@ module wavycon_c_progress
 
 contains
 
-   subroutine grid_solved(self, points, iterations, local_iterations, plain_iterations, residual)
+   subroutine grid_solved(self, points, iterations, residual)
       class(c_progress), intent(in) :: self
-      integer, intent(in) :: points(2), iterations, local_iterations, plain_iterations
+      integer, intent(in) :: points(2), iterations
       real(dp), intent(in) :: residual
 
-      associate (unused => self, also_unused => points, &
-                 unused_too => [iterations, local_iterations, plain_iterations], not_used => residual); end associate
+      associate (unused => self, also_unused => points, unused_too => iterations, not_used => residual); end associate
    end subroutine grid_solved
 
    logical function shall_stop(self, iterations, residual)

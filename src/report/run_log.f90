@@ -231,21 +231,14 @@ contains
    end function cell_of
 
    !> Shows the grid that was solved last, as of `solver_progress`.
-   subroutine grid_solved(self, points, iterations, local_iterations, plain_iterations, residual)
+   subroutine grid_solved(self, points, iterations, residual)
       class(log_progress), intent(in) :: self
-      integer, intent(in) :: points(2), iterations, local_iterations, plain_iterations
+      integer, intent(in) :: points(2), iterations
       real(dp), intent(in) :: residual
-
-      character(:), allocatable :: kinds
-
-      kinds = ''
-      if (local_iterations > 0) kinds = kinds//', '//integer_text(local_iterations)//' with the stencil'
-      if (plain_iterations > 0) kinds = kinds//', '//integer_text(plain_iterations)// &
-                                           ' without multilevel preconditioner'
 
       call self%log%say_progress('load '//integer_text(self%load)//' of '//integer_text(self%loads)//': '// &
                                  integer_text(points(1))//' x '//integer_text(points(2))//' points, '// &
-                                 integer_text(iterations)//' iterations'//kinds//', residual '//short_number(residual))
+                                 integer_text(iterations)//' iterations, residual '//short_number(residual))
    end subroutine grid_solved
 
    !> Writes a progress line over the last one, only on a terminal and at most every progress_interval.

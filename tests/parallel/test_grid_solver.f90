@@ -61,19 +61,17 @@ contains
       good = good .and. whole%converged .and. spread%converged
       good = .not. any_rank(.not. good)
       failed = failed .or. .not. good
-      if (is_first_rank()) write (output_unit, '(a, 2i5, l2, 3es10.2, 4i5)') merge('same     ', 'different', good), &
-         points, even, load, hardness, whole%residual, whole%corrections, whole%iterations, whole%local_iterations, &
-         whole%plain_iterations
+      if (is_first_rank()) write (output_unit, '(a, 2i5, l2, 3es10.2, 2i5)') merge('same     ', 'different', good), &
+         points, even, load, hardness, whole%residual, whole%corrections, whole%iterations
    end subroutine compare
 
    !> What of a state is not a field.
    pure function numbers(state)
       type(grid_state), intent(in) :: state
-      real(dp) :: numbers(8)
+      real(dp) :: numbers(6)
 
       numbers = [state%mean_gap, state%residual_indentation, state%residual, state%open_gap(), &
-            real(state%corrections, dp), &
-                 real(state%iterations, dp), real(state%local_iterations, dp), real(state%plain_iterations, dp)]
+                 real(state%corrections, dp), real(state%iterations, dp)]
    end function numbers
 
    subroutine solve(even, points, load, hardness, residual, state)

@@ -44,9 +44,11 @@ contains
       character(:), allocatable :: words
 
       type(surface_kind) :: kinds(number_of_kinds)
+      character(len(kinds%paper_wave_if)) :: conditions(number_of_kinds)
 
       call get_surface_kinds(kinds)
-      words = listed(pack(kinds%paper_wave_if, kinds%paper_wave_if /= ''))
+      conditions = kinds%paper_wave_if
+      words = listed(pack(conditions, conditions /= ''))
    end function paper_waves
 
    !> Whether a kind is by definition a wave of the paper, perhaps on a condition. A sum of waves may equal one; use
