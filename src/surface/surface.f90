@@ -98,7 +98,7 @@ contains
 
       type(grid_transform) :: transform
       real(dp), allocatable :: values(:, :)
-      real(dp) :: extremes(2), per_wave(2)
+      real(dp) :: extremes(2), mean(1), per_wave(2)
       integer :: crest(2), grid(2)
 
       grid = shape(height)
@@ -111,14 +111,15 @@ contains
       call transform%start(grid, even=surface%mirrored)
       call transform%series(height, surface%shape)
       if (lbound(surface%shape%c, 1) == 0) surface%shape%c(0, 0) = 0.0_dp
-      allocate (values, mold=height)
-      call transform%sample(surface%shape, values)
-      call transform%slab%find_largest(values, surface%amplitude, crest)
+      mean = transform%slab%column_totals(reshape(sum(height, dim=1), [1, size(height, 2)]))/product(real(grid, dp))
+      call transform%slab%find_largest(height, surface%amplitude, crest)
+      surface%amplitude = surface%amplitude - mean(1)
       surface%crest = point_angle(crest, transform%points, transform%even)
       if (surface%dimension == 1) surface%crest(2) = 0.0_dp
       if (surface%amplitude <= 0.0_dp) return
       call divide_series(surface%shape, surface%amplitude)
       per_wave = 1.0_dp/surface%length
+      allocate (values, mold=height)
       call transform%sample(surface%shape, values, 1, per_wave)
       extremes = [maxval(values), -minval(values)]
       call transform%slab%largest(extremes)
