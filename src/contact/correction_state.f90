@@ -44,6 +44,7 @@ module wavycon_correction_state
       procedure :: exclude_blocked
       procedure :: displace
       procedure :: add_image
+      procedure :: has_points_at_hardness
       procedure :: measure_gap
       procedure :: measure_chunk
       procedure :: update_contact
@@ -190,6 +191,14 @@ contains
       self%mean_gap = real(in_contact(2)/max(in_contact(1), 1.0_dp), sp)
       sums = self%measure_gap()
    end subroutine add_image
+
+   !> Whether any point of the region has p = H at the start.
+   logical function has_points_at_hardness(self) result(has)
+      class(correction_state), intent(in) :: self
+
+      has = .false.
+      if (allocated(self%room)) has = self%slab%any(any(self%room <= 0.0_sp))
+   end function has_points_at_hardness
 
    !> The sums of a pass over the gap.
    function measure_gap(self) result(sums)

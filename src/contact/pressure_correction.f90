@@ -69,7 +69,13 @@ contains
          allocate (r(state%region%points), d(state%region%points), source=0.0_sp)
          allocate (field(state%slab%points(1), state%slab%columns()))
          descent = 0.0_dp
-         call state%update_contact(state%measure_gap())                              ! (C3)
+         sums = state%measure_gap()
+         if (state%has_points_at_hardness()) then
+            ! The approach of `solve_on_grid` is that of the least residual, whose gap has a mean over the free points.
+            state%mean_gap = real(sums(2)/max(sums(1), 1.0_dp), sp)
+            sums = state%measure_gap()
+         end if
+         call state%update_contact(sums)                                             ! (C3)
          ! Smaller overlaps may be rounding: such points would enter and leave the contact without end.
          state%allowance = real(overlap_part*part, sp)
          do
