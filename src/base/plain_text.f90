@@ -69,7 +69,7 @@ contains
 
       do i = 1, size(digits)
          text = rounded(number, digits(i))
-         read (text, *) again
+         read (text, '(f32.0)') again
          if (.not. (again < number .or. again > number)) return
       end do
    end function exact_number
@@ -77,26 +77,29 @@ contains
    !> A number rounded to some significant digits, without the zeros that end it.
    pure function rounded(number, digits) result(text)
       real(dp), intent(in) :: number
-      integer, intent(in) :: digits   !! 1 to 17
+      integer, intent(in) :: digits   !! 6 to 17
       character(:), allocatable :: text
 
       integer, parameter :: least_plain = -4, most_plain = 5   !! powers of ten that need no exponent
       character(32) :: buffer, layout
-      integer :: letter, power
+      integer :: letter, point, power
 
-      write (layout, '(a, i0, a)') '(es32.', digits - 1, 'e3)'
+      layout = '(es32.'//achar(48 + (digits - 1)/10)//achar(48 + mod(digits - 1, 10))//'e3)'
       write (buffer, layout) number
       text = trim(adjustl(buffer))
       letter = index(text, 'E')
       if (letter == 0) return   ! an infinity, or no number
-      read (text(letter + 1:), *) power
+      read (text(letter + 1:), '(i4)') power
+      point = index(text, '.')
       if (power < least_plain .or. power > most_plain) then
          text = without_final_zeros(text(:letter - 1))//'e'//integer_text(power)
-         return
+      else if (power < 0) then
+         text = text(:point - 2)//'0.'//repeat('0', -power - 1)//text(point - 1:point - 1)//text(point + 1:letter - 1)
+         text = without_final_zeros(text)
+      else
+         text = text(:point - 1)//text(point + 1:point + power)//'.'//text(point + power + 1:letter - 1)
+         text = without_final_zeros(text)
       end if
-      write (layout, '(a, i0, a)') '(f32.', digits - 1 - power, ')'
-      write (buffer, layout) number
-      text = without_final_zeros(trim(adjustl(buffer)))
    end function rounded
 
    !> A decimal fraction without the zeros that end it, and without the point if no digit follows it.
