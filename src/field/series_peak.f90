@@ -1,7 +1,7 @@
 !> The largest value of a Fourier series.
 module wavycon_series_peak
    use wavycon_constants, only: pi
-   use wavycon_fourier_series, only: fourier_series
+   use wavycon_fourier_series, only: cosine_table, folded, fourier_series
    use wavycon_grid_transform, only: grid_transform
    use wavycon_newton_maximiser, only: newton_maximiser
    use wavycon_kinds, only: dp
@@ -17,6 +17,8 @@ module wavycon_series_peak
    !> line, at most so many are tried.
    real(dp), parameter :: most_between = 1.0_dp/cos(pi/points_per_wave)**2
    integer, parameter :: most_crests = 10
+   !> An even series on a grid of so many points is summed directly: FFTW takes longer to plan its transform.
+   integer, parameter :: most_direct = 4096
 
    !> A series as the field in which Newton's method climbs.
    type, extends(newton_maximiser) :: series_maximiser
@@ -47,7 +49,12 @@ contains
       if (ubound(series%c, 2) == 0) points(2) = 1
       allocate (values(points(1), points(2)))
       call transform%start(points, even=.false., whole=.true.)
-      call transform%sample(series, values)
+      if (series%is_even() .and. product(points) <= most_direct) then
+         values = matmul(cosines(points(1), ubound(series%c, 1)), &
+                         matmul(series%c, transpose(cosines(points(2), ubound(series%c, 2)))))
+      else
+         call transform%sample(series, values)
+      end if
       largest = maxval(abs(values))
       hidden = (most_between - 1.0_dp)*largest
       best = maxloc(values)
@@ -68,6 +75,19 @@ contains
          if (values(best(1), best(2)) + hidden <= peak) exit
       end do
    end subroutine find_peak
+
+   !> cos(2 pi i k/M) at all points k = 0 .. M-1 of a line.
+   pure function cosines(points, harmonics) result(table)
+      integer, intent(in) :: points      !! M, even or 1
+      integer, intent(in) :: harmonics   !! the largest i
+      real(dp) :: table(points, 0:harmonics)
+
+      real(dp) :: half(0:max(1, points/2), 0:harmonics)
+      integer :: k
+
+      half = cosine_table(ubound(half, 1), harmonics)
+      table = half(folded([(k, k=0, points - 1)], ubound(half, 1)), :)
+   end function cosines
 
    !> Removes the points about a crest, less than half the shortest wave away.
    pure subroutine remove_crest(values, place)
