@@ -45,9 +45,17 @@ contains
       character(:), allocatable :: text
 
       character(20) :: buffer
+      integer(int64) :: rest
+      integer :: place
 
-      write (buffer, '(i0)') number
-      text = trim(buffer)
+      rest = number
+      do place = len(buffer), 1, -1
+         buffer(place:place) = achar(iachar('0') + int(abs(mod(rest, 10_int64))))
+         rest = rest/10
+         if (rest == 0) exit
+      end do
+      text = buffer(place:)
+      if (number < 0) text = '-'//text
    end function long_integer_text
 
    !> A number to six significant digits: 0.01, 4.44288, 1e-7, -2.5e6.
@@ -84,6 +92,11 @@ contains
       character(32) :: buffer, layout
       integer :: letter, point, power
 
+      ! Most numbers of decks are whole.
+      if (sign(1.0_dp, number) > 0.0_dp .and. number < 1e5_dp .and. .not. number > aint(number)) then
+         text = integer_text(int(number))
+         return
+      end if
       layout = '(es32.'//achar(48 + (digits - 1)/10)//achar(48 + mod(digits - 1, 10))//'e3)'
       write (buffer, layout) number
       text = trim(adjustl(buffer))
