@@ -29,10 +29,10 @@ module wavycon_chord_points
       complex(dp), allocatable :: direction(:)            !! e^(i phi), shape (m)
       !> What C_m weighs at the nodes, for the finite part, shape (n, 0:n-1).
       real(dp), allocatable, private :: gegenbauer(:, :)
+      real(dp), allocatable :: turn(:, :)                 !! e^(2 i phi) by real and imaginary part, shape (n m, 2)
       ! Set for each target, chord after chord, shape (n m).
       complex(dp), allocatable :: w(:)                    !! the points
       real(dp), allocatable :: weight(:)
-      real(dp), allocatable :: turn(:, :)                 !! e^(2 i phi) by real and imaginary part, shape (n m, 2)
    contains
       procedure :: place
    end type chord_points
@@ -64,6 +64,12 @@ contains
          end associate
       end if
       allocate (chords%w(n), chords%weight(n), chords%turn(n, 2))
+      do m = 1, angles
+         associate (e => chords%direction(m), first => (m - 1)*points + 1, last => m*points)
+            chords%turn(first:last, 1) = e%re**2 - e%im**2
+            chords%turn(first:last, 2) = 2*e%re*e%im
+         end associate
+      end do
    end subroutine start_chord_points
 
    !> Sets points and weights for a target.
@@ -93,8 +99,6 @@ contains
          do j = 1, size(self%node)
             k = k + 1
             self%w(k) = target + (middle + half*self%node(j))*e
-            self%turn(k, 1) = e%re**2 - e%im**2
-            self%turn(k, 2) = 2*e%re*e%im
             self%weight(k) = scale*weight(j)
          end do
       end do
