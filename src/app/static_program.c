@@ -2,20 +2,14 @@
 #define _XOPEN_SOURCE 700
 #include <stdlib.h>
 
-void *__wrap_dlopen(const char *name, int flags);
-
-/* The linker puts it in place of dlopen: OpenMP and system.c look for shared libraries, and there are none. */
+/* Stands for dlopen, which system.c and OpenMP call: there are no shared libraries. */
 void *__wrap_dlopen(const char *name, int flags)
 {
-    (void)name, (void)flags;
     return NULL;
 }
 
-/* Called before OpenBLAS and OpenMP start and read the environment, which shared ones do before the program: OpenBLAS
-   starts no threads, and threads of OpenMP sleep while they wait, as in system.c. */
-__attribute__((constructor(101))) static void prepare_threads(void)
+/* Keeps OpenBLAS, which starts after it, from starting threads. */
+__attribute__((constructor(101))) static void use_one_thread_for_matrices(void)
 {
     setenv("OPENBLAS_NUM_THREADS", "1", 1);
-    if (getenv("GOMP_SPINCOUNT") == NULL)
-        setenv("OMP_WAIT_POLICY", "passive", 0);
 }

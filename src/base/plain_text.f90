@@ -45,17 +45,9 @@ contains
       character(:), allocatable :: text
 
       character(20) :: buffer
-      integer(int64) :: rest
-      integer :: place
 
-      rest = number
-      do place = len(buffer), 1, -1
-         buffer(place:place) = achar(iachar('0') + int(abs(mod(rest, 10_int64))))
-         rest = rest/10
-         if (rest == 0) exit
-      end do
-      text = buffer(place:)
-      if (number < 0) text = '-'//text
+      write (buffer, '(i0)') number
+      text = trim(buffer)
    end function long_integer_text
 
    !> A number to six significant digits: 0.01, 4.44288, 1e-7, -2.5e6.
@@ -90,29 +82,25 @@ contains
 
       integer, parameter :: least_plain = -4, most_plain = 5   !! powers of ten that need no exponent
       character(32) :: buffer, layout
-      integer :: letter, point, power
+      integer :: letter, power
 
-      ! Most numbers of decks are whole.
       if (sign(1.0_dp, number) > 0.0_dp .and. number < 1e5_dp .and. .not. number > aint(number)) then
          text = integer_text(int(number))
          return
       end if
-      layout = '(es32.'//achar(48 + (digits - 1)/10)//achar(48 + mod(digits - 1, 10))//'e3)'
+      write (layout, '(a, i0, a)') '(es32.', digits - 1, 'e3)'
       write (buffer, layout) number
       text = trim(adjustl(buffer))
       letter = index(text, 'E')
       if (letter == 0) return   ! an infinity, or no number
       read (text(letter + 1:), '(i4)') power
-      point = index(text, '.')
       if (power < least_plain .or. power > most_plain) then
          text = without_final_zeros(text(:letter - 1))//'e'//integer_text(power)
-      else if (power < 0) then
-         text = text(:point - 2)//'0.'//repeat('0', -power - 1)//text(point - 1:point - 1)//text(point + 1:letter - 1)
-         text = without_final_zeros(text)
-      else
-         text = text(:point - 1)//text(point + 1:point + power)//'.'//text(point + power + 1:letter - 1)
-         text = without_final_zeros(text)
+         return
       end if
+      write (layout, '(a, i0, a)') '(f32.', digits - 1 - power, ')'
+      write (buffer, layout) number
+      text = without_final_zeros(trim(adjustl(buffer)))
    end function rounded
 
    !> A decimal fraction without the zeros that end it, and without the point if no digit follows it.

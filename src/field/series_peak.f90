@@ -1,7 +1,7 @@
 !> The largest value of a Fourier series.
 module wavycon_series_peak
    use wavycon_constants, only: pi
-   use wavycon_fourier_series, only: cosine_table, folded, fourier_series
+   use wavycon_fourier_series, only: cosine_table, fourier_series
    use wavycon_grid_transform, only: grid_transform
    use wavycon_newton_maximiser, only: newton_maximiser
    use wavycon_kinds, only: dp
@@ -41,7 +41,7 @@ contains
 
       type(grid_transform) :: transform
       type(series_maximiser) :: field
-      real(dp), allocatable :: values(:, :)
+      real(dp), allocatable :: values(:, :), x(:, :), y(:, :)
       real(dp) :: crest(2), found, hidden, largest
       integer :: best(2), i, points(2)
 
@@ -50,8 +50,9 @@ contains
       allocate (values(points(1), points(2)))
       call transform%start(points, even=.false., whole=.true.)
       if (series%is_even() .and. product(points) <= most_direct) then
-         values = matmul(cosines(points(1), ubound(series%c, 1)), &
-                         matmul(series%c, transpose(cosines(points(2), ubound(series%c, 2)))))
+         x = cosine_table(points(1), 2*ubound(series%c, 1))   ! cos(pi k 2 i/M), k = 0 .. M
+         y = cosine_table(points(2), 2*ubound(series%c, 2))
+         values = matmul(x(:points(1), ::2), matmul(series%c, transpose(y(:points(2), ::2))))
       else
          call transform%sample(series, values)
       end if
@@ -75,19 +76,6 @@ contains
          if (values(best(1), best(2)) + hidden <= peak) exit
       end do
    end subroutine find_peak
-
-   !> cos(2 pi i k/M) at all points k = 0 .. M-1 of a line.
-   pure function cosines(points, harmonics) result(table)
-      integer, intent(in) :: points      !! M, even or 1
-      integer, intent(in) :: harmonics   !! the largest i
-      real(dp) :: table(points, 0:harmonics)
-
-      real(dp) :: half(0:max(1, points/2), 0:harmonics)
-      integer :: k
-
-      half = cosine_table(ubound(half, 1), harmonics)
-      table = half(folded([(k, k=0, points - 1)], ubound(half, 1)), :)
-   end function cosines
 
    !> Removes the points about a crest, less than half the shortest wave away.
    pure subroutine remove_crest(values, place)

@@ -64,12 +64,8 @@ contains
          end associate
       end if
       allocate (chords%w(n), chords%weight(n), chords%turn(n, 2))
-      do m = 1, angles
-         associate (e => chords%direction(m), first => (m - 1)*points + 1, last => m*points)
-            chords%turn(first:last, 1) = e%re**2 - e%im**2
-            chords%turn(first:last, 2) = 2*e%re*e%im
-         end associate
-      end do
+      chords%turn(:, 1) = reshape(spread(chords%direction%re**2 - chords%direction%im**2, 1, points), [n])
+      chords%turn(:, 2) = reshape(spread(2*chords%direction%re*chords%direction%im, 1, points), [n])
    end subroutine start_chord_points
 
    !> Sets points and weights for a target.

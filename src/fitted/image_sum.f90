@@ -82,25 +82,21 @@ contains
       complex(dp), intent(out) :: gradient     !! of the sum with respect to the target's place
 
       complex(dp) :: back(size(strength)), slope, total(size(strength), 2), turn
-      integer :: copy, g, i, n
+      integer :: copy, i, n, side
 
       n = size(strength)
       folded = 0.0_dp
       total = 0.0_dp
       back = 0.0_dp
-      do g = 0, fold - 1
-         turn = exp(cmplx(0.0_dp, -2*pi*g/fold, dp))
-         do copy = 1, 2
-            do i = 1, n
-               associate (k => (2*g + copy - 1)*n + i)
-                  slope = cmplx(slope_x(k), slope_y(k), dp)
-                  folded(i) = folded(i) + value(k)
-               end associate
-               total(i, copy) = total(i, copy) + slope
-               slope = turn*slope
-               if (copy == 2) slope = conjg(slope)
-               back(i) = back(i) + slope
-            end do
+      do copy = 0, 2*fold - 1
+         turn = exp(cmplx(0.0_dp, -2*pi*(copy/2)/fold, dp))
+         side = 1 + mod(copy, 2)
+         do i = 1, n
+            slope = cmplx(slope_x(copy*n + i), slope_y(copy*n + i), dp)
+            folded(i) = folded(i) + value(copy*n + i)
+            total(i, side) = total(i, side) + slope
+            slope = turn*slope
+            back(i) = back(i) + cmplx(slope%re, (3 - 2*side)*slope%im, dp)
          end do
       end do
       gradient = sum(strength*sum(total, 2))

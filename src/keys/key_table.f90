@@ -154,10 +154,7 @@ contains
       type(key_type), intent(in) :: keys(:)
       character(*), intent(in) :: name
 
-      do key_index = 1, size(keys)
-         if (keys(key_index)%name == name) return
-      end do
-      key_index = 0
+      key_index = findloc(keys%name == name, .true., dim=1)
    end function key_index
 
    pure function key_names(keys) result(names)
