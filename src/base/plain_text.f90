@@ -84,10 +84,10 @@ contains
       character(32) :: buffer, layout
       integer :: letter, power
 
-      if (sign(1.0_dp, number) > 0.0_dp .and. number < 1e5_dp .and. .not. number > aint(number)) then
-         text = integer_text(int(number))
-         return
+      if (exponent(number) <= 16) then   ! not of NaN, whose comparison would trap
+         if (sign(1.0_dp, number) > 0.0_dp .and. .not. number > aint(number)) text = integer_text(int(number))
       end if
+      if (allocated(text)) return
       write (layout, '(a, i0, a)') '(es32.', digits - 1, 'e3)'
       write (buffer, layout) number
       text = trim(adjustl(buffer))
