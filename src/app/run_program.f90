@@ -96,7 +96,7 @@ contains
          if (.not. allocated(error)) then
             if (allocated(command_line%output)) &
                call deck%output%set('directory', plain_directory(command_line%output))
-            call list_keys(deck, scenes(i)%keys)
+            if (allocated(command_line%table)) call list_keys(deck, scenes(i)%keys)
             allocate (scenes(i)%scene)
             call make_scene(deck, scenes(i)%scene)
          end if

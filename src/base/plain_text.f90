@@ -69,7 +69,7 @@ contains
 
       do i = 1, size(digits)
          text = rounded(number, digits(i))
-         read (text, *) again
+         read (text, '(f32.0)') again
          if (.not. (again < number .or. again > number)) return
       end do
    end function exact_number
@@ -77,19 +77,23 @@ contains
    !> A number rounded to some significant digits, without the zeros that end it.
    pure function rounded(number, digits) result(text)
       real(dp), intent(in) :: number
-      integer, intent(in) :: digits   !! 1 to 17
+      integer, intent(in) :: digits   !! 6 to 17
       character(:), allocatable :: text
 
       integer, parameter :: least_plain = -4, most_plain = 5   !! powers of ten that need no exponent
       character(32) :: buffer, layout
       integer :: letter, power
 
+      if (exponent(number) <= 16) then   ! not of NaN, whose comparison would trap
+         if (sign(1.0_dp, number) > 0.0_dp .and. .not. number > aint(number)) text = integer_text(int(number))
+      end if
+      if (allocated(text)) return
       write (layout, '(a, i0, a)') '(es32.', digits - 1, 'e3)'
       write (buffer, layout) number
       text = trim(adjustl(buffer))
       letter = index(text, 'E')
       if (letter == 0) return   ! an infinity, or no number
-      read (text(letter + 1:), *) power
+      read (text(letter + 1:), '(i4)') power
       if (power < least_plain .or. power > most_plain) then
          text = without_final_zeros(text(:letter - 1))//'e'//integer_text(power)
          return

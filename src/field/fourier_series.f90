@@ -90,20 +90,20 @@ contains
       integer, intent(in) :: harmonics   !! n >= 0
       real(dp) :: table(0:intervals, 0:harmonics)
 
-      integer :: i, k, q
+      real(dp) :: cosine(0:intervals)
+      integer :: i, k
 
+      do k = 0, intervals
+         if (2*k == intervals) then
+            cosine(k) = 0.0_dp
+         else if (2*k < intervals) then
+            cosine(k) = cos(pi*k/intervals)
+         else
+            cosine(k) = -cosine(intervals - k)
+         end if
+      end do
       do i = 0, harmonics
-         do k = 0, intervals
-            q = mod(i*k, 2*intervals)
-            q = min(q, 2*intervals - q)
-            if (2*q == intervals) then
-               table(k, i) = 0.0_dp
-            else if (2*q < intervals) then
-               table(k, i) = cos(pi*q/intervals)
-            else
-               table(k, i) = -cos(pi*(intervals - q)/intervals)
-            end if
-         end do
+         table(:, i) = cosine(folded([(i*k, k=0, intervals)], intervals))
       end do
    end function cosine_table
 

@@ -1,7 +1,7 @@
 !> The largest value of a Fourier series.
 module wavycon_series_peak
    use wavycon_constants, only: pi
-   use wavycon_fourier_series, only: fourier_series
+   use wavycon_fourier_series, only: cosine_table, fourier_series
    use wavycon_grid_transform, only: grid_transform
    use wavycon_newton_maximiser, only: newton_maximiser
    use wavycon_kinds, only: dp
@@ -17,6 +17,8 @@ module wavycon_series_peak
    !> line, at most so many are tried.
    real(dp), parameter :: most_between = 1.0_dp/cos(pi/points_per_wave)**2
    integer, parameter :: most_crests = 10
+   !> An even series on a grid of so many points is summed directly: FFTW takes longer to plan its transform.
+   integer, parameter :: most_direct = 4096
 
    !> A series as the field in which Newton's method climbs.
    type, extends(newton_maximiser) :: series_maximiser
@@ -39,7 +41,7 @@ contains
 
       type(grid_transform) :: transform
       type(series_maximiser) :: field
-      real(dp), allocatable :: values(:, :)
+      real(dp), allocatable :: values(:, :), x(:, :), y(:, :)
       real(dp) :: crest(2), found, hidden, largest
       integer :: best(2), i, points(2)
 
@@ -47,7 +49,13 @@ contains
       if (ubound(series%c, 2) == 0) points(2) = 1
       allocate (values(points(1), points(2)))
       call transform%start(points, even=.false., whole=.true.)
-      call transform%sample(series, values)
+      if (series%is_even() .and. product(points) <= most_direct) then
+         x = cosine_table(points(1), 2*ubound(series%c, 1))   ! cos(pi k 2 i/M), k = 0 .. M
+         y = cosine_table(points(2), 2*ubound(series%c, 2))
+         values = matmul(x(:points(1), ::2), matmul(series%c, transpose(y(:points(2), ::2))))
+      else
+         call transform%sample(series, values)
+      end if
       largest = maxval(abs(values))
       hidden = (most_between - 1.0_dp)*largest
       best = maxloc(values)

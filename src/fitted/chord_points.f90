@@ -29,10 +29,10 @@ module wavycon_chord_points
       complex(dp), allocatable :: direction(:)            !! e^(i phi), shape (m)
       !> What C_m weighs at the nodes, for the finite part, shape (n, 0:n-1).
       real(dp), allocatable, private :: gegenbauer(:, :)
+      real(dp), allocatable :: turn(:, :)                 !! e^(2 i phi) by real and imaginary part, shape (n m, 2)
       ! Set for each target, chord after chord, shape (n m).
       complex(dp), allocatable :: w(:)                    !! the points
       real(dp), allocatable :: weight(:)
-      real(dp), allocatable :: turn(:, :)                 !! e^(2 i phi) by real and imaginary part, shape (n m, 2)
    contains
       procedure :: place
    end type chord_points
@@ -64,6 +64,8 @@ contains
          end associate
       end if
       allocate (chords%w(n), chords%weight(n), chords%turn(n, 2))
+      chords%turn(:, 1) = reshape(spread(chords%direction%re**2 - chords%direction%im**2, 1, points), [n])
+      chords%turn(:, 2) = reshape(spread(2*chords%direction%re*chords%direction%im, 1, points), [n])
    end subroutine start_chord_points
 
    !> Sets points and weights for a target.
@@ -93,8 +95,6 @@ contains
          do j = 1, size(self%node)
             k = k + 1
             self%w(k) = target + (middle + half*self%node(j))*e
-            self%turn(k, 1) = e%re**2 - e%im**2
-            self%turn(k, 2) = 2*e%re*e%im
             self%weight(k) = scale*weight(j)
          end do
       end do

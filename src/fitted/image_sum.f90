@@ -81,17 +81,25 @@ contains
       real(dp), intent(out), dimension(:) :: gradient_x, gradient_y      !! in the source's sector, shape (n)
       complex(dp), intent(out) :: gradient     !! of the sum with respect to the target's place
 
-      complex(dp) :: back(size(strength)), slope(size(strength), 2, 0:fold - 1), turn
-      integer :: g
+      complex(dp) :: back(size(strength)), slope, total(size(strength), 2), turn
+      integer :: copy, i, n, side
 
-      folded = sum(reshape(value, [size(strength), 2*fold]), 2)
-      slope = reshape(cmplx(slope_x, slope_y, dp), shape(slope))
-      gradient = sum(strength*sum(sum(slope, 3), 2))
+      n = size(strength)
+      folded = 0.0_dp
+      total = 0.0_dp
       back = 0.0_dp
-      do g = 0, fold - 1
-         turn = exp(cmplx(0.0_dp, -2*pi*g/fold, dp))
-         back = back + turn*slope(:, 1, g) + conjg(turn*slope(:, 2, g))
+      do copy = 0, 2*fold - 1
+         turn = exp(cmplx(0.0_dp, -2*pi*(copy/2)/fold, dp))
+         side = 1 + mod(copy, 2)
+         do i = 1, n
+            slope = cmplx(slope_x(copy*n + i), slope_y(copy*n + i), dp)
+            folded(i) = folded(i) + value(copy*n + i)
+            total(i, side) = total(i, side) + slope
+            slope = turn*slope
+            back(i) = back(i) + cmplx(slope%re, (3 - 2*side)*slope%im, dp)
+         end do
       end do
+      gradient = sum(strength*sum(total, 2))
       gradient_x = back%re
       gradient_y = back%im
    end subroutine fold_copies

@@ -338,7 +338,7 @@ contains
       if (k > 0 .and. present(kinds)) then
          if (all(kinds /= self%table%keys(k)%kind)) k = 0
       end if
-      call assert(k > 0, 'no key '//key//' of this type in &'//trim(self%table%name))
+      if (k == 0) call assert(.false., 'no key '//key//' of this type in &'//trim(self%table%name))
    end function find
 
 end module wavycon_group_values

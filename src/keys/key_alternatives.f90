@@ -5,7 +5,7 @@
 !> resolved deck, and what --set replaces.
 module wavycon_key_alternatives
    use wavycon_group_values, only: group_values
-   use wavycon_key_table, only: choice_key, key_group, key_group_type, key_index, key_type, meaning_length
+   use wavycon_key_table, only: choice_key, key_group, key_group_type, key_index, key_type
    use wavycon_plain_text, only: in_quotes, listed
    use wavycon_problems, only: problem_list_type
    implicit none (type, external)
@@ -38,20 +38,22 @@ contains
       character(:), allocatable :: meanings
       type(key_type), allocatable :: keys(:)
       character(len(alternatives%name)) :: names(size(alternatives))
-      integer :: i, k, own
+      integer :: i, k, number, own
 
       names = alternatives%name
-      allocate (keys(0))
+      allocate (keys(sum([(size(alternatives(i)%keys), i=1, size(alternatives))])))
+      number = 0
       meanings = ''
       do i = 1, size(alternatives)
          if (i > 1) meanings = meanings//' '
          meanings = meanings//"'"//trim(alternatives(i)%name)//"': "//alternatives(i)%meaning//'.'
          do own = 1, size(alternatives(i)%keys)
             associate (key => alternatives(i)%keys(own))
-               k = key_index(keys, key%name)
+               k = key_index(keys(:number), key%name)
                if (k == 0) then
-                  keys = [keys, key]
-                  k = size(keys)
+                  number = number + 1
+                  k = number
+                  keys(k) = key
                   keys(k)%meaning = merged_meaning(alternatives, key%name)
                   keys(k)%required = .false.
                end if
@@ -60,7 +62,7 @@ contains
             end associate
          end do
       end do
-      group = key_group(name, meaning, [choice_key(selector, default, meanings, names, required), keys], &
+      group = key_group(name, meaning, [choice_key(selector, default, meanings, names, required), keys(:number)], &
                         required)
       group%selector = selector
    end function alternative_group
@@ -71,23 +73,24 @@ contains
       character(*), intent(in) :: key
       character(:), allocatable :: words
 
-      character(meaning_length) :: meaning(size(alternatives))   ! empty where an alternative does not read the key
       character(len(alternatives%name)) :: names(size(alternatives))
       logical :: same(size(alternatives))
-      integer :: i, k
+      integer :: i, j, k(size(alternatives))   ! numbers of the key; 0 where an alternative does not read it
 
       names = alternatives%name
-      meaning = ''
-      do i = 1, size(alternatives)
-         k = key_index(alternatives(i)%keys, key)
-         if (k > 0) meaning(i) = alternatives(i)%keys(k)%meaning
-      end do
+      k = [(key_index(alternatives(i)%keys, key), i=1, size(k))]
       words = ''
-      do i = 1, size(alternatives)
-         same = meaning == meaning(i)
-         if (meaning(i) == '' .or. findloc(same, .true., dim=1) < i) cycle
-         if (words /= '') words = words//' '
-         words = words//'Of '//listed(pack(names, same), ' and ')//': '//trim(meaning(i))
+      do i = 1, size(k)
+         if (k(i) == 0) cycle
+         associate (meaning => alternatives(i)%keys(k(i))%meaning)
+            same = k > 0
+            do j = 1, size(k)
+               if (same(j)) same(j) = alternatives(j)%keys(k(j))%meaning == meaning
+            end do
+            if (findloc(same, .true., dim=1) < i) cycle
+            if (words /= '') words = words//' '
+            words = words//'Of '//listed(pack(names, same), ' and ')//': '//trim(meaning)
+         end associate
       end do
    end function merged_meaning
 

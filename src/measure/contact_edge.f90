@@ -59,28 +59,19 @@ module wavycon_contact_edge
 
 contains
 
-   !> The area in contact of one cell [rad^2]: that of the polygon of its corners in contact and the edge's points on
-   !> its sides, less what `beside_chord` gives. In a cell that the edge enters twice the two parts in contact are taken
-   !> as connected.
+   !> The area in contact of one cell that the edge crosses [rad^2]: that of the polygon of its corners in contact and
+   !> the edge's points on its sides, less what `beside_chord` gives. In a cell that the edge enters twice the two parts
+   !> in contact are taken as connected.
    pure real(dp) function cell_area(self, k, l) result(area)
       class(contact_edge), intent(in) :: self
       integer, intent(in) :: k, l
 
       type(edge_point) :: points(9)
       logical :: corners(4), leaves(9)
-      real(dp) :: low(2), high(2)
       integer :: number, count, i, next
 
       corners = [(self%in_contact(k + corner_k(number), l + corner_l(number)), number=1, 4)]
       area = 0.0_dp
-      if (.not. any(corners)) return
-      if (all(corners)) then
-         call self%angles(k, l, low(1), low(2))
-         call self%angles(k + 1, l + 1, high(1), high(2))
-         area = product(high - low)
-         return
-      end if
-
       count = 0
       do number = 1, 4
          if (corners(number)) then

@@ -40,7 +40,8 @@ contains
       real(dp), intent(in) :: level                 !! over p*
       integer, intent(in) :: intervals              !! N >= 1
 
-      real(dp) :: cosines(0:intervals, 0:ubound(pressure%c, 1)), sines(0:intervals, 0:ubound(pressure%c, 1))
+      real(dp), dimension(0:intervals, 0:ubound(pressure%c, 1)) :: cosines, sines
+      real(dp) :: sine(0:2*intervals - 1)
       integer :: i, k, n
 
       n = ubound(pressure%c, 1)
@@ -49,10 +50,9 @@ contains
       call pressure%evaluate_on_grid(intervals, grid%pressure)
       grid%pressure = grid%pressure - level
       cosines = cosine_table(intervals, n)
+      sine = [(sin(pi*k/intervals), k=0, 2*intervals - 1)]
       do i = 0, n
-         do k = 0, intervals
-            sines(k, i) = -i*sin(pi*modulo(i*k, 2*intervals)/intervals)
-         end do
+         sines(:, i) = [(-i*sine(modulo(i*k, 2*intervals)), k=0, intervals)]
       end do
       allocate (grid%along_phi(0:n, 0:intervals), grid%along_phi_slope(0:n, 0:intervals), &
                 grid%along_theta(0:n, 0:intervals), grid%along_theta_slope(0:n, 0:intervals))
@@ -150,13 +150,17 @@ contains
    pure real(dp) function area_fraction(self)
       class(isobar_grid), intent(in) :: self
 
-      real(dp) :: area
-      integer :: k, l
+      real(dp) :: area, widths(0:self%intervals - 1)
+      integer :: inside, k, l
 
+      widths = [((k + 1)*(pi/self%intervals) - k*(pi/self%intervals), k=0, self%intervals - 1)]
       area = 0.0_dp
       do l = 0, self%intervals - 1
          do k = 0, self%intervals - 1
-            area = area + self%cell_area(k, l)
+            ! Most cells are whole or empty: the general formula is for those of the edge.
+            inside = count(self%pressure(k:k + 1, l:l + 1) >= 0.0_dp)
+            if (inside == 4) area = area + widths(k)*widths(l)
+            if (mod(inside, 4) > 0) area = area + self%cell_area(k, l)
          end do
       end do
       area_fraction = area/pi**2

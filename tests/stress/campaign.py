@@ -99,7 +99,8 @@ def builds(settings, results):
 
 def valgrind(settings, results):
     with work_folder() as work:
-        yield valgrind_runs.campaign(settings.program, settings.programs.parent, settings.quick, work, results)
+        program = settings.programs/"stress_program"
+        yield valgrind_runs.campaign(program, settings.programs.parent, settings.quick, work, results)
 
 
 @contextlib.contextmanager
