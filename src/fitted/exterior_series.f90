@@ -11,8 +11,8 @@ module wavycon_exterior_series
    use wavycon_kinds, only: dp
    use wavycon_shape_map, only: shape_map
    use wavycon_shape_search, only: find_preimage
-   use wavycon_spot_integral, only: spot_integral, start_spot_integral
    use wavycon_stress_kernel, only: stress_fields, surface_field
+   use wavycon_stress_rays, only: start_stress_rays, stress_rays
    implicit none (type, external)
    private
 
@@ -43,17 +43,17 @@ contains
       integer, intent(in) :: most_places            !! most places that values may be taken at
       logical, intent(out) :: found                 !! whether they were enough
 
-      type(spot_integral) :: spot
+      type(stress_rays) :: rays
       integer :: places, terms(2)
 
-      call start_spot_integral(spot, solution, values_share*accuracy, surface_field)
+      call start_stress_rays(rays, solution%basis%degree, -log(values_share*accuracy), surface_field)
       terms = first_terms
       places = 0
       do
          places = places + product(terms)
          found = places <= most_places
          if (.not. found) return
-         call fit_terms(series, spot, terms)
+         call fit_terms(series, solution, rays, terms)
          associate (c => abs(series%c)/maxval(abs(series%c)))
             associate (last => rest*[sum(c(terms(1) - 1:, :)), sum(c(:, terms(2) - 1:))])
                if (all(last <= accuracy)) return
@@ -65,27 +65,27 @@ contains
       end do
    end subroutine start_exterior_series
 
-   !> Fits a number of terms to as many values.
-   subroutine fit_terms(series, spot, terms)
+   !> Fits a number of terms to as many values. Places with the same arg v take the same rays from the edge.
+   subroutine fit_terms(series, solution, rays, terms)
       type(exterior_series), intent(inout) :: series
-      type(spot_integral), intent(inout) :: spot    !! of the surface field
+      type(expansion), intent(in) :: solution
+      type(stress_rays), intent(inout) :: rays      !! for the surface field
       integer, intent(in) :: terms(2)               !! n_theta, n_r
 
-      complex(dp) :: v
-      real(dp) :: fields(stress_fields), s, values(terms(1), terms(2))
+      complex(dp) :: edge, offset(terms(2))
+      real(dp) :: fields(stress_fields, terms(2)), s(terms(2)), values(terms(1), terms(2))
       integer :: i, j
 
-      associate (shape => spot%solution%shape)
+      s = 0.5_dp*(1.0_dp + chebyshev_node([(j, j=1, terms(2))], terms(2)))
+      do i = 1, terms(1)
+         edge = exp(cmplx(0.0_dp, pi*(i - 0.5_dp)/(terms(1)*solution%shape%fold), dp))
          do j = 1, terms(2)
-            s = 0.5_dp*(1.0_dp + chebyshev_node(j, terms(2)))
-            do i = 1, terms(1)
-               v = exp(cmplx(0.0_dp, pi*(i - 0.5_dp)/(terms(1)*shape%fold), dp))/((1.0_dp - s)*(1.0_dp + s))
-               fields = 0.0_dp
-               call spot%add_at(shape%place_outside(v), 0.0_dp, fields)
-               values(i, j) = fields(1)
-            end do
+            offset(j) = solution%shape%place_outside(edge/((1.0_dp - s(j))*(1.0_dp + s(j)))) - solution%shape%place(edge)
          end do
-      end associate
+         fields = 0.0_dp
+         call rays%add_at(solution, edge, offset, spread(0.0_dp, 1, terms(2)), fields)
+         values(i, :) = fields(1, :)
+      end do
       series%c = matmul(chebyshev_coefficients(terms(1)), &
                         matmul(values, transpose(chebyshev_coefficients(terms(2)))))
    end subroutine fit_terms
