@@ -9,8 +9,6 @@ module wavycon_exterior_series
    use wavycon_constants, only: pi
    use wavycon_expansion, only: expansion
    use wavycon_kinds, only: dp
-   use wavycon_shape_map, only: shape_map
-   use wavycon_shape_search, only: find_preimage
    use wavycon_stress_kernel, only: stress_fields, surface_field
    use wavycon_stress_rays, only: start_stress_rays, stress_rays
    implicit none (type, external)
@@ -24,8 +22,10 @@ module wavycon_exterior_series
       procedure :: at
    end type exterior_series
 
-   !> Terms of the first series either way.
-   integer, parameter :: first_terms = 10
+   !> Terms of the first series in the angle.
+   integer, parameter :: first_angles = 5
+   !> Fall of the terms in x of a round disc, README.md (F50): the logarithm of the factor.
+   real(dp), parameter :: round_fall = 1.22_dp
    !> Accuracy of the values over that of the series.
    real(dp), parameter :: values_share = 0.05_dp
    !> What is left out over the sum of the last two terms: at sharp tips terms fall slowly.
@@ -47,7 +47,7 @@ contains
       integer :: places, terms(2)
 
       call start_stress_rays(rays, solution%basis%degree, -log(values_share*accuracy), surface_field)
-      terms = first_terms
+      terms = [first_angles, 2 + ceiling(-log(accuracy)/round_fall)]
       places = 0
       do
          places = places + product(terms)
@@ -91,22 +91,16 @@ contains
    end subroutine fit_terms
 
    !> The field at a place.
-   pure subroutine at(self, shape, z, value, found)
+   pure real(dp) function at(self, fold, v)
       class(exterior_series), intent(in) :: self
-      type(shape_map), intent(in) :: shape          !! the expansion's
-      complex(dp), intent(in) :: z                  !! from the centre of the spot or pool, outside of it [s]
-      real(dp), intent(out) :: value
-      logical, intent(out) :: found                 !! false without a preimage, next to the edge
+      integer, intent(in) :: fold                   !! of the shape
+      complex(dp), intent(in) :: v                  !! preimage of the place, |v| >= 1
 
-      complex(dp) :: v
       real(dp) :: of_angle(size(self%c, 1)), of_radius(size(self%c, 2))
 
-      value = 0.0_dp
-      call find_preimage(shape, z, v, found)
-      if (.not. found) return
-      of_angle = chebyshev_polynomials(real((v/abs(v))**shape%fold, dp), size(of_angle))
+      of_angle = chebyshev_polynomials(real((v/abs(v))**fold, dp), size(of_angle))
       of_radius = chebyshev_polynomials(2*sqrt(max(1.0_dp - 1.0_dp/abs(v), 0.0_dp)) - 1.0_dp, size(of_radius))
-      value = dot_product(of_angle, matmul(self%c, of_radius))
-   end subroutine at
+      at = dot_product(of_angle, matmul(self%c, of_radius))
+   end function at
 
 end module wavycon_exterior_series

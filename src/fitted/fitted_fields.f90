@@ -11,6 +11,7 @@ module wavycon_fitted_fields
    use wavycon_fitted_answer, only: fitted_answer
    use wavycon_fitted_tuning, only: field_accuracy, least_map
    use wavycon_kinds, only: dp
+   use wavycon_shape_search, only: find_preimage
    use wavycon_spot_integral, only: far_level, spot_integral, start_spot_integral
    use wavycon_stress_kernel, only: stress_fields, surface_field
    use wavycon_wave_lattice, only: wave_lattice
@@ -27,14 +28,17 @@ module wavycon_fitted_fields
       complex(dp), allocatable, private :: image(:)      !! centres of the spot or pool, 0, and of its near images [s]
       type(spot_integral), private :: spot
       type(disc_sources), private :: sources             !! those of its rule at far_level
+      complex(dp), allocatable, private :: preimage(:, :)
+         !! of the last place under each image and centre if it was asked for, 0 if there is none
       ! For maps.
       type(exterior_series), allocatable :: series       !! of the spot or pool
-      type(even_polynomial), private :: far(2)           !! of all but the near images: even in x, and odd over x
+      type(even_polynomial), private :: far(2)           !! of the images without the series: even in x, and odd over x
+      logical, allocatable, private :: by_series(:)      !! the images that take the series
    contains
       procedure :: at
       procedure :: edge
       procedure :: prepare_map
-      procedure, private :: find_inside
+      procedure, private :: find_preimages
       procedure, private :: sum_over_images
       procedure, private :: quick_sum
       procedure, private :: coarse_sum
@@ -62,6 +66,7 @@ contains
       associate (near => lattice%displacement_kernel%near_points())
          fields%image = [(0.0_dp, 0.0_dp), cmplx(near(1, :), near(2, :), dp)]
       end associate
+      allocate (fields%preimage(size(fields%image), fields%places), source=(0.0_dp, 0.0_dp))
       call start_spot_integral(fields%spot, answer%solution, asked, surface_field)
       call start_disc_sources(fields%sources, answer%solution, .false., fields%spot%radii(far_level), &
                               fields%spot%angles(far_level))
@@ -87,7 +92,7 @@ contains
       ! The second pool of a cell is the first one turned by half a turn about a crest, with all its fields.
       do i = 1, self%places
          z(i) = self%lattice%rows%reduced(merge(place, -place, i == 1) - self%centre)
-         call self%find_inside(z(i), w, inside)
+         call self%find_preimages(z(i), i, w, inside)
          if (.not. inside) cycle
          if (self%answer%pool) then
             gap = self%answer%solution%at(w)
@@ -101,42 +106,54 @@ contains
          pressure = self%answer%pbar_over_pstar - self%lattice%closing_pressure &
             + self%lattice%pressure_rise(place - self%lattice%trough)
          do i = 1, self%places
-            pressure = pressure + self%sum_over_images(z(i))
+            pressure = pressure + self%sum_over_images(z(i), i)
          end do
       else
-         displacement = self%sum_over_images(z(1))
+         displacement = self%sum_over_images(z(1), 1)
          gap = displacement - without_gap
       end if
    end subroutine at
 
-   !> Whether a place is inside the spot or pool at the centre, or inside a near image of it; and its preimage there.
-   pure subroutine find_inside(self, z, w, inside)
-      class(fitted_fields), intent(in) :: self
+   !> Finds the preimages of a place under the spot or pool and its near images as far as they are needed: where it may
+   !> be inside, and for the series.
+   subroutine find_preimages(self, z, centre, w, inside)
+      class(fitted_fields), intent(inout) :: self
       complex(dp), intent(in) :: z          !! from the centre, reduced [s]
-      complex(dp), intent(out) :: w
+      integer, intent(in) :: centre         !! which one, 1 to places
+      complex(dp), intent(out) :: w         !! the preimage if the place is inside one of them
       logical, intent(out) :: inside
 
+      logical :: found
       integer :: k
 
+      inside = .false.
       ! Long spots and pools of a rhombic lattice reach beyond the rectangle that places are reduced to.
       do k = 1, size(self%image)
-         call self%spot%find_inside(z - self%image(k), w, inside)
+         if (allocated(self%series)) then
+            if (.not. self%by_series(k)) cycle
+         else if (abs(z - self%image(k)) > self%spot%radius) then
+            cycle
+         end if
+         call find_preimage(self%spot%solution%shape, z - self%image(k), w, found, near=self%preimage(k, centre))
+         self%preimage(k, centre) = merge(w, (0.0_dp, 0.0_dp), found)
+         inside = found .and. abs(w) <= 1.0_dp
          if (inside) return
       end do
-   end subroutine find_inside
+   end subroutine find_preimages
 
    !> What one spot or pool and all its images add to the displacement [Delta] or the pressure [pi E* Delta/s] at a
    !> place outside of all.
-   real(dp) function sum_over_images(self, z) result(total)
+   real(dp) function sum_over_images(self, z, centre) result(total)
       class(fitted_fields), intent(inout) :: self
       complex(dp), intent(in) :: z      !! from the centre, reduced [s]
+      integer, intent(in) :: centre     !! that find_preimages was called for
 
       real(dp) :: exact(stress_fields)
       logical :: far(size(self%image))
       integer :: k
 
       if (allocated(self%series)) then
-         total = self%quick_sum(z)
+         total = self%quick_sum(z, centre)
          return
       end if
       far = [(self%spot%is_resolved(z - self%image(k)), k=1, size(far))]
@@ -177,8 +194,8 @@ contains
       total = total + of_centre(1) - removed(1)
    end function coarse_sum
 
-   !> Prepares for many places: a series of the spot or pool itself and of its near images, and a polynomial of the
-   !> others. Without such a series, or for few places, each place is evaluated for itself.
+   !> Prepares for many places: a series of the spot or pool and of the images that are too near to the cell for the
+   !> polynomial of the others. Without such a series, or for few places, each place is evaluated for itself.
    subroutine prepare_map(self, accuracy, places)
       class(fitted_fields), intent(inout) :: self
       real(dp), intent(in) :: accuracy            !! that the solution was asked for, relative
@@ -186,36 +203,38 @@ contains
 
       !> Error over the accuracy that was asked for, and the least one over the fields' scale.
       real(dp), parameter :: share = 1e-3_dp, least = 1e-11_dp
+      !> Most values of a series over the places outside: it takes them much faster.
+      real(dp), parameter :: most_terms = 2.0_dp
       real(dp), dimension(0:fit_degree, 0:fit_degree) :: even, odd, x, y
       complex(dp) :: z
       real(dp) :: other, outside, tolerance
-      logical :: found, none(size(self%image))
+      logical :: found
       integer :: i, j
 
       associate (answer => self%answer)
          outside = places*merge(answer%area_fraction, 1.0_dp - answer%area_fraction, answer%pool)
          if (outside < least_map) return
          allocate (self%series)
-         call start_exterior_series(self%series, answer%solution, max(share*accuracy, least), nint(0.5_dp*outside), &
+         call start_exterior_series(self%series, answer%solution, max(share*accuracy, least), nint(most_terms*outside), &
                                     found)
          if (.not. found) then
             deallocate (self%series)
             return
          end if
+         call find_near(self, 0.01_dp*max(share*accuracy, least))
          ! Displacements are of order 1, pressures of the order of their peak.
          tolerance = merge(answer%peak_pressure, 1.0_dp, answer%pool)*max(share*accuracy, least)
       end associate
-      none = .false.
       associate (rows => self%lattice%rows)
          call fit_nodes(rows%spacing, x, y)
          do j = 0, fit_degree
             do i = 0, fit_degree
                z = cmplx(x(i, j), y(i, j), dp)
                if (rows%along_y) z = cmplx(y(i, j), x(i, j), dp)
-               even(i, j) = self%coarse_sum(z, none)
+               even(i, j) = self%coarse_sum(z, .not. self%by_series)
                odd(i, j) = 0.0_dp
                if (mod(self%answer%solution%shape%fold, 2) == 0) cycle
-               other = self%coarse_sum(-conjg(z), none)
+               other = self%coarse_sum(-conjg(z), .not. self%by_series)
                odd(i, j) = 0.5_dp*(even(i, j) - other)/z%re
                even(i, j) = 0.5_dp*(even(i, j) + other)
             end do
@@ -225,27 +244,55 @@ contains
       end associate
    end subroutine prepare_map
 
+   !> Finds the images that take the series: those of which the polynomial's terms would not fall below a tolerance, or
+   !> that the coarse rule does not resolve everywhere in the rectangle.
+   subroutine find_near(self, tolerance)
+      class(fitted_fields), intent(inout) :: self
+      real(dp), intent(in) :: tolerance           !! relative
+
+      complex(dp) :: half, nearest
+      real(dp) :: clearance
+      integer :: k
+
+      associate (rows => self%lattice%rows)
+         half = 0.5_dp*merge(cmplx(rows%spacing, 1.0_dp, dp), cmplx(1.0_dp, rows%spacing, dp), rows%along_y)
+         ! A singularity at this distance beside the rectangle is, in the square of the coordinate along the side, on
+         ! Bernstein's ellipse on which terms fall by exp(-2 asinh(clearance/half)).
+         clearance = max(half%re, half%im)*sinh(-0.5_dp*log(tolerance)/(fit_degree + 1))
+      end associate
+      allocate (self%by_series(size(self%image)))
+      do k = 1, size(self%image)
+         associate (z => self%image(k))
+            nearest = cmplx(sign(min(abs(z%re), half%re), z%re), sign(min(abs(z%im), half%im), z%im), dp)
+            self%by_series(k) = abs(z - nearest) < clearance + self%spot%radius &
+               .or. .not. self%spot%is_resolved(nearest - z)
+         end associate
+      end do
+   end subroutine find_near
+
    !> The sum over all images as prepared.
-   real(dp) function quick_sum(self, z) result(total)
+   real(dp) function quick_sum(self, z, centre) result(total)
       class(fitted_fields), intent(inout) :: self
       complex(dp), intent(in) :: z      !! from the centre, reduced [s]
+      integer, intent(in) :: centre     !! that find_preimages was called for
 
-      real(dp) :: even(1), exact(stress_fields), odd(1), of_rows(2), value
-      logical :: found
+      real(dp) :: even(1), exact(stress_fields), odd(1), of_rows(2)
       integer :: k
 
       of_rows = [z%re, z%im]
       if (self%lattice%rows%along_y) of_rows = [z%im, z%re]
       call self%far(1)%evaluate(1, of_rows(:1), of_rows(2:), even)
       call self%far(2)%evaluate(1, of_rows(:1), of_rows(2:), odd)
-      total = even(1) + z%re*odd(1)
       exact = 0.0_dp
       do k = 1, size(self%image)
-         call self%series%at(self%spot%solution%shape, z - self%image(k), value, found)
-         total = total + value
-         if (.not. found) call self%spot%add_at(z - self%image(k), 0.0_dp, exact)
+         if (.not. self%by_series(k)) cycle
+         if (abs(self%preimage(k, centre)) > 0.0_dp) then
+            even = even + self%series%at(self%spot%solution%shape%fold, self%preimage(k, centre))
+         else
+            call self%spot%add_at(z - self%image(k), 0.0_dp, exact)
+         end if
       end do
-      total = total + exact(1)
+      total = even(1) + z%re*odd(1) + exact(1)
    end function quick_sum
 
    !> Gaps at the trough and at the lattice's saddle [Delta], and the pressure at the saddle [pi E* Delta/s]. Above

@@ -23,31 +23,32 @@ contains
    !> The preimage of a place under the map of the disc and, outside, that of README.md (F48), which continues it.
    !>
    !> Newton's method, README.md (F19). Next to the centre or to the edge it starts from the point of the edge that is
-   !> seen from the centre in the direction of z. The shapes in use are star-shaped: there is one such point.
-   pure subroutine find_preimage(shape, z, v, found)
+   !> seen from the centre in the direction of z. The shapes in use are star-shaped: there is one such point. It starts
+   !> from the preimage of another place if that is given and near.
+   pure subroutine find_preimage(shape, z, v, found, near)
       type(shape_map), intent(in) :: shape
       complex(dp), intent(in) :: z                !! [s]
       complex(dp), intent(out) :: v               !! |v| <= 1 inside
       logical, intent(out) :: found               !! false if Newton's method ends without it, next to a sharp tip
+      complex(dp), intent(in), optional :: near   !! preimage of another place; 0 for none
 
       !> Step over the longest after which the next one would be below rounding, as convergence is quadratic.
       real(dp), parameter :: small_step = 1e-9_dp
-      !> Distance over the sum of the map's coefficients from which the map is nearly b_0 v.
-      real(dp), parameter :: far = 1.5_dp
       !> Longest steps, outside over |v|: longer ones go across the fold of a map.
       real(dp), parameter :: longest_step = 0.2_dp
       complex(dp), dimension(1) :: conjugate_slope, slope
-      complex(dp) :: at_v, edge, left, step
-      real(dp) :: jacobian, longest
+      complex(dp) :: at_v, left, step
+      real(dp) :: jacobian, least, longest
+      logical :: from_near
       integer :: i
 
-      v = z/shape%b(0)
+      v = 0.0_dp
       found = abs(z) <= tiny(1.0_dp)
       if (found) return
-      if (abs(z) < far*sum(abs(shape%b))) then
-         call find_edge_in_direction(shape, z, v, edge)
-         v = v*(abs(z)/abs(edge))
-      end if
+      if (present(near)) v = near
+      from_near = abs(v) > 0.0_dp
+      if (.not. from_near) call find_start(shape, z, v)
+      least = least_inverse_jacobian*shape%b(0)**2
       do i = 1, most_inverse_steps
          if (abs(v) > 1.0_dp) then
             call shape%linearise_outside(v, at_v, slope(1), conjugate_slope(1))
@@ -57,15 +58,36 @@ contains
          end if
          left = z - at_v
          jacobian = slope(1)%re**2 + slope(1)%im**2 - (conjugate_slope(1)%re**2 + conjugate_slope(1)%im**2)
-         if (.not. jacobian > least_inverse_jacobian*shape%b(0)**2) return
-         step = (conjg(slope(1))*left - conjugate_slope(1)*conjg(left))/jacobian
+         step = (conjg(slope(1))*left - conjugate_slope(1)*conjg(left))/max(jacobian, least)
          longest = longest_step*max(abs(v), 1.0_dp)
+         if (from_near .and. (jacobian < least .or. abs(step) > longest)) then
+            from_near = .false.
+            call find_start(shape, z, v)
+            cycle
+         end if
+         if (.not. jacobian > least) return
          found = abs(step) <= small_step*longest
          if (abs(step) > longest) step = step*(longest/abs(step))
          v = v + step
          if (found) return
       end do
    end subroutine find_preimage
+
+   !> Where Newton's method for the preimage starts, far away and next to the centre or the edge.
+   pure subroutine find_start(shape, z, v)
+      type(shape_map), intent(in) :: shape
+      complex(dp), intent(in) :: z         !! not the centre
+      complex(dp), intent(out) :: v
+
+      !> Distance over the sum of the map's coefficients from which the map is nearly b_0 v.
+      real(dp), parameter :: far = 1.5_dp
+      complex(dp) :: edge
+
+      v = z/shape%b(0)
+      if (abs(z) >= far*sum(abs(shape%b))) return
+      call find_edge_in_direction(shape, z, v, edge)
+      v = v*(abs(z)/abs(edge))
+   end subroutine find_start
 
    !> The point of the edge that lies in the direction of z, by Newton's method for its polar angle between two mirror
    !> lines, and by halving where that would leave them: at sharp tips and on long flat sides.
