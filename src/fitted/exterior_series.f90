@@ -5,7 +5,7 @@
 !>
 !> v the preimage of the place under the exterior map, T Chebyshev's polynomials. It holds from the edge to infinity.
 module wavycon_exterior_series
-   use wavycon_chebyshev, only: chebyshev_coefficients, chebyshev_node, chebyshev_polynomials
+   use wavycon_chebyshev, only: chebyshev_coefficients, chebyshev_node
    use wavycon_constants, only: pi
    use wavycon_expansion, only: expansion
    use wavycon_kinds, only: dp
@@ -96,11 +96,29 @@ contains
       integer, intent(in) :: fold                   !! of the shape
       complex(dp), intent(in) :: v                  !! preimage of the place, |v| >= 1
 
-      real(dp) :: of_angle(size(self%c, 1)), of_radius(size(self%c, 2))
+      real(dp) :: angle, inverse, radius, sums(size(self%c, 1)), t(2)
+      complex(dp) :: power
+      integer :: k
 
-      of_angle = chebyshev_polynomials(real((v/abs(v))**fold, dp), size(of_angle))
-      of_radius = chebyshev_polynomials(2*sqrt(max(1.0_dp - 1.0_dp/abs(v), 0.0_dp)) - 1.0_dp, size(of_radius))
-      at = dot_product(of_angle, matmul(self%c, of_radius))
+      inverse = 1.0_dp/sqrt(v%re**2 + v%im**2)
+      radius = 2*sqrt(max(1.0_dp - inverse, 0.0_dp)) - 1.0_dp
+      power = inverse*v
+      do k = 2, fold
+         power = power*(inverse*v)
+      end do
+      angle = power%re
+      t = [1.0_dp, radius]
+      sums = 0.0_dp
+      do k = 1, size(self%c, 2)
+         sums = sums + t(1)*self%c(:, k)
+         t = [t(2), 2*radius*t(2) - t(1)]
+      end do
+      t = [1.0_dp, angle]
+      at = 0.0_dp
+      do k = 1, size(sums)
+         at = at + t(1)*sums(k)
+         t = [t(2), 2*angle*t(2) - t(1)]
+      end do
    end function at
 
 end module wavycon_exterior_series

@@ -38,7 +38,7 @@ contains
       real(dp), parameter :: longest_step = 0.2_dp
       complex(dp), dimension(1) :: conjugate_slope, slope
       complex(dp) :: at_v, left, step
-      real(dp) :: jacobian, least, longest
+      real(dp) :: jacobian, least, size_of_step, square
       logical :: from_near
       integer :: i
 
@@ -50,7 +50,8 @@ contains
       if (.not. from_near) call find_start(shape, z, v)
       least = least_inverse_jacobian*shape%b(0)**2
       do i = 1, most_inverse_steps
-         if (abs(v) > 1.0_dp) then
+         square = v%re**2 + v%im**2
+         if (square > 1.0_dp) then
             call shape%linearise_outside(v, at_v, slope(1), conjugate_slope(1))
          else
             at_v = shape%place(v)
@@ -59,16 +60,15 @@ contains
          left = z - at_v
          jacobian = slope(1)%re**2 + slope(1)%im**2 - (conjugate_slope(1)%re**2 + conjugate_slope(1)%im**2)
          step = (conjg(slope(1))*left - conjugate_slope(1)*conjg(left))/max(jacobian, least)
-         longest = longest_step*max(abs(v), 1.0_dp)
-         if (from_near .and. (jacobian < least .or. abs(step) > longest)) then
+         size_of_step = sqrt((step%re**2 + step%im**2)/max(square, 1.0_dp))/longest_step
+         if (from_near .and. (jacobian < least .or. size_of_step > 1.0_dp)) then
             from_near = .false.
             call find_start(shape, z, v)
             cycle
          end if
          if (.not. jacobian > least) return
-         found = abs(step) <= small_step*longest
-         if (abs(step) > longest) step = step*(longest/abs(step))
-         v = v + step
+         found = size_of_step <= small_step
+         v = v + step/max(size_of_step, 1.0_dp)
          if (found) return
       end do
    end subroutine find_preimage
