@@ -28,8 +28,8 @@ module wavycon_fitted_fields
       complex(dp), allocatable, private :: image(:)      !! centres of the spot or pool, 0, and of its near images [s]
       type(spot_integral), private :: spot
       type(disc_sources), private :: sources             !! those of its rule at far_level
-      complex(dp), allocatable, private :: preimage(:, :)
-         !! of the last place under each image and centre if it was asked for, 0 if there is none
+      complex(dp), allocatable, private :: preimage(:, :, :)
+         !! of the last two places under each image and centre if it was asked for, 0 if there is none
       ! For maps.
       type(exterior_series), allocatable :: series       !! of the spot or pool
       type(even_polynomial), private :: far(2)           !! of the images without the series: even in x, and odd over x
@@ -66,7 +66,7 @@ contains
       associate (near => lattice%displacement_kernel%near_points())
          fields%image = [(0.0_dp, 0.0_dp), cmplx(near(1, :), near(2, :), dp)]
       end associate
-      allocate (fields%preimage(size(fields%image), fields%places), source=(0.0_dp, 0.0_dp))
+      allocate (fields%preimage(2, size(fields%image), fields%places), source=(0.0_dp, 0.0_dp))
       call start_spot_integral(fields%spot, answer%solution, asked, surface_field)
       call start_disc_sources(fields%sources, answer%solution, .false., fields%spot%radii(far_level), &
                               fields%spot%angles(far_level))
@@ -134,9 +134,12 @@ contains
          else if (abs(z - self%image(k)) > self%spot%radius) then
             cycle
          end if
-         call find_preimage(self%spot%solution%shape, z - self%image(k), w, found, near=self%preimage(k, centre))
-         self%preimage(k, centre) = merge(w, (0.0_dp, 0.0_dp), found)
-         inside = found .and. abs(w) <= 1.0_dp
+         associate (last => self%preimage(:, k, centre))
+            ! Most places are as far from the last one as that is from the one before.
+            call find_preimage(self%spot%solution%shape, z - self%image(k), w, found, near=2*last(1) - last(2))
+            last = [merge(w, (0.0_dp, 0.0_dp), found), last(1)]
+         end associate
+         inside = found .and. w%re**2 + w%im**2 <= 1.0_dp
          if (inside) return
       end do
    end subroutine find_preimages
@@ -286,8 +289,8 @@ contains
       exact = 0.0_dp
       do k = 1, size(self%image)
          if (.not. self%by_series(k)) cycle
-         if (abs(self%preimage(k, centre)) > 0.0_dp) then
-            even = even + self%series%at(self%spot%solution%shape%fold, self%preimage(k, centre))
+         if (abs(self%preimage(1, k, centre)) > 0.0_dp) then
+            even = even + self%series%at(self%spot%solution%shape%fold, self%preimage(1, k, centre))
          else
             call self%spot%add_at(z - self%image(k), 0.0_dp, exact)
          end if

@@ -33,7 +33,7 @@ contains
       complex(dp), intent(in), optional :: near   !! preimage of another place; 0 for none
 
       !> Step over the longest after which the next one would be below rounding, as convergence is quadratic.
-      real(dp), parameter :: small_step = 1e-9_dp
+      real(dp), parameter :: small_step = 1e-8_dp
       !> Longest steps, outside over |v|: longer ones go across the fold of a map.
       real(dp), parameter :: longest_step = 0.2_dp
       complex(dp), dimension(1) :: conjugate_slope, slope
@@ -43,10 +43,10 @@ contains
       integer :: i
 
       v = 0.0_dp
-      found = abs(z) <= tiny(1.0_dp)
+      found = z%re**2 + z%im**2 <= tiny(1.0_dp)
       if (found) return
       if (present(near)) v = near
-      from_near = abs(v) > 0.0_dp
+      from_near = v%re**2 + v%im**2 > 0.0_dp
       if (.not. from_near) call find_start(shape, z, v)
       least = least_inverse_jacobian*shape%b(0)**2
       do i = 1, most_inverse_steps
