@@ -22,8 +22,8 @@ module wavycon_exterior_series
       procedure :: at
    end type exterior_series
 
-   !> Terms of the first series in the angle.
-   integer, parameter :: first_angles = 5
+   !> Terms in the angle: of the first series, and most.
+   integer, parameter :: first_angles = 5, most_angles = 256
    !> Fall of the terms in x of a round disc, README.md (F50): the logarithm of the factor.
    real(dp), parameter :: round_fall = 1.22_dp
    !> Accuracy of the values over that of the series.
@@ -51,7 +51,7 @@ contains
       places = 0
       do
          places = places + product(terms)
-         found = places <= most_places
+         found = places <= most_places .and. terms(1) <= most_angles
          if (.not. found) return
          call fit_terms(series, solution, rays, terms)
          associate (c => abs(series%c)/maxval(abs(series%c)))
@@ -96,9 +96,9 @@ contains
       integer, intent(in) :: fold                   !! of the shape
       complex(dp), intent(in) :: v                  !! preimage of the place, |v| >= 1
 
-      real(dp) :: angle, inverse, radius, sums(size(self%c, 1)), t(2)
+      real(dp) :: angle, inverse, radius, sums(most_angles), t(2)
       complex(dp) :: power
-      integer :: k
+      integer :: k, n
 
       inverse = 1.0_dp/sqrt(v%re**2 + v%im**2)
       radius = 2*sqrt(max(1.0_dp - inverse, 0.0_dp)) - 1.0_dp
@@ -108,14 +108,15 @@ contains
       end do
       angle = power%re
       t = [1.0_dp, radius]
-      sums = 0.0_dp
+      n = size(self%c, 1)
+      sums(:n) = 0.0_dp
       do k = 1, size(self%c, 2)
-         sums = sums + t(1)*self%c(:, k)
+         sums(:n) = sums(:n) + t(1)*self%c(:, k)
          t = [t(2), 2*radius*t(2) - t(1)]
       end do
       t = [1.0_dp, angle]
       at = 0.0_dp
-      do k = 1, size(sums)
+      do k = 1, n
          at = at + t(1)*sums(k)
          t = [t(2), 2*angle*t(2) - t(1)]
       end do

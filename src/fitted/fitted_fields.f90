@@ -207,7 +207,7 @@ contains
       !> Error over the accuracy that was asked for, and the least one over the fields' scale.
       real(dp), parameter :: share = 1e-3_dp, least = 1e-11_dp
       !> Most values of a series over the places outside: it takes them much faster.
-      real(dp), parameter :: most_terms = 2.0_dp
+      real(dp), parameter :: most_terms = 3.0_dp
       real(dp), dimension(0:fit_degree, 0:fit_degree) :: even, odd, x, y
       complex(dp) :: z
       real(dp) :: other, outside, tolerance
