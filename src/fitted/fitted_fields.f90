@@ -25,22 +25,21 @@ module wavycon_fitted_fields
       type(fitted_answer) :: answer
       complex(dp) :: centre = 0.0_dp                     !! of the spot or the pool [s]
       integer :: places = 1                              !! in a cell: the centre and, if there are two, -centre
-      complex(dp), allocatable, private :: image(:)      !! centres of the spot or pool, 0, and of its near images [s]
+      complex(dp), allocatable, private :: image(:)
+         !! centres of the spot or pool, 0, and of its near images; for maps of those that take the series [s]
       type(spot_integral), private :: spot
       type(disc_sources), private :: sources             !! those of its rule at far_level
       complex(dp), allocatable, private :: preimage(:, :, :)
          !! of the last two places under each image and centre if it was asked for, 0 if there is none
       ! For maps.
       type(exterior_series), allocatable :: series       !! of the spot or pool
-      type(even_polynomial), private :: far(2)           !! of the images without the series: even in x, and odd over x
-      logical, allocatable, private :: by_series(:)      !! the images that take the series
+      type(even_polynomial), private :: far(2)           !! of all others: even in x, and odd over x
    contains
       procedure :: at
       procedure :: edge
       procedure :: prepare_map
       procedure, private :: find_preimages
       procedure, private :: sum_over_images
-      procedure, private :: quick_sum
       procedure, private :: coarse_sum
    end type fitted_fields
 
@@ -129,14 +128,10 @@ contains
       inside = .false.
       ! Long spots and pools of a rhombic lattice reach beyond the rectangle that places are reduced to.
       do k = 1, size(self%image)
-         if (allocated(self%series)) then
-            if (.not. self%by_series(k)) cycle
-         else if (abs(z - self%image(k)) > self%spot%radius) then
-            cycle
-         end if
+         if (.not. allocated(self%series) .and. abs(z - self%image(k)) > self%spot%radius) cycle
          associate (last => self%preimage(:, k, centre))
             ! Most places are as far from the last one as that is from the one before.
-            call find_preimage(self%spot%solution%shape, z - self%image(k), w, found, near=2*last(1) - last(2))
+            call find_preimage(self%spot%solution%shape, z - self%image(k), w, found, 2*last(1) - last(2))
             last = [merge(w, (0.0_dp, 0.0_dp), found), last(1)]
          end associate
          inside = found .and. w%re**2 + w%im**2 <= 1.0_dp
@@ -151,28 +146,39 @@ contains
       complex(dp), intent(in) :: z      !! from the centre, reduced [s]
       integer, intent(in) :: centre     !! that find_preimages was called for
 
-      real(dp) :: exact(stress_fields)
+      real(dp) :: even(1), exact(stress_fields), odd(1), of_rows(2)
       logical :: far(size(self%image))
       integer :: k
 
+      far = .false.
       if (allocated(self%series)) then
-         total = self%quick_sum(z, centre)
-         return
+         of_rows = [z%re, z%im]
+         if (self%lattice%rows%along_y) of_rows = [z%im, z%re]
+         call self%far(1)%evaluate(1, of_rows(:1), of_rows(2:), even)
+         call self%far(2)%evaluate(1, of_rows(:1), of_rows(2:), odd)
+         total = even(1) + z%re*odd(1)
+      else
+         far = [(self%spot%is_resolved(z - self%image(k)), k=1, size(far))]
+         total = self%coarse_sum(z, pack(self%image, .not. far))
       end if
-      far = [(self%spot%is_resolved(z - self%image(k)), k=1, size(far))]
-      total = self%coarse_sum(z, far)
       exact = 0.0_dp
       do k = 1, size(far)
-         if (.not. far(k)) call self%spot%add_at(z - self%image(k), 0.0_dp, exact)
+         if (far(k)) cycle
+         if (allocated(self%series) .and. abs(self%preimage(1, k, centre)%re) + abs(self%preimage(1, k, centre)%im) &
+             > 0.0_dp) then
+            total = total + self%series%at(self%spot%solution%shape%fold, self%preimage(1, k, centre))
+         else
+            call self%spot%add_at(z - self%image(k), 0.0_dp, exact)
+         end if
       end do
       total = total + exact(1)
    end function sum_over_images
 
    !> The sum over all images but some near ones, by the coarse rule.
-   real(dp) function coarse_sum(self, z, counted) result(total)
+   real(dp) function coarse_sum(self, z, near) result(total)
       class(fitted_fields), intent(in) :: self
       complex(dp), intent(in) :: z                           !! from the centre, reduced [s]
-      logical, intent(in) :: counted(:)                      !! the near images that are part of it
+      complex(dp), intent(in) :: near(:)                     !! centres of those that are not part of it [s]
 
       real(dp), dimension(size(self%sources%x)) :: value, x, y
       real(dp), dimension(stress_fields) :: of_centre, removed
@@ -186,15 +192,14 @@ contains
       else
          call self%lattice%displacement_kernel%evaluate(size(x), x, y, value)
       end if
-      total = dot_product(self%sources%strength(:, 1), value)
       ! The kernel's smooth part has the terms of all images but not that of the one at the origin.
       of_centre = 0.0_dp
       removed = 0.0_dp
-      if (counted(1)) call self%sources%add_at(surface_field, z, 0.0_dp, of_centre)
-      do k = 2, size(counted)
-         if (.not. counted(k)) call self%sources%add_at(surface_field, z - self%image(k), 0.0_dp, removed)
+      if (all(abs(near) > 0.0_dp)) call self%sources%add_at(surface_field, z, 0.0_dp, of_centre)
+      do k = 1, size(near)
+         if (abs(near(k)) > 0.0_dp) call self%sources%add_at(surface_field, z - near(k), 0.0_dp, removed)
       end do
-      total = total + of_centre(1) - removed(1)
+      total = dot_product(self%sources%strength(:, 1), value) + of_centre(1) - removed(1)
    end function coarse_sum
 
    !> Prepares for many places: a series of the spot or pool and of the images that are too near to the cell for the
@@ -209,94 +214,53 @@ contains
       !> Most values of a series over the places outside: it takes them much faster.
       real(dp), parameter :: most_terms = 3.0_dp
       real(dp), dimension(0:fit_degree, 0:fit_degree) :: even, odd, x, y
+      complex(dp), allocatable :: near(:)
       complex(dp) :: z
-      real(dp) :: other, outside, tolerance
+      real(dp) :: other, outside, reach, tolerance
       logical :: found
       integer :: i, j
 
-      associate (answer => self%answer)
-         outside = places*merge(answer%area_fraction, 1.0_dp - answer%area_fraction, answer%pool)
-         if (outside < least_map) return
-         allocate (self%series)
-         call start_exterior_series(self%series, answer%solution, max(share*accuracy, least), nint(most_terms*outside), &
-                                    found)
-         if (.not. found) then
-            deallocate (self%series)
-            return
-         end if
-         call find_near(self, 0.01_dp*max(share*accuracy, least))
-         ! Displacements are of order 1, pressures of the order of their peak.
-         tolerance = merge(answer%peak_pressure, 1.0_dp, answer%pool)*max(share*accuracy, least)
+      outside = places*merge(self%answer%area_fraction, 1.0_dp - self%answer%area_fraction, self%answer%pool)
+      if (outside < least_map) return
+      tolerance = max(share*accuracy, least)
+      allocate (self%series)
+      call start_exterior_series(self%series, self%answer%solution, tolerance, nint(most_terms*outside), found)
+      if (.not. found) then
+         deallocate (self%series)
+         return
+      end if
+      tolerance = 0.01_dp*tolerance
+      associate (rows => self%lattice%rows)
+         ! A singularity at a distance c beside a rectangle of half the side a is, for the polynomial in the square of
+         ! the coordinate along that side, where terms fall by exp(-2 asinh(c/a)).
+         reach = self%spot%radius + 0.5_dp*max(rows%spacing, 1.0_dp)*sinh(-0.5_dp*log(tolerance)/(fit_degree + 1))
+         do while (.not. self%spot%is_resolved(cmplx(reach, 0.0_dp, dp)))
+            reach = 1.1_dp*reach
+         end do
+         near = rows%points_about(reach, (0.0_dp, 0.0_dp))
       end associate
+      self%image = [(0.0_dp, 0.0_dp), pack(near, abs(near) > 0.0_dp)]
+      self%preimage = reshape([(0.0_dp, 0.0_dp)], [2, size(self%image), self%places], pad=[(0.0_dp, 0.0_dp)])
+      ! Displacements are of order 1, pressures of the order of their peak.
+      if (self%answer%pool) tolerance = tolerance*self%answer%peak_pressure
       associate (rows => self%lattice%rows)
          call fit_nodes(rows%spacing, x, y)
          do j = 0, fit_degree
             do i = 0, fit_degree
                z = cmplx(x(i, j), y(i, j), dp)
                if (rows%along_y) z = cmplx(y(i, j), x(i, j), dp)
-               even(i, j) = self%coarse_sum(z, .not. self%by_series)
+               even(i, j) = self%coarse_sum(z, self%image)
                odd(i, j) = 0.0_dp
                if (mod(self%answer%solution%shape%fold, 2) == 0) cycle
-               other = self%coarse_sum(-conjg(z), .not. self%by_series)
+               other = self%coarse_sum(-conjg(z), self%image)
                odd(i, j) = 0.5_dp*(even(i, j) - other)/z%re
                even(i, j) = 0.5_dp*(even(i, j) + other)
             end do
          end do
-         call start_even_polynomial(self%far(1), rows%spacing, even, 0.01_dp*tolerance)
-         call start_even_polynomial(self%far(2), rows%spacing, odd, 0.01_dp*tolerance)
+         call start_even_polynomial(self%far(1), rows%spacing, even, tolerance)
+         call start_even_polynomial(self%far(2), rows%spacing, odd, tolerance)
       end associate
    end subroutine prepare_map
-
-   !> Finds the images that take the series: those of which the polynomial's terms would not fall below a tolerance, or
-   !> that the coarse rule does not resolve everywhere in the rectangle.
-   subroutine find_near(self, tolerance)
-      class(fitted_fields), intent(inout) :: self
-      real(dp), intent(in) :: tolerance           !! relative
-
-      complex(dp) :: half, nearest
-      real(dp) :: clearance
-      integer :: k
-
-      associate (rows => self%lattice%rows)
-         half = 0.5_dp*merge(cmplx(rows%spacing, 1.0_dp, dp), cmplx(1.0_dp, rows%spacing, dp), rows%along_y)
-         ! A singularity at this distance beside the rectangle is, in the square of the coordinate along the side, on
-         ! Bernstein's ellipse on which terms fall by exp(-2 asinh(clearance/half)).
-         clearance = max(half%re, half%im)*sinh(-0.5_dp*log(tolerance)/(fit_degree + 1))
-      end associate
-      allocate (self%by_series(size(self%image)))
-      do k = 1, size(self%image)
-         associate (z => self%image(k))
-            nearest = cmplx(sign(min(abs(z%re), half%re), z%re), sign(min(abs(z%im), half%im), z%im), dp)
-            self%by_series(k) = abs(z - nearest) < clearance + self%spot%radius &
-               .or. .not. self%spot%is_resolved(nearest - z)
-         end associate
-      end do
-   end subroutine find_near
-
-   !> The sum over all images as prepared.
-   real(dp) function quick_sum(self, z, centre) result(total)
-      class(fitted_fields), intent(inout) :: self
-      complex(dp), intent(in) :: z      !! from the centre, reduced [s]
-      integer, intent(in) :: centre     !! that find_preimages was called for
-
-      real(dp) :: even(1), exact(stress_fields), odd(1), of_rows(2)
-      integer :: k
-
-      of_rows = [z%re, z%im]
-      if (self%lattice%rows%along_y) of_rows = [z%im, z%re]
-      call self%far(1)%evaluate(1, of_rows(:1), of_rows(2:), even)
-      call self%far(2)%evaluate(1, of_rows(:1), of_rows(2:), odd)
-      exact = 0.0_dp
-      do k = 1, size(self%image)
-         if (.not. self%by_series(k)) cycle
-         if (abs(self%preimage(1, k, centre)) > 0.0_dp) then
-            even = even + self%series%at(self%spot%solution%shape%fold, self%preimage(1, k, centre))
-         else
-            call self%spot%add_at(z - self%image(k), 0.0_dp, exact)
-         end if
-      end do
-      total = even(1) + z%re*odd(1) + exact(1)
-   end function quick_sum
 
    !> Gaps at the trough and at the lattice's saddle [Delta], and the pressure at the saddle [pi E* Delta/s]. Above
    !> merging the gap at the saddle is 0, below the pressure there.
