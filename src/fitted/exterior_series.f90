@@ -53,7 +53,7 @@ contains
          places = places + product(terms)
          found = places <= most_places .and. terms(1) <= most_angles
          if (.not. found) return
-         call fit_terms(series, solution, rays, terms)
+         call fit_terms()
          associate (c => abs(series%c)/maxval(abs(series%c)))
             associate (last => rest*[sum(c(terms(1) - 1:, :)), sum(c(:, terms(2) - 1:))])
                if (all(last <= accuracy)) return
@@ -63,32 +63,28 @@ contains
             end associate
          end associate
       end do
-   end subroutine start_exterior_series
 
-   !> Fits a number of terms to as many values. Places with the same arg v take the same rays from the edge.
-   subroutine fit_terms(series, solution, rays, terms)
-      type(exterior_series), intent(inout) :: series
-      type(expansion), intent(in) :: solution
-      type(stress_rays), intent(inout) :: rays      !! for the surface field
-      integer, intent(in) :: terms(2)               !! n_theta, n_r
+   contains
 
-      complex(dp) :: edge, offset(terms(2))
-      real(dp) :: fields(stress_fields, terms(2)), s(terms(2)), values(terms(1), terms(2))
-      integer :: i, j
+      !> Fits as many terms as values. Places with the same arg v take the same rays from the edge.
+      subroutine fit_terms()
+         complex(dp) :: edge, v(terms(2))
+         real(dp) :: fields(stress_fields, terms(2)), values(terms(1), terms(2))
+         integer :: i, j
 
-      s = 0.5_dp*(1.0_dp + chebyshev_node([(j, j=1, terms(2))], terms(2)))
-      do i = 1, terms(1)
-         edge = exp(cmplx(0.0_dp, pi*(i - 0.5_dp)/(terms(1)*solution%shape%fold), dp))
-         do j = 1, terms(2)
-            offset(j) = solution%shape%place_outside(edge/((1.0_dp - s(j))*(1.0_dp + s(j)))) - solution%shape%place(edge)
+         do i = 1, terms(1)
+            edge = exp(cmplx(0.0_dp, pi*(i - 0.5_dp)/(terms(1)*solution%shape%fold), dp))
+            v = edge/(1.0_dp - (0.5_dp*(1.0_dp + chebyshev_node([(j, j=1, terms(2))], terms(2))))**2)
+            fields = 0.0_dp
+            call rays%add_at(solution, edge, [(solution%shape%place_outside(v(j)), j=1, terms(2))] &
+                             - solution%shape%place(edge), spread(0.0_dp, 1, terms(2)), fields)
+            values(i, :) = fields(1, :)
          end do
-         fields = 0.0_dp
-         call rays%add_at(solution, edge, offset, spread(0.0_dp, 1, terms(2)), fields)
-         values(i, :) = fields(1, :)
-      end do
-      series%c = matmul(chebyshev_coefficients(terms(1)), &
-                        matmul(values, transpose(chebyshev_coefficients(terms(2)))))
-   end subroutine fit_terms
+         series%c = matmul(chebyshev_coefficients(terms(1)), &
+                           matmul(values, transpose(chebyshev_coefficients(terms(2)))))
+      end subroutine fit_terms
+
+   end subroutine start_exterior_series
 
    !> The field at a place.
    pure real(dp) function at(self, fold, v)

@@ -26,7 +26,7 @@ module wavycon_fitted_fields
       complex(dp) :: centre = 0.0_dp                     !! of the spot or the pool [s]
       integer :: places = 1                              !! in a cell: the centre and, if there are two, -centre
       complex(dp), allocatable, private :: image(:)
-         !! centres of the spot or pool, 0, and of its near images; for maps of those that take the series [s]
+         !! centres of the spot or pool, 0, and its near images; for maps those that take the series [s]
       type(spot_integral), private :: spot
       type(disc_sources), private :: sources             !! those of its rule at far_level
       complex(dp), allocatable, private :: preimage(:, :, :)
@@ -62,14 +62,27 @@ contains
          fields%centre = lattice%trough
          fields%places = lattice%troughs
       end if
-      associate (near => lattice%displacement_kernel%near_points())
-         fields%image = [(0.0_dp, 0.0_dp), cmplx(near(1, :), near(2, :), dp)]
-      end associate
-      allocate (fields%preimage(2, size(fields%image), fields%places), source=(0.0_dp, 0.0_dp))
       call start_spot_integral(fields%spot, answer%solution, asked, surface_field)
       call start_disc_sources(fields%sources, answer%solution, .false., fields%spot%radii(far_level), &
                               fields%spot%angles(far_level))
+      call find_images(fields, fields%spot%radius)
    end subroutine start_fitted_fields
+
+   !> Lists the images that come within a distance of the rectangle that places are reduced to, and all others that the
+   !> coarse rule may not resolve there.
+   subroutine find_images(fields, least)
+      type(fitted_fields), intent(inout) :: fields
+      real(dp), intent(in) :: least                !! distance of their centres [s]
+
+      real(dp) :: reach
+
+      reach = least
+      do while (.not. fields%spot%is_resolved(cmplx(reach, 0.0_dp, dp)))
+         reach = 1.1_dp*reach
+      end do
+      fields%image = fields%lattice%rows%points_about(reach, (0.0_dp, 0.0_dp))
+      fields%preimage = reshape([(0.0_dp, 0.0_dp)], [2, size(fields%image), fields%places], pad=[(0.0_dp, 0.0_dp)])
+   end subroutine find_images
 
    !> The fields at a place.
    subroutine at(self, place, pressure, displacement, gap)
@@ -214,9 +227,8 @@ contains
       !> Most values of a series over the places outside: it takes them much faster.
       real(dp), parameter :: most_terms = 3.0_dp
       real(dp), dimension(0:fit_degree, 0:fit_degree) :: even, odd, x, y
-      complex(dp), allocatable :: near(:)
       complex(dp) :: z
-      real(dp) :: other, outside, reach, tolerance
+      real(dp) :: other, outside, tolerance
       logical :: found
       integer :: i, j
 
@@ -230,17 +242,10 @@ contains
          return
       end if
       tolerance = 0.01_dp*tolerance
-      associate (rows => self%lattice%rows)
-         ! A singularity at a distance c beside a rectangle of half the side a is, for the polynomial in the square of
-         ! the coordinate along that side, where terms fall by exp(-2 asinh(c/a)).
-         reach = self%spot%radius + 0.5_dp*max(rows%spacing, 1.0_dp)*sinh(-0.5_dp*log(tolerance)/(fit_degree + 1))
-         do while (.not. self%spot%is_resolved(cmplx(reach, 0.0_dp, dp)))
-            reach = 1.1_dp*reach
-         end do
-         near = rows%points_about(reach, (0.0_dp, 0.0_dp))
-      end associate
-      self%image = [(0.0_dp, 0.0_dp), pack(near, abs(near) > 0.0_dp)]
-      self%preimage = reshape([(0.0_dp, 0.0_dp)], [2, size(self%image), self%places], pad=[(0.0_dp, 0.0_dp)])
+      ! A singularity at a distance c beside a rectangle of half the side a is, for the polynomial in the square of the
+      ! coordinate along that side, where terms fall by exp(-2 asinh(c/a)).
+      call find_images(self, self%spot%radius + 0.5_dp*max(self%lattice%rows%spacing, 1.0_dp) &
+                       *sinh(-0.5_dp*log(tolerance)/(fit_degree + 1)))
       ! Displacements are of order 1, pressures of the order of their peak.
       if (self%answer%pool) tolerance = tolerance*self%answer%peak_pressure
       associate (rows => self%lattice%rows)

@@ -70,26 +70,13 @@ contains
       real(dp), allocatable, intent(out) :: point(:, :)      !! x and y, shape (2, m) [s]
       real(dp), intent(out) :: next                          !! >= distance [s]
 
-      real(dp) :: across, along
-      integer :: columns, i, j, rows
+      complex(dp), allocatable :: z(:)
 
-      rows = ceiling(distance/self%spacing) + 1
-      columns = ceiling(distance + self%shift*rows) + 1
-      next = huge(next)
-      allocate (point(2, 0))
-      do j = -rows, rows
-         do i = -columns, columns
-            along = i + self%shift*j
-            across = self%spacing*j
-            if (i == 0 .and. j == 0) cycle
-            if (hypot(along, across) < distance) then
-               point = reshape([point, along, across], [2, size(point, 2) + 1])
-            else
-               next = min(next, hypot(along, across))
-            end if
-         end do
-      end do
-      if (self%along_y) point = point([2, 1], :)
+      ! Points of a row are 1 apart: the next one is among these.
+      allocate (z, source=self%points_about(distance + 1.0_dp, (0.0_dp, 0.0_dp)))
+      next = minval(abs(z), abs(z) >= distance)
+      z = pack(z, abs(z) < distance .and. abs(z) > 0.0_dp)
+      point = reshape([z%re, z%im], [2, size(z)], order=[2, 1])
    end subroutine points_within
 
    !> The lattice points, all moved by an offset, that are not farther than `distance` from the rectangle about the

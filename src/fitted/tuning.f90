@@ -100,9 +100,6 @@ module wavycon_fitted_tuning
       !! Most lattice points that are summed one by one. With more of them the series saves nothing over the kernel
       !! itself.
 
-   ! Smooth part of the kernel.
-
-
    ! Clustering of the map's points towards the tips, near merging on the square lattice.
 
    real(dp), parameter, public :: spot_clustering = 0.015_dp
