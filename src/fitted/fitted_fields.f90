@@ -159,16 +159,17 @@ contains
       complex(dp), intent(in) :: z      !! from the centre, reduced [s]
       integer, intent(in) :: centre     !! that find_preimages was called for
 
-      real(dp) :: even(1), exact(stress_fields), odd(1), of_rows(2)
+      real(dp) :: even(1), exact(stress_fields), odd(1)
       logical :: far(size(self%image))
       integer :: k
 
       far = .false.
       if (allocated(self%series)) then
-         of_rows = [z%re, z%im]
-         if (self%lattice%rows%along_y) of_rows = [z%im, z%re]
-         call self%far(1)%evaluate(1, of_rows(:1), of_rows(2:), even)
-         call self%far(2)%evaluate(1, of_rows(:1), of_rows(2:), odd)
+         associate (along => [merge(z%im, z%re, self%lattice%rows%along_y)], &
+                    across => [merge(z%re, z%im, self%lattice%rows%along_y)])
+            call self%far(1)%evaluate(1, along, across, even)
+            call self%far(2)%evaluate(1, along, across, odd)
+         end associate
          total = even(1) + z%re*odd(1)
       else
          far = [(self%spot%is_resolved(z - self%image(k)), k=1, size(far))]
@@ -177,8 +178,7 @@ contains
       exact = 0.0_dp
       do k = 1, size(far)
          if (far(k)) cycle
-         if (allocated(self%series) .and. abs(self%preimage(1, k, centre)%re) + abs(self%preimage(1, k, centre)%im) &
-             > 0.0_dp) then
+         if (allocated(self%series) .and. abs(self%preimage(1, k, centre)) > 0.0_dp) then
             total = total + self%series%at(self%spot%solution%shape%fold, self%preimage(1, k, centre))
          else
             call self%spot%add_at(z - self%image(k), 0.0_dp, exact)

@@ -54,13 +54,10 @@ contains
       real(dp) :: across(1), along(1)
       logical :: moved
 
-      if (self%along_y) then
-         call self%reduce_along_rows(1, [z%im], [z%re], along, across, moved)
-         reduced = cmplx(across(1), along(1), dp)
-      else
-         call self%reduce_along_rows(1, [z%re], [z%im], along, across, moved)
-         reduced = cmplx(along(1), across(1), dp)
-      end if
+      along = merge(z%im, z%re, self%along_y)
+      across = merge(z%re, z%im, self%along_y)
+      call self%reduce_along_rows(1, [along], [across], along, across, moved)
+      reduced = cmplx(merge(across(1), along(1), self%along_y), merge(along(1), across(1), self%along_y), dp)
    end function reduced
 
    !> The lattice points, the origin left out, that are nearer to it than `distance`, and the distance of the next one.

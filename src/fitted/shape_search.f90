@@ -37,7 +37,9 @@ contains
       !> Longest steps, outside over |v|: longer ones go across the fold of a map.
       real(dp), parameter :: longest_step = 0.2_dp
       complex(dp), dimension(1) :: conjugate_slope, slope
-      complex(dp) :: at_v, left, step
+      !> Distance over the sum of the map's coefficients from which the map is nearly b_0 v.
+      real(dp), parameter :: far = 1.5_dp
+      complex(dp) :: at_v, edge, left, step
       real(dp) :: jacobian, least, size_of_step, square
       logical :: from_near
       integer :: i
@@ -46,10 +48,17 @@ contains
       found = z%re**2 + z%im**2 <= tiny(1.0_dp)
       if (found) return
       if (present(near)) v = near
-      from_near = v%re**2 + v%im**2 > 0.0_dp
-      if (.not. from_near) call find_start(shape, z, v)
+      from_near = .true.
       least = least_inverse_jacobian*shape%b(0)**2
       do i = 1, most_inverse_steps
+         if (abs(v%re) + abs(v%im) <= 0.0_dp) then
+            from_near = .false.
+            v = z/shape%b(0)
+            if (abs(z) < far*sum(abs(shape%b))) then
+               call find_edge_in_direction(shape, z, v, edge)
+               v = v*(abs(z)/abs(edge))
+            end if
+         end if
          square = v%re**2 + v%im**2
          if (square > 1.0_dp) then
             call shape%linearise_outside(v, at_v, slope(1), conjugate_slope(1))
@@ -62,8 +71,7 @@ contains
          step = (conjg(slope(1))*left - conjugate_slope(1)*conjg(left))/max(jacobian, least)
          size_of_step = sqrt((step%re**2 + step%im**2)/max(square, 1.0_dp))/longest_step
          if (from_near .and. (jacobian < least .or. size_of_step > 1.0_dp)) then
-            from_near = .false.
-            call find_start(shape, z, v)
+            v = 0.0_dp
             cycle
          end if
          if (.not. jacobian > least) return
@@ -72,22 +80,6 @@ contains
          if (found) return
       end do
    end subroutine find_preimage
-
-   !> Where Newton's method for the preimage starts, far away and next to the centre or the edge.
-   pure subroutine find_start(shape, z, v)
-      type(shape_map), intent(in) :: shape
-      complex(dp), intent(in) :: z         !! not the centre
-      complex(dp), intent(out) :: v
-
-      !> Distance over the sum of the map's coefficients from which the map is nearly b_0 v.
-      real(dp), parameter :: far = 1.5_dp
-      complex(dp) :: edge
-
-      v = z/shape%b(0)
-      if (abs(z) >= far*sum(abs(shape%b))) return
-      call find_edge_in_direction(shape, z, v, edge)
-      v = v*(abs(z)/abs(edge))
-   end subroutine find_start
 
    !> The point of the edge that lies in the direction of z, by Newton's method for its polar angle between two mirror
    !> lines, and by halving where that would leave them: at sharp tips and on long flat sides.
