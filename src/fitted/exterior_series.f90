@@ -92,7 +92,7 @@ contains
       integer, intent(in) :: fold                   !! of the shape
       complex(dp), intent(in) :: v                  !! preimage of the place, |v| >= 1
 
-      real(dp) :: angle, inverse, radius, sums(most_angles), t(2)
+      real(dp) :: inverse, radius, sums(most_angles), t(2)
       complex(dp) :: power
       integer :: k, n
 
@@ -102,7 +102,6 @@ contains
       do k = 2, fold
          power = power*(inverse*v)
       end do
-      angle = power%re
       t = [1.0_dp, radius]
       n = size(self%c, 1)
       sums(:n) = 0.0_dp
@@ -110,11 +109,11 @@ contains
          sums(:n) = sums(:n) + t(1)*self%c(:, k)
          t = [t(2), 2*radius*t(2) - t(1)]
       end do
-      t = [1.0_dp, angle]
+      t = [1.0_dp, power%re]
       at = 0.0_dp
       do k = 1, n
          at = at + t(1)*sums(k)
-         t = [t(2), 2*angle*t(2) - t(1)]
+         t = [t(2), 2*power%re*t(2) - t(1)]
       end do
    end function at
 

@@ -143,7 +143,7 @@ contains
       do k = 1, size(self%image)
          if (.not. allocated(self%series) .and. abs(z - self%image(k)) > self%spot%radius) cycle
          associate (last => self%preimage(:, k, centre))
-            ! Most places are as far from the last one as that is from the one before.
+            ! Most places follow at equal distances.
             call find_preimage(self%spot%solution%shape, z - self%image(k), w, found, 2*last(1) - last(2))
             last = [merge(w, (0.0_dp, 0.0_dp), found), last(1)]
          end associate
@@ -193,18 +193,17 @@ contains
       complex(dp), intent(in) :: z                           !! from the centre, reduced [s]
       complex(dp), intent(in) :: near(:)                     !! centres of those that are not part of it [s]
 
-      real(dp), dimension(size(self%sources%x)) :: value, x, y
-      real(dp), dimension(stress_fields) :: of_centre, removed
+      real(dp) :: of_centre(stress_fields), removed(stress_fields), value(size(self%sources%x))
       integer :: k
 
-      x = z%re - self%sources%x
-      y = z%im - self%sources%y
-      if (self%answer%pool) then
-         call self%lattice%pressure_kernel%evaluate(size(x), x, y, value)
-         value = -value/(4*pi**2)
-      else
-         call self%lattice%displacement_kernel%evaluate(size(x), x, y, value)
-      end if
+      associate (x => z%re - self%sources%x, y => z%im - self%sources%y)
+         if (self%answer%pool) then
+            call self%lattice%pressure_kernel%evaluate(size(x), x, y, value)
+            value = -value/(4*pi**2)
+         else
+            call self%lattice%displacement_kernel%evaluate(size(x), x, y, value)
+         end if
+      end associate
       ! The kernel's smooth part has the terms of all images but not that of the one at the origin.
       of_centre = 0.0_dp
       removed = 0.0_dp
@@ -227,6 +226,7 @@ contains
       !> Most values of a series over the places outside: it takes them much faster.
       real(dp), parameter :: most_terms = 3.0_dp
       real(dp), dimension(0:fit_degree, 0:fit_degree) :: even, odd, x, y
+      type(exterior_series), allocatable :: series
       complex(dp) :: z
       real(dp) :: other, outside, tolerance
       logical :: found
@@ -235,12 +235,10 @@ contains
       outside = places*merge(self%answer%area_fraction, 1.0_dp - self%answer%area_fraction, self%answer%pool)
       if (outside < least_map) return
       tolerance = max(share*accuracy, least)
-      allocate (self%series)
-      call start_exterior_series(self%series, self%answer%solution, tolerance, nint(most_terms*outside), found)
-      if (.not. found) then
-         deallocate (self%series)
-         return
-      end if
+      allocate (series)
+      call start_exterior_series(series, self%answer%solution, tolerance, nint(most_terms*outside), found)
+      if (.not. found) return
+      call move_alloc(series, self%series)
       tolerance = 0.01_dp*tolerance
       ! A singularity at a distance c beside a rectangle of half the side a is, for the polynomial in the square of the
       ! coordinate along that side, where terms fall by exp(-2 asinh(c/a)).

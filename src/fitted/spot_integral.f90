@@ -74,7 +74,7 @@ contains
       real(dp), intent(inout) :: fields(stress_fields)    !! of the surface field the first one
 
       complex(dp) :: offset, origin
-      real(dp) :: angular, radial, by_rays(stress_fields, 1)
+      real(dp) :: angular, radial
       integer :: level
 
       call self%locate(z, depth, origin, offset, angular, radial)
@@ -92,9 +92,7 @@ contains
             allocate (self%rays)
             call start_stress_rays(self%rays, self%solution%basis%degree, self%digits, self%kernel)
          end if
-         by_rays = 0.0_dp
-         call self%rays%add_at(self%solution, origin, [offset], [depth], by_rays)
-         fields = fields + by_rays(:, 1)
+         call self%rays%add_at(self%solution, origin, [offset], [depth], fields)
       end if
    end subroutine add_at
 

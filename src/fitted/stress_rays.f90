@@ -60,7 +60,7 @@ contains
       complex(dp), intent(in) :: origin                   !! w_0, |w_0| <= 1
       complex(dp), intent(in) :: offset(:)                !! the places as seen from z(w_0), shape (n) [s]
       real(dp), intent(in) :: depth(:)                    !! >= 0, shape (n) [s]; with n > 1 not all on the surface
-      real(dp), intent(inout) :: fields(:, :)             !! shape (stress_fields, n)
+      real(dp), intent(inout) :: fields(stress_fields, size(offset))
 
       complex(dp) :: density(1), direction, normal, slope(1), conjugate_slope(1)
       real(dp), dimension(rule_step*most_rules) :: cosine, sine, weight
@@ -139,11 +139,10 @@ contains
       complex(dp), intent(in) :: stretch            !! dz/dt at w_0
       real(dp), intent(in) :: weight
       complex(dp), intent(in) :: density_at_origin
-      real(dp), intent(inout) :: fields(:, :)
+      real(dp), intent(inout) :: fields(stress_fields, size(offset))
 
       real(dp), parameter :: least_scale = 1e-25_dp
-      !> Factor on the points for each factor of e if there are other places: on rays along the edge their poles are
-      !> half as far from the real axis.
+      !> More points if there are others: on rays along the edge their poles are half as far from the real axis.
       real(dp), parameter :: points_of_others = 1.5_dp
       complex(dp) :: pole
       real(dp) :: ahead, alpha, along, back, behind, first, forward, half, last, length, middle, r, squared, width

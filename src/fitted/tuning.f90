@@ -139,7 +139,6 @@ module wavycon_fitted_tuning
    real(dp), parameter, public :: field_accuracy = 1e-12_dp
       !! Accuracy of the integrals over spots or pools over the fields' scale. Larger: the error of rules and rays
       !! shows in fields. Smaller: more expensive fields.
-
    integer, parameter, public :: least_map = 150
       !! Places outside from which on a map takes a series. Smaller: series that cost more than they save. Larger: slow
       !! maps of few points.
