@@ -25,7 +25,6 @@ module wavycon_expansion
    contains
       procedure :: resized
       procedure :: at
-      procedure :: at_centre
    end type expansion
 
 contains
@@ -60,14 +59,7 @@ contains
       copy%approach = self%approach
    end function resized
 
-   !> The value at the centre: a spot's peak pressure, a pool's gap at the trough.
-   real(dp) function at_centre(self)
-      class(expansion), intent(in) :: self
-
-      at_centre = self%at((0.0_dp, 0.0_dp))
-   end function at_centre
-
-   !> The value at a point of the disc; 0 outside.
+   !> The value at a point of the disc, 0 outside; at the centre a spot's peak pressure, or a pool's gap at the trough.
    real(dp) function at(self, w)
       class(expansion), intent(in) :: self
       complex(dp), intent(in) :: w

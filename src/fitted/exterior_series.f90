@@ -5,14 +5,12 @@
 !>
 !> v the preimage of the place under the exterior map, T Chebyshev's polynomials. It holds from the edge to infinity.
 module wavycon_exterior_series
-   use wavycon_chebyshev, only: chebyshev_coefficients, chebyshev_node, chebyshev_polynomials
+   use wavycon_chebyshev, only: chebyshev_coefficients, chebyshev_node
    use wavycon_constants, only: pi
    use wavycon_expansion, only: expansion
    use wavycon_kinds, only: dp
-   use wavycon_shape_map, only: shape_map
-   use wavycon_shape_search, only: find_preimage
-   use wavycon_spot_integral, only: spot_integral, start_spot_integral
    use wavycon_stress_kernel, only: stress_fields, surface_field
+   use wavycon_stress_rays, only: start_stress_rays, stress_rays
    implicit none (type, external)
    private
 
@@ -24,8 +22,10 @@ module wavycon_exterior_series
       procedure :: at
    end type exterior_series
 
-   !> Terms of the first series either way.
-   integer, parameter :: first_terms = 10
+   !> Terms in the angle: of the first series, and most.
+   integer, parameter :: first_angles = 5, most_angles = 256
+   !> Fall of the terms in x of a round disc, README.md (F50): the logarithm of the factor.
+   real(dp), parameter :: round_fall = 1.22_dp
    !> Accuracy of the values over that of the series.
    real(dp), parameter :: values_share = 0.05_dp
    !> What is left out over the sum of the last two terms: at sharp tips terms fall slowly.
@@ -43,17 +43,17 @@ contains
       integer, intent(in) :: most_places            !! most places that values may be taken at
       logical, intent(out) :: found                 !! whether they were enough
 
-      type(spot_integral) :: spot
+      type(stress_rays) :: rays
       integer :: places, terms(2)
 
-      call start_spot_integral(spot, solution, values_share*accuracy, surface_field)
-      terms = first_terms
+      call start_stress_rays(rays, solution%basis%degree, -log(values_share*accuracy), surface_field)
+      terms = [first_angles, 2 + ceiling(-log(accuracy)/round_fall)]
       places = 0
       do
          places = places + product(terms)
-         found = places <= most_places
+         found = places <= most_places .and. terms(1) <= most_angles
          if (.not. found) return
-         call fit_terms(series, spot, terms)
+         call fit_terms()
          associate (c => abs(series%c)/maxval(abs(series%c)))
             associate (last => rest*[sum(c(terms(1) - 1:, :)), sum(c(:, terms(2) - 1:))])
                if (all(last <= accuracy)) return
@@ -63,50 +63,58 @@ contains
             end associate
          end associate
       end do
+
+   contains
+
+      !> Fits as many terms as values. Places with the same arg v take the same rays from the edge.
+      subroutine fit_terms()
+         complex(dp) :: edge, v(terms(2))
+         real(dp) :: fields(stress_fields, terms(2)), values(terms(1), terms(2))
+         integer :: i, j
+
+         do i = 1, terms(1)
+            edge = exp(cmplx(0.0_dp, pi*(i - 0.5_dp)/(terms(1)*solution%shape%fold), dp))
+            v = edge/(1.0_dp - (0.5_dp*(1.0_dp + chebyshev_node([(j, j=1, terms(2))], terms(2))))**2)
+            fields = 0.0_dp
+            call rays%add_at(solution, edge, [(solution%shape%place_outside(v(j)), j=1, terms(2))] &
+                             - solution%shape%place(edge), spread(0.0_dp, 1, terms(2)), fields)
+            values(i, :) = fields(1, :)
+         end do
+         series%c = matmul(chebyshev_coefficients(terms(1)), &
+                           matmul(values, transpose(chebyshev_coefficients(terms(2)))))
+      end subroutine fit_terms
+
    end subroutine start_exterior_series
 
-   !> Fits a number of terms to as many values.
-   subroutine fit_terms(series, spot, terms)
-      type(exterior_series), intent(inout) :: series
-      type(spot_integral), intent(inout) :: spot    !! of the surface field
-      integer, intent(in) :: terms(2)               !! n_theta, n_r
-
-      complex(dp) :: v
-      real(dp) :: fields(stress_fields), s, values(terms(1), terms(2))
-      integer :: i, j
-
-      associate (shape => spot%solution%shape)
-         do j = 1, terms(2)
-            s = 0.5_dp*(1.0_dp + chebyshev_node(j, terms(2)))
-            do i = 1, terms(1)
-               v = exp(cmplx(0.0_dp, pi*(i - 0.5_dp)/(terms(1)*shape%fold), dp))/((1.0_dp - s)*(1.0_dp + s))
-               fields = 0.0_dp
-               call spot%add_at(shape%place_outside(v), 0.0_dp, fields)
-               values(i, j) = fields(1)
-            end do
-         end do
-      end associate
-      series%c = matmul(chebyshev_coefficients(terms(1)), &
-                        matmul(values, transpose(chebyshev_coefficients(terms(2)))))
-   end subroutine fit_terms
-
    !> The field at a place.
-   pure subroutine at(self, shape, z, value, found)
+   pure real(dp) function at(self, fold, v)
       class(exterior_series), intent(in) :: self
-      type(shape_map), intent(in) :: shape          !! the expansion's
-      complex(dp), intent(in) :: z                  !! from the centre of the spot or pool, outside of it [s]
-      real(dp), intent(out) :: value
-      logical, intent(out) :: found                 !! false without a preimage, next to the edge
+      integer, intent(in) :: fold                   !! of the shape
+      complex(dp), intent(in) :: v                  !! preimage of the place, |v| >= 1
 
-      complex(dp) :: v
-      real(dp) :: of_angle(size(self%c, 1)), of_radius(size(self%c, 2))
+      real(dp) :: inverse, radius, sums(most_angles), t(2)
+      complex(dp) :: power
+      integer :: k, n
 
-      value = 0.0_dp
-      call find_preimage(shape, z, v, found)
-      if (.not. found) return
-      of_angle = chebyshev_polynomials(real((v/abs(v))**shape%fold, dp), size(of_angle))
-      of_radius = chebyshev_polynomials(2*sqrt(max(1.0_dp - 1.0_dp/abs(v), 0.0_dp)) - 1.0_dp, size(of_radius))
-      value = dot_product(of_angle, matmul(self%c, of_radius))
-   end subroutine at
+      inverse = 1.0_dp/sqrt(v%re**2 + v%im**2)
+      radius = 2*sqrt(max(1.0_dp - inverse, 0.0_dp)) - 1.0_dp
+      power = inverse*v
+      do k = 2, fold
+         power = power*(inverse*v)
+      end do
+      t = [1.0_dp, radius]
+      n = size(self%c, 1)
+      sums(:n) = 0.0_dp
+      do k = 1, size(self%c, 2)
+         sums(:n) = sums(:n) + t(1)*self%c(:, k)
+         t = [t(2), 2*radius*t(2) - t(1)]
+      end do
+      t = [1.0_dp, power%re]
+      at = 0.0_dp
+      do k = 1, n
+         at = at + t(1)*sums(k)
+         t = [t(2), 2*power%re*t(2) - t(1)]
+      end do
+   end function at
 
 end module wavycon_exterior_series

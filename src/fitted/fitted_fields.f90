@@ -11,6 +11,7 @@ module wavycon_fitted_fields
    use wavycon_fitted_answer, only: fitted_answer
    use wavycon_fitted_tuning, only: field_accuracy, least_map
    use wavycon_kinds, only: dp
+   use wavycon_shape_search, only: find_preimage
    use wavycon_spot_integral, only: far_level, spot_integral, start_spot_integral
    use wavycon_stress_kernel, only: stress_fields, surface_field
    use wavycon_wave_lattice, only: wave_lattice
@@ -24,19 +25,21 @@ module wavycon_fitted_fields
       type(fitted_answer) :: answer
       complex(dp) :: centre = 0.0_dp                     !! of the spot or the pool [s]
       integer :: places = 1                              !! in a cell: the centre and, if there are two, -centre
-      complex(dp), allocatable, private :: image(:)      !! centres of the spot or pool, 0, and of its near images [s]
+      complex(dp), allocatable, private :: image(:)
+         !! centres of the spot or pool, 0, and its near images; for maps those that take the series [s]
       type(spot_integral), private :: spot
       type(disc_sources), private :: sources             !! those of its rule at far_level
+      complex(dp), allocatable, private :: preimage(:, :, :)
+         !! of the last two places under each image and centre if it was asked for, 0 if there is none
       ! For maps.
       type(exterior_series), allocatable :: series       !! of the spot or pool
-      type(even_polynomial), private :: far(2)           !! of all but the near images: even in x, and odd over x
+      type(even_polynomial), private :: far(2)           !! of all others: even in x, and odd over x
    contains
       procedure :: at
       procedure :: edge
       procedure :: prepare_map
-      procedure, private :: find_inside
+      procedure, private :: find_preimages
       procedure, private :: sum_over_images
-      procedure, private :: quick_sum
       procedure, private :: coarse_sum
    end type fitted_fields
 
@@ -59,13 +62,27 @@ contains
          fields%centre = lattice%trough
          fields%places = lattice%troughs
       end if
-      associate (near => lattice%displacement_kernel%near_points())
-         fields%image = [(0.0_dp, 0.0_dp), cmplx(near(1, :), near(2, :), dp)]
-      end associate
       call start_spot_integral(fields%spot, answer%solution, asked, surface_field)
       call start_disc_sources(fields%sources, answer%solution, .false., fields%spot%radii(far_level), &
                               fields%spot%angles(far_level))
+      call find_images(fields, fields%spot%radius)
    end subroutine start_fitted_fields
+
+   !> Lists the images that come within a distance of the rectangle that places are reduced to, and all others that the
+   !> coarse rule may not resolve there.
+   subroutine find_images(fields, least)
+      type(fitted_fields), intent(inout) :: fields
+      real(dp), intent(in) :: least                !! distance of their centres [s]
+
+      real(dp) :: reach
+
+      reach = least
+      do while (.not. fields%spot%is_resolved(cmplx(reach, 0.0_dp, dp)))
+         reach = 1.1_dp*reach
+      end do
+      fields%image = fields%lattice%rows%points_about(reach, (0.0_dp, 0.0_dp))
+      fields%preimage = reshape([(0.0_dp, 0.0_dp)], [2, size(fields%image), fields%places], pad=[(0.0_dp, 0.0_dp)])
+   end subroutine find_images
 
    !> The fields at a place.
    subroutine at(self, place, pressure, displacement, gap)
@@ -87,7 +104,7 @@ contains
       ! The second pool of a cell is the first one turned by half a turn about a crest, with all its fields.
       do i = 1, self%places
          z(i) = self%lattice%rows%reduced(merge(place, -place, i == 1) - self%centre)
-         call self%find_inside(z(i), w, inside)
+         call self%find_preimages(z(i), i, w, inside)
          if (.not. inside) cycle
          if (self%answer%pool) then
             gap = self%answer%solution%at(w)
@@ -101,84 +118,104 @@ contains
          pressure = self%answer%pbar_over_pstar - self%lattice%closing_pressure &
             + self%lattice%pressure_rise(place - self%lattice%trough)
          do i = 1, self%places
-            pressure = pressure + self%sum_over_images(z(i))
+            pressure = pressure + self%sum_over_images(z(i), i)
          end do
       else
-         displacement = self%sum_over_images(z(1))
+         displacement = self%sum_over_images(z(1), 1)
          gap = displacement - without_gap
       end if
    end subroutine at
 
-   !> Whether a place is inside the spot or pool at the centre, or inside a near image of it; and its preimage there.
-   pure subroutine find_inside(self, z, w, inside)
-      class(fitted_fields), intent(in) :: self
+   !> Finds the preimages of a place under the spot or pool and its near images as far as they are needed: where it may
+   !> be inside, and for the series.
+   subroutine find_preimages(self, z, centre, w, inside)
+      class(fitted_fields), intent(inout) :: self
       complex(dp), intent(in) :: z          !! from the centre, reduced [s]
-      complex(dp), intent(out) :: w
+      integer, intent(in) :: centre         !! which one, 1 to places
+      complex(dp), intent(out) :: w         !! the preimage if the place is inside one of them
       logical, intent(out) :: inside
 
+      logical :: found
       integer :: k
 
+      inside = .false.
       ! Long spots and pools of a rhombic lattice reach beyond the rectangle that places are reduced to.
       do k = 1, size(self%image)
-         call self%spot%find_inside(z - self%image(k), w, inside)
+         if (.not. allocated(self%series) .and. abs(z - self%image(k)) > self%spot%radius) cycle
+         associate (last => self%preimage(:, k, centre))
+            ! Most places follow at equal distances.
+            call find_preimage(self%spot%solution%shape, z - self%image(k), w, found, 2*last(1) - last(2))
+            last = [merge(w, (0.0_dp, 0.0_dp), found), last(1)]
+         end associate
+         inside = found .and. w%re**2 + w%im**2 <= 1.0_dp
          if (inside) return
       end do
-   end subroutine find_inside
+   end subroutine find_preimages
 
    !> What one spot or pool and all its images add to the displacement [Delta] or the pressure [pi E* Delta/s] at a
    !> place outside of all.
-   real(dp) function sum_over_images(self, z) result(total)
+   real(dp) function sum_over_images(self, z, centre) result(total)
       class(fitted_fields), intent(inout) :: self
       complex(dp), intent(in) :: z      !! from the centre, reduced [s]
+      integer, intent(in) :: centre     !! that find_preimages was called for
 
-      real(dp) :: exact(stress_fields)
+      real(dp) :: even(1), exact(stress_fields), odd(1)
       logical :: far(size(self%image))
       integer :: k
 
+      far = .false.
       if (allocated(self%series)) then
-         total = self%quick_sum(z)
-         return
+         associate (along => [merge(z%im, z%re, self%lattice%rows%along_y)], &
+                    across => [merge(z%re, z%im, self%lattice%rows%along_y)])
+            call self%far(1)%evaluate(1, along, across, even)
+            call self%far(2)%evaluate(1, along, across, odd)
+         end associate
+         total = even(1) + z%re*odd(1)
+      else
+         far = [(self%spot%is_resolved(z - self%image(k)), k=1, size(far))]
+         total = self%coarse_sum(z, pack(self%image, .not. far))
       end if
-      far = [(self%spot%is_resolved(z - self%image(k)), k=1, size(far))]
-      total = self%coarse_sum(z, far)
       exact = 0.0_dp
       do k = 1, size(far)
-         if (.not. far(k)) call self%spot%add_at(z - self%image(k), 0.0_dp, exact)
+         if (far(k)) cycle
+         if (allocated(self%series) .and. abs(self%preimage(1, k, centre)) > 0.0_dp) then
+            total = total + self%series%at(self%spot%solution%shape%fold, self%preimage(1, k, centre))
+         else
+            call self%spot%add_at(z - self%image(k), 0.0_dp, exact)
+         end if
       end do
       total = total + exact(1)
    end function sum_over_images
 
    !> The sum over all images but some near ones, by the coarse rule.
-   real(dp) function coarse_sum(self, z, counted) result(total)
+   real(dp) function coarse_sum(self, z, near) result(total)
       class(fitted_fields), intent(in) :: self
       complex(dp), intent(in) :: z                           !! from the centre, reduced [s]
-      logical, intent(in) :: counted(:)                      !! the near images that are part of it
+      complex(dp), intent(in) :: near(:)                     !! centres of those that are not part of it [s]
 
-      real(dp), dimension(size(self%sources%x)) :: value, x, y
-      real(dp), dimension(stress_fields) :: of_centre, removed
+      real(dp) :: of_centre(stress_fields), removed(stress_fields), value(size(self%sources%x))
       integer :: k
 
-      x = z%re - self%sources%x
-      y = z%im - self%sources%y
-      if (self%answer%pool) then
-         call self%lattice%pressure_kernel%evaluate(size(x), x, y, value)
-         value = -value/(4*pi**2)
-      else
-         call self%lattice%displacement_kernel%evaluate(size(x), x, y, value)
-      end if
-      total = dot_product(self%sources%strength(:, 1), value)
+      associate (x => z%re - self%sources%x, y => z%im - self%sources%y)
+         if (self%answer%pool) then
+            call self%lattice%pressure_kernel%evaluate(size(x), x, y, value)
+            value = -value/(4*pi**2)
+         else
+            call self%lattice%displacement_kernel%evaluate(size(x), x, y, value)
+         end if
+      end associate
       ! The kernel's smooth part has the terms of all images but not that of the one at the origin.
       of_centre = 0.0_dp
       removed = 0.0_dp
-      if (counted(1)) call self%sources%add_at(surface_field, z, 0.0_dp, of_centre)
-      do k = 2, size(counted)
-         if (.not. counted(k)) call self%sources%add_at(surface_field, z - self%image(k), 0.0_dp, removed)
+      if (all(abs(near) > 0.0_dp)) call self%sources%add_at(surface_field, z, 0.0_dp, of_centre)
+      do k = 1, size(near)
+         if (abs(near(k)) > 0.0_dp) call self%sources%add_at(surface_field, z - near(k), 0.0_dp, removed)
       end do
-      total = total + of_centre(1) - removed(1)
+      total = dot_product(self%sources%strength(:, 1), value) + of_centre(1) - removed(1)
    end function coarse_sum
 
-   !> Prepares for many places: a series of the spot or pool itself and of its near images, and a polynomial of the
-   !> others. Without such a series, or for few places, each place is evaluated for itself.
+   !> Prepares for many places: a series of the spot or pool and of the images that are too near to the cell for the
+   !> polynomial of the others. Without such a series, or for few places, each place is evaluated for itself.
    subroutine prepare_map(self, accuracy, places)
       class(fitted_fields), intent(inout) :: self
       real(dp), intent(in) :: accuracy            !! that the solution was asked for, relative
@@ -186,67 +223,47 @@ contains
 
       !> Error over the accuracy that was asked for, and the least one over the fields' scale.
       real(dp), parameter :: share = 1e-3_dp, least = 1e-11_dp
+      !> Most values of a series over the places outside: it takes them much faster.
+      real(dp), parameter :: most_terms = 3.0_dp
       real(dp), dimension(0:fit_degree, 0:fit_degree) :: even, odd, x, y
+      type(exterior_series), allocatable :: series
       complex(dp) :: z
       real(dp) :: other, outside, tolerance
-      logical :: found, none(size(self%image))
+      logical :: found
       integer :: i, j
 
-      associate (answer => self%answer)
-         outside = places*merge(answer%area_fraction, 1.0_dp - answer%area_fraction, answer%pool)
-         if (outside < least_map) return
-         allocate (self%series)
-         call start_exterior_series(self%series, answer%solution, max(share*accuracy, least), nint(0.5_dp*outside), &
-                                    found)
-         if (.not. found) then
-            deallocate (self%series)
-            return
-         end if
-         ! Displacements are of order 1, pressures of the order of their peak.
-         tolerance = merge(answer%peak_pressure, 1.0_dp, answer%pool)*max(share*accuracy, least)
-      end associate
-      none = .false.
+      outside = places*merge(self%answer%area_fraction, 1.0_dp - self%answer%area_fraction, self%answer%pool)
+      if (outside < least_map) return
+      tolerance = max(share*accuracy, least)
+      allocate (series)
+      call start_exterior_series(series, self%answer%solution, tolerance, nint(most_terms*outside), found)
+      if (.not. found) return
+      call move_alloc(series, self%series)
+      tolerance = 0.01_dp*tolerance
+      ! A singularity at a distance c beside a rectangle of half the side a is, for the polynomial in the square of the
+      ! coordinate along that side, where terms fall by exp(-2 asinh(c/a)).
+      call find_images(self, self%spot%radius + 0.5_dp*max(self%lattice%rows%spacing, 1.0_dp) &
+                       *sinh(-0.5_dp*log(tolerance)/(fit_degree + 1)))
+      ! Displacements are of order 1, pressures of the order of their peak.
+      if (self%answer%pool) tolerance = tolerance*self%answer%peak_pressure
       associate (rows => self%lattice%rows)
          call fit_nodes(rows%spacing, x, y)
          do j = 0, fit_degree
             do i = 0, fit_degree
                z = cmplx(x(i, j), y(i, j), dp)
                if (rows%along_y) z = cmplx(y(i, j), x(i, j), dp)
-               even(i, j) = self%coarse_sum(z, none)
+               even(i, j) = self%coarse_sum(z, self%image)
                odd(i, j) = 0.0_dp
                if (mod(self%answer%solution%shape%fold, 2) == 0) cycle
-               other = self%coarse_sum(-conjg(z), none)
+               other = self%coarse_sum(-conjg(z), self%image)
                odd(i, j) = 0.5_dp*(even(i, j) - other)/z%re
                even(i, j) = 0.5_dp*(even(i, j) + other)
             end do
          end do
-         call start_even_polynomial(self%far(1), rows%spacing, even, 0.01_dp*tolerance)
-         call start_even_polynomial(self%far(2), rows%spacing, odd, 0.01_dp*tolerance)
+         call start_even_polynomial(self%far(1), rows%spacing, even, tolerance)
+         call start_even_polynomial(self%far(2), rows%spacing, odd, tolerance)
       end associate
    end subroutine prepare_map
-
-   !> The sum over all images as prepared.
-   real(dp) function quick_sum(self, z) result(total)
-      class(fitted_fields), intent(inout) :: self
-      complex(dp), intent(in) :: z      !! from the centre, reduced [s]
-
-      real(dp) :: even(1), exact(stress_fields), odd(1), of_rows(2), value
-      logical :: found
-      integer :: k
-
-      of_rows = [z%re, z%im]
-      if (self%lattice%rows%along_y) of_rows = [z%im, z%re]
-      call self%far(1)%evaluate(1, of_rows(:1), of_rows(2:), even)
-      call self%far(2)%evaluate(1, of_rows(:1), of_rows(2:), odd)
-      total = even(1) + z%re*odd(1)
-      exact = 0.0_dp
-      do k = 1, size(self%image)
-         call self%series%at(self%spot%solution%shape, z - self%image(k), value, found)
-         total = total + value
-         if (.not. found) call self%spot%add_at(z - self%image(k), 0.0_dp, exact)
-      end do
-      total = total + exact(1)
-   end function quick_sum
 
    !> Gaps at the trough and at the lattice's saddle [Delta], and the pressure at the saddle [pi E* Delta/s]. Above
    !> merging the gap at the saddle is 0, below the pressure there.

@@ -34,7 +34,7 @@ contains
       measures(gap_measure) = mean_gap(equations, lattice, now)
       measures(area_measure) = now%shape%area()
       measures(peak_measure) = peak_pressure(equations, lattice, load, now)
-      measures(centre_measure) = now%at_centre()
+      measures(centre_measure) = now%at((0.0_dp, 0.0_dp))
       measures(energy_measure) = strain_energy(equations, lattice, load, now)
       measures(perimeter_measure) = now%shape%perimeter()
    end subroutine measure_expansion
@@ -66,7 +66,7 @@ contains
       real(dp), allocatable :: value(:), x(:), y(:)
 
       if (.not. now%pool) then
-         peak_pressure = now%at_centre()
+         peak_pressure = now%at((0.0_dp, 0.0_dp))
          return
       end if
       kernel = lattice%pressure_kernel

@@ -28,7 +28,6 @@ module wavycon_periodic_kernel
       logical :: whole = .false.        !! with the origin's own term, for places that are on none of the lattice points
    contains
       procedure :: evaluate
-      procedure :: near_points
    end type periodic_kernel
 
    !> Rounding of Ewald's sum, whose terms are of order ten, and of its Laplacian.
@@ -69,15 +68,6 @@ contains
       laplacian%point = near
       call start_even_polynomial(laplacian%fit, rows%spacing, value_of_laplacian, rounding(2))
    end subroutine start_periodic_kernels
-
-   !> The near lattice points by their x and y.
-   pure function near_points(self) result(point)
-      class(periodic_kernel), intent(in) :: self
-      real(dp), allocatable :: point(:, :)     !! shape (2, m) [s]
-
-      point = self%point
-      if (self%rows%along_y) point = point([2, 1], :)
-   end function near_points
 
    !> The smooth part, which is the kernel less the origin's own term 1/r^power; or the whole kernel.
    pure subroutine evaluate(self, n, x, y, value, slope_x, slope_y)

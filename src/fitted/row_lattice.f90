@@ -54,13 +54,10 @@ contains
       real(dp) :: across(1), along(1)
       logical :: moved
 
-      if (self%along_y) then
-         call self%reduce_along_rows(1, [z%im], [z%re], along, across, moved)
-         reduced = cmplx(across(1), along(1), dp)
-      else
-         call self%reduce_along_rows(1, [z%re], [z%im], along, across, moved)
-         reduced = cmplx(along(1), across(1), dp)
-      end if
+      along = merge(z%im, z%re, self%along_y)
+      across = merge(z%re, z%im, self%along_y)
+      call self%reduce_along_rows(1, [along], [across], along, across, moved)
+      reduced = cmplx(merge(across(1), along(1), self%along_y), merge(along(1), across(1), self%along_y), dp)
    end function reduced
 
    !> The lattice points, the origin left out, that are nearer to it than `distance`, and the distance of the next one.
@@ -70,26 +67,13 @@ contains
       real(dp), allocatable, intent(out) :: point(:, :)      !! x and y, shape (2, m) [s]
       real(dp), intent(out) :: next                          !! >= distance [s]
 
-      real(dp) :: across, along
-      integer :: columns, i, j, rows
+      complex(dp), allocatable :: z(:)
 
-      rows = ceiling(distance/self%spacing) + 1
-      columns = ceiling(distance + self%shift*rows) + 1
-      next = huge(next)
-      allocate (point(2, 0))
-      do j = -rows, rows
-         do i = -columns, columns
-            along = i + self%shift*j
-            across = self%spacing*j
-            if (i == 0 .and. j == 0) cycle
-            if (hypot(along, across) < distance) then
-               point = reshape([point, along, across], [2, size(point, 2) + 1])
-            else
-               next = min(next, hypot(along, across))
-            end if
-         end do
-      end do
-      if (self%along_y) point = point([2, 1], :)
+      ! Points of a row are 1 apart: the next one is among these.
+      allocate (z, source=self%points_about(distance + 1.0_dp, (0.0_dp, 0.0_dp)))
+      next = minval(abs(z), abs(z) >= distance)
+      z = pack(z, abs(z) < distance .and. abs(z) > 0.0_dp)
+      point = reshape([z%re, z%im], [2, size(z)], order=[2, 1])
    end subroutine points_within
 
    !> The lattice points, all moved by an offset, that are not farther than `distance` from the rectangle about the

@@ -174,10 +174,14 @@ contains
       complex(dp), intent(in) :: v         !! |v| >= 1
       complex(dp), intent(out) :: z, slope, conjugate_slope
 
-      complex(dp) :: power
+      complex(dp) :: inverse, power
       integer :: k
 
-      power = v**(-self%fold)
+      inverse = conjg(v)/(v%re**2 + v%im**2)
+      power = inverse
+      do k = 2, self%fold
+         power = power*inverse
+      end do
       ! By Horner's scheme: b_0 + b_1 v^-fold + ..., and the same with the factors 1 - fold k.
       z = 0.0_dp
       slope = 0.0_dp

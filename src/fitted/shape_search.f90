@@ -23,33 +23,44 @@ contains
    !> The preimage of a place under the map of the disc and, outside, that of README.md (F48), which continues it.
    !>
    !> Newton's method, README.md (F19). Next to the centre or to the edge it starts from the point of the edge that is
-   !> seen from the centre in the direction of z. The shapes in use are star-shaped: there is one such point.
-   pure subroutine find_preimage(shape, z, v, found)
+   !> seen from the centre in the direction of z. The shapes in use are star-shaped: there is one such point. It starts
+   !> from the preimage of another place if that is given and near.
+   pure subroutine find_preimage(shape, z, v, found, near)
       type(shape_map), intent(in) :: shape
       complex(dp), intent(in) :: z                !! [s]
       complex(dp), intent(out) :: v               !! |v| <= 1 inside
       logical, intent(out) :: found               !! false if Newton's method ends without it, next to a sharp tip
+      complex(dp), intent(in), optional :: near   !! preimage of another place; 0 for none
 
       !> Step over the longest after which the next one would be below rounding, as convergence is quadratic.
-      real(dp), parameter :: small_step = 1e-9_dp
-      !> Distance over the sum of the map's coefficients from which the map is nearly b_0 v.
-      real(dp), parameter :: far = 1.5_dp
+      real(dp), parameter :: small_step = 1e-8_dp
       !> Longest steps, outside over |v|: longer ones go across the fold of a map.
       real(dp), parameter :: longest_step = 0.2_dp
       complex(dp), dimension(1) :: conjugate_slope, slope
+      !> Distance over the sum of the map's coefficients from which the map is nearly b_0 v.
+      real(dp), parameter :: far = 1.5_dp
       complex(dp) :: at_v, edge, left, step
-      real(dp) :: jacobian, longest
+      real(dp) :: jacobian, least, size_of_step, square
+      logical :: from_near
       integer :: i
 
-      v = z/shape%b(0)
-      found = abs(z) <= tiny(1.0_dp)
+      v = 0.0_dp
+      found = z%re**2 + z%im**2 <= tiny(1.0_dp)
       if (found) return
-      if (abs(z) < far*sum(abs(shape%b))) then
-         call find_edge_in_direction(shape, z, v, edge)
-         v = v*(abs(z)/abs(edge))
-      end if
+      if (present(near)) v = near
+      from_near = .true.
+      least = least_inverse_jacobian*shape%b(0)**2
       do i = 1, most_inverse_steps
-         if (abs(v) > 1.0_dp) then
+         if (abs(v%re) + abs(v%im) <= 0.0_dp) then
+            from_near = .false.
+            v = z/shape%b(0)
+            if (abs(z) < far*sum(abs(shape%b))) then
+               call find_edge_in_direction(shape, z, v, edge)
+               v = v*(abs(z)/abs(edge))
+            end if
+         end if
+         square = v%re**2 + v%im**2
+         if (square > 1.0_dp) then
             call shape%linearise_outside(v, at_v, slope(1), conjugate_slope(1))
          else
             at_v = shape%place(v)
@@ -57,12 +68,15 @@ contains
          end if
          left = z - at_v
          jacobian = slope(1)%re**2 + slope(1)%im**2 - (conjugate_slope(1)%re**2 + conjugate_slope(1)%im**2)
-         if (.not. jacobian > least_inverse_jacobian*shape%b(0)**2) return
-         step = (conjg(slope(1))*left - conjugate_slope(1)*conjg(left))/jacobian
-         longest = longest_step*max(abs(v), 1.0_dp)
-         found = abs(step) <= small_step*longest
-         if (abs(step) > longest) step = step*(longest/abs(step))
-         v = v + step
+         step = (conjg(slope(1))*left - conjugate_slope(1)*conjg(left))/max(jacobian, least)
+         size_of_step = sqrt((step%re**2 + step%im**2)/max(square, 1.0_dp))/longest_step
+         if (from_near .and. (jacobian < least .or. size_of_step > 1.0_dp)) then
+            v = 0.0_dp
+            cycle
+         end if
+         if (.not. jacobian > least) return
+         found = size_of_step <= small_step
+         v = v + step/max(size_of_step, 1.0_dp)
          if (found) return
       end do
    end subroutine find_preimage

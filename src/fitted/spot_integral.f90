@@ -33,7 +33,6 @@ module wavycon_spot_integral
       type(disc_sources), private :: rules(levels)
    contains
       procedure :: add_at
-      procedure :: find_inside
       procedure :: is_resolved
       procedure, private :: locate
    end type spot_integral
@@ -93,7 +92,7 @@ contains
             allocate (self%rays)
             call start_stress_rays(self%rays, self%solution%basis%degree, self%digits, self%kernel)
          end if
-         call self%rays%add_at(self%solution, origin, offset, depth, fields)
+         call self%rays%add_at(self%solution, origin, [offset], [depth], fields)
       end if
    end subroutine add_at
 
@@ -108,19 +107,6 @@ contains
       call self%locate(z, 0.0_dp, origin, offset, angular, radial)
       is_resolved = resolves(self%angles(far_level), self%radii(far_level), angular, radial, self%digits)
    end function is_resolved
-
-   !> Whether a place on the surface is inside the spot or pool, and its preimage there.
-   pure subroutine find_inside(self, z, w, inside)
-      class(spot_integral), intent(in) :: self
-      complex(dp), intent(in) :: z                        !! from the centre [s]
-      complex(dp), intent(out) :: w
-      logical, intent(out) :: inside
-
-      inside = .false.
-      if (abs(z) > self%radius) return
-      call find_preimage(self%solution%shape, z, w, inside)
-      inside = inside .and. abs(w) <= 1.0_dp
-   end subroutine find_inside
 
    !> Where a place lies with respect to the disc, and how fast rules converge there.
    pure subroutine locate(self, z, depth, origin, offset, angular, radial)

@@ -52,23 +52,25 @@ contains
       end associate
    end subroutine start_stress_rays
 
-   !> Adds the fields of a spot or pool at a place.
+   !> Adds the fields of a spot or pool at places that have the same w_0. Rays and points are those of the nearest one,
+   !> with more points if there are others.
    subroutine add_at(self, solution, origin, offset, depth, fields)
       class(stress_rays), intent(inout) :: self
       type(expansion), intent(in) :: solution
       complex(dp), intent(in) :: origin                   !! w_0, |w_0| <= 1
-      complex(dp), intent(in) :: offset                   !! the place as seen from z(w_0) [s]
-      real(dp), intent(in) :: depth                       !! >= 0 [s]
-      real(dp), intent(inout) :: fields(stress_fields)
+      complex(dp), intent(in) :: offset(:)                !! the places as seen from z(w_0), shape (n) [s]
+      real(dp), intent(in) :: depth(:)                    !! >= 0, shape (n) [s]; with n > 1 not all on the surface
+      real(dp), intent(inout) :: fields(stress_fields, size(offset))
 
       complex(dp) :: density(1), direction, normal, slope(1), conjugate_slope(1)
       real(dp), dimension(rule_step*most_rules) :: cosine, sine, weight
       real(dp) :: distance, edge, kappa, scale, width
       logical :: on_surface
-      integer :: i, inwards, quarter, rule, sideways
+      integer :: i, inwards, nearest, quarter, rule, sideways
 
       scale = solution%shape%b(0)
-      distance = hypot(abs(offset), depth)
+      nearest = minloc(hypot(abs(offset), depth), 1)
+      distance = hypot(abs(offset(nearest)), depth(nearest))
       on_surface = self%kernel == all_fields .and. distance <= epsilon(1.0_dp)**2*scale
       edge = max((1.0_dp - abs(origin))*(1.0_dp + abs(origin)), at_edge)
       call solution%shape%slopes(1, [origin], slope, conjugate_slope)
@@ -91,13 +93,14 @@ contains
             sideways = merge(1, -1, mod(quarter, 2) == 0)
             do i = 1, n
                direction = normal*cmplx(inwards*cosine(i), sideways*sine(i), dp)
-               call add_ray(self, solution, origin, offset, depth, on_surface, edge, inwards*cosine(i), direction, &
-                            slope(1)*direction + conjugate_slope(1)*conjg(direction), weight(i), density(1), fields)
+               call add_ray(self, solution, origin, offset, depth, nearest, on_surface, edge, inwards*cosine(i), &
+                            direction, slope(1)*direction + conjugate_slope(1)*conjg(direction), weight(i), &
+                            density(1), fields)
             end do
          end do
       end associate
       if (on_surface .and. .not. solution%pool) &
-         fields(h_field) = fields(h_field) + density(1)%re*sqrt(edge) &
+         fields(h_field, 1) = fields(h_field, 1) + density(1)%re*sqrt(edge) &
          /(slope(1)%re**2 + slope(1)%im**2 - (conjugate_slope(1)%re**2 + conjugate_slope(1)%im**2))
    end subroutine add_at
 
@@ -122,22 +125,25 @@ contains
    !> On the chord through w_0 that the ray is part of let -cos(alpha) be the place from -1 to 1, so that the root of
    !> 1 - |w|^2 is l sin(alpha), and alpha_0 that of w_0. In sigma = alpha - alpha_0 the kernel is singular at complex
    !> places; sigma = r + m sinh(eta) moves them to eta = +-i pi/2.
-   subroutine add_ray(self, solution, origin, offset, depth, on_surface, edge, cosine, direction, stretch, weight, &
-                      density_at_origin, fields)
+   subroutine add_ray(self, solution, origin, offset, depth, nearest, on_surface, edge, cosine, direction, stretch, &
+                      weight, density_at_origin, fields)
       type(stress_rays), intent(inout) :: self
       type(expansion), intent(in) :: solution
-      complex(dp), intent(in) :: origin, offset
-      real(dp), intent(in) :: depth
-      logical, intent(in) :: on_surface
+      complex(dp), intent(in) :: origin, offset(:)
+      real(dp), intent(in) :: depth(:)
+      integer, intent(in) :: nearest                !! of the places
+      logical, intent(in) :: on_surface             !! where it is the only one
       real(dp), intent(in) :: edge                  !! 1 - |w_0|^2
       real(dp), intent(in) :: cosine                !! of the direction from the outward normal
       complex(dp), intent(in) :: direction          !! e^(i phi)
       complex(dp), intent(in) :: stretch            !! dz/dt at w_0
       real(dp), intent(in) :: weight
       complex(dp), intent(in) :: density_at_origin
-      real(dp), intent(inout) :: fields(stress_fields)
+      real(dp), intent(inout) :: fields(stress_fields, size(offset))
 
       real(dp), parameter :: least_scale = 1e-25_dp
+      !> More points if there are others: on rays along the edge their poles are half as far from the real axis.
+      real(dp), parameter :: points_of_others = 1.5_dp
       complex(dp) :: pole
       real(dp) :: ahead, alpha, along, back, behind, first, forward, half, last, length, middle, r, squared, width
       integer :: rule
@@ -160,8 +166,10 @@ contains
          width = alpha
       else
          squared = stretch%re**2 + stretch%im**2
-         middle = (offset%re*stretch%re + offset%im*stretch%im)/squared
-         pole = cmplx(middle, sqrt(max((offset%re**2 + offset%im**2 + depth**2)/squared - middle**2, 0.0_dp)), dp)
+         associate (offset => offset(nearest), depth => depth(nearest))
+            middle = (offset%re*stretch%re + offset%im*stretch%im)/squared
+            pole = cmplx(middle, sqrt(max((offset%re**2 + offset%im**2 + depth**2)/squared - middle**2, 0.0_dp)), dp)
+         end associate
          pole = 2*asin(sqrt(behind + pole/(2*half)))
          r = pole%re - alpha
          width = abs(pole%im)
@@ -169,7 +177,8 @@ contains
       width = max(width, least_scale)
       first = asinh(-r/width)
       last = asinh((length - r)/width)
-      rule = rule_for(self, self%least_points + self%points_per_unit*(last - first))
+      rule = rule_for(self, self%least_points &
+                      + merge(1.0_dp, points_of_others, size(offset) == 1)*self%points_per_unit*(last - first))
       associate (nodes => self%rules(rule))
          call add_points(size(nodes%node), nodes%node, nodes%weight)
       end associate
@@ -182,8 +191,9 @@ contains
 
          complex(dp), dimension(n) :: density, difference, step, w
          real(dp), dimension(n) :: at_t, eta, root, sigma, strength, strength_y, t, x, y
-         real(dp) :: own(stress_fields), squared_stretch
+         real(dp) :: squared_stretch
          complex(dp) :: kernel
+         integer :: i
          logical :: gradient
 
          eta = first + 0.5_dp*(last - first)*(1.0_dp + node)
@@ -200,30 +210,28 @@ contains
          at_t = weight*0.5_dp*(last - first)*node_weight*width*cosh(eta)*root
          density = density*(at_t*root*t)
          if (solution%pool .and. .not. gradient) density = density*root**2
-         difference = offset - difference
-         x = difference%re
-         y = difference%im
          strength = density%re
-         own = 0.0_dp
          strength_y = density%im
-         call add_sources(self%kernel, solution%pool, n, x, y, depth, strength, strength_y, own)
-         if (on_surface) then
-            ! Less 1/t times the value at t = 0, of which the integral to a small circle in z is known.
-            squared_stretch = stretch%re**2 + stretch%im**2
-            associate (remainder => weight*log(forward*sqrt(squared_stretch)/solution%shape%b(0)) - sum(at_t/t), &
-                       at_origin => density_at_origin*sqrt(edge))
-               if (solution%pool) then
-                  kernel = -conjg(stretch)*at_origin/sqrt(squared_stretch)**3/(4*pi**2)
-                  own(h_field) = own(h_field) + remainder*kernel%re
-                  kernel = stretch*at_origin/sqrt(squared_stretch)**3/(4*pi**2)
-               else
-                  kernel = stretch**2/squared_stretch**2/pi*at_origin
-               end if
-               own(l_field) = own(l_field) + remainder*kernel%re
-               own(l_field + 1) = own(l_field + 1) + remainder*kernel%im
-            end associate
-         end if
-         fields = fields + own
+         do i = 1, size(offset)
+            x = offset(i)%re - difference%re
+            y = offset(i)%im - difference%im
+            call add_sources(self%kernel, solution%pool, n, x, y, depth(i), strength, strength_y, fields(:, i))
+         end do
+         if (.not. on_surface) return
+         ! Less 1/t times the value at t = 0, of which the integral to a small circle in z is known.
+         squared_stretch = stretch%re**2 + stretch%im**2
+         associate (remainder => weight*log(forward*sqrt(squared_stretch)/solution%shape%b(0)) - sum(at_t/t), &
+                    at_origin => density_at_origin*sqrt(edge), own => fields(:, 1))
+            if (solution%pool) then
+               kernel = -conjg(stretch)*at_origin/sqrt(squared_stretch)**3/(4*pi**2)
+               own(h_field) = own(h_field) + remainder*kernel%re
+               kernel = stretch*at_origin/sqrt(squared_stretch)**3/(4*pi**2)
+            else
+               kernel = stretch**2/squared_stretch**2/pi*at_origin
+            end if
+            own(l_field) = own(l_field) + remainder*kernel%re
+            own(l_field + 1) = own(l_field + 1) + remainder*kernel%im
+         end associate
       end subroutine add_points
 
    end subroutine add_ray

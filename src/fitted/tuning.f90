@@ -100,9 +100,6 @@ module wavycon_fitted_tuning
       !! Most lattice points that are summed one by one. With more of them the series saves nothing over the kernel
       !! itself.
 
-   ! Smooth part of the kernel.
-
-
    ! Clustering of the map's points towards the tips, near merging on the square lattice.
 
    real(dp), parameter, public :: spot_clustering = 0.015_dp
@@ -142,7 +139,6 @@ module wavycon_fitted_tuning
    real(dp), parameter, public :: field_accuracy = 1e-12_dp
       !! Accuracy of the integrals over spots or pools over the fields' scale. Larger: the error of rules and rays
       !! shows in fields. Smaller: more expensive fields.
-
    integer, parameter, public :: least_map = 150
       !! Places outside from which on a map takes a series. Smaller: series that cost more than they save. Larger: slow
       !! maps of few points.
