@@ -50,7 +50,7 @@ contains
       integer :: count, i, n, place, violated, small_steps
 
       n = size(x)
-      allocate (normals(n, size(slacks)))
+      allocate (normals(n, 0))
       small_steps = 0
       count = 0
       kept_slack = 0.0_dp
@@ -83,8 +83,8 @@ contains
                if (slacks(i) > kept_slack .or. i == violated) cycle
                count = count + 1
                candidates(count) = i
-               normals(:, count) = problem%normals(:, i)
             end do
+            normals = problem%normals(:, candidates(:count))
          end if
          status = qp_converged
          slack_terms = abs(problem%bounds(violated)) + maxval(abs(x))*maxval(abs(problem%normals(:, violated)))

@@ -12,6 +12,7 @@ module wavycon_dual_solver
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use wavycon_dual_pass, only: dual_obstacle, restore_optimum
    use wavycon_kinds, only: dp
+   use wavycon_lapack, only: ddot
    use wavycon_kkt, only: check_on_active_set, kkt_tolerance
    use wavycon_qp_problem, only: qp_problem, qp_solution, qp_converged, qp_infeasible, &
                                  qp_iteration_limit, qp_not_convex, qp_not_finite
@@ -24,6 +25,9 @@ module wavycon_dual_solver
    !> A solution by factors that were changed from exchange to exchange is kept if its KKT residual is at most this;
    !> otherwise fresh factors give a better one.
    real(dp), parameter :: fresh_residual = 0.01_dp*kkt_tolerance
+
+   !> Ratio of the squares of normals that are not scaled, as a power of two.
+   integer, parameter :: similar_powers = 20
 
    !> Keeps its active constraints, so that a problem that differs in the bounds alone starts from the last solution.
    type :: dual_solver
@@ -45,17 +49,22 @@ contains
       type(qp_problem), intent(in) :: problem
       integer, intent(out) :: status             !! qp_converged, or why it is refused: qp_not_finite, qp_not_convex
 
-      logical :: positive_definite
+      logical :: positive_definite, similar
 
+      similar = are_similar(problem%normals)
       status = qp_not_finite
       if (.not. (all(ieee_is_finite(problem%hessian)) .and. all(ieee_is_finite(problem%linear)) &
-                 .and. all(ieee_is_finite(problem%normals)) .and. all(ieee_is_finite(problem%bounds)))) return
+                 .and. all(ieee_is_finite(problem%bounds)))) return
+      if (.not. similar) then
+         if (.not. all(ieee_is_finite(problem%normals))) return
+      end if
       status = qp_not_convex
       call self%set%start(problem, positive_definite)
       if (.not. positive_definite) return
       status = qp_converged
       self%problem = problem
-      call scale_constraints(self%problem, self%row_powers)
+      allocate (self%row_powers(size(problem%bounds)), source=0)
+      if (.not. similar) call scale_constraints(self%problem, self%row_powers)
    end subroutine start
 
    !> Solves (Q1). Ends in any case: `solution%status` is one of the statuses of wavycon_qp_problem.
@@ -122,23 +131,33 @@ contains
       solution%multipliers = scale(solution%multipliers, self%row_powers(solution%active))
    end subroutine finish
 
-   !> Brings the largest component of each normal to between 1/2 and 1, unless those of all normals are of similar size.
+   !> Whether the normals are finite and their lengths within 2**10, which hide no violation above rounding. Fewer pivots
+   !> are needed without the scaling.
+   pure logical function are_similar(normals)
+      real(dp), intent(in), contiguous :: normals(:, :)   !! shape (n, m)
+
+      real(dp) :: squares(size(normals, 2))
+      integer :: i
+
+      do i = 1, size(squares)
+         squares(i) = ddot(size(normals, 1), normals(:, i), 1, normals(:, i), 1)
+      end do
+      are_similar = all(squares > tiny(squares) .and. squares <= huge(squares))
+      if (are_similar) are_similar = maxval(squares) <= scale(minval(squares), similar_powers)
+   end function are_similar
+
+   !> Brings the largest component of each normal to between 1/2 and 1.
    subroutine scale_constraints(problem, powers)
       type(qp_problem), intent(inout) :: problem
-      integer, allocatable, intent(out) :: powers(:)  !! of two by which the constraints are multiplied, shape (m)
+      integer, intent(inout) :: powers(:)  !! of two by which the constraints are multiplied, 0 on entry, shape (m)
 
       integer, parameter :: most_power = maxexponent(1.0_dp)/2   ! bounds up to 2**most_power stay finite
-      ! Sizes within 2**10 hide no violation above rounding, and fewer pivots are needed without the scaling.
-      integer, parameter :: similar_powers = 10
       real(dp) :: largest(size(problem%bounds))
       integer :: i
 
-      allocate (powers(size(largest)), source=0)
       do i = 1, size(largest)
          largest(i) = maxval(abs(problem%normals(:, i)))
       end do
-      if (.not. any(largest > 0.0_dp)) return
-      if (maxval(largest) <= scale(minval(largest, mask=largest > 0.0_dp), similar_powers)) return
       if (allocated(problem%rows)) deallocate (problem%rows)
       where (largest > 0.0_dp) powers = min(most_power, -exponent(largest))
       do i = 1, size(largest)

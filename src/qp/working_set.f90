@@ -10,7 +10,7 @@
 !> README.md in this directory.
 module wavycon_working_set
    use wavycon_kinds, only: dp
-   use wavycon_lapack, only: dgemv, dgeqp3, dorgqr, dpotrf, drot, dsymv, dtrsm, dtrsv
+   use wavycon_lapack, only: ddot, dgemv, dgeqp3, dorgqr, dpotrf, drot, dsymv, dtrsm, dtrsv
    use wavycon_qp_problem, only: qp_problem
    implicit none (type, external)
    private
@@ -162,10 +162,10 @@ contains
       n = size(w)
       k = self%count
       if (k == 0) return
-      square = dot_product(w, w)
+      square = ddot(n, w, 1, w, 1)
       call dgemv('T', n, k, 1.0_dp, self%span, n, w, 1, 0.0_dp, components, 1)
       call dgemv('N', n, k, -1.0_dp, self%span, n, components, 1, 1.0_dp, w, 1)
-      if (dot_product(w, w) > square_kept*square) return
+      if (ddot(n, w, 1, w, 1) > square_kept*square) return
       call dgemv('T', n, k, 1.0_dp, self%span, n, w, 1, 0.0_dp, again, 1)
       call dgemv('N', n, k, -1.0_dp, self%span, n, again, 1, 1.0_dp, w, 1)
       components = components + again
