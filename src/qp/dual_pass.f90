@@ -7,7 +7,7 @@
 !> set shrinks, so the method ends.
 module wavycon_dual_pass
    use wavycon_kinds, only: dp
-   use wavycon_lapack, only: dgemv, dtrsv
+   use wavycon_lapack, only: ddot, dgemv, dtrsv
    use wavycon_qp_problem, only: qp_problem, qp_converged, qp_inaccurate, qp_infeasible, qp_iteration_limit
    use wavycon_working_set, only: working_set
    implicit none (type, external)
@@ -152,7 +152,7 @@ contains
          k = set%count
          rates(:k) = components(:k)
          call dtrsv('U', 'N', 'N', k, set%triangle, n, rates, 1)
-         stiffness = dot_product(rest, rest)
+         stiffness = ddot(n, rest, 1, rest, 1)
          full_step = huge(full_step)
          if (sqrt(stiffness) > zero) full_step = -slack/stiffness
 
