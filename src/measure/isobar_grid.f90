@@ -151,15 +151,23 @@ contains
       class(isobar_grid), intent(in) :: self
 
       real(dp) :: area
-      integer :: k, l
+      logical :: inside(0:self%intervals, 0:self%intervals)
+      integer :: k, l, whole
 
       area = 0.0_dp
+      whole = 0
+      inside = self%pressure >= 0.0_dp
       do l = 0, self%intervals - 1
          do k = 0, self%intervals - 1
-            area = area + self%cell_area(k, l)
+            select case (count(inside(k:k + 1, l:l + 1)))
+            case (4)
+               whole = whole + 1
+            case (1:3)
+               area = area + self%cell_area(k, l)
+            end select
          end do
       end do
-      area_fraction = area/pi**2
+      area_fraction = area/pi**2 + real(whole, dp)/self%intervals**2
    end function area_fraction
 
    !> The sign of a derivative after `folded`: -1 on the mirror image.
