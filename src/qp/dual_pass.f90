@@ -154,7 +154,7 @@ contains
          call dtrsv('U', 'N', 'N', k, set%triangle, n, rates, 1)
          stiffness = ddot(n, rest, 1, rest, 1)
          full_step = huge(full_step)
-         if (sqrt(stiffness) > zero) full_step = -slack/stiffness
+         if (k < n .and. sqrt(stiffness) > zero) full_step = -slack/stiffness
 
          step = full_step
          released = 0

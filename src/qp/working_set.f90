@@ -20,8 +20,9 @@ module wavycon_working_set
    !> A constraint counts as dependent on other active ones if the part of its normal outside their span is less than
    !> this fraction of it: such a part is rounding.
    real(dp), parameter :: dependence = 1e-13_dp
-   !> A vector is projected once if this part of its square remains: the rest is then orthogonal to some roundings.
-   real(dp), parameter :: square_kept = 0.1_dp
+   !> A vector is projected once if this part of its square remains [DGKS]. With 1e-4 so much orthogonality is lost that
+   !> the pass finds n + 1 independent constraints.
+   real(dp), parameter :: square_kept = 0.5_dp
    !> The kind of extended residuals: quadruple precision where the compiler has it.
    integer, parameter :: long = merge(selected_real_kind(30), dp, selected_real_kind(30) > 0)
    !> Refinement ends earlier, when a step is more than half of the one before: no digits are left to gain.
