@@ -208,7 +208,7 @@ contains
          self%triangle(:i + 1, i) = self%triangle(:i + 1, i + 1)
       end do
       do i = place, k - 1
-         radius = hypot(self%triangle(i, i), self%triangle(i + 1, i))
+         radius = sqrt(self%triangle(i, i)**2 + self%triangle(i + 1, i)**2)
          cosine = self%triangle(i, i)/radius
          sine = self%triangle(i + 1, i)/radius
          self%triangle(i, i) = radius
