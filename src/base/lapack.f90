@@ -4,7 +4,7 @@ module wavycon_lapack
    implicit none (type, external)
    private
 
-   public :: ddot, dgemm, dgemv, dger, drot, dsymv, dsyr, dtrsm, dtrsv, sdot       ! BLAS
+   public :: dasum, ddot, dgemm, dgemv, dger, drot, dsymv, dsyr, dtrsm, dtrsv, sdot  ! BLAS
    public :: dgels, dgeqp3, dgglse, dlarfg, dorgqr, dpotrf, dsyev     ! LAPACK
 
    interface
@@ -70,6 +70,13 @@ module wavycon_lapack
          real(dp), intent(inout) :: a(lda, *)
          integer, intent(out) :: info
       end subroutine dpotrf
+
+      pure function dasum(n, x, incx)
+         import :: dp
+         integer, intent(in) :: n, incx
+         real(dp), intent(in) :: x(*)
+         real(dp) :: dasum
+      end function dasum
 
       pure function ddot(n, x, incx, y, incy)
          import :: dp

@@ -12,8 +12,8 @@ module wavycon_dual_solver
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use wavycon_dual_pass, only: dual_obstacle, restore_optimum
    use wavycon_kinds, only: dp
-   use wavycon_lapack, only: ddot
    use wavycon_kkt, only: check_on_active_set, kkt_tolerance
+   use wavycon_lapack, only: dasum
    use wavycon_qp_problem, only: qp_problem, qp_solution, qp_converged, qp_infeasible, &
                                  qp_iteration_limit, qp_not_convex, qp_not_finite
    use wavycon_working_set, only: working_set
@@ -25,9 +25,6 @@ module wavycon_dual_solver
    !> A solution by factors that were changed from exchange to exchange is kept if its KKT residual is at most this;
    !> otherwise fresh factors give a better one.
    real(dp), parameter :: fresh_residual = 0.01_dp*kkt_tolerance
-
-   !> Ratio of the squares of normals that are not scaled, as a power of two.
-   integer, parameter :: similar_powers = 20
 
    !> Keeps its active constraints, so that a problem that differs in the bounds alone starts from the last solution.
    type :: dual_solver
@@ -49,22 +46,18 @@ contains
       type(qp_problem), intent(in) :: problem
       integer, intent(out) :: status             !! qp_converged, or why it is refused: qp_not_finite, qp_not_convex
 
-      logical :: positive_definite, similar
+      logical :: positive_definite
 
-      similar = are_similar(problem%normals)
       status = qp_not_finite
       if (.not. (all(ieee_is_finite(problem%hessian)) .and. all(ieee_is_finite(problem%linear)) &
-                 .and. all(ieee_is_finite(problem%bounds)))) return
-      if (.not. similar) then
-         if (.not. all(ieee_is_finite(problem%normals))) return
-      end if
+                 .and. all(ieee_is_finite(problem%normals)) .and. all(ieee_is_finite(problem%bounds)))) return
       status = qp_not_convex
       call self%set%start(problem, positive_definite)
       if (.not. positive_definite) return
       status = qp_converged
       self%problem = problem
       allocate (self%row_powers(size(problem%bounds)), source=0)
-      if (.not. similar) call scale_constraints(self%problem, self%row_powers)
+      if (.not. are_similar(problem%normals)) call scale_constraints(self%problem, self%row_powers)
    end subroutine start
 
    !> Solves (Q1). Ends in any case: `solution%status` is one of the statuses of wavycon_qp_problem.
@@ -131,19 +124,19 @@ contains
       solution%multipliers = scale(solution%multipliers, self%row_powers(solution%active))
    end subroutine finish
 
-   !> Whether the normals are finite and their lengths within 2**10, which hide no violation above rounding. Fewer pivots
-   !> are needed without the scaling.
+   !> Whether the sizes of the normals are within 2**10, which hides no violation above rounding. Fewer pivots are needed
+   !> without the scaling.
    pure logical function are_similar(normals)
       real(dp), intent(in), contiguous :: normals(:, :)   !! shape (n, m)
 
-      real(dp) :: squares(size(normals, 2))
+      integer, parameter :: similar_powers = 10
+      real(dp) :: sizes(size(normals, 2))
       integer :: i
 
-      do i = 1, size(squares)
-         squares(i) = ddot(size(normals, 1), normals(:, i), 1, normals(:, i), 1)
+      do i = 1, size(sizes)
+         sizes(i) = dasum(size(normals, 1), normals(:, i), 1)
       end do
-      are_similar = all(squares > tiny(squares) .and. squares <= huge(squares))
-      if (are_similar) are_similar = maxval(squares) <= scale(minval(squares), similar_powers)
+      are_similar = scale(maxval(sizes), -similar_powers) <= minval(sizes, mask=sizes > 0.0_dp)
    end function are_similar
 
    !> Brings the largest component of each normal to between 1/2 and 1.

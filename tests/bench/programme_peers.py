@@ -66,8 +66,8 @@ def compare(program, daqp, size, loads, seconds):
         solver.process.stdin.writelines(lines)
     block = max(1, 20000//(n*m))
 
-    print(f'# wavycon and DAQP {VERSION} with the tolerances {TOLERANCES} in turns, {n}/{m}: median and least time [ms]; '
-          'pivots or iterations; largest difference from wavycon')
+    print(f'# wavycon and DAQP {VERSION} with the tolerances {TOLERANCES} in turns, {n}/{m}: '
+          'median and least time [ms]; pivots or iterations; largest difference from wavycon')
     print('#   P' + ''.join(f'{name:>10}{"least":>10}{"steps":>7}' for name in ['wavycon', 'daqp', 'daqp'])
           + f'{"ratio":>8}{"ratio":>8}{"difference":>12}{"difference":>12}')
     ratios, good = [], True
@@ -84,7 +84,8 @@ def compare(program, daqp, size, loads, seconds):
         good = good and answers[0][0] == 'converged' and differences[-1] < 1e-9
         print(f'{load:5.2f}' + ''.join(f'{median:10.4f}{min(series):10.4f}{answer[1]:7d}'
                                        for median, series, answer in zip(medians, times, answers))
-              + ''.join(f'{ratio:8.3f}' for ratio in ratios[-1]) + ''.join(f'{d:12.1e}' for d in differences), flush=True)
+              + ''.join(f'{ratio:8.3f}' for ratio in ratios[-1])
+              + ''.join(f'{d:12.1e}' for d in differences), flush=True)
     means = [math.exp(statistics.mean(math.log(ratio) for ratio in column)) for column in zip(*ratios)]
     print(f'# wavycon over DAQP, geometric mean: {means[0]:.3f}; at equal digits {means[1]:.3f}\n\n')
     return good
