@@ -46,11 +46,14 @@ contains
       type(qp_problem), intent(in) :: problem
       integer, intent(out) :: status             !! qp_converged, or why it is refused: qp_not_finite, qp_not_convex
 
+      real(dp) :: sums(size(problem%bounds))
       logical :: positive_definite
 
+      ! Sums are finite only if all elements of C and b are.
+      call problem%slacks(spread(1.0_dp, 1, size(problem%linear)), sums)
       status = qp_not_finite
       if (.not. (all(ieee_is_finite(problem%hessian)) .and. all(ieee_is_finite(problem%linear)) &
-                 .and. all(ieee_is_finite(problem%normals)) .and. all(ieee_is_finite(problem%bounds)))) return
+                 .and. all(ieee_is_finite(sums)))) return
       status = qp_not_convex
       call self%set%start(problem, positive_definite)
       if (.not. positive_definite) return
