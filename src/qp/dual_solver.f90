@@ -127,8 +127,7 @@ contains
       solution%multipliers = scale(solution%multipliers, self%row_powers(solution%active))
    end subroutine finish
 
-   !> Whether the sizes of the normals are within 2**10, which hides no violation above rounding. Fewer pivots are needed
-   !> without the scaling.
+   !> Whether the normals' sizes are within 2**10: no violation above rounding is hidden, and scaling costs pivots.
    pure logical function are_similar(normals)
       real(dp), intent(in), contiguous :: normals(:, :)   !! shape (n, m)
 
