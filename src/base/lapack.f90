@@ -4,8 +4,8 @@ module wavycon_lapack
    implicit none (type, external)
    private
 
-   public :: dgemm, dgemv, dger, drot, dsymv, dsyr, dtrsm, dtrsv, sdot        ! BLAS
-   public :: dgels, dgeqp3, dgglse, dlarfg, dlartg, dorgqr, dpotrf, dsyev     ! LAPACK
+   public :: dasum, ddot, dgemm, dgemv, dger, drot, dsymv, dsyr, dtrsm, dtrsv, sdot  ! BLAS
+   public :: dgels, dgeqp3, dgglse, dlarfg, dorgqr, dpotrf, dsyev     ! LAPACK
 
    interface
       pure subroutine dgemv(trans, m, n, alpha, a, lda, x, incx, beta, y, incy)
@@ -71,6 +71,20 @@ module wavycon_lapack
          integer, intent(out) :: info
       end subroutine dpotrf
 
+      pure function dasum(n, x, incx)
+         import :: dp
+         integer, intent(in) :: n, incx
+         real(dp), intent(in) :: x(*)
+         real(dp) :: dasum
+      end function dasum
+
+      pure function ddot(n, x, incx, y, incy)
+         import :: dp
+         integer, intent(in) :: n, incx, incy
+         real(dp), intent(in) :: x(*), y(*)
+         real(dp) :: ddot
+      end function ddot
+
       pure function sdot(n, x, incx, y, incy)
          import :: sp
          integer, intent(in) :: n, incx, incy
@@ -102,12 +116,6 @@ module wavycon_lapack
          real(dp), intent(inout) :: x(*), y(*)
          real(dp), intent(in) :: c, s
       end subroutine drot
-
-      pure subroutine dlartg(f, g, c, s, r)
-         import :: dp
-         real(dp), intent(in) :: f, g
-         real(dp), intent(out) :: c, s, r
-      end subroutine dlartg
 
       pure subroutine dlarfg(n, alpha, x, incx, tau)
          import :: dp

@@ -35,7 +35,7 @@ module wavycon_beale_contact
 
    type, extends(contact_solver) :: beale_contact
       type(series_source) :: series                    !! without amplitudes
-      type(qp_problem) :: problem                      !! at zero load
+      type(qp_problem) :: problem                      !! at zero load, or that of the last cold start
       logical :: by_beale = .false.                    !! whether Beale's method solves each load
       class(dual_solver), allocatable, private :: solver   !! after the first load
    contains
@@ -129,7 +129,6 @@ contains
       real(dp), intent(in) :: pbar_over_pstar       !! 0 < P < 1 or H
       type(qp_solution), intent(out) :: programme
 
-      type(qp_problem) :: problem
       real(dp) :: start
       integer :: pivots
       logical :: solved
@@ -138,7 +137,6 @@ contains
       solved = .false.
       if (self%by_beale .or. .not. allocated(self%solver)) then
          if (allocated(self%solver)) deallocate (self%solver)
-         problem = self%problem
          if (self%by_beale) then
             allocate (beale_solver :: self%solver)
             start = pbar_over_pstar
@@ -146,8 +144,8 @@ contains
             allocate (dual_solver :: self%solver)
             start = max(pbar_over_pstar, min(lightest_start, 0.5_dp*self%surface%hardness))
          end if
-         problem%bounds = bounds_at(problem, start, self%surface%hardness)
-         call self%solver%solve(problem, programme)
+         self%problem%bounds = bounds_at(self%problem, start, self%surface%hardness)
+         call self%solver%solve(self%problem, programme)
          pivots = programme%pivots
          solved = pbar_over_pstar >= start .or. .not. allocated(programme%x)
       end if

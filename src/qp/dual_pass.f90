@@ -7,7 +7,7 @@
 !> set shrinks, so the method ends.
 module wavycon_dual_pass
    use wavycon_kinds, only: dp
-   use wavycon_lapack, only: dtrsv
+   use wavycon_lapack, only: ddot, dgemv, dtrsv
    use wavycon_qp_problem, only: qp_problem, qp_converged, qp_inaccurate, qp_infeasible, qp_iteration_limit
    use wavycon_working_set, only: working_set
    implicit none (type, external)
@@ -45,9 +45,12 @@ contains
 
       real(dp) :: x(size(problem%linear)), multipliers(size(problem%linear)), slacks(size(problem%bounds))
       real(dp) :: slack, slack_terms, kept_slack
+      real(dp), allocatable :: normals(:, :)       ! those of the candidates
       integer :: candidates(size(problem%bounds))
-      integer :: count, i, place, violated, small_steps
+      integer :: count, i, n, place, violated, small_steps
 
+      n = size(x)
+      allocate (normals(n, 0))
       small_steps = 0
       count = 0
       kept_slack = 0.0_dp
@@ -56,15 +59,16 @@ contains
          ! The most violated constraint of the candidates, or of all if none of these is violated by much.
          slack = 0.0_dp
          place = 0
-         do i = 1, count
-            slacks(i) = dot_product(problem%normals(:, candidates(i)), x) - problem%bounds(candidates(i))
-            if (slacks(i) >= slack) cycle
-            slack = slacks(i)
-            place = i
-         end do
+         if (count > 0) then
+            slacks(:count) = -problem%bounds(candidates(:count))
+            call dgemv('T', n, count, 1.0_dp, normals, n, x, 1, 1.0_dp, slacks, 1)
+            place = minloc(slacks(:count), dim=1)
+            slack = slacks(place)
+         end if
          if (slack < kept_slack) then
             violated = candidates(place)
             candidates(place) = candidates(count)
+            normals(:, place) = normals(:, count)
             count = count - 1
          else
             call problem%slacks(x, slacks)
@@ -80,6 +84,7 @@ contains
                count = count + 1
                candidates(count) = i
             end do
+            normals = problem%normals(:, candidates(:count))
          end if
          status = qp_converged
          slack_terms = abs(problem%bounds(violated)) + maxval(abs(x))*maxval(abs(problem%normals(:, violated)))
@@ -138,7 +143,7 @@ contains
       multiplier = 0.0_dp
       slack = first_slack
       rest = set%scaled(problem%normals(:, constraint))
-      zero = zero_rest*max(norm2(rest), set%inverse_size*norm2(problem%normals(:, constraint)))
+      zero = zero_rest*sqrt(max(sum(rest**2), set%inverse_size**2*sum(problem%normals(:, constraint)**2)))
       call set%split(rest, components(:set%count))
       do
          status = qp_iteration_limit
@@ -147,9 +152,9 @@ contains
          k = set%count
          rates(:k) = components(:k)
          call dtrsv('U', 'N', 'N', k, set%triangle, n, rates, 1)
-         stiffness = dot_product(rest, rest)
+         stiffness = ddot(n, rest, 1, rest, 1)
          full_step = huge(full_step)
-         if (sqrt(stiffness) > zero) full_step = -slack/stiffness
+         if (k < n .and. sqrt(stiffness) > zero) full_step = -slack/stiffness
 
          step = full_step
          released = 0

@@ -13,6 +13,7 @@ module wavycon_dual_solver
    use wavycon_dual_pass, only: dual_obstacle, restore_optimum
    use wavycon_kinds, only: dp
    use wavycon_kkt, only: check_on_active_set, kkt_tolerance
+   use wavycon_lapack, only: dasum
    use wavycon_qp_problem, only: qp_problem, qp_solution, qp_converged, qp_infeasible, &
                                  qp_iteration_limit, qp_not_convex, qp_not_finite
    use wavycon_working_set, only: working_set
@@ -45,17 +46,21 @@ contains
       type(qp_problem), intent(in) :: problem
       integer, intent(out) :: status             !! qp_converged, or why it is refused: qp_not_finite, qp_not_convex
 
+      real(dp) :: sums(size(problem%bounds))
       logical :: positive_definite
 
+      ! Sums are finite only if all elements of C and b are.
+      call problem%slacks(spread(1.0_dp, 1, size(problem%linear)), sums)
       status = qp_not_finite
       if (.not. (all(ieee_is_finite(problem%hessian)) .and. all(ieee_is_finite(problem%linear)) &
-                 .and. all(ieee_is_finite(problem%normals)) .and. all(ieee_is_finite(problem%bounds)))) return
+                 .and. all(ieee_is_finite(sums)))) return
       status = qp_not_convex
       call self%set%start(problem, positive_definite)
       if (.not. positive_definite) return
       status = qp_converged
       self%problem = problem
-      call scale_constraints(self%problem, self%row_powers)
+      allocate (self%row_powers(size(problem%bounds)), source=0)
+      if (.not. are_similar(problem%normals)) call scale_constraints(self%problem, self%row_powers)
    end subroutine start
 
    !> Solves (Q1). Ends in any case: `solution%status` is one of the statuses of wavycon_qp_problem.
@@ -122,23 +127,32 @@ contains
       solution%multipliers = scale(solution%multipliers, self%row_powers(solution%active))
    end subroutine finish
 
-   !> Brings the largest component of each normal to between 1/2 and 1, unless those of all normals are of similar size.
+   !> Whether the normals' sizes are within 2**10: no violation above rounding is hidden, and scaling costs pivots.
+   pure logical function are_similar(normals)
+      real(dp), intent(in), contiguous :: normals(:, :)   !! shape (n, m)
+
+      integer, parameter :: similar_powers = 10
+      real(dp) :: sizes(size(normals, 2))
+      integer :: i
+
+      do i = 1, size(sizes)
+         sizes(i) = dasum(size(normals, 1), normals(:, i), 1)
+      end do
+      are_similar = scale(maxval(sizes), -similar_powers) <= minval(sizes, mask=sizes > 0.0_dp)
+   end function are_similar
+
+   !> Brings the largest component of each normal to between 1/2 and 1.
    subroutine scale_constraints(problem, powers)
       type(qp_problem), intent(inout) :: problem
-      integer, allocatable, intent(out) :: powers(:)  !! of two by which the constraints are multiplied, shape (m)
+      integer, intent(inout) :: powers(:)  !! of two by which the constraints are multiplied, 0 on entry, shape (m)
 
       integer, parameter :: most_power = maxexponent(1.0_dp)/2   ! bounds up to 2**most_power stay finite
-      ! Sizes within 2**10 hide no violation above rounding, and fewer pivots are needed without the scaling.
-      integer, parameter :: similar_powers = 10
       real(dp) :: largest(size(problem%bounds))
       integer :: i
 
-      allocate (powers(size(largest)), source=0)
       do i = 1, size(largest)
          largest(i) = maxval(abs(problem%normals(:, i)))
       end do
-      if (.not. any(largest > 0.0_dp)) return
-      if (maxval(largest) <= scale(minval(largest, mask=largest > 0.0_dp), similar_powers)) return
       if (allocated(problem%rows)) deallocate (problem%rows)
       where (largest > 0.0_dp) powers = min(most_power, -exponent(largest))
       do i = 1, size(largest)

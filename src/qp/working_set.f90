@@ -10,7 +10,7 @@
 !> README.md in this directory.
 module wavycon_working_set
    use wavycon_kinds, only: dp
-   use wavycon_lapack, only: dgemv, dgeqp3, dlartg, dorgqr, dpotrf, drot, dsymv, dtrsm, dtrsv
+   use wavycon_lapack, only: ddot, dgemv, dgeqp3, dorgqr, dpotrf, drot, dsymv, dtrsm, dtrsv
    use wavycon_qp_problem, only: qp_problem
    implicit none (type, external)
    private
@@ -20,6 +20,9 @@ module wavycon_working_set
    !> A constraint counts as dependent on other active ones if the part of its normal outside their span is less than
    !> this fraction of it: such a part is rounding.
    real(dp), parameter :: dependence = 1e-13_dp
+   !> A vector is projected once if this part of its square remains [DGKS]. With 1e-4 so much orthogonality is lost that
+   !> the pass finds n + 1 independent constraints.
+   real(dp), parameter :: square_kept = 0.5_dp
    !> The kind of extended residuals: quadruple precision where the compiler has it.
    integer, parameter :: long = merge(selected_real_kind(30), dp, selected_real_kind(30) > 0)
    !> Refinement ends earlier, when a step is more than half of the one before: no digits are left to gain.
@@ -31,7 +34,7 @@ module wavycon_working_set
       real(dp), allocatable :: span(:, :)            !! Q in span(:, :k), shape (n, n)
       real(dp), allocatable :: triangle(:, :)        !! R in the upper triangle of triangle(:k, :k), shape (n, n)
       real(dp), allocatable :: root(:, :)            !! U in the upper triangle, shape (n, n)
-      logical :: diagonal = .false.                  !! whether U is
+      real(dp), allocatable :: inverse(:)            !! U^-1, if it is diagonal, shape (n)
       real(dp) :: inverse_size = 0.0_dp              !! estimate of |U^-1|: one over the least diagonal element
       logical :: extended_residuals = .false.        !! whether `solve` refines with residuals of the kind `long`
    contains
@@ -55,15 +58,16 @@ contains
       logical, intent(out) :: positive_definite  !! false: D is not, and the set cannot be used
 
       integer :: i, n, info
+      logical :: diagonal
 
       n = size(problem%linear)
       allocate (self%active(n), self%triangle(n, n), self%span(n, n))
       self%root = problem%hessian
-      self%diagonal = .true.
+      diagonal = .true.
       do i = 2, n
-         self%diagonal = self%diagonal .and. all(abs(self%root(:i - 1, i)) <= 0.0_dp)
+         diagonal = diagonal .and. all(abs(self%root(:i - 1, i)) <= 0.0_dp)
       end do
-      if (self%diagonal) then
+      if (diagonal) then
          info = count([(self%root(i, i) <= 0.0_dp, i=1, n)])
          do i = 1, n
             self%root(i, i) = sqrt(max(self%root(i, i), 0.0_dp))
@@ -72,7 +76,9 @@ contains
          call dpotrf('U', n, self%root, n, info)
       end if
       positive_definite = info == 0
-      if (positive_definite) self%inverse_size = 1.0_dp/minval([(self%root(i, i), i=1, n)])
+      if (.not. positive_definite) return
+      self%inverse_size = 1.0_dp/minval([(self%root(i, i), i=1, n)])
+      if (diagonal) self%inverse = [(1.0_dp/self%root(i, i), i=1, n)]
    end subroutine start
 
    !> Factorises a set of active constraints (Q4), without those that depend on the others. `start` comes first.
@@ -124,14 +130,10 @@ contains
       real(dp), intent(in) :: v(:)   !! shape (n)
       real(dp) :: w(size(v))
 
-      integer :: i
-
-      w = v
-      if (self%diagonal) then
-         do i = 1, size(v)
-            w(i) = w(i)/self%root(i, i)
-         end do
+      if (allocated(self%inverse)) then
+         w = self%inverse*v
       else
+         w = v
          call dtrsv('U', 'T', 'N', size(v), self%root, size(v), w, 1)
       end if
    end function scaled
@@ -141,32 +143,30 @@ contains
       class(working_set), intent(in) :: self
       real(dp), intent(inout), contiguous :: x(:)   !! w on entry, shape (n)
 
-      integer :: i
-
-      if (self%diagonal) then
-         do i = 1, size(x)
-            x(i) = x(i)/self%root(i, i)
-         end do
+      if (allocated(self%inverse)) then
+         x = self%inverse*x
       else
          call dtrsv('U', 'N', 'N', size(x), self%root, size(x), x, 1)
       end if
    end subroutine unscale
 
-   !> Splits a vector w into Q components + rest, the rest orthogonal to Q: twice, so that it is orthogonal to
-   !> rounding even where it is short.
+   !> Splits a vector w into Q components + rest, the rest orthogonal to Q to rounding: where it is much shorter than w
+   !> it is projected again.
    subroutine split(self, w, components)
       class(working_set), intent(in) :: self
       real(dp), intent(inout), contiguous :: w(:)          !! on return the rest, shape (n)
       real(dp), intent(out), contiguous :: components(:)   !! shape (k)
 
-      real(dp) :: again(self%count)
+      real(dp) :: again(self%count), square
       integer :: n, k
 
       n = size(w)
       k = self%count
       if (k == 0) return
+      square = ddot(n, w, 1, w, 1)
       call dgemv('T', n, k, 1.0_dp, self%span, n, w, 1, 0.0_dp, components, 1)
       call dgemv('N', n, k, -1.0_dp, self%span, n, components, 1, 1.0_dp, w, 1)
+      if (ddot(n, w, 1, w, 1) > square_kept*square) return
       call dgemv('T', n, k, 1.0_dp, self%span, n, w, 1, 0.0_dp, again, 1)
       call dgemv('N', n, k, -1.0_dp, self%span, n, again, 1, 1.0_dp, w, 1)
       components = components + again
@@ -182,7 +182,7 @@ contains
       real(dp) :: length
 
       k = self%count
-      length = norm2(rest)
+      length = sqrt(dot_product(rest, rest))
       self%span(:, k + 1) = rest/length
       self%triangle(:k, k + 1) = components
       self%triangle(k + 1, k + 1) = length
@@ -208,7 +208,9 @@ contains
          self%triangle(:i + 1, i) = self%triangle(:i + 1, i + 1)
       end do
       do i = place, k - 1
-         call dlartg(self%triangle(i, i), self%triangle(i + 1, i), cosine, sine, radius)
+         radius = sqrt(self%triangle(i, i)**2 + self%triangle(i + 1, i)**2)
+         cosine = self%triangle(i, i)/radius
+         sine = self%triangle(i + 1, i)/radius
          self%triangle(i, i) = radius
          if (i < k - 1) call drot(k - 1 - i, self%triangle(i, i + 1), n, self%triangle(i + 1, i + 1), n, cosine, sine)
          call drot(n, self%span(1, i), 1, self%span(1, i + 1), 1, cosine, sine)
