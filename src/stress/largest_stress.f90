@@ -131,6 +131,7 @@ contains
       end do
       if (fields%dimension == 1) answer%place(2) = 0.0_dp
       call fields%at(answer%place(1), answer%place(2), answer%place(3), parts, answer%error)
+      answer%value = size_of(quantity, body%stress(parts, fields%pbar_over_pstar))
       answer%error = error_of_invariant*answer%error + least_gain
    end subroutine search
 
@@ -147,6 +148,7 @@ contains
       !> Relative gains below this are rounding.
       real(dp), parameter :: rounding = 1e-14_dp
       integer, allocatable :: axes(:)
+      logical :: is_new
       real(dp) :: before, least, promise, reach, step
       integer :: i
 
@@ -155,6 +157,8 @@ contains
       reach = first_reach*width
       do i = 1, most_models
          before = best%value
+         call fields%expand(best%place, width, is_new)
+         if (is_new) best%value = size_of(quantity, stress_at(fields, body, best%place))
          call improve(fields, body, quantity, axes, reach, best, step, promise)
          ! A model that is too large for the stress may promise much and gain nothing: the next one is smaller.
          gain = max(best%value - before, promise)
@@ -247,6 +251,7 @@ contains
       abs_depth = [place(1), place(2), abs(place(3))]
    end function abs_depth
 
+   !> The stress at a place near that of the last `expand`.
    function stress_at(fields, body, place) result(stress)
       class(stress_fields), intent(inout) :: fields
       type(elastic_body), intent(in) :: body
@@ -255,7 +260,7 @@ contains
 
       real(dp) :: parts(6, 2)
 
-      call fields%at(place(1), place(2), place(3), parts)
+      call fields%near(place, parts)
       stress = body%stress(parts, fields%pbar_over_pstar)
    end function stress_at
 

@@ -1,6 +1,6 @@
 !> The stresses under a pressure that is a Fourier series: full contact, the paper's series, the points of a grid.
 !>
-!> Equations (S1) to (S5) of README.md in this directory.
+!> Equations (S1) to (S5) and (S9) of README.md in this directory.
 module wavycon_series_stress
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_fortran_env, only: int64
@@ -10,7 +10,8 @@ module wavycon_series_stress
    use wavycon_kinds, only: dp
    use wavycon_stress_fields, only: stress_fields
    use wavycon_stress_tensor, only: largest_shear, von_mises, xx, xy, xz, yy, yz, zz
-   use wavycon_stress_tuning, only: coarsest, octave_factor, plane_points, plane_ratio, pressure_part, waves_in_depth
+   use wavycon_stress_tuning, only: coarsest, expansion_order, expansion_reach, octave_factor, plane_points, &
+      plane_ratio, pressure_part, waves_in_depth
    use wavycon_stress_waves, only: deepest, octave_weights, stress_waves
    use wavycon_surface, only: surface_type
    use wavycon_system, only: has_memory_for
@@ -25,8 +26,12 @@ module wavycon_series_stress
       private
       type(stress_waves) :: waves
       real(dp) :: pressure_error = 0.0_dp       !! of the pressure [p*]; NaN if there is no estimate
+      complex(dp), allocatable :: moment(:, :, :)   !! of the Taylor series in use
+      real(dp) :: centre(3) = 0.0_dp            !! of that series [rad]
    contains
       procedure :: at
+      procedure :: expand
+      procedure :: near
       procedure :: on_line
       procedure :: on_plane
       procedure :: start_places
@@ -62,51 +67,87 @@ contains
       real(dp), intent(out) :: parts(6, 2)
       real(dp), intent(out), optional :: error
 
-      complex(dp) :: turn_x(0:ubound(self%waves%wave, 1)), wave
-      real(dp) :: q, q_y, sums(number_of_sums)
-      logical :: with_error
-      integer :: k, l, last(2)
+      complex(dp), allocatable :: moment(:, :, :)
+      real(dp) :: octave(3)
 
       if (.not. self%exist) then
          parts = ieee_value(parts, ieee_quiet_nan)
          if (present(error)) error = ieee_value(error, ieee_quiet_nan)
          return
       end if
-      call self%waves%use_depth(depth)
-      last = ubound(self%waves%decay) - 1
-      turn_x(:last(1)) = [(exp(cmplx(0.0_dp, k*x, dp)), k=0, last(1))]
-      with_error = present(error) .and. self%waves%octave_reaches()
-      sums = 0.0_dp
-      do l = -last(2), last(2)
-         q_y = l/self%side_ratio
-         associate (turn_y => exp(cmplx(0.0_dp, l*y, dp)))
-            do k = merge(1, 0, l <= 0), last(1)
-               if (max(abs(self%waves%wave(k, l)%re), abs(self%waves%wave(k, l)%im)) <= 0.0_dp) cycle
-               wave = self%waves%decay(k, abs(l))*self%waves%wave(k, l)*turn_x(k)*turn_y
-               q = sqrt(k**2 + q_y**2)
-               associate (a => wave%re, b => wave%im, of_x => k*wave%re/q**2, x => real(k, dp))
-                  sums(1) = sums(1) + a
-                  sums(2) = sums(2) + q*a
-                  sums(3) = sums(3) + x*of_x
-                  sums(4) = sums(4) + q*(x*of_x)
-                  sums(5) = sums(5) + q_y*of_x
-                  sums(6) = sums(6) + q*(q_y*of_x)
-                  sums(7) = sums(7) - x*b
-                  sums(8) = sums(8) - q_y*b
+      call self%waves%find_moments([x, y, depth], 0, 0.0_dp, moment)
+      parts = parts_of(sums_near(moment, [0.0_dp, 0.0_dp, 0.0_dp], depth))
+      if (.not. present(error)) return
+      octave = 0.0_dp
+      if (self%waves%octave_reaches(depth)) then
+         call self%waves%find_moments([x, y, depth], 0, self%waves%sampled_from, moment)
+         octave = [moment(0, 0, 0)%re + depth*moment(0, 0, 1)%re, -moment(1, 0, -1)%im - depth*moment(1, 0, 0)%im, &
+                   -moment(0, 1, -1)%im - depth*moment(0, 1, 0)%im]
+      end if
+      error = error_of(self, parts, octave)
+   end subroutine at
+
+   !> Prepares the Taylor series (S9) about a place, unless that of the last call is close enough.
+   subroutine expand(self, place, width, is_new)
+      class(series_stress), intent(inout) :: self
+      real(dp), intent(in) :: place(3)
+      real(dp), intent(in) :: width
+      logical, intent(out) :: is_new
+
+      is_new = .not. allocated(self%moment)
+      if (.not. is_new) is_new = norm2(place - self%centre) > expansion_reach*width
+      if (.not. is_new) return
+      self%centre = place
+      call self%waves%find_moments(place, expansion_order, 0.0_dp, self%moment)
+   end subroutine expand
+
+   !> By that Taylor series.
+   subroutine near(self, place, parts)
+      class(series_stress), intent(inout) :: self
+      real(dp), intent(in) :: place(3)
+      real(dp), intent(out) :: parts(6, 2)
+
+      parts = parts_of(sums_near(self%moment, place - self%centre, place(3)))
+   end subroutine near
+
+   !> The sums (S4) by the Taylor series (S9) about a point.
+   pure function sums_near(moment, move, depth) result(sums)
+      complex(dp), intent(in) :: moment(0:, 0:, -2:)   !! at the point
+      real(dp), intent(in) :: move(3)                  !! from the point [rad]
+      real(dp), intent(in) :: depth                    !! Z there [rad]
+      real(dp) :: sums(8)
+
+      !> Powers of k, l' and q of each sum.
+      integer, parameter :: power(3, 8) = reshape( &
+         [0, 0, 0, 0, 0, 1, 2, 0, -2, 2, 0, -1, 1, 1, -2, 1, 1, -1, 1, 0, 0, 0, 1, 0], [3, 8])
+      complex(dp) :: term(0:ubound(moment, 3) - 1, 3), total
+      integer :: b, c, j, last, order
+
+      order = ubound(term, 1)
+      term(0, :) = 1.0_dp
+      do j = 1, order
+         term(j, :) = term(j - 1, :)*[cmplx(0.0_dp, move(1), dp), cmplx(0.0_dp, move(2), dp), &
+                                      cmplx(-move(3), 0.0_dp, dp)]/j
+      end do
+      do j = 1, 8
+         total = 0.0_dp
+         do c = 0, order
+            do b = 0, order - c
+               last = order - c - b
+               associate (from => power(:, j) + [0, b, c])
+                  total = total + term(b, 2)*term(c, 3)* &
+                          sum(term(:last, 1)*moment(from(1):from(1) + last, from(2), from(3)))
                end associate
-               if (.not. with_error .or. q <= self%waves%sampled_from) cycle
-               sums(9:) = sums(9:) + real(octave_weights(k/q, q_y/q, q*depth)*wave)
             end do
-         end associate
+         end do
+         sums(j) = merge(-total%im, total%re, j > 6)
       end do
       sums([2, 4, 6, 7, 8]) = depth*sums([2, 4, 6, 7, 8])
-      parts = parts_of(sums)
-      if (present(error)) error = error_of(self, parts, sums(9:))
-   end subroutine at
+   end function sums_near
 
    !> The stresses from the sums (S4).
    pure function parts_of(sums) result(parts)
-      real(dp), intent(in) :: sums(number_of_sums)
+      real(dp), intent(in) :: sums(8)
       real(dp) :: parts(6, 2)
 
       parts = 0.0_dp
@@ -169,7 +210,7 @@ contains
          do m = lbound(along, 2), ubound(along, 2)
             sums = sums + real(along(:, m)*exp(cmplx(0.0_dp, m*t(i), dp)))
          end do
-         parts(:, :, i) = parts_of(sums)
+         parts(:, :, i) = parts_of(sums(:8))
          error(i) = error_of(self, parts(:, :, i), sums(9:))
       end do
    end subroutine on_line
@@ -204,8 +245,7 @@ contains
          error = ieee_value(error, ieee_quiet_nan)
          return
       end if
-      call self%waves%use_depth(depth)
-      number = merge(9, 6, self%waves%octave_reaches())
+      number = merge(9, 6, self%waves%octave_reaches(depth))
       call self%waves%transform(self%parts*points, offset, depth, body, self%pbar_over_pstar, number, fields)
       if (any(self%parts > 1)) fields = fields(:points(1), :points(2), :)
       allocate (error(points(1), points(2)), source=0.0_dp)

@@ -20,6 +20,8 @@ module wavycon_stress_fields
    contains
       procedure(parts_at_point), deferred :: at
       procedure(find_start_places), deferred :: start_places
+      procedure :: expand
+      procedure :: near
       procedure :: on_line
       procedure :: on_plane
       procedure :: at_places
@@ -51,6 +53,26 @@ module wavycon_stress_fields
    end interface
 
 contains
+
+   !> Prepares `near` for places about a place. Here nothing needs it.
+   subroutine expand(self, place, width, is_new)
+      class(stress_fields), intent(inout) :: self
+      real(dp), intent(in) :: place(3)     !! X, Y, Z [rad]
+      real(dp), intent(in) :: width        !! distance over which the stress changes [rad]
+      logical, intent(out) :: is_new       !! whether `near` may now give slightly different values than before
+
+      associate (unused => self, unused_too => place, nor_this => width); end associate
+      is_new = .false.
+   end subroutine expand
+
+   !> As `at`, perhaps less accurate the farther a place is from that of `expand`.
+   subroutine near(self, place, parts)
+      class(stress_fields), intent(inout) :: self
+      real(dp), intent(in) :: place(3)     !! X, Y, Z [rad]
+      real(dp), intent(out) :: parts(6, 2)
+
+      call self%at(place(1), place(2), place(3), parts)
+   end subroutine near
 
    !> The stresses of a body at places, with those of the mean pressure.
    subroutine at_places(self, body, places, stresses)

@@ -1,5 +1,5 @@
-!> The waves of a pressure that is a Fourier series, at a depth and in the stresses on a plane: (S3) and the waves of
-!> (S4) and (S5) of README.md in this directory.
+!> The waves of a pressure that is a Fourier series, at a depth, about a point and in the stresses on a plane: (S3) and
+!> the waves of (S4), (S5) and (S9) of README.md in this directory.
 module wavycon_stress_waves
    use wavycon_assertion, only: assert
    use wavycon_constants, only: pi
@@ -7,6 +7,7 @@ module wavycon_stress_waves
    use wavycon_fourier_series, only: fourier_series
    use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
+   use wavycon_lapack, only: dgemm
    use wavycon_stress_tensor, only: xx, xy, xz, yy, yz, zz
    implicit none (type, external)
    private
@@ -18,6 +19,7 @@ module wavycon_stress_waves
 
    type :: stress_waves
       real(dp) :: side_ratio = 1.0_dp           !! L_y/L_x
+      logical :: is_even = .false.              !! W_k,-l = W_kl, both real; for k = 0 the sum is half of W_0l
       !> W of (S3), p = P + sum of Re W exp(i(kX + lY)) over k > 0, and over l > 0 for k = 0; shape (0:m, -n:n) [p*].
       complex(dp), allocatable :: wave(:, :)
       real(dp) :: sampled_from = huge(1.0_dp)   !! waves with q above this are those of a grid's last octave
@@ -28,6 +30,7 @@ module wavycon_stress_waves
       procedure :: start
       procedure :: use_depth
       procedure :: octave_reaches
+      procedure :: find_moments
       procedure :: transform
    end type stress_waves
 
@@ -45,6 +48,7 @@ contains
       m = ubound(pressure%c, 1)
       n = ubound(pressure%c, 2)
       self%side_ratio = side_ratio
+      self%is_even = pressure%is_even()
       if (is_sampled) then
          self%sampled_from = 0.5_dp*m
          if (n > 0) self%sampled_from = 0.5_dp*min(real(m, dp), n/self%side_ratio)
@@ -84,8 +88,7 @@ contains
          if (abs(depth - self%decay_depth) <= 0.0_dp) return
          deallocate (self%decay)
       end if
-      last = ubound(self%wave)
-      if (depth > 0.0_dp) last = floor(min(self%faintest/depth*[1.0_dp, self%side_ratio], real(last, dp)))
+      last = last_waves(self, depth)
       ! With one more in each direction, for a series without waves in one of them.
       allocate (self%decay(0:last(1) + 1, 0:last(2) + 1), source=0.0_dp)
       do l = 0, last(2)
@@ -98,12 +101,81 @@ contains
       self%decay_depth = depth
    end subroutine use_depth
 
-   !> Whether waves of the last octave reach the depth in use.
-   pure logical function octave_reaches(self)
-      class(stress_waves), intent(in) :: self
+   !> The highest wave numbers along X and Y that reach a depth.
+   pure function last_waves(self, depth) result(last)
+      type(stress_waves), intent(in) :: self
+      real(dp), intent(in) :: depth   !! Z >= 0 [rad]
+      integer :: last(2)
 
-      octave_reaches = norm2((ubound(self%decay) - 1)*[1.0_dp, 1.0_dp/self%side_ratio]) > self%sampled_from
+      last = ubound(self%wave)
+      if (depth > 0.0_dp) last = floor(min(self%faintest/depth*[1.0_dp, self%side_ratio], real(last, dp)))
+   end function last_waves
+
+   !> Whether waves of the last octave reach a depth.
+   pure logical function octave_reaches(self, depth)
+      class(stress_waves), intent(in) :: self
+      real(dp), intent(in) :: depth   !! Z >= 0 [rad]
+
+      octave_reaches = norm2(last_waves(self, depth)*[1.0_dp, 1.0_dp/self%side_ratio]) > self%sampled_from
    end function octave_reaches
+
+   !> The moments (S9) of the waves at a point, M_abc = sum of k^a l'^b q^c W exp(i (k X + l Y) - q Z).
+   !>
+   !> Those with c = -2 and c = -1 are added up, over k by a product of matrices. The others follow from them, as
+   !> q^2 = k^2 + l'^2.
+   subroutine find_moments(self, place, order, above, moment)
+      class(stress_waves), intent(in) :: self
+      real(dp), intent(in) :: place(3)                          !! X, Y, Z [rad]
+      integer, intent(in) :: order                              !! of the Taylor series, >= 0
+      real(dp), intent(in) :: above                             !! only waves with q above this, >= 0
+      complex(dp), allocatable, intent(out) :: moment(:, :, :)  !! shape (0:n, 0:n, -2:n - 2), n = order + 3
+
+      real(dp), allocatable :: powers(:, :, :), weighted(:, :, :)
+      complex(dp) :: along_y, sum_x(0:order + 3, -2:-1), turn
+      real(dp) :: factor, q, q_y, sums(2, 0:order + 3, 2, 2)
+      integer :: a, b, c, k, l, last(2), n, number
+
+      n = order + 3
+      last = last_waves(self, place(3))
+      allocate (moment(0:n, 0:n, -2:n - 2), source=(0.0_dp, 0.0_dp))
+      allocate (powers(2, 0:n, 0:last(1)), weighted(0:last(1), 2, 2))
+      do k = 0, last(1)
+         turn = exp(cmplx(0.0_dp, k*place(1), dp))
+         powers(1, :, k) = [(turn%re*real(k, dp)**a, a=0, n)]
+         powers(2, :, k) = [(turn%im*real(k, dp)**a, a=0, n)]
+      end do
+      number = merge(2, 4, self%is_even)
+      sums = 0.0_dp
+      do l = merge(0, -last(2), self%is_even), last(2)
+         q_y = l/self%side_ratio
+         do k = 0, last(1)
+            q = sqrt(k**2 + q_y**2)
+            if (q*place(3) > self%faintest) exit
+            factor = 0.0_dp
+            if (q > above) factor = exp(-q*place(3))/q
+            weighted(k, 1, :) = factor/max(q, tiny(q))*[self%wave(k, l)%re, self%wave(k, l)%im]
+            weighted(k, 2, :) = factor*[self%wave(k, l)%re, self%wave(k, l)%im]
+         end do
+         if (k == 0) cycle
+         if (self%is_even .and. l > 0) weighted(0, :, :) = 0.5_dp*weighted(0, :, :)
+         call dgemm('N', 'N', 2*(n + 1), number, k, 1.0_dp, powers, 2*(n + 1), weighted, last(1) + 1, 0.0_dp, sums, &
+                    2*(n + 1))
+         sum_x = cmplx(sums(1, :, :, 1) - sums(2, :, :, 2), sums(2, :, :, 1) + sums(1, :, :, 2), dp)
+         turn = exp(cmplx(0.0_dp, l*place(2), dp))
+         do b = 0, n
+            along_y = q_y**b*turn
+            if (self%is_even .and. l > 0) along_y = along_y + (-q_y)**b*conjg(turn)
+            moment(:n - b, b, :-1) = moment(:n - b, b, :-1) + along_y*sum_x(:n - b, :)
+         end do
+      end do
+      do c = 0, n - 2
+         do b = 0, n - 2 - c
+            do a = 0, n - 2 - c - b
+               moment(a, b, c) = moment(a + 2, b, c - 2) + moment(a, b + 2, c - 2)
+            end do
+         end do
+      end do
+   end subroutine find_moments
 
    !> The weights of a wave of the last octave in (S5), to its sign.
    pure function octave_weights(n_x, n_y, q_z) result(weights)

@@ -12,8 +12,8 @@ module wavycon_stress_tuning
       !! leaving them out shows in the stress. Larger: more waves at depth.
 
    real(dp), parameter, public :: coarsest = 1e-3_dp
-      ! ! An error of the pressure above this [p*] counts as this: height maps solved on their own points may have
-      ! errors of ! p*, far above the stresses at depth, and waves left out would show as steps.
+      !! An error of the pressure above this [p*] counts as this: height maps solved on their own points may have errors
+      !! of p*, far above the stresses at depth, and waves left out would show as steps.
 
    ! Scan of planes, for the largest stress of a series. It varies over a distance of about its depth.
 
@@ -55,6 +55,13 @@ module wavycon_stress_tuning
    integer, parameter, public :: most_models = 8
       !! Most models of one search. Smaller: searches that do not reach their maximum. Larger: searches that go on in
       !! rounding.
+
+   integer, parameter, public :: expansion_order = 6
+      !! Of the Taylor series that a series of waves is evaluated by. Smaller: the search follows its errors. Larger: more
+      !! to add up for each wave.
+   real(dp), parameter, public :: expansion_reach = 0.1_dp
+      !! A place farther from the centre of that series than this part of the width of the maximum gets its own. Larger:
+      !! errors of the series. Smaller: more of them.
 
    ! Estimates of errors.
 
