@@ -148,8 +148,7 @@ contains
       !> Relative gains below this are rounding.
       real(dp), parameter :: rounding = 1e-14_dp
       integer, allocatable :: axes(:)
-      logical :: is_new
-      real(dp) :: before, least, promise, reach, step
+      real(dp) :: before, least, noise, promise, reach, step
       integer :: i
 
       allocate (axes, source=pack([1, 2, 3], [.true., fields%dimension > 1, .true.]))
@@ -157,9 +156,9 @@ contains
       reach = first_reach*width
       do i = 1, most_models
          before = best%value
-         call fields%expand(best%place, width, is_new)
-         if (is_new) best%value = size_of(quantity, stress_at(fields, body, best%place))
-         call improve(fields, body, quantity, axes, reach, best, step, promise)
+         call fields%expand(best%place, width, reach, noise)
+         if (noise > 0.0_dp) best%value = size_of(quantity, stress_at(fields, body, best%place))
+         call improve(fields, body, quantity, axes, reach, max(noise, rounding), best, step, promise)
          ! A model that is too large for the stress may promise much and gain nothing: the next one is smaller.
          gain = max(best%value - before, promise)
          if (gain <= least) exit
@@ -170,18 +169,17 @@ contains
 
    !> Moves a place to the maximum of a quadratic function within a distance along each axis, or to the best of the
    !> points that the function is made from.
-   subroutine improve(fields, body, quantity, axes, reach, best, step, promise)
+   subroutine improve(fields, body, quantity, axes, reach, noise, best, step, promise)
       class(stress_fields), intent(inout) :: fields
       type(elastic_body), intent(in) :: body
       integer, intent(in) :: quantity
       integer, intent(in) :: axes(:)                 !! the directions of the search
       real(dp), intent(in) :: reach                  !! [rad]
+      real(dp), intent(in) :: noise                  !! changes of the stress by rounding and the like, over the stress
       type(largest_stress), intent(inout) :: best
       real(dp), intent(out) :: step                  !! largest distance moved along an axis [rad]
       real(dp), intent(out) :: promise               !! gain of the maximum; variation along axes without one [p*]
 
-      !> Changes of the stress by rounding, over the stress.
-      real(dp), parameter :: rounding = 1e-14_dp
       real(dp) :: axis(size(axes), size(axes)), curvature(size(axes)), move(3), slope(size(axes)), start(3), &
          to_maximum(size(axes)), value, value_here, values(-1:1), work(3*3)
       integer :: i, j, k, l, status
@@ -212,10 +210,10 @@ contains
       to_maximum = 0.0_dp
       promise = 0.0_dp
       do i = 1, size(axes)
-         if (curvature(i) > rounding*value_here) then
+         if (curvature(i) > noise*value_here) then
             to_maximum = to_maximum + axis(:, i)*(slope(i)/curvature(i))
             promise = promise + 0.5_dp*slope(i)**2/curvature(i)
-         else if (max(abs(slope(i)), abs(curvature(i))) > rounding*value_here) then
+         else if (max(abs(slope(i)), abs(curvature(i))) > noise*value_here) then
             promise = promise + abs(slope(i)) + 0.5_dp*abs(curvature(i))
          end if
       end do
@@ -226,7 +224,7 @@ contains
 
    contains
 
-      !> The value at a place; the best place so far is kept.
+      !> The value at a place; a place that is better by more than noise is kept.
       subroutine try(move, value)
          real(dp), intent(in) :: move(3)
          real(dp), intent(out) :: value
@@ -235,7 +233,7 @@ contains
 
          place = abs_depth(start + move)
          value = size_of(quantity, stress_at(fields, body, place))
-         if (value > best%value) then
+         if (value > best%value + noise*value_here) then
             best%value = value
             best%place = place
          end if

@@ -10,7 +10,7 @@ module wavycon_series_stress
    use wavycon_kinds, only: dp
    use wavycon_stress_fields, only: stress_fields
    use wavycon_stress_tensor, only: largest_shear, von_mises, xx, xy, xz, yy, yz, zz
-   use wavycon_stress_tuning, only: coarsest, expansion_order, expansion_reach, octave_factor, plane_points, &
+   use wavycon_stress_tuning, only: centre_part, coarsest, expansion_order, octave_factor, plane_points, &
       plane_ratio, pressure_part, waves_in_depth
    use wavycon_stress_waves, only: deepest, octave_weights, stress_waves
    use wavycon_surface, only: surface_type
@@ -88,17 +88,22 @@ contains
    end subroutine at
 
    !> Prepares the Taylor series (S9) about a place, unless that of the last call is close enough.
-   subroutine expand(self, place, width, is_new)
+   subroutine expand(self, place, width, reach, noise)
       class(series_stress), intent(inout) :: self
       real(dp), intent(in) :: place(3)
-      real(dp), intent(in) :: width
-      logical, intent(out) :: is_new
+      real(dp), intent(in) :: width, reach
+      real(dp), intent(out) :: noise
 
-      is_new = .not. allocated(self%moment)
-      if (.not. is_new) is_new = norm2(place - self%centre) > expansion_reach*width
-      if (.not. is_new) return
-      self%centre = place
-      call self%waves%find_moments(place, expansion_order, 0.0_dp, self%moment)
+      real(dp) :: distance
+
+      distance = huge(distance)
+      if (allocated(self%moment)) distance = norm2(place - self%centre)
+      if (distance > centre_part*reach) then
+         self%centre = place
+         distance = 0.0_dp
+         call self%waves%find_moments(place, expansion_order, 0.0_dp, self%moment)
+      end if
+      noise = ((distance + reach)/width)**(expansion_order + 1)/8
    end subroutine expand
 
    !> By that Taylor series.

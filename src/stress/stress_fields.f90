@@ -55,14 +55,15 @@ module wavycon_stress_fields
 contains
 
    !> Prepares `near` for places about a place. Here nothing needs it.
-   subroutine expand(self, place, width, is_new)
+   subroutine expand(self, place, width, reach, noise)
       class(stress_fields), intent(inout) :: self
       real(dp), intent(in) :: place(3)     !! X, Y, Z [rad]
       real(dp), intent(in) :: width        !! distance over which the stress changes [rad]
-      logical, intent(out) :: is_new       !! whether `near` may now give slightly different values than before
+      real(dp), intent(in) :: reach        !! of the places [rad]
+      real(dp), intent(out) :: noise       !! bound of the error of `near` there over the stress; 0: that of `at`
 
-      associate (unused => self, unused_too => place, nor_this => width); end associate
-      is_new = .false.
+      associate (unused => self, unused_too => [place, width, reach]); end associate
+      noise = 0.0_dp
    end subroutine expand
 
    !> As `at`, perhaps less accurate the farther a place is from that of `expand`.

@@ -56,12 +56,12 @@ module wavycon_stress_tuning
       !! Most models of one search. Smaller: searches that do not reach their maximum. Larger: searches that go on in
       !! rounding.
 
-   integer, parameter, public :: expansion_order = 6
+   integer, parameter, public :: expansion_order = 8
       !! Of the Taylor series that a series of waves is evaluated by. Smaller: the search follows its errors. Larger: more
       !! to add up for each wave.
-   real(dp), parameter, public :: expansion_reach = 0.1_dp
-      !! A place farther from the centre of that series than this part of the width of the maximum gets its own. Larger:
-      !! errors of the series. Smaller: more of them.
+   real(dp), parameter, public :: centre_part = 0.25_dp
+      !! A model gets its own Taylor series where it is farther from the centre of the last one than this part of its
+      !! reach. Larger: errors of the series. Smaller: more of them.
 
    ! Estimates of errors.
 
