@@ -7,9 +7,10 @@ module wavycon_series_stress
    use wavycon_constants, only: pi, sqrt3
    use wavycon_elastic_body, only: elastic_body
    use wavycon_fourier_series, only: fourier_series
+   use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
    use wavycon_stress_fields, only: stress_fields
-   use wavycon_stress_tensor, only: largest_shear, von_mises, xx, xy, xz, yy, yz, zz
+   use wavycon_stress_tensor, only: largest_shear, xx, xy, xz, yy, yz, zz
    use wavycon_stress_tuning, only: centre_part, coarsest, expansion_order, octave_factor, plane_points, &
       plane_ratio, pressure_part, waves_in_depth
    use wavycon_stress_waves, only: deepest, octave_weights, stress_waves
@@ -275,11 +276,12 @@ contains
       real(dp), allocatable, intent(out) :: widths(:)
       real(dp), allocatable, intent(out) :: stresses(:, :)
 
-      !> Numbers that a plane needs for each point: stresses and their spectra, and two measures.
-      integer(int64), parameter :: numbers_a_point = 16
-      real(dp), allocatable :: depth(:), shear(:, :), stress(:, :, :), yielding(:, :)
-      real(dp) :: here(6), least, step
-      integer :: i, k, l, points(2)
+      !> Numbers that a plane needs for each point.
+      integer, parameter :: numbers_a_point = 6
+      complex(dp), allocatable :: spectra(:)
+      real(dp), allocatable :: depth(:)
+      real(dp) :: step, stress(6, 2)
+      integer :: i, number, place(2, 2), points(2)
 
       step = pi/max(plane_points/2.0_dp, real(maxval(ubound(self%waves%wave)), dp))
       allocate (depth(2 + ceiling(log(2*pi/step)/log(plane_ratio))), source=0.0_dp)
@@ -287,44 +289,22 @@ contains
          depth(i) = step*plane_ratio**(i - 2)
       end do
       allocate (places(3, 2*size(depth)), widths(2*size(depth)), stresses(6, 2*size(depth)))
+      number = merge(2, 5, self%waves%is_even)
       do i = 1, size(depth)
          points = plane_of(depth(i))
          if (self%dimension == 1) points(2) = 1
          do while (.not. has_memory_for(numbers_a_point*product(int(points, int64))))
             points = (points + 1)/2
          end do
-         call self%waves%transform(points, [0.0_dp, 0.0_dp], depth(i), body, self%pbar_over_pstar, 6, stress)
-         allocate (yielding(points(1), points(2)), shear(points(1), points(2)), source=0.0_dp)
-         do l = 1, points(2)
-            do k = 1, points(1)
-               here = stress(k, l, :)
-               yielding(k, l) = von_mises(here)
-            end do
-         end do
-         ! A shear stress is between 1/2 and 1/sqrt3 of the von Mises stress: below this bound it is not the largest.
-         least = 0.5_dp*sqrt3*maxval(yielding)
-         do l = 1, points(2)
-            do k = 1, points(1)
-               if (yielding(k, l) < least) cycle
-               here = stress(k, l, :)
-               shear(k, l) = largest_shear(here)
-            end do
-         end do
-         call take(2*i - 1, maxloc(yielding))
-         call take(2*i, maxloc(shear))
+         if (i == 1) allocate (spectra((points(1)/2 + 1)*points(2)*number))
+         call scan_plane(self, points, depth(i), body, number, spectra, place, stress)
+         places(:, 2*i - 1) = [2*pi*place(:, 1)/points, depth(i)]
+         places(:, 2*i) = [2*pi*place(:, 2)/points, depth(i)]
+         stresses(:, 2*i - 1:2*i) = stress
          widths(2*i - 1:2*i) = max(depth(i), step)
-         deallocate (yielding, shear)
       end do
 
    contains
-
-      !> Takes a point of the plane as a place.
-      subroutine take(place, point)
-         integer, intent(in) :: place, point(2)
-
-         places(:, place) = [2*pi*(point - 1)/points, depth(i)]
-         stresses(:, place) = stress(point(1), point(2), :)
-      end subroutine take
 
       !> Points along X and Y that resolve the waves that reach a depth.
       function plane_of(depth) result(points)
@@ -344,5 +324,77 @@ contains
       end function plane_of
 
    end subroutine start_places
+
+   !> Finds the points of a plane with the largest von Mises stress and with the largest shear stress, by (S10).
+   subroutine scan_plane(self, points, depth, body, number, spectra, place, stress)
+      class(series_stress), intent(inout) :: self
+      integer, intent(in) :: points(2)
+      real(dp), intent(in) :: depth
+      type(elastic_body), intent(in) :: body
+      integer, intent(in) :: number     !! of spectra: 2 if the pressure is even, otherwise 5
+      complex(dp), intent(out) :: spectra(0:points(1)/2, 0:points(2) - 1, number)
+      integer, intent(out) :: place(2, 2)   !! of both points, from 0
+      real(dp), intent(out) :: stress(6, 2) !! the deviators there
+
+      real(dp) :: above(0:points(1) - 1), here(6), largest(2), mean(6), shear
+      real(dp), allocatable :: below(:), squares(:), values(:, :)
+      type(grid_transform) :: plane
+      integer :: i, j, last(2)
+
+      spectra = 0.0_dp
+      call self%waves%add_waves(points, [0.0_dp, 0.0_dp], depth, body%nu, spectra)
+      mean = body%stress(reshape([(0.0_dp, i=1, 12)], [6, 2]), self%pbar_over_pstar)
+      spectra(0, 0, 2) = spectra(0, 0, 2) + mean(xx) - mean(zz)
+      call plane%start(points, even=.false., whole=.true.)
+      do i = 1, number
+         call plane%sum_along_y(spectra(:, :, i))
+      end do
+      last = merge(points/2, points - 1, self%waves%is_even)
+      allocate (below, mold=above)
+      allocate (squares(0:last(1)), values(0:points(1) - 1, 5))
+      largest = -1.0_dp
+      do j = 0, last(2)
+         do i = 1, number
+            call plane%sample_column(spectra(:, j, i), values(:, i))
+         end do
+         if (self%waves%is_even) then
+            above = values(:, 1)
+            call plane%sample_column(spectra(:, modulo(-j, points(2)), 1), below)
+            do i = 0, last(1)
+               associate (a => above(i), b => above(modulo(-i, points(1))), c => below(i), &
+                          d => below(modulo(-i, points(1))))
+                  values(i, [1, 3, 4, 5]) = 0.25_dp*[a + b + c + d, a - b - c + d, a - b + c - d, a + b - c - d]
+               end associate
+            end do
+         end if
+         squares = values(:last(1), 1)**2
+         do i = 2, 5
+            squares = squares + values(:last(1), i)**2
+         end do
+         do i = 0, last(1)
+            ! A shear stress is at most 1/sqrt3 of the von Mises stress.
+            if (squares(i) <= min(largest(1), 3*largest(2)**2)) cycle
+            here(xx) = values(i, 2)/3 + values(i, 1)/sqrt3
+            here(yy) = values(i, 2)/3 - values(i, 1)/sqrt3
+            here(zz) = -2*values(i, 2)/3
+            here([xy, xz, yz]) = values(i, 3:5)/sqrt3
+            shear = largest_shear(here)
+            if (squares(i) > largest(1)) call take(1, squares(i))
+            if (shear > largest(2)) call take(2, shear)
+         end do
+      end do
+
+   contains
+
+      subroutine take(k, size)
+         integer, intent(in) :: k
+         real(dp), intent(in) :: size
+
+         largest(k) = size
+         place(:, k) = [i, j]
+         stress(:, k) = here
+      end subroutine take
+
+   end subroutine scan_plane
 
 end module wavycon_series_stress

@@ -2,7 +2,7 @@
 !> the waves of (S4), (S5) and (S9) of README.md in this directory.
 module wavycon_stress_waves
    use wavycon_assertion, only: assert
-   use wavycon_constants, only: pi
+   use wavycon_constants, only: pi, sqrt3
    use wavycon_elastic_body, only: elastic_body
    use wavycon_fourier_series, only: fourier_series
    use wavycon_grid_transform, only: grid_transform
@@ -32,6 +32,7 @@ module wavycon_stress_waves
       procedure :: octave_reaches
       procedure :: find_moments
       procedure :: transform
+      procedure :: add_waves
    end type stress_waves
 
 contains
@@ -203,7 +204,7 @@ contains
       allocate (fields(points(1), points(2), number))
       allocate (waves(points(1)/2 + 1, points(2), number), source=(0.0_dp, 0.0_dp))
       call plane%start(points, even=.false., whole=.true.)
-      call add_waves(self, points, offset, depth, body%nu, waves)
+      call self%add_waves(points, offset, depth, body%nu, waves)
       do i = 1, number
          call plane%sample_waves(waves(:, :, i), fields(:, :, i))
       end do
@@ -213,15 +214,15 @@ contains
       end do
    end subroutine transform
 
-   !> Adds the waves of the components of the stress to their spectra, and to three more, if there are, those of
-   !> the last octave for the error (S5).
+   !> Adds the waves of the six components of the stress to their spectra and, of nine, to those of the last octave for
+   !> the error (S5). Of five spectra they are those of the deviator in (S10), of two the sum of four of these, and q.
    subroutine add_waves(self, points, offset, depth, nu, spectra)
-      type(stress_waves), intent(inout) :: self
+      class(stress_waves), intent(inout) :: self
       integer, intent(in) :: points(2)
       real(dp), intent(in) :: offset(2), depth, nu
-      complex(dp), intent(inout) :: spectra(0:, 0:, :)   !! shape (0:N_x/2, 0:N_y - 1, 6 or 9)
+      complex(dp), intent(inout) :: spectra(0:, 0:, :)   !! shape (0:N_x/2, 0:N_y - 1, 2, 5, 6 or 9)
 
-      complex(dp) :: here(size(spectra, 3)), turn_x(0:ubound(self%wave, 1)), wave
+      complex(dp) :: here(9), turn_x(0:ubound(self%wave, 1)), wave
       real(dp) :: n_x, n_y, q, q_y
       integer :: k, l, last(2)
 
@@ -245,7 +246,12 @@ contains
                here(xz) = cmplx(0.0_dp, k*depth, dp)*wave
                here(yz) = cmplx(0.0_dp, q_y*depth, dp)*wave
                here(7:) = (0.0_dp, 0.0_dp)
-               if (q > self%sampled_from .and. size(here) > 6) here(7:) = octave_weights(n_x, n_y, q*depth)*wave
+               if (size(spectra, 3) <= 5) then
+                  here(:5) = [0.5_dp*sqrt3*(here(xx) - here(yy)), 0.5_dp*(here(xx) + here(yy)) - here(zz), &
+                              sqrt3*here([xy, xz, yz])]
+                  if (size(spectra, 3) == 2) here(1) = here(1) + sum(here(3:5))
+               end if
+               if (q > self%sampled_from .and. size(spectra, 3) > 6) here(7:) = octave_weights(n_x, n_y, q*depth)*wave
                call add(modulo(k, points(1)), modulo(l, points(2)), here)
                call add(modulo(-k, points(1)), modulo(-l, points(2)), conjg(here))
             end do
@@ -259,7 +265,7 @@ contains
          integer, intent(in) :: k, l
          complex(dp), intent(in) :: here(:)
 
-         if (2*k <= points(1)) spectra(k, l, :) = spectra(k, l, :) + here
+         if (2*k <= points(1)) spectra(k, l, :) = spectra(k, l, :) + here(:size(spectra, 3))
       end subroutine add
 
    end subroutine add_waves
