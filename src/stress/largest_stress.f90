@@ -11,8 +11,8 @@ module wavycon_largest_stress
    use wavycon_lapack, only: dsyev
    use wavycon_stress_fields, only: stress_fields
    use wavycon_stress_tensor, only: largest_shear, von_mises
-   use wavycon_stress_tuning, only: close_to_largest, error_of_invariant, first_reach, gain_part, most_models, &
-      search_accuracy, reach_factor, refined_places
+   use wavycon_stress_tuning, only: close_to_largest, error_of_invariant, first_reach, gain_part, likely_gain, &
+      most_models, search_accuracy, reach_factor, refined_places
    implicit none (type, external)
    private
 
@@ -110,6 +110,7 @@ contains
       end do
       least = 0.0_dp
       least_gain = 0.0_dp
+      least_gain_needed = 0.0_dp
       gain = 0.0_dp
       do i = 1, min(refined_places, size(widths))
          best = maxloc(values, dim=1)
@@ -117,10 +118,12 @@ contains
          if (values(best) < least) exit
          other%value = values(best)
          other%place = places(:, best)
-         call fields%at(other%place(1), other%place(2), other%place(3), parts, error)
-         least_gain_needed = search_accuracy*other%value
-         if (.not. ieee_is_nan(error)) least_gain_needed = min(gain_part*error, least_gain_needed)
-         call refine(fields, body, quantity, widths(best), least_gain_needed, other, gain)
+         if (i == 1) then
+            call fields%at(other%place(1), other%place(2), other%place(3), parts, error)
+            least_gain_needed = search_accuracy*other%value
+            if (.not. ieee_is_nan(error)) least_gain_needed = min(gain_part*error, least_gain_needed)
+         end if
+         call refine(fields, body, quantity, widths(best), least_gain_needed, answer%value, other, gain)
          if (i == 1 .or. other%value > answer%value) then
             answer = other
             least_gain = gain
@@ -136,12 +139,13 @@ contains
    end subroutine search
 
    !> Improves a place by quadratic models.
-   subroutine refine(fields, body, quantity, width, enough, best, gain)
+   subroutine refine(fields, body, quantity, width, enough, to_beat, best, gain)
       class(stress_fields), intent(inout) :: fields
       type(elastic_body), intent(in) :: body
       integer, intent(in) :: quantity
       real(dp), intent(in) :: width                  !! of the maximum [rad]
       real(dp), intent(in) :: enough                 !! the search ends when a model gains less [p*]
+      real(dp), intent(in) :: to_beat                !! and when it seems to end below this [p*]
       type(largest_stress), intent(inout) :: best    !! value and place
       real(dp), intent(out) :: gain                  !! by the last model, or what it promised if that is more [p*]
 
@@ -161,7 +165,7 @@ contains
          call improve(fields, body, quantity, axes, reach, max(noise, rounding), best, step, promise)
          ! A model that is too large for the stress may promise much and gain nothing: the next one is smaller.
          gain = max(best%value - before, promise)
-         if (gain <= least) exit
+         if (gain <= least .or. best%value + likely_gain*gain < to_beat) exit
          ! A place at the border of the model may be far from the maximum: the next model is as large.
          if (step < 0.9_dp*reach) reach = max(reach_factor*reach, min(step, reach))
       end do

@@ -11,8 +11,8 @@ module wavycon_series_stress
    use wavycon_kinds, only: dp
    use wavycon_stress_fields, only: stress_fields
    use wavycon_stress_tensor, only: largest_shear, xx, xy, xz, yy, yz, zz
-   use wavycon_stress_tuning, only: centre_part, coarsest, expansion_order, octave_factor, plane_points, &
-      plane_ratio, pressure_part, waves_in_depth
+   use wavycon_stress_tuning, only: centre_part, coarsest, expansion_order, faintest_on_planes, octave_factor, &
+      plane_points, plane_ratio, pressure_part, waves_in_depth
    use wavycon_stress_waves, only: deepest, octave_weights, stress_waves
    use wavycon_surface, only: surface_type
    use wavycon_system, only: has_memory_for
@@ -27,7 +27,7 @@ module wavycon_series_stress
       private
       type(stress_waves) :: waves
       real(dp) :: pressure_error = 0.0_dp       !! of the pressure [p*]; NaN if there is no estimate
-      complex(dp), allocatable :: moment(:, :, :)   !! of the Taylor series in use
+      complex(dp), allocatable :: moment(:, :, :, :)   !! of the Taylor series in use
       real(dp) :: centre(3) = 0.0_dp            !! of that series [rad]
    contains
       procedure :: at
@@ -68,23 +68,24 @@ contains
       real(dp), intent(out) :: parts(6, 2)
       real(dp), intent(out), optional :: error
 
-      complex(dp), allocatable :: moment(:, :, :)
+      complex(dp), allocatable :: moment(:, :, :, :)
       real(dp) :: octave(3)
+      integer :: sets
 
       if (.not. self%exist) then
          parts = ieee_value(parts, ieee_quiet_nan)
          if (present(error)) error = ieee_value(error, ieee_quiet_nan)
          return
       end if
-      call self%waves%find_moments([x, y, depth], 0, 0.0_dp, moment)
-      parts = parts_of(sums_near(moment, [0.0_dp, 0.0_dp, 0.0_dp], depth))
+      sets = 1
+      if (present(error) .and. .not. ieee_is_nan(self%pressure_error) .and. self%waves%octave_reaches(depth)) sets = 2
+      call self%waves%find_moments([x, y, depth], 0, sets, moment)
+      parts = parts_of(sums_near(moment(:, :, :, 1), [0.0_dp, 0.0_dp, 0.0_dp], depth))
       if (.not. present(error)) return
       octave = 0.0_dp
-      if (self%waves%octave_reaches(depth)) then
-         call self%waves%find_moments([x, y, depth], 0, self%waves%sampled_from, moment)
-         octave = [moment(0, 0, 0)%re + depth*moment(0, 0, 1)%re, -moment(1, 0, -1)%im - depth*moment(1, 0, 0)%im, &
-                   -moment(0, 1, -1)%im - depth*moment(0, 1, 0)%im]
-      end if
+      if (sets == 2) octave = [real(moment(0, 0, 0, 2) + depth*moment(0, 0, 1, 2)), &
+                               -aimag(moment(1, 0, -1, 2) + depth*moment(1, 0, 0, 2)), &
+                               -aimag(moment(0, 1, -1, 2) + depth*moment(0, 1, 0, 2))]
       error = error_of(self, parts, octave)
    end subroutine at
 
@@ -102,7 +103,7 @@ contains
       if (distance > centre_part*reach) then
          self%centre = place
          distance = 0.0_dp
-         call self%waves%find_moments(place, expansion_order, 0.0_dp, self%moment)
+         call self%waves%find_moments(place, expansion_order, 1, self%moment)
       end if
       noise = ((distance + reach)/width)**(expansion_order + 1)/8
    end subroutine expand
@@ -113,7 +114,7 @@ contains
       real(dp), intent(in) :: place(3)
       real(dp), intent(out) :: parts(6, 2)
 
-      parts = parts_of(sums_near(self%moment, place - self%centre, place(3)))
+      parts = parts_of(sums_near(self%moment(:, :, :, 1), place - self%centre, place(3)))
    end subroutine near
 
    !> The sums (S4) by the Taylor series (S9) about a point.
@@ -342,7 +343,8 @@ contains
       integer :: i, j, last(2)
 
       spectra = 0.0_dp
-      call self%waves%add_waves(points, [0.0_dp, 0.0_dp], depth, body%nu, spectra)
+      call self%waves%add_waves(points, [0.0_dp, 0.0_dp], depth, min(faintest_on_planes, self%waves%faintest), body%nu, &
+                                spectra)
       mean = body%stress(reshape([(0.0_dp, i=1, 12)], [6, 2]), self%pbar_over_pstar)
       spectra(0, 0, 2) = spectra(0, 0, 2) + mean(xx) - mean(zz)
       call plane%start(points, even=.false., whole=.true.)

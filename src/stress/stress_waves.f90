@@ -120,59 +120,70 @@ contains
       octave_reaches = norm2(last_waves(self, depth)*[1.0_dp, 1.0_dp/self%side_ratio]) > self%sampled_from
    end function octave_reaches
 
-   !> The moments (S9) of the waves at a point, M_abc = sum of k^a l'^b q^c W exp(i (k X + l Y) - q Z).
+   !> The moments (S9) of the waves at a point, M_abc = sum of k^a l'^b q^c W exp(i (k X + l Y) - q Z), of all waves and,
+   !> if there are two sets, of the last octave.
    !>
    !> Those with c = -2 and c = -1 are added up, over k by a product of matrices. The others follow from them, as
    !> q^2 = k^2 + l'^2.
-   subroutine find_moments(self, place, order, above, moment)
+   subroutine find_moments(self, place, order, sets, moment)
       class(stress_waves), intent(in) :: self
-      real(dp), intent(in) :: place(3)                          !! X, Y, Z [rad]
-      integer, intent(in) :: order                              !! of the Taylor series, >= 0
-      real(dp), intent(in) :: above                             !! only waves with q above this, >= 0
-      complex(dp), allocatable, intent(out) :: moment(:, :, :)  !! shape (0:n, 0:n, -2:n - 2), n = order + 3
+      real(dp), intent(in) :: place(3)                             !! X, Y, Z [rad]
+      integer, intent(in) :: order                                 !! of the Taylor series, >= 0
+      integer, intent(in) :: sets                                  !! 1 or 2
+      complex(dp), allocatable, intent(out) :: moment(:, :, :, :)  !! shape (0:n, 0:n, -2:n - 2, sets), n = order + 3
 
-      real(dp), allocatable :: powers(:, :, :), weighted(:, :, :)
-      complex(dp) :: along_y, sum_x(0:order + 3, -2:-1), turn
-      real(dp) :: factor, q, q_y, sums(2, 0:order + 3, 2, 2)
+      real(dp), allocatable :: factor(:), powers(:, :, :), q(:), weighted(:, :, :, :)
+      complex(dp) :: along_y, sum_x(0:order + 3, -2:-1, sets), turn
+      real(dp) :: q_y, sums(2, 0:order + 3, 2, sets, 2)
       integer :: a, b, c, k, l, last(2), n, number
 
       n = order + 3
       last = last_waves(self, place(3))
-      allocate (moment(0:n, 0:n, -2:n - 2), source=(0.0_dp, 0.0_dp))
-      allocate (powers(2, 0:n, 0:last(1)), weighted(0:last(1), 2, 2))
+      allocate (moment(0:n, 0:n, -2:n - 2, sets), source=(0.0_dp, 0.0_dp))
+      allocate (powers(2, 0:n, 0:last(1)), weighted(0:last(1), 2, sets, 2), q(0:last(1)), factor(0:last(1)))
       do k = 0, last(1)
          turn = exp(cmplx(0.0_dp, k*place(1), dp))
          powers(1, :, k) = [(turn%re*real(k, dp)**a, a=0, n)]
          powers(2, :, k) = [(turn%im*real(k, dp)**a, a=0, n)]
       end do
-      number = merge(2, 4, self%is_even)
       sums = 0.0_dp
       do l = merge(0, -last(2), self%is_even), last(2)
          q_y = l/self%side_ratio
+         number = last(1) + 1
          do k = 0, last(1)
-            q = sqrt(k**2 + q_y**2)
-            if (q*place(3) > self%faintest) exit
-            factor = 0.0_dp
-            if (q > above) factor = exp(-q*place(3))/q
-            weighted(k, 1, :) = factor/max(q, tiny(q))*[self%wave(k, l)%re, self%wave(k, l)%im]
-            weighted(k, 2, :) = factor*[self%wave(k, l)%re, self%wave(k, l)%im]
+            q(k) = sqrt(real(k, dp)**2 + q_y**2)
          end do
-         if (k == 0) cycle
-         if (self%is_even .and. l > 0) weighted(0, :, :) = 0.5_dp*weighted(0, :, :)
-         call dgemm('N', 'N', 2*(n + 1), number, k, 1.0_dp, powers, 2*(n + 1), weighted, last(1) + 1, 0.0_dp, sums, &
-                    2*(n + 1))
-         sum_x = cmplx(sums(1, :, :, 1) - sums(2, :, :, 2), sums(2, :, :, 1) + sums(1, :, :, 2), dp)
+         if (place(3) > 0.0_dp) number = count(q*place(3) <= self%faintest)
+         if (number == 0) cycle
+         q(0) = max(q(0), tiny(q))
+         associate (m => number - 1)
+            factor(:m) = exp(-q(:m)*place(3))/q(:m)
+            if (l == 0) factor(0) = 0.0_dp
+            if (self%is_even .and. l > 0) factor(0) = 0.5_dp*factor(0)
+            weighted(:m, 2, 1, 1) = factor(:m)*self%wave(:m, l)%re
+            weighted(:m, 1, 1, 1) = weighted(:m, 2, 1, 1)/q(:m)
+            if (.not. self%is_even) then
+               weighted(:m, 2, 1, 2) = factor(:m)*self%wave(:m, l)%im
+               weighted(:m, 1, 1, 2) = weighted(:m, 2, 1, 2)/q(:m)
+            end if
+            do k = 0, merge(m, -1, sets == 2)
+               weighted(k, :, 2, :) = merge(weighted(k, :, 1, :), 0.0_dp, q(k) > self%sampled_from)
+            end do
+         end associate
+         call dgemm('N', 'N', 2*(n + 1), 2*sets*merge(1, 2, self%is_even), number, 1.0_dp, powers, 2*(n + 1), weighted, &
+                    last(1) + 1, 0.0_dp, sums, 2*(n + 1))
+         sum_x = cmplx(sums(1, :, :, :, 1) - sums(2, :, :, :, 2), sums(2, :, :, :, 1) + sums(1, :, :, :, 2), dp)
          turn = exp(cmplx(0.0_dp, l*place(2), dp))
          do b = 0, n
             along_y = q_y**b*turn
             if (self%is_even .and. l > 0) along_y = along_y + (-q_y)**b*conjg(turn)
-            moment(:n - b, b, :-1) = moment(:n - b, b, :-1) + along_y*sum_x(:n - b, :)
+            moment(:n - b, b, :-1, :) = moment(:n - b, b, :-1, :) + along_y*sum_x(:n - b, :, :)
          end do
       end do
       do c = 0, n - 2
          do b = 0, n - 2 - c
             do a = 0, n - 2 - c - b
-               moment(a, b, c) = moment(a + 2, b, c - 2) + moment(a, b + 2, c - 2)
+               moment(a, b, c, :) = moment(a + 2, b, c - 2, :) + moment(a, b + 2, c - 2, :)
             end do
          end do
       end do
@@ -204,7 +215,7 @@ contains
       allocate (fields(points(1), points(2), number))
       allocate (waves(points(1)/2 + 1, points(2), number), source=(0.0_dp, 0.0_dp))
       call plane%start(points, even=.false., whole=.true.)
-      call self%add_waves(points, offset, depth, body%nu, waves)
+      call self%add_waves(points, offset, depth, self%faintest, body%nu, waves)
       do i = 1, number
          call plane%sample_waves(waves(:, :, i), fields(:, :, i))
       end do
@@ -216,18 +227,20 @@ contains
 
    !> Adds the waves of the six components of the stress to their spectra and, of nine, to those of the last octave for
    !> the error (S5). Of five spectra they are those of the deviator in (S10), of two the sum of four of these, and q.
-   subroutine add_waves(self, points, offset, depth, nu, spectra)
+   subroutine add_waves(self, points, offset, depth, faintest, nu, spectra)
       class(stress_waves), intent(inout) :: self
       integer, intent(in) :: points(2)
       real(dp), intent(in) :: offset(2), depth, nu
+      real(dp), intent(in) :: faintest                   !! waves with q Z above this are left out; at most self%faintest
       complex(dp), intent(inout) :: spectra(0:, 0:, :)   !! shape (0:N_x/2, 0:N_y - 1, 2, 5, 6 or 9)
 
       complex(dp) :: here(9), turn_x(0:ubound(self%wave, 1)), wave
       real(dp) :: n_x, n_y, q, q_y
-      integer :: k, l, last(2)
+      integer :: k, l, last(2), number, row
 
+      number = size(spectra, 3)
       call self%use_depth(depth)
-      last = ubound(self%decay) - 1
+      last = min(ubound(self%decay) - 1, int(min(faintest/max(depth, tiny(depth)), 1e9_dp)*[1.0_dp, self%side_ratio]))
       turn_x = [(exp(cmplx(0.0_dp, 2*pi*modulo(k*offset(1)/points(1), 1.0_dp), dp)), k=0, ubound(self%wave, 1))]
       do l = -last(2), last(2)
          q_y = l/self%side_ratio
@@ -235,7 +248,7 @@ contains
             do k = merge(1, 0, l <= 0), last(1)
                if (max(abs(self%wave(k, l)%re), abs(self%wave(k, l)%im)) <= 0.0_dp) cycle
                q = sqrt(k**2 + q_y**2)
-               if (q*depth > self%faintest) exit
+               if (q*depth > faintest) exit
                wave = 0.5_dp*self%decay(k, abs(l))*self%wave(k, l)*turn_x(k)*turn_y
                n_x = k/q
                n_y = q_y/q
@@ -246,28 +259,23 @@ contains
                here(xz) = cmplx(0.0_dp, k*depth, dp)*wave
                here(yz) = cmplx(0.0_dp, q_y*depth, dp)*wave
                here(7:) = (0.0_dp, 0.0_dp)
-               if (size(spectra, 3) <= 5) then
+               if (number <= 5) then
                   here(:5) = [0.5_dp*sqrt3*(here(xx) - here(yy)), 0.5_dp*(here(xx) + here(yy)) - here(zz), &
                               sqrt3*here([xy, xz, yz])]
-                  if (size(spectra, 3) == 2) here(1) = here(1) + sum(here(3:5))
+                  if (number == 2) here(1) = here(1) + sum(here(3:5))
                end if
-               if (q > self%sampled_from .and. size(spectra, 3) > 6) here(7:) = octave_weights(n_x, n_y, q*depth)*wave
-               call add(modulo(k, points(1)), modulo(l, points(2)), here)
-               call add(modulo(-k, points(1)), modulo(-l, points(2)), conjg(here))
+               if (q > self%sampled_from .and. number > 6) here(7:) = octave_weights(n_x, n_y, q*depth)*wave
+               row = k
+               if (k >= points(1)) row = modulo(k, points(1))
+               if (2*row <= points(1)) &
+                  spectra(row, modulo(l, points(2)), :) = spectra(row, modulo(l, points(2)), :) + here(:number)
+               ! The transform takes the waves -k from the others, unless they are the same ones.
+               if (row > 0 .and. 2*row < points(1)) cycle
+               row = modulo(-row, points(1))
+               spectra(row, modulo(-l, points(2)), :) = spectra(row, modulo(-l, points(2)), :) + conjg(here(:number))
             end do
          end associate
       end do
-
-   contains
-
-      !> Adds a wave, unless it belongs to the half of the spectrum that the transform takes from the other one.
-      subroutine add(k, l, here)
-         integer, intent(in) :: k, l
-         complex(dp), intent(in) :: here(:)
-
-         if (2*k <= points(1)) spectra(k, l, :) = spectra(k, l, :) + here(:size(spectra, 3))
-      end subroutine add
-
    end subroutine add_waves
 
 end module wavycon_stress_waves

@@ -23,6 +23,8 @@ module wavycon_stress_tuning
    real(dp), parameter, public :: waves_in_depth = 14.0_dp
       !! Points of a plane across the cell, times its depth Z. Smaller: maxima fall between the points. Larger: more
       !! expensive planes.
+   real(dp), parameter, public :: faintest_on_planes = 9.0_dp
+      !! Waves with q Z above this are left out. Smaller: other points seem to have the largest stress. Larger: more waves.
    integer, parameter, public :: plane_points = 24
       !! Fewest points of a plane across the cell. As waves_in_depth.
 
@@ -47,6 +49,9 @@ module wavycon_stress_tuning
       !! adds to the error. Smaller: more steps.
    real(dp), parameter, public :: search_accuracy = 1e-6_dp
       !! It ends no earlier than at a gain of this part of the stress. As gain_part.
+   real(dp), parameter, public :: likely_gain = 3.0_dp
+      !! A place is given up when its stress would stay below the largest one found even if later models gained so many
+      !! times what the last one did. Smaller: a lower maximum may be taken for the largest. Larger: more time.
    real(dp), parameter, public :: first_reach = 0.25_dp
       !! Distance of the points of the first quadratic model, over the width of the maximum. Larger: the stress is not
       !! quadratic over it. Smaller: the maximum is outside the model.
