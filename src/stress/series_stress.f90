@@ -11,8 +11,8 @@ module wavycon_series_stress
    use wavycon_kinds, only: dp
    use wavycon_stress_fields, only: stress_fields
    use wavycon_stress_tensor, only: largest_shear, xx, xy, xz, yy, yz, zz
-   use wavycon_stress_tuning, only: centre_part, coarsest, expansion_order, faintest_on_planes, octave_factor, &
-      plane_points, plane_ratio, pressure_part, waves_in_depth
+   use wavycon_stress_tuning, only: centre_part, coarsest, expansion_order, octave_factor, plane_points, &
+      plane_ratio, pressure_part, waves_in_depth
    use wavycon_stress_waves, only: deepest, octave_weights, stress_waves
    use wavycon_surface, only: surface_type
    use wavycon_system, only: has_memory_for
@@ -337,14 +337,12 @@ contains
       integer, intent(out) :: place(2, 2)   !! of both points, from 0
       real(dp), intent(out) :: stress(6, 2) !! the deviators there
 
-      real(dp) :: above(0:points(1) - 1), here(6), largest(2), mean(6), shear
-      real(dp), allocatable :: below(:), squares(:), values(:, :)
+      real(dp) :: here(6), largest(2), mean(6), shear
+      real(dp), allocatable :: above(:), below(:), squares(:), values(:, :)
       type(grid_transform) :: plane
       integer :: i, j, last(2)
 
-      spectra = 0.0_dp
-      call self%waves%add_waves(points, [0.0_dp, 0.0_dp], depth, min(faintest_on_planes, self%waves%faintest), body%nu, &
-                                spectra)
+      call self%waves%find_deviator(points, depth, body%nu, spectra)
       mean = body%stress(reshape([(0.0_dp, i=1, 12)], [6, 2]), self%pbar_over_pstar)
       spectra(0, 0, 2) = spectra(0, 0, 2) + mean(xx) - mean(zz)
       call plane%start(points, even=.false., whole=.true.)
@@ -352,8 +350,7 @@ contains
          call plane%sum_along_y(spectra(:, :, i))
       end do
       last = merge(points/2, points - 1, self%waves%is_even)
-      allocate (below, mold=above)
-      allocate (squares(0:last(1)), values(0:points(1) - 1, 5))
+      allocate (above(0:points(1) - 1), below(0:points(1) - 1), squares(0:last(1)), values(0:points(1) - 1, 5))
       largest = -1.0_dp
       do j = 0, last(2)
          do i = 1, number

@@ -9,6 +9,7 @@ module wavycon_stress_waves
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgemm
    use wavycon_stress_tensor, only: xx, xy, xz, yy, yz, zz
+   use wavycon_stress_tuning, only: faintest_on_planes
    implicit none (type, external)
    private
 
@@ -32,7 +33,7 @@ module wavycon_stress_waves
       procedure :: octave_reaches
       procedure :: find_moments
       procedure :: transform
-      procedure :: add_waves
+      procedure :: find_deviator
    end type stress_waves
 
 contains
@@ -89,7 +90,7 @@ contains
          if (abs(depth - self%decay_depth) <= 0.0_dp) return
          deallocate (self%decay)
       end if
-      last = last_waves(self, depth)
+      last = last_waves(self, depth, self%faintest)
       ! With one more in each direction, for a series without waves in one of them.
       allocate (self%decay(0:last(1) + 1, 0:last(2) + 1), source=0.0_dp)
       do l = 0, last(2)
@@ -103,13 +104,14 @@ contains
    end subroutine use_depth
 
    !> The highest wave numbers along X and Y that reach a depth.
-   pure function last_waves(self, depth) result(last)
+   pure function last_waves(self, depth, faintest) result(last)
       type(stress_waves), intent(in) :: self
-      real(dp), intent(in) :: depth   !! Z >= 0 [rad]
+      real(dp), intent(in) :: depth      !! Z >= 0 [rad]
+      real(dp), intent(in) :: faintest   !! waves with q Z above this are left out
       integer :: last(2)
 
       last = ubound(self%wave)
-      if (depth > 0.0_dp) last = floor(min(self%faintest/depth*[1.0_dp, self%side_ratio], real(last, dp)))
+      if (depth > 0.0_dp) last = floor(min(faintest/depth*[1.0_dp, self%side_ratio], real(last, dp)))
    end function last_waves
 
    !> Whether waves of the last octave reach a depth.
@@ -117,7 +119,7 @@ contains
       class(stress_waves), intent(in) :: self
       real(dp), intent(in) :: depth   !! Z >= 0 [rad]
 
-      octave_reaches = norm2(last_waves(self, depth)*[1.0_dp, 1.0_dp/self%side_ratio]) > self%sampled_from
+      octave_reaches = norm2(last_waves(self, depth, self%faintest)*[1.0_dp, 1.0_dp/self%side_ratio]) > self%sampled_from
    end function octave_reaches
 
    !> The moments (S9) of the waves at a point, M_abc = sum of k^a l'^b q^c W exp(i (k X + l Y) - q Z), of all waves and,
@@ -138,7 +140,7 @@ contains
       integer :: a, b, c, k, l, last(2), n, number
 
       n = order + 3
-      last = last_waves(self, place(3))
+      last = last_waves(self, place(3), self%faintest)
       allocate (moment(0:n, 0:n, -2:n - 2, sets), source=(0.0_dp, 0.0_dp))
       allocate (powers(2, 0:n, 0:last(1)), weighted(0:last(1), 2, sets, 2), q(0:last(1)), factor(0:last(1)))
       do k = 0, last(1)
@@ -215,7 +217,7 @@ contains
       allocate (fields(points(1), points(2), number))
       allocate (waves(points(1)/2 + 1, points(2), number), source=(0.0_dp, 0.0_dp))
       call plane%start(points, even=.false., whole=.true.)
-      call self%add_waves(points, offset, depth, self%faintest, body%nu, waves)
+      call add_waves(self, points, offset, depth, body%nu, waves)
       do i = 1, number
          call plane%sample_waves(waves(:, :, i), fields(:, :, i))
       end do
@@ -225,14 +227,57 @@ contains
       end do
    end subroutine transform
 
-   !> Adds the waves of the six components of the stress to their spectra and, of nine, to those of the last octave for
-   !> the error (S5). Of five spectra they are those of the deviator in (S10), of two the sum of four of these, and q.
-   subroutine add_waves(self, points, offset, depth, faintest, nu, spectra)
-      class(stress_waves), intent(inout) :: self
+   !> The waves of the deviator (S10) on a plane, as `sample_waves` takes them: five spectra, or of an even pressure the
+   !> sum of four of them, and q. Waves that hardly reach the plane are left out.
+   subroutine find_deviator(self, points, depth, nu, spectra)
+      class(stress_waves), intent(in) :: self
+      integer, intent(in) :: points(2)
+      real(dp), intent(in) :: depth, nu
+      complex(dp), intent(out) :: spectra(0:, 0:, :)   !! shape (0:N_x/2, 0:N_y - 1, 2 or 5)
+
+      complex(dp), allocatable :: here(:, :), wave(:)
+      real(dp), allocatable :: factor(:), k(:), q(:)
+      real(dp) :: q_y
+      integer :: i, l, last(2), m, number
+
+      spectra = 0.0_dp
+      number = size(spectra, 3)
+      last = min(last_waves(self, depth, min(self%faintest, faintest_on_planes)), points - 1)
+      m = last(1)
+      allocate (k(0:m), source=[(real(i, dp), i=0, m)])
+      allocate (factor(0:m), here(0:m, 5), q(0:m), wave(0:m))
+      do l = -last(2), last(2)
+         q_y = l/self%side_ratio
+         q = sqrt(max(k**2 + q_y**2, tiny(q)))
+         wave = 0.5_dp*exp(-depth*q)*self%wave(:m, l)
+         factor = -sqrt3*(1.0_dp - 2*nu - depth*q)/q**2
+         here(:, 1) = 0.5_dp*factor*(k**2 - q_y**2)*wave
+         here(:, 2) = (0.5_dp - nu + 1.5_dp*depth*q)*wave
+         here(:, 3) = factor*q_y*k*wave
+         here(:, 4) = cmplx(0.0_dp, sqrt3*depth*k, dp)*wave
+         here(:, 5) = cmplx(0.0_dp, sqrt3*depth*q_y, dp)*wave
+         if (number == 2) here(:, 1) = here(:, 1) + here(:, 3) + here(:, 4) + here(:, 5)
+         do i = 1, number
+            associate (up => spectra(:, modulo(l, points(2)), i), half => min(m, points(1)/2))
+               up(:half + 1) = up(:half + 1) + here(:half, i)
+            end associate
+            ! The transform takes the waves -k from the others, unless they are the same ones.
+            associate (down => spectra(:, modulo(-l, points(2)), i), from => (points(1) + 1)/2)
+               down(1) = down(1) + conjg(here(0, i))
+               down(points(1) - m + 1:points(1) - from + 1) = down(points(1) - m + 1:points(1) - from + 1) &
+                                                              + conjg(here(m:from:-1, i))
+            end associate
+         end do
+      end do
+   end subroutine find_deviator
+
+   !> Adds the waves of the components of the stress to their spectra, and to three more, if there are, those of
+   !> the last octave for the error (S5).
+   subroutine add_waves(self, points, offset, depth, nu, spectra)
+      type(stress_waves), intent(inout) :: self
       integer, intent(in) :: points(2)
       real(dp), intent(in) :: offset(2), depth, nu
-      real(dp), intent(in) :: faintest                   !! waves with q Z above this are left out; at most self%faintest
-      complex(dp), intent(inout) :: spectra(0:, 0:, :)   !! shape (0:N_x/2, 0:N_y - 1, 2, 5, 6 or 9)
+      complex(dp), intent(inout) :: spectra(0:, 0:, :)   !! shape (0:N_x/2, 0:N_y - 1, 6 or 9)
 
       complex(dp) :: here(9), turn_x(0:ubound(self%wave, 1)), wave
       real(dp) :: n_x, n_y, q, q_y
@@ -240,7 +285,7 @@ contains
 
       number = size(spectra, 3)
       call self%use_depth(depth)
-      last = min(ubound(self%decay) - 1, int(min(faintest/max(depth, tiny(depth)), 1e9_dp)*[1.0_dp, self%side_ratio]))
+      last = ubound(self%decay) - 1
       turn_x = [(exp(cmplx(0.0_dp, 2*pi*modulo(k*offset(1)/points(1), 1.0_dp), dp)), k=0, ubound(self%wave, 1))]
       do l = -last(2), last(2)
          q_y = l/self%side_ratio
@@ -248,7 +293,7 @@ contains
             do k = merge(1, 0, l <= 0), last(1)
                if (max(abs(self%wave(k, l)%re), abs(self%wave(k, l)%im)) <= 0.0_dp) cycle
                q = sqrt(k**2 + q_y**2)
-               if (q*depth > faintest) exit
+               if (q*depth > self%faintest) exit
                wave = 0.5_dp*self%decay(k, abs(l))*self%wave(k, l)*turn_x(k)*turn_y
                n_x = k/q
                n_y = q_y/q
@@ -259,11 +304,6 @@ contains
                here(xz) = cmplx(0.0_dp, k*depth, dp)*wave
                here(yz) = cmplx(0.0_dp, q_y*depth, dp)*wave
                here(7:) = (0.0_dp, 0.0_dp)
-               if (number <= 5) then
-                  here(:5) = [0.5_dp*sqrt3*(here(xx) - here(yy)), 0.5_dp*(here(xx) + here(yy)) - here(zz), &
-                              sqrt3*here([xy, xz, yz])]
-                  if (number == 2) here(1) = here(1) + sum(here(3:5))
-               end if
                if (q > self%sampled_from .and. number > 6) here(7:) = octave_weights(n_x, n_y, q*depth)*wave
                row = k
                if (k >= points(1)) row = modulo(k, points(1))

@@ -20,7 +20,7 @@ module wavycon_stress_tuning
    real(dp), parameter, public :: plane_ratio = 1.5_dp
       !! Depth of a plane over that of the plane above it, above 1. Smaller: more planes. Larger: the refinement starts
       !! farther from the maximum.
-   real(dp), parameter, public :: waves_in_depth = 14.0_dp
+   real(dp), parameter, public :: waves_in_depth = 9.0_dp
       !! Points of a plane across the cell, times its depth Z. Smaller: maxima fall between the points. Larger: more
       !! expensive planes.
    real(dp), parameter, public :: faintest_on_planes = 9.0_dp
