@@ -114,13 +114,15 @@ contains
       real(dp), intent(in) :: place(3)
       real(dp), intent(out) :: parts(6, 2)
 
-      parts = parts_of(sums_near(self%moment(:, :, :, 1), place - self%centre, place(3)))
+      associate (move => (place - self%centre)*[1.0_dp, self%side_ratio, 1.0_dp])
+         parts = parts_of(sums_near(self%moment(:, :, :, 1), move, place(3)))
+      end associate
    end subroutine near
 
    !> The sums (S4) by the Taylor series (S9) about a point.
    pure function sums_near(moment, move, depth) result(sums)
       complex(dp), intent(in) :: moment(0:, 0:, -2:)   !! at the point
-      real(dp), intent(in) :: move(3)                  !! from the point [rad]
+      real(dp), intent(in) :: move(3)                  !! from the point, x, y, z of (S9) [rad]
       real(dp), intent(in) :: depth                    !! Z there [rad]
       real(dp) :: sums(8)
 
