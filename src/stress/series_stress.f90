@@ -190,8 +190,7 @@ contains
          error = ieee_value(error, ieee_quiet_nan)
          return
       end if
-      call self%waves%use_depth(depth)
-      last = ubound(self%waves%decay) - 1
+      last = self%waves%last_waves(depth)
       turn_x(:last(1)) = [(exp(cmplx(0.0_dp, k*start(1), dp)), k=0, last(1))]
       m = dot_product(abs(direction), last)
       allocate (along(number_of_sums, -m:m), source=(0.0_dp, 0.0_dp))
@@ -200,8 +199,9 @@ contains
          associate (turn_y => exp(cmplx(0.0_dp, l*start(2), dp)))
             do k = merge(1, 0, l <= 0), last(1)
                if (max(abs(self%waves%wave(k, l)%re), abs(self%waves%wave(k, l)%im)) <= 0.0_dp) cycle
-               wave = self%waves%decay(k, abs(l))*self%waves%wave(k, l)*turn_x(k)*turn_y
                q = sqrt(k**2 + q_y**2)
+               if (q*depth > self%waves%faintest) exit
+               wave = exp(-q*depth)*self%waves%wave(k, l)*turn_x(k)*turn_y
                n_x = k/q
                n_y = q_y/q
                weights(1:5:2) = [1.0_dp, n_x**2, n_x*n_y]
@@ -344,7 +344,7 @@ contains
       type(grid_transform) :: plane
       integer :: i, j, last(2)
 
-      call self%waves%find_deviator(points, depth, body%nu, spectra)
+      call self%waves%find_spectra(points, [0.0_dp, 0.0_dp], depth, body%nu, spectra)
       mean = body%stress(reshape([(0.0_dp, i=1, 12)], [6, 2]), self%pbar_over_pstar)
       spectra(0, 0, 2) = spectra(0, 0, 2) + mean(xx) - mean(zz)
       call plane%start(points, even=.false., whole=.true.)

@@ -25,15 +25,13 @@ module wavycon_stress_waves
       complex(dp), allocatable :: wave(:, :)
       real(dp) :: sampled_from = huge(1.0_dp)   !! waves with q above this are those of a grid's last octave
       real(dp) :: faintest = deepest            !! waves with q Z above this are left out
-      real(dp), allocatable :: decay(:, :)      !! exp(-q Z) of the depth in use, shape (0:., 0:.)
-      real(dp), private :: decay_depth = 0.0_dp !! Z [rad]
    contains
       procedure :: start
-      procedure :: use_depth
+      procedure :: last_waves
       procedure :: octave_reaches
       procedure :: find_moments
       procedure :: transform
-      procedure :: find_deviator
+      procedure :: find_spectra
    end type stress_waves
 
 contains
@@ -77,41 +75,14 @@ contains
       end do
    end subroutine start
 
-   !> Computes the factors exp(-q Z) of a depth, unless they are those of the last call.
-   subroutine use_depth(self, depth)
-      class(stress_waves), intent(inout) :: self
-      real(dp), intent(in) :: depth   !! Z >= 0 [rad]
-
-      real(dp) :: q_z
-      integer :: k, l, last(2)
-
-      call assert(depth >= 0.0_dp, 'depth >= 0')
-      if (allocated(self%decay)) then
-         if (abs(depth - self%decay_depth) <= 0.0_dp) return
-         deallocate (self%decay)
-      end if
-      last = last_waves(self, depth, self%faintest)
-      ! With one more in each direction, for a series without waves in one of them.
-      allocate (self%decay(0:last(1) + 1, 0:last(2) + 1), source=0.0_dp)
-      do l = 0, last(2)
-         do k = 0, last(1)
-            q_z = depth*sqrt(k**2 + (l/self%side_ratio)**2)
-            if (q_z > self%faintest) exit
-            self%decay(k, l) = exp(-q_z)
-         end do
-      end do
-      self%decay_depth = depth
-   end subroutine use_depth
-
    !> The highest wave numbers along X and Y that reach a depth.
-   pure function last_waves(self, depth, faintest) result(last)
-      type(stress_waves), intent(in) :: self
+   pure function last_waves(self, depth) result(last)
+      class(stress_waves), intent(in) :: self
       real(dp), intent(in) :: depth      !! Z >= 0 [rad]
-      real(dp), intent(in) :: faintest   !! waves with q Z above this are left out
       integer :: last(2)
 
       last = ubound(self%wave)
-      if (depth > 0.0_dp) last = floor(min(faintest/depth*[1.0_dp, self%side_ratio], real(last, dp)))
+      if (depth > 0.0_dp) last = floor(min(self%faintest/depth*[1.0_dp, self%side_ratio], real(last, dp)))
    end function last_waves
 
    !> Whether waves of the last octave reach a depth.
@@ -119,7 +90,7 @@ contains
       class(stress_waves), intent(in) :: self
       real(dp), intent(in) :: depth   !! Z >= 0 [rad]
 
-      octave_reaches = norm2(last_waves(self, depth, self%faintest)*[1.0_dp, 1.0_dp/self%side_ratio]) > self%sampled_from
+      octave_reaches = norm2(self%last_waves(depth)*[1.0_dp, 1.0_dp/self%side_ratio]) > self%sampled_from
    end function octave_reaches
 
    !> The moments (S9) of the waves at a point, M_abc = sum of k^a l'^b q^c W exp(i (k X + l Y) - q Z), of all waves and,
@@ -140,7 +111,7 @@ contains
       integer :: a, b, c, k, l, last(2), n, number
 
       n = order + 3
-      last = last_waves(self, place(3), self%faintest)
+      last = self%last_waves(place(3))
       allocate (moment(0:n, 0:n, -2:n - 2, sets), source=(0.0_dp, 0.0_dp))
       allocate (powers(2, 0:n, 0:last(1)), weighted(0:last(1), 2, sets, 2), q(0:last(1)), factor(0:last(1)))
       do k = 0, last(1)
@@ -202,7 +173,7 @@ contains
 
    !> The six components on a plane and, if asked for, the three sums of (S5).
    subroutine transform(self, points, offset, depth, body, pbar_over_pstar, number, fields)
-      class(stress_waves), intent(inout) :: self
+      class(stress_waves), intent(in) :: self
       integer, intent(in) :: points(2)
       real(dp), intent(in) :: offset(2), depth, pbar_over_pstar
       type(elastic_body), intent(in) :: body
@@ -215,9 +186,9 @@ contains
       integer :: i
 
       allocate (fields(points(1), points(2), number))
-      allocate (waves(points(1)/2 + 1, points(2), number), source=(0.0_dp, 0.0_dp))
+      allocate (waves(points(1)/2 + 1, points(2), number))
       call plane%start(points, even=.false., whole=.true.)
-      call add_waves(self, points, offset, depth, body%nu, waves)
+      call self%find_spectra(points, offset, depth, body%nu, waves)
       do i = 1, number
          call plane%sample_waves(waves(:, :, i), fields(:, :, i))
       end do
@@ -227,95 +198,66 @@ contains
       end do
    end subroutine transform
 
-   !> The waves of the deviator (S10) on a plane, as `sample_waves` takes them: five spectra, or of an even pressure the
-   !> sum of four of them, and q. Waves that hardly reach the plane are left out.
-   subroutine find_deviator(self, points, depth, nu, spectra)
+   !> The waves on a plane, as `sample_waves` takes them: of the six components of the stress, or of nine also those of the
+   !> last octave for the error (S5). Of five they are those of the deviator (S10), of two those of q and of the sum of
+   !> the other four; waves that hardly reach the plane are left out of these.
+   subroutine find_spectra(self, points, offset, depth, nu, spectra)
       class(stress_waves), intent(in) :: self
       integer, intent(in) :: points(2)
-      real(dp), intent(in) :: depth, nu
-      complex(dp), intent(out) :: spectra(0:, 0:, :)   !! shape (0:N_x/2, 0:N_y - 1, 2 or 5)
+      real(dp), intent(in) :: offset(2), depth, nu
+      complex(dp), intent(out) :: spectra(0:, 0:, :)   !! shape (0:N_x/2, 0:N_y - 1, 2, 5, 6 or 9)
 
-      complex(dp), allocatable :: here(:, :), wave(:)
-      real(dp), allocatable :: factor(:), k(:), q(:)
-      real(dp) :: q_y
-      integer :: i, l, last(2), m, number
+      complex(dp), allocatable :: here(:, :), turn_x(:), wave(:)
+      real(dp), allocatable :: k(:), q(:), q_z(:), shear(:)
+      complex(dp) :: turn_y
+      real(dp) :: limit, q_y
+      integer :: down, half, i, j, l, last(2), number, row, up
 
       spectra = 0.0_dp
       number = size(spectra, 3)
-      last = min(last_waves(self, depth, min(self%faintest, faintest_on_planes)), points - 1)
-      m = last(1)
-      allocate (k(0:m), source=[(real(i, dp), i=0, m)])
-      allocate (factor(0:m), here(0:m, 5), q(0:m), wave(0:m))
+      limit = merge(faintest_on_planes, self%faintest, number <= 5)
+      last = self%last_waves(depth*max(1.0_dp, self%faintest/limit))
+      allocate (here(0:last(1), 9), k(0:last(1)), q(0:last(1)), q_z(0:last(1)), shear(0:last(1)), wave(0:last(1)))
+      half = min(last(1), points(1)/2)
+      k = [(real(i, dp), i=0, last(1))]
+      turn_x = [(exp(cmplx(0.0_dp, 2*pi*modulo(i*offset(1)/points(1), 1.0_dp), dp)), i=0, last(1))]
       do l = -last(2), last(2)
          q_y = l/self%side_ratio
          q = sqrt(max(k**2 + q_y**2, tiny(q)))
-         wave = 0.5_dp*exp(-depth*q)*self%wave(:m, l)
-         factor = -sqrt3*(1.0_dp - 2*nu - depth*q)/q**2
-         here(:, 1) = 0.5_dp*factor*(k**2 - q_y**2)*wave
-         here(:, 2) = (0.5_dp - nu + 1.5_dp*depth*q)*wave
-         here(:, 3) = factor*q_y*k*wave
-         here(:, 4) = cmplx(0.0_dp, sqrt3*depth*k, dp)*wave
-         here(:, 5) = cmplx(0.0_dp, sqrt3*depth*q_y, dp)*wave
-         if (number == 2) here(:, 1) = here(:, 1) + here(:, 3) + here(:, 4) + here(:, 5)
-         do i = 1, number
-            associate (up => spectra(:, modulo(l, points(2)), i), half => min(m, points(1)/2))
-               up(:half + 1) = up(:half + 1) + here(:half, i)
-            end associate
+         q_z = q*depth
+         turn_y = exp(cmplx(0.0_dp, 2*pi*modulo(l*offset(2)/points(2), 1.0_dp), dp))
+         wave = merge(0.5_dp*exp(-q_z), 0.0_dp, q_z <= limit)*self%wave(:last(1), l)*turn_x*turn_y
+         shear = -(1.0_dp - 2*nu - q_z)/q**2
+         here(:, xy) = k*q_y*shear*wave
+         here(:, xz) = cmplx(0.0_dp, k*depth, dp)*wave
+         here(:, yz) = cmplx(0.0_dp, q_y*depth, dp)*wave
+         if (number <= 5) then
+            here(:, 3:5) = sqrt3*here(:, [xy, xz, yz])
+            here(:, 1) = 0.5_dp*sqrt3*(k**2 - q_y**2)*shear*wave
+            here(:, 2) = (0.5_dp - nu + 1.5_dp*q_z)*wave
+            if (number == 2) here(:, 1) = here(:, 1) + here(:, 3) + here(:, 4) + here(:, 5)
+         else
+            here(:, xx) = (k**2*shear - 2*nu)*wave
+            here(:, yy) = (q_y**2*shear - 2*nu)*wave
+            here(:, zz) = -(1.0_dp + q_z)*wave
+            here(:, 7) = merge(1.0_dp + q_z, 0.0_dp, q > self%sampled_from)*wave
+            here(:, 8) = cmplx(0.0_dp, k/q, dp)*here(:, 7)
+            here(:, 9) = cmplx(0.0_dp, q_y/q, dp)*here(:, 7)
+         end if
+         up = modulo(l, points(2))
+         down = modulo(-l, points(2))
+         do j = 1, number
+            spectra(:half, up, j) = spectra(:half, up, j) + here(:half, j)
             ! The transform takes the waves -k from the others, unless they are the same ones.
-            associate (down => spectra(:, modulo(-l, points(2)), i), from => (points(1) + 1)/2)
-               down(1) = down(1) + conjg(here(0, i))
-               down(points(1) - m + 1:points(1) - from + 1) = down(points(1) - m + 1:points(1) - from + 1) &
-                                                              + conjg(here(m:from:-1, i))
-            end associate
+            spectra(0, down, j) = spectra(0, down, j) + conjg(here(0, j))
+            do i = (points(1) + 1)/2, last(1)
+               row = modulo(i, points(1))
+               if (i > half .and. 2*row <= points(1)) spectra(row, up, j) = spectra(row, up, j) + here(i, j)
+               row = modulo(-i, points(1))
+               if (2*row <= points(1)) spectra(row, down, j) = spectra(row, down, j) + conjg(here(i, j))
+            end do
          end do
       end do
-   end subroutine find_deviator
-
-   !> Adds the waves of the components of the stress to their spectra, and to three more, if there are, those of
-   !> the last octave for the error (S5).
-   subroutine add_waves(self, points, offset, depth, nu, spectra)
-      type(stress_waves), intent(inout) :: self
-      integer, intent(in) :: points(2)
-      real(dp), intent(in) :: offset(2), depth, nu
-      complex(dp), intent(inout) :: spectra(0:, 0:, :)   !! shape (0:N_x/2, 0:N_y - 1, 6 or 9)
-
-      complex(dp) :: here(9), turn_x(0:ubound(self%wave, 1)), wave
-      real(dp) :: n_x, n_y, q, q_y
-      integer :: k, l, last(2), number, row
-
-      number = size(spectra, 3)
-      call self%use_depth(depth)
-      last = ubound(self%decay) - 1
-      turn_x = [(exp(cmplx(0.0_dp, 2*pi*modulo(k*offset(1)/points(1), 1.0_dp), dp)), k=0, ubound(self%wave, 1))]
-      do l = -last(2), last(2)
-         q_y = l/self%side_ratio
-         associate (turn_y => exp(cmplx(0.0_dp, 2*pi*modulo(l*offset(2)/points(2), 1.0_dp), dp)))
-            do k = merge(1, 0, l <= 0), last(1)
-               if (max(abs(self%wave(k, l)%re), abs(self%wave(k, l)%im)) <= 0.0_dp) cycle
-               q = sqrt(k**2 + q_y**2)
-               if (q*depth > self%faintest) exit
-               wave = 0.5_dp*self%decay(k, abs(l))*self%wave(k, l)*turn_x(k)*turn_y
-               n_x = k/q
-               n_y = q_y/q
-               here(xx) = -(n_x**2*(1.0_dp - q*depth) + 2*nu*n_y**2)*wave
-               here(yy) = -(n_y**2*(1.0_dp - q*depth) + 2*nu*n_x**2)*wave
-               here(zz) = -(1.0_dp + q*depth)*wave
-               here(xy) = -n_x*n_y*(1.0_dp - 2*nu - q*depth)*wave
-               here(xz) = cmplx(0.0_dp, k*depth, dp)*wave
-               here(yz) = cmplx(0.0_dp, q_y*depth, dp)*wave
-               here(7:) = (0.0_dp, 0.0_dp)
-               if (q > self%sampled_from .and. number > 6) here(7:) = octave_weights(n_x, n_y, q*depth)*wave
-               row = k
-               if (k >= points(1)) row = modulo(k, points(1))
-               if (2*row <= points(1)) &
-                  spectra(row, modulo(l, points(2)), :) = spectra(row, modulo(l, points(2)), :) + here(:number)
-               ! The transform takes the waves -k from the others, unless they are the same ones.
-               if (row > 0 .and. 2*row < points(1)) cycle
-               row = modulo(-row, points(1))
-               spectra(row, modulo(-l, points(2)), :) = spectra(row, modulo(-l, points(2)), :) + conjg(here(:number))
-            end do
-         end associate
-      end do
-   end subroutine add_waves
+   end subroutine find_spectra
 
 end module wavycon_stress_waves
