@@ -57,8 +57,8 @@ contains
       end do
    end function at
 
-   !> The field along a line, X = X_0 + d_x t, Y = Y_0 + d_y t. Its waves are first added up to those of equal wave number
-   !> along t. The series is whole.
+   !> The field along a line, X = X_0 + d_x t, Y = Y_0 + d_y t. Its waves are first added up to those of equal wave
+   !> number along t. The series is whole.
    pure function on_line(self, start, direction, t) result(values)
       class(fourier_series), intent(in) :: self
       real(dp), intent(in) :: start(2)       !! X_0, Y_0 [rad]

@@ -40,15 +40,15 @@ module wavycon_stress_fields
          real(dp), intent(out), optional :: error
       end subroutine parts_at_point
 
-      !> Places from which the search for the largest stress starts, the best of them close to it, and the stresses
-      !> there.
+      !> Places from which the search for the largest stress starts, the best of them close to it, and about the
+      !> stresses there.
       subroutine find_start_places(self, body, places, widths, stresses)
          import :: dp, elastic_body, stress_fields
          class(stress_fields), intent(inout) :: self
          type(elastic_body), intent(in) :: body
          real(dp), allocatable, intent(out) :: places(:, :)   !! X, Y, Z, shape (3, n) [rad]
          real(dp), allocatable, intent(out) :: widths(:)      !! distance over which the stress changes, shape (n) [rad]
-         real(dp), allocatable, intent(out) :: stresses(:, :) !! with those of the mean pressure, shape (6, n) [p*]
+         real(dp), allocatable, intent(out) :: stresses(:, :) !! or their deviators, shape (6, n) [p*]
       end subroutine find_start_places
    end interface
 

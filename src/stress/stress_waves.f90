@@ -93,8 +93,8 @@ contains
       octave_reaches = norm2(self%last_waves(depth)*[1.0_dp, 1.0_dp/self%side_ratio]) > self%sampled_from
    end function octave_reaches
 
-   !> The moments (S9) of the waves at a point, M_abc = sum of k^a l'^b q^c W exp(i (k X + l Y) - q Z), of all waves and,
-   !> if there are two sets, of the last octave.
+   !> The moments (S9) of the waves at a point, M_abc = sum of k^a l'^b q^c W exp(i (k X + l Y) - q Z), of all waves
+   !> and, if there are two sets, of the last octave.
    !>
    !> Those with c = -2 and c = -1 are added up, over k by a product of matrices. The others follow from them, as
    !> q^2 = k^2 + l'^2.
@@ -143,8 +143,8 @@ contains
                weighted(k, :, 2, :) = merge(weighted(k, :, 1, :), 0.0_dp, q(k) > self%sampled_from)
             end do
          end associate
-         call dgemm('N', 'N', 2*(n + 1), 2*sets*merge(1, 2, self%is_even), number, 1.0_dp, powers, 2*(n + 1), weighted, &
-                    last(1) + 1, 0.0_dp, sums, 2*(n + 1))
+         call dgemm('N', 'N', 2*(n + 1), 2*sets*merge(1, 2, self%is_even), number, 1.0_dp, powers, 2*(n + 1), &
+                    weighted, last(1) + 1, 0.0_dp, sums, 2*(n + 1))
          sum_x = cmplx(sums(1, :, :, :, 1) - sums(2, :, :, :, 2), sums(2, :, :, :, 1) + sums(1, :, :, :, 2), dp)
          turn = exp(cmplx(0.0_dp, l*place(2), dp))
          do b = 0, n
@@ -198,9 +198,9 @@ contains
       end do
    end subroutine transform
 
-   !> The waves on a plane, as `sample_waves` takes them: of the six components of the stress, or of nine also those of the
-   !> last octave for the error (S5). Of five they are those of the deviator (S10), of two those of q and of the sum of
-   !> the other four; waves that hardly reach the plane are left out of these.
+   !> The waves on a plane, as `sample_waves` takes them: of the six components of the stress, or of nine also those of
+   !> the last octave for the error (S5). Of five they are those of the deviator (S10), of two those of q and of the
+   !> sum of the other four; waves that hardly reach the plane are left out of these.
    subroutine find_spectra(self, points, offset, depth, nu, spectra)
       class(stress_waves), intent(in) :: self
       integer, intent(in) :: points(2)

@@ -24,7 +24,8 @@ module wavycon_stress_tuning
       !! Points of a plane across the cell, times its depth Z. Smaller: maxima fall between the points. Larger: more
       !! expensive planes.
    real(dp), parameter, public :: faintest_on_planes = 9.0_dp
-      !! Waves with q Z above this are left out. Smaller: other points seem to have the largest stress. Larger: more waves.
+      !! Waves with q Z above this are left out. Smaller: other points seem to have the largest stress. Larger: more
+      !! waves.
    integer, parameter, public :: plane_points = 24
       !! Fewest points of a plane across the cell. As waves_in_depth.
 
@@ -62,8 +63,8 @@ module wavycon_stress_tuning
       !! rounding.
 
    integer, parameter, public :: expansion_order = 8
-      !! Of the Taylor series that a series of waves is evaluated by. Smaller: the search follows its errors. Larger: more
-      !! to add up for each wave.
+      !! Of the Taylor series that a series of waves is evaluated by. Smaller: the search follows its errors. Larger:
+      !! more to add up for each wave.
    real(dp), parameter, public :: centre_part = 0.25_dp
       !! A model gets its own Taylor series where it is farther from the centre of the last one than this part of its
       !! reach. Larger: errors of the series. Smaller: more of them.
