@@ -23,6 +23,7 @@ module wavycon_contact_fields
       procedure(fields_at_point), deferred :: at
       procedure(fields_on_grid), deferred :: on_grid
       procedure :: at_own_column
+      procedure :: at_points
    end type contact_fields
 
    abstract interface
@@ -49,6 +50,21 @@ module wavycon_contact_fields
    end interface
 
 contains
+
+   !> At many points.
+   subroutine at_points(self, angle, shape, pressure, displacement, gap)
+      class(contact_fields), intent(inout) :: self
+      real(dp), intent(in) :: angle(:, :)            !! X, Y, shape (2, n) [rad]
+      real(dp), intent(in) :: shape(:)               !! 1 - h/Delta there, shape (n)
+      real(dp), intent(out) :: pressure(:), displacement(:), gap(:)   !! as of `at`, shape (n)
+
+      integer :: k
+
+      associate (unused => shape); end associate
+      do k = 1, size(gap)
+         call self%at(angle(1, k), angle(2, k), pressure(k), displacement(k), gap(k))
+      end do
+   end subroutine at_points
 
    !> The fields at the points of one of the columns of own_slab. Default: NaN.
    subroutine at_own_column(self, column, shape, pressure, displacement, gap)

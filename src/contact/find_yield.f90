@@ -9,8 +9,8 @@ module wavycon_find_yield
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_contact_status, only: interrupted, not_accurate, not_found
-   use wavycon_contact_tuning, only: fraction_of_error, largest_fraction, largest_stress_error, least_fraction, &
-      longest_rise, most_solves
+   use wavycon_contact_tuning, only: coarse_fraction, fraction_of_error, largest_fraction, largest_stress_error, &
+      least_fraction, longest_rise, most_solves
    use wavycon_kinds, only: dp
    use wavycon_solution_record, only: no_solution
    use wavycon_stress_fields, only: stress_fields
@@ -36,17 +36,21 @@ contains
       real(dp), intent(in) :: target                        !! r > 0, stress over yield stress; 1: first yield
       type(contact_solution), intent(out) :: solution   !! of the load found
 
-      real(dp) :: log_p
+      real(dp) :: log_p, slope
       type(solver_traits) :: traits
       integer :: level
 
       log_p = first_log_p()
+      slope = light_slope(solver)
       traits = solver%traits()
       do level = traits%coarser_levels, 0, -1
          solver%level = level
-         call find_root(solver, setting, log(target), log_p, solution)
+         call find_root(solver, setting, log(target), log_p, slope, solution)
          if (solution%status == interrupted) exit
-         if (solution%status == not_found) log_p = first_log_p()
+         if (solution%status == not_found) then
+            log_p = first_log_p()
+            slope = light_slope(solver)
+         end if
       end do
       solver%level = 0
 
@@ -60,16 +64,16 @@ contains
    end subroutine solve_for_yield
 
    !> The secant method. A step that would leave the bracket of the root or reach the hardness is replaced by bisection.
-   subroutine find_root(solver, setting, log_target, log_p, solution)
+   subroutine find_root(solver, setting, log_target, log_p, slope, solution)
       class(contact_solver), intent(inout) :: solver
       type(stress_setting), intent(in) :: setting
       real(dp), intent(in) :: log_target
       real(dp), intent(inout) :: log_p               !! ln P of the first load; on return of the last one
+      real(dp), intent(inout) :: slope               !! d ln r/d ln P there
       type(contact_solution), intent(out) :: solution
 
       type(solver_traits) :: traits
-      real(dp) :: at_hardness, at_largest, error, high, largest, last_log_p, last_miss, light_slope, low, &
-                  miss, next, slope
+      real(dp) :: at_hardness, at_largest, enough, error, high, largest, last_log_p, last_miss, low, miss, next
       integer :: i
       !> Rounding of the logarithm of a stress.
       real(dp), parameter :: rounding = 1e-10_dp
@@ -77,9 +81,6 @@ contains
       low = -huge(low)
       at_hardness = log(solver%surface%hardness)
       high = at_hardness
-      ! The slopes of a line contact and of a point contact at light load.
-      light_slope = merge(0.5_dp, 1.0_dp/3, solver%surface%dimension == 1)
-      slope = light_slope
       last_log_p = log_p
       last_miss = 0.0_dp
       largest = -huge(largest)
@@ -93,13 +94,15 @@ contains
             largest = miss
             at_largest = log_p
          end if
-         if (abs(miss) <= min(max(fraction_of_error*error, least_fraction), largest_fraction)) then
+         enough = min(max(fraction_of_error*error, least_fraction), largest_fraction)
+         if (solver%level > 0) enough = max(enough, min(error, coarse_fraction))
+         if (abs(miss) <= enough) then
             if (solution%is_good() .and. error > largest_stress_error) solution%status = not_accurate
             return
          end if
          if (i > 1 .and. abs(log_p - last_log_p) > 0.0_dp) slope = (miss - last_miss)/(log_p - last_log_p)
          ! Where a hardness bounds the stress r hardly grows: the secant would lead to loads far too light, or up.
-         if (low <= -huge(low) .and. miss > 0.0_dp) slope = max(slope, 0.5_dp*light_slope)
+         if (low <= -huge(low) .and. miss > 0.0_dp) slope = max(slope, 0.5_dp*light_slope(solver))
          last_log_p = log_p
          last_miss = miss
          if (miss > 0.0_dp) high = min(high, log_p)
@@ -121,6 +124,13 @@ contains
       if (allocated(solution%source)) deallocate (solution%source)
       solution%solution_record = no_solution(exp(at_largest), traits%solver, not_found)
    end subroutine find_root
+
+   !> d ln r/d ln P of a line contact or of a point contact at light load.
+   pure real(dp) function light_slope(solver)
+      class(contact_solver), intent(in) :: solver
+
+      light_slope = merge(0.5_dp, 1.0_dp/3, solver%surface%dimension == 1)
+   end function light_slope
 
    !> ln of the largest stress over the target, and its error estimate. NaN if the load has no solution.
    subroutine find_miss(solver, setting, log_target, solution, miss, error)

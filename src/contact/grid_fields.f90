@@ -32,6 +32,7 @@ module wavycon_grid_fields
       procedure :: at
       procedure :: on_grid
       procedure :: at_own_column
+      procedure :: at_points
    end type grid_fields
 
    !> A position that is nearer than this to a point of the grid, in steps, counts as that point, as positions are
@@ -82,10 +83,28 @@ contains
       real(dp), intent(in) :: x, y
       real(dp), intent(out) :: pressure, displacement, gap
 
-      if (.not. allocated(self%psi)) call find_psi(self)
-      call interpolate(self, x/(2*pi), y/(2*pi), pressure, gap)
-      displacement = gap - self%mean_gap + self%shape%at(x, y)
+      real(dp), dimension(1) :: own_displacement, own_gap, own_pressure
+
+      call self%at_points(reshape([x, y], [2, 1]), [self%shape%at(x, y)], own_pressure, own_displacement, own_gap)
+      pressure = own_pressure(1)
+      displacement = own_displacement(1)
+      gap = own_gap(1)
    end subroutine at
+
+   subroutine at_points(self, angle, shape, pressure, displacement, gap)
+      class(grid_fields), intent(inout) :: self
+      real(dp), intent(in) :: angle(:, :)
+      real(dp), intent(in) :: shape(:)
+      real(dp), intent(out) :: pressure(:), displacement(:), gap(:)
+
+      integer :: k
+
+      if (.not. allocated(self%psi)) call find_psi(self)
+      do k = 1, size(gap)
+         call interpolate(self, angle(1, k)/(2*pi), angle(2, k)/(2*pi), pressure(k), gap(k))
+      end do
+      displacement = gap - self%mean_gap + shape
+   end subroutine at_points
 
    subroutine on_grid(self, points, offset, pressure, displacement, gap)
       class(grid_fields), intent(inout) :: self

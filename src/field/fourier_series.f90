@@ -20,6 +20,7 @@ module wavycon_fourier_series
       procedure :: is_even
       procedure :: is_distributed
       procedure :: at
+      procedure :: on_line
       procedure :: evaluate_on_grid
    end type fourier_series
 
@@ -55,6 +56,50 @@ contains
               + cos(j*y)*dot_product(self%sc(:, j), sines)
       end do
    end function at
+
+   !> The field along a line, X = X_0 + d_x t, Y = Y_0 + d_y t. Its waves are first added up to those of equal wave
+   !> number along t. The series is whole.
+   pure function on_line(self, start, direction, t) result(values)
+      class(fourier_series), intent(in) :: self
+      real(dp), intent(in) :: start(2)       !! X_0, Y_0 [rad]
+      integer, intent(in) :: direction(2)    !! d_x, d_y >= 0
+      real(dp), intent(in) :: t(:)           !! [rad]
+      real(dp) :: values(size(t))
+
+      complex(dp), allocatable :: along(:)
+      complex(dp) :: down, phase, turn, turn_x(0:ubound(self%c, 1)), turn_y, up
+      integer :: i, j, last(2), n
+
+      last = direction*ubound(self%c)
+      allocate (along(-last(2):sum(last)), source=(0.0_dp, 0.0_dp))
+      turn_x = [(exp(cmplx(0.0_dp, i*start(1), dp)), i=0, ubound(self%c, 1))]
+      do j = 0, ubound(self%c, 2)
+         turn_y = exp(cmplx(0.0_dp, j*start(2), dp))
+         do i = 0, ubound(self%c, 1)
+            ! The amplitudes of exp(i (iX + jY)) and exp(i (iX - jY)).
+            up = 0.5_dp*self%c(i, j)
+            down = up
+            if (.not. self%is_even()) then
+               up = up - 0.5_dp*cmplx(self%ss(i, j), self%sc(i, j) + self%cs(i, j), dp)
+               down = down + 0.5_dp*cmplx(self%ss(i, j), self%cs(i, j) - self%sc(i, j), dp)
+            end if
+            n = direction(1)*i
+            associate (m => direction(2)*j)
+               along(n + m) = along(n + m) + up*turn_x(i)*turn_y
+               along(n - m) = along(n - m) + down*turn_x(i)*conjg(turn_y)
+            end associate
+         end do
+      end do
+      do i = 1, size(t)
+         turn = exp(cmplx(0.0_dp, t(i), dp))
+         phase = exp(cmplx(0.0_dp, lbound(along, 1)*t(i), dp))
+         values(i) = 0.0_dp
+         do n = lbound(along, 1), ubound(along, 1)
+            values(i) = values(i) + real(along(n)*phase)
+            phase = phase*turn
+         end do
+      end do
+   end function on_line
 
    !> An even field on a quarter of the cell, at X = pi k/N, Y = pi l/N, k, l = 0..N (l = 0 only in 1-D).
    pure subroutine evaluate_on_grid(self, intervals, values)

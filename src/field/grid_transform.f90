@@ -34,6 +34,8 @@ module wavycon_grid_transform
       procedure :: series
       procedure :: sample
       procedure :: sample_waves
+      procedure :: sum_along_y
+      procedure :: sample_column
       procedure :: x_angle
       procedure :: y_angle
    end type grid_transform
@@ -176,15 +178,27 @@ contains
       complex(c_double_complex), intent(inout) :: waves(:, :)   !! w_kl, k = 0 .. M/2, shape (M/2 + 1, N); overwritten
       real(dp), intent(out), contiguous :: field(:, :)          !! shape (M, N)
 
-      complex(c_double_complex), allocatable :: block(:, :), column(:), row(:)
-      real(c_double), allocatable :: values(:)
+      integer :: j
+
+      call assert(all(shape(field) == self%points) .and. .not. self%even, 'the field is that of a whole cell')
+      call self%sum_along_y(waves)
+      do j = 1, self%points(2)
+         call self%sample_column(waves(:, j), field(:, j))
+      end do
+   end subroutine sample_waves
+
+   !> The sums over l of these values, in place of the waves: sum_l w_kl e^(ilY_j).
+   subroutine sum_along_y(self, waves)
+      class(grid_transform), intent(in) :: self
+      complex(c_double_complex), intent(inout) :: waves(:, :)   !! of the first wave numbers k, shape (:, N)
+
+      complex(c_double_complex), allocatable :: block(:, :), row(:)
       type(c_ptr) :: plan
       integer :: j, k, number
 
-      call assert(all(shape(field) == self%points) .and. .not. self%even, 'the field is that of a whole cell')
-      associate (m => self%points(1), n => self%points(2))
+      associate (n => self%points(2))
          ! FFTW's vectors must be aligned, also if N is odd.
-         allocate (block(n + modulo(n, 2), block_rows), column(m/2 + 1), row(n), values(m))
+         allocate (block(n + modulo(n, 2), block_rows), row(n))
          plan = plan_of_line(waves_backward, n, dp)
          do k = 1, size(waves, 1), block_rows
             number = min(block_rows, size(waves, 1) - k + 1)
@@ -199,14 +213,23 @@ contains
                waves(k:k + number - 1, j) = block(j, :number)
             end do
          end do
-         plan = plan_of_line(waves_to_real, m, dp)
-         do j = 1, n
-            column = waves(:, j)
-            call fftw_execute_dft_c2r(plan, column, values)
-            field(:, j) = values
-         end do
       end associate
-   end subroutine sample_waves
+   end subroutine sum_along_y
+
+   !> The values in one column, from these sums.
+   subroutine sample_column(self, sums, values)
+      class(grid_transform), intent(in) :: self
+      complex(c_double_complex), intent(in) :: sums(:)   !! of k = 0 .. M/2
+      real(dp), intent(out) :: values(:)                 !! shape (M)
+
+      complex(c_double_complex), allocatable :: column(:)
+      real(c_double), allocatable :: aligned(:)
+
+      allocate (column, source=sums)
+      allocate (aligned(self%points(1)))
+      call fftw_execute_dft_c2r(plan_of_line(waves_to_real, self%points(1), dp), column, aligned)
+      values = aligned
+   end subroutine sample_column
 
    !> X of the points with first index i [rad].
    elemental real(dp) function x_angle(self, i)

@@ -34,25 +34,28 @@ contains
 
       class(contact_fields), allocatable :: fields
       type(surface_line) :: line
-      real(dp) :: gap, p, u
-      real(dp), allocatable :: values(:, :)
-      integer :: k, number
+      real(dp), allocatable :: gap(:), p(:), shape(:), u(:), values(:, :)
+      integer :: number
 
       call results%begin_block(file, load)
       associate (surface => results%solver%surface, p_star => results%scene%p_star)
          call results%loads(load)%fields(surface, fields)
          do number = 1, surface%dimension
             call start_surface_line(line, results, number)
-            allocate (values(7, 0:ubound(line%distance, 1)))
-            do k = 0, ubound(values, 2)
-               associate (x => line%angle(1, k), y => line%angle(2, k))
-                  call fields%at(x, y, p, u, gap)
-                  values(:, k) = [p, u, gap, surface%undeformed_gap_over_amplitude(x, y), &
-                                  p_star*p, surface%amplitude*u, surface%amplitude*gap]
-               end associate
-            end do
+            associate (n => ubound(line%distance, 1))
+               allocate (values(7, 0:n), p(0:n), u(0:n), gap(0:n))
+               shape = surface%shape%on_line(line%angle(:, 0), line%direction, line%parameter())
+            end associate
+            call fields%at_points(line%angle, shape, p, u, gap)
+            values(1, :) = p
+            values(2, :) = u
+            values(3, :) = gap
+            values(4, :) = 1.0_dp - shape
+            values(5, :) = p_star*p
+            values(6, :) = surface%amplitude*u
+            values(7, :) = surface%amplitude*gap
             call put_surface_line(line, results, load, values, file)
-            deallocate (values)
+            deallocate (values, p, u, gap)
          end do
       end associate
    end subroutine put_lines

@@ -44,7 +44,7 @@ contains
       class(stress_fields), allocatable :: fields
       real(dp), allocatable :: depths(:), errors(:, :), parts(:, :, :, :), places(:, :, :), t(:)
       type(surface_line) :: line
-      integer :: i, k, number
+      integer :: i, number
 
       ! A table in memory may be asked for although the deck has section = 'none': it is that along x.
       number = max(1, findloc(['x       ', 'diagonal', 'y       '] == results%scene%stress%text('section'), .true., &
@@ -52,7 +52,7 @@ contains
       call start_surface_line(line, results, number)
       associate (surface => results%solver%surface)
          call stress_depths(results%scene%stress, surface, .false., depths)
-         allocate (t, source=[(maxval(line%angle(:, k) - line%angle(:, 0)), k=0, ubound(line%angle, 2))])
+         t = line%parameter()
          allocate (parts(6, 2, size(t), size(depths)), errors(size(t), size(depths)), places(4, size(t), size(depths)))
          call results%loads(load)%stresses(surface, fields)
          do i = 1, size(depths)

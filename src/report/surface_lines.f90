@@ -20,6 +20,8 @@ module wavycon_surface_lines
       real(dp), allocatable :: angle(:, :)    !! X, Y of each point, shape (2, n) [rad]
       real(dp), allocatable :: place(:, :)    !! x, y of each point, shape (2, n) [length]
       real(dp), allocatable :: distance(:)    !! from the first point, shape (n) [length]
+   contains
+      procedure :: parameter => line_parameter
    end type surface_line
 
 contains
@@ -53,6 +55,16 @@ contains
          end do
       end associate
    end subroutine start_surface_line
+
+   !> t of each point, whose angles are those of the first one and t times the direction.
+   pure function line_parameter(self) result(t)
+      class(surface_line), intent(in) :: self
+      real(dp), allocatable :: t(:)   !! [rad]
+
+      integer :: k
+
+      allocate (t, source=[(maxval(self%angle(:, k) - self%angle(:, 0)), k=0, ubound(self%angle, 2))])
+   end function line_parameter
 
    !> Writes a row for each point of a line: load, line, distance, x, y, mean pressure and values. A blank line is
    !> between the lines of a load.

@@ -11,8 +11,8 @@ module wavycon_largest_stress
    use wavycon_lapack, only: dsyev
    use wavycon_stress_fields, only: stress_fields
    use wavycon_stress_tensor, only: largest_shear, von_mises
-   use wavycon_stress_tuning, only: close_to_largest, error_of_invariant, first_reach, gain_part, most_models, &
-      search_accuracy, reach_factor, refined_places
+   use wavycon_stress_tuning, only: close_to_largest, error_of_invariant, first_reach, gain_part, likely_gain, &
+      most_models, search_accuracy, reach_factor, refined_places
    implicit none (type, external)
    private
 
@@ -110,6 +110,7 @@ contains
       end do
       least = 0.0_dp
       least_gain = 0.0_dp
+      least_gain_needed = 0.0_dp
       gain = 0.0_dp
       do i = 1, min(refined_places, size(widths))
          best = maxloc(values, dim=1)
@@ -117,10 +118,12 @@ contains
          if (values(best) < least) exit
          other%value = values(best)
          other%place = places(:, best)
-         call fields%at(other%place(1), other%place(2), other%place(3), parts, error)
-         least_gain_needed = search_accuracy*other%value
-         if (.not. ieee_is_nan(error)) least_gain_needed = min(gain_part*error, least_gain_needed)
-         call refine(fields, body, quantity, widths(best), least_gain_needed, other, gain)
+         if (i == 1) then
+            call fields%at(other%place(1), other%place(2), other%place(3), parts, error)
+            least_gain_needed = search_accuracy*other%value
+            if (.not. ieee_is_nan(error)) least_gain_needed = min(gain_part*error, least_gain_needed)
+         end if
+         call refine(fields, body, quantity, widths(best), least_gain_needed, answer%value, other, gain)
          if (i == 1 .or. other%value > answer%value) then
             answer = other
             least_gain = gain
@@ -131,23 +134,25 @@ contains
       end do
       if (fields%dimension == 1) answer%place(2) = 0.0_dp
       call fields%at(answer%place(1), answer%place(2), answer%place(3), parts, answer%error)
+      answer%value = size_of(quantity, body%stress(parts, fields%pbar_over_pstar))
       answer%error = error_of_invariant*answer%error + least_gain
    end subroutine search
 
    !> Improves a place by quadratic models.
-   subroutine refine(fields, body, quantity, width, enough, best, gain)
+   subroutine refine(fields, body, quantity, width, enough, to_beat, best, gain)
       class(stress_fields), intent(inout) :: fields
       type(elastic_body), intent(in) :: body
       integer, intent(in) :: quantity
       real(dp), intent(in) :: width                  !! of the maximum [rad]
       real(dp), intent(in) :: enough                 !! the search ends when a model gains less [p*]
+      real(dp), intent(in) :: to_beat                !! and when it seems to end below this [p*]
       type(largest_stress), intent(inout) :: best    !! value and place
       real(dp), intent(out) :: gain                  !! by the last model, or what it promised if that is more [p*]
 
       !> Relative gains below this are rounding.
       real(dp), parameter :: rounding = 1e-14_dp
       integer, allocatable :: axes(:)
-      real(dp) :: before, least, promise, reach, step
+      real(dp) :: before, least, noise, promise, reach, step
       integer :: i
 
       allocate (axes, source=pack([1, 2, 3], [.true., fields%dimension > 1, .true.]))
@@ -155,10 +160,12 @@ contains
       reach = first_reach*width
       do i = 1, most_models
          before = best%value
-         call improve(fields, body, quantity, axes, reach, best, step, promise)
+         call fields%expand(best%place, width, reach, noise)
+         if (noise > 0.0_dp) best%value = size_of(quantity, stress_at(fields, body, best%place))
+         call improve(fields, body, quantity, axes, reach, max(noise, rounding), best, step, promise)
          ! A model that is too large for the stress may promise much and gain nothing: the next one is smaller.
          gain = max(best%value - before, promise)
-         if (gain <= least) exit
+         if (gain <= least .or. best%value + likely_gain*gain < to_beat) exit
          ! A place at the border of the model may be far from the maximum: the next model is as large.
          if (step < 0.9_dp*reach) reach = max(reach_factor*reach, min(step, reach))
       end do
@@ -166,18 +173,17 @@ contains
 
    !> Moves a place to the maximum of a quadratic function within a distance along each axis, or to the best of the
    !> points that the function is made from.
-   subroutine improve(fields, body, quantity, axes, reach, best, step, promise)
+   subroutine improve(fields, body, quantity, axes, reach, noise, best, step, promise)
       class(stress_fields), intent(inout) :: fields
       type(elastic_body), intent(in) :: body
       integer, intent(in) :: quantity
       integer, intent(in) :: axes(:)                 !! the directions of the search
       real(dp), intent(in) :: reach                  !! [rad]
+      real(dp), intent(in) :: noise                  !! changes of the stress by rounding and the like, over the stress
       type(largest_stress), intent(inout) :: best
       real(dp), intent(out) :: step                  !! largest distance moved along an axis [rad]
       real(dp), intent(out) :: promise               !! gain of the maximum; variation along axes without one [p*]
 
-      !> Changes of the stress by rounding, over the stress.
-      real(dp), parameter :: rounding = 1e-14_dp
       real(dp) :: axis(size(axes), size(axes)), curvature(size(axes)), move(3), slope(size(axes)), start(3), &
          to_maximum(size(axes)), value, value_here, values(-1:1), work(3*3)
       integer :: i, j, k, l, status
@@ -208,10 +214,10 @@ contains
       to_maximum = 0.0_dp
       promise = 0.0_dp
       do i = 1, size(axes)
-         if (curvature(i) > rounding*value_here) then
+         if (curvature(i) > noise*value_here) then
             to_maximum = to_maximum + axis(:, i)*(slope(i)/curvature(i))
             promise = promise + 0.5_dp*slope(i)**2/curvature(i)
-         else if (max(abs(slope(i)), abs(curvature(i))) > rounding*value_here) then
+         else if (max(abs(slope(i)), abs(curvature(i))) > noise*value_here) then
             promise = promise + abs(slope(i)) + 0.5_dp*abs(curvature(i))
          end if
       end do
@@ -222,7 +228,7 @@ contains
 
    contains
 
-      !> The value at a place; the best place so far is kept.
+      !> The value at a place; a place that is better by more than noise is kept.
       subroutine try(move, value)
          real(dp), intent(in) :: move(3)
          real(dp), intent(out) :: value
@@ -231,7 +237,7 @@ contains
 
          place = abs_depth(start + move)
          value = size_of(quantity, stress_at(fields, body, place))
-         if (value > best%value) then
+         if (value > best%value + noise*value_here) then
             best%value = value
             best%place = place
          end if
@@ -247,6 +253,7 @@ contains
       abs_depth = [place(1), place(2), abs(place(3))]
    end function abs_depth
 
+   !> The stress at a place near that of the last `expand`.
    function stress_at(fields, body, place) result(stress)
       class(stress_fields), intent(inout) :: fields
       type(elastic_body), intent(in) :: body
@@ -255,7 +262,7 @@ contains
 
       real(dp) :: parts(6, 2)
 
-      call fields%at(place(1), place(2), place(3), parts)
+      call fields%near(place, parts)
       stress = body%stress(parts, fields%pbar_over_pstar)
    end function stress_at
 

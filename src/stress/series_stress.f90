@@ -1,16 +1,18 @@
 !> The stresses under a pressure that is a Fourier series: full contact, the paper's series, the points of a grid.
 !>
-!> Equations (S1) to (S5) of README.md in this directory.
+!> Equations (S1) to (S5) and (S9) of README.md in this directory.
 module wavycon_series_stress
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_constants, only: pi, sqrt3
    use wavycon_elastic_body, only: elastic_body
    use wavycon_fourier_series, only: fourier_series
+   use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
    use wavycon_stress_fields, only: stress_fields
-   use wavycon_stress_tensor, only: largest_shear, von_mises, xx, xy, xz, yy, yz, zz
-   use wavycon_stress_tuning, only: coarsest, octave_factor, plane_points, plane_ratio, pressure_part, waves_in_depth
+   use wavycon_stress_tensor, only: largest_shear, xx, xy, xz, yy, yz, zz
+   use wavycon_stress_tuning, only: centre_part, coarsest, expansion_order, octave_factor, plane_points, &
+      plane_ratio, pressure_part, waves_in_depth
    use wavycon_stress_waves, only: deepest, octave_weights, stress_waves
    use wavycon_surface, only: surface_type
    use wavycon_system, only: has_memory_for
@@ -25,8 +27,12 @@ module wavycon_series_stress
       private
       type(stress_waves) :: waves
       real(dp) :: pressure_error = 0.0_dp       !! of the pressure [p*]; NaN if there is no estimate
+      complex(dp), allocatable :: moment(:, :, :, :)   !! of the Taylor series in use
+      real(dp) :: centre(3) = 0.0_dp            !! of that series [rad]
    contains
       procedure :: at
+      procedure :: expand
+      procedure :: near
       procedure :: on_line
       procedure :: on_plane
       procedure :: start_places
@@ -62,51 +68,95 @@ contains
       real(dp), intent(out) :: parts(6, 2)
       real(dp), intent(out), optional :: error
 
-      complex(dp) :: turn_x(0:ubound(self%waves%wave, 1)), wave
-      real(dp) :: q, q_y, sums(number_of_sums)
-      logical :: with_error
-      integer :: k, l, last(2)
+      complex(dp), allocatable :: moment(:, :, :, :)
+      real(dp) :: octave(3)
+      integer :: sets
 
       if (.not. self%exist) then
          parts = ieee_value(parts, ieee_quiet_nan)
          if (present(error)) error = ieee_value(error, ieee_quiet_nan)
          return
       end if
-      call self%waves%use_depth(depth)
-      last = ubound(self%waves%decay) - 1
-      turn_x(:last(1)) = [(exp(cmplx(0.0_dp, k*x, dp)), k=0, last(1))]
-      with_error = present(error) .and. self%waves%octave_reaches()
-      sums = 0.0_dp
-      do l = -last(2), last(2)
-         q_y = l/self%side_ratio
-         associate (turn_y => exp(cmplx(0.0_dp, l*y, dp)))
-            do k = merge(1, 0, l <= 0), last(1)
-               if (max(abs(self%waves%wave(k, l)%re), abs(self%waves%wave(k, l)%im)) <= 0.0_dp) cycle
-               wave = self%waves%decay(k, abs(l))*self%waves%wave(k, l)*turn_x(k)*turn_y
-               q = sqrt(k**2 + q_y**2)
-               associate (a => wave%re, b => wave%im, of_x => k*wave%re/q**2, x => real(k, dp))
-                  sums(1) = sums(1) + a
-                  sums(2) = sums(2) + q*a
-                  sums(3) = sums(3) + x*of_x
-                  sums(4) = sums(4) + q*(x*of_x)
-                  sums(5) = sums(5) + q_y*of_x
-                  sums(6) = sums(6) + q*(q_y*of_x)
-                  sums(7) = sums(7) - x*b
-                  sums(8) = sums(8) - q_y*b
+      sets = 1
+      if (present(error) .and. .not. ieee_is_nan(self%pressure_error) .and. self%waves%octave_reaches(depth)) sets = 2
+      call self%waves%find_moments([x, y, depth], 0, sets, moment)
+      parts = parts_of(sums_near(moment(:, :, :, 1), [0.0_dp, 0.0_dp, 0.0_dp], depth))
+      if (.not. present(error)) return
+      octave = 0.0_dp
+      if (sets == 2) octave = [real(moment(0, 0, 0, 2) + depth*moment(0, 0, 1, 2)), &
+                               -aimag(moment(1, 0, -1, 2) + depth*moment(1, 0, 0, 2)), &
+                               -aimag(moment(0, 1, -1, 2) + depth*moment(0, 1, 0, 2))]
+      error = error_of(self, parts, octave)
+   end subroutine at
+
+   !> Prepares the Taylor series (S9) about a place, unless that of the last call is close enough.
+   subroutine expand(self, place, width, reach, noise)
+      class(series_stress), intent(inout) :: self
+      real(dp), intent(in) :: place(3)
+      real(dp), intent(in) :: width, reach
+      real(dp), intent(out) :: noise
+
+      real(dp) :: distance
+
+      distance = huge(distance)
+      if (allocated(self%moment)) distance = norm2(place - self%centre)
+      if (distance > centre_part*reach) then
+         self%centre = place
+         distance = 0.0_dp
+         call self%waves%find_moments(place, expansion_order, 1, self%moment)
+      end if
+      noise = ((distance + reach)/width)**(expansion_order + 1)/8
+   end subroutine expand
+
+   !> By that Taylor series.
+   subroutine near(self, place, parts)
+      class(series_stress), intent(inout) :: self
+      real(dp), intent(in) :: place(3)
+      real(dp), intent(out) :: parts(6, 2)
+
+      associate (move => (place - self%centre)*[1.0_dp, self%side_ratio, 1.0_dp])
+         parts = parts_of(sums_near(self%moment(:, :, :, 1), move, place(3)))
+      end associate
+   end subroutine near
+
+   !> The sums (S4) by the Taylor series (S9) about a point.
+   pure function sums_near(moment, move, depth) result(sums)
+      complex(dp), intent(in) :: moment(0:, 0:, -2:)   !! at the point
+      real(dp), intent(in) :: move(3)                  !! from the point, x, y, z of (S9) [rad]
+      real(dp), intent(in) :: depth                    !! Z there [rad]
+      real(dp) :: sums(8)
+
+      !> Powers of k, l' and q of each sum.
+      integer, parameter :: power(3, 8) = reshape( &
+         [0, 0, 0, 0, 0, 1, 2, 0, -2, 2, 0, -1, 1, 1, -2, 1, 1, -1, 1, 0, 0, 0, 1, 0], [3, 8])
+      complex(dp) :: term(0:ubound(moment, 3) - 1, 3), total
+      integer :: b, c, j, last, order
+
+      order = ubound(term, 1)
+      term(0, :) = 1.0_dp
+      do j = 1, order
+         term(j, :) = term(j - 1, :)*[cmplx(0.0_dp, move(1), dp), cmplx(0.0_dp, move(2), dp), &
+                                      cmplx(-move(3), 0.0_dp, dp)]/j
+      end do
+      do j = 1, 8
+         total = 0.0_dp
+         do c = 0, order
+            do b = 0, order - c
+               last = order - c - b
+               associate (from => power(:, j) + [0, b, c])
+                  total = total + term(b, 2)*term(c, 3)* &
+                          sum(term(:last, 1)*moment(from(1):from(1) + last, from(2), from(3)))
                end associate
-               if (.not. with_error .or. q <= self%waves%sampled_from) cycle
-               sums(9:) = sums(9:) + real(octave_weights(k/q, q_y/q, q*depth)*wave)
             end do
-         end associate
+         end do
+         sums(j) = merge(-total%im, total%re, j > 6)
       end do
       sums([2, 4, 6, 7, 8]) = depth*sums([2, 4, 6, 7, 8])
-      parts = parts_of(sums)
-      if (present(error)) error = error_of(self, parts, sums(9:))
-   end subroutine at
+   end function sums_near
 
    !> The stresses from the sums (S4).
    pure function parts_of(sums) result(parts)
-      real(dp), intent(in) :: sums(number_of_sums)
+      real(dp), intent(in) :: sums(8)
       real(dp) :: parts(6, 2)
 
       parts = 0.0_dp
@@ -140,8 +190,7 @@ contains
          error = ieee_value(error, ieee_quiet_nan)
          return
       end if
-      call self%waves%use_depth(depth)
-      last = ubound(self%waves%decay) - 1
+      last = self%waves%last_waves(depth)
       turn_x(:last(1)) = [(exp(cmplx(0.0_dp, k*start(1), dp)), k=0, last(1))]
       m = dot_product(abs(direction), last)
       allocate (along(number_of_sums, -m:m), source=(0.0_dp, 0.0_dp))
@@ -150,8 +199,9 @@ contains
          associate (turn_y => exp(cmplx(0.0_dp, l*start(2), dp)))
             do k = merge(1, 0, l <= 0), last(1)
                if (max(abs(self%waves%wave(k, l)%re), abs(self%waves%wave(k, l)%im)) <= 0.0_dp) cycle
-               wave = self%waves%decay(k, abs(l))*self%waves%wave(k, l)*turn_x(k)*turn_y
                q = sqrt(k**2 + q_y**2)
+               if (q*depth > self%waves%faintest) exit
+               wave = exp(-q*depth)*self%waves%wave(k, l)*turn_x(k)*turn_y
                n_x = k/q
                n_y = q_y/q
                weights(1:5:2) = [1.0_dp, n_x**2, n_x*n_y]
@@ -169,7 +219,7 @@ contains
          do m = lbound(along, 2), ubound(along, 2)
             sums = sums + real(along(:, m)*exp(cmplx(0.0_dp, m*t(i), dp)))
          end do
-         parts(:, :, i) = parts_of(sums)
+         parts(:, :, i) = parts_of(sums(:8))
          error(i) = error_of(self, parts(:, :, i), sums(9:))
       end do
    end subroutine on_line
@@ -204,8 +254,7 @@ contains
          error = ieee_value(error, ieee_quiet_nan)
          return
       end if
-      call self%waves%use_depth(depth)
-      number = merge(9, 6, self%waves%octave_reaches())
+      number = merge(9, 6, self%waves%octave_reaches(depth))
       call self%waves%transform(self%parts*points, offset, depth, body, self%pbar_over_pstar, number, fields)
       if (any(self%parts > 1)) fields = fields(:points(1), :points(2), :)
       allocate (error(points(1), points(2)), source=0.0_dp)
@@ -230,11 +279,12 @@ contains
       real(dp), allocatable, intent(out) :: widths(:)
       real(dp), allocatable, intent(out) :: stresses(:, :)
 
-      !> Numbers that a plane needs for each point: stresses and their spectra, and two measures.
-      integer(int64), parameter :: numbers_a_point = 16
-      real(dp), allocatable :: depth(:), shear(:, :), stress(:, :, :), yielding(:, :)
-      real(dp) :: here(6), least, step
-      integer :: i, k, l, points(2)
+      !> Numbers that a plane needs for each point.
+      integer, parameter :: numbers_a_point = 6
+      complex(dp), allocatable :: spectra(:)
+      real(dp), allocatable :: depth(:)
+      real(dp) :: step, stress(6, 2)
+      integer :: i, number, place(2, 2), points(2)
 
       step = pi/max(plane_points/2.0_dp, real(maxval(ubound(self%waves%wave)), dp))
       allocate (depth(2 + ceiling(log(2*pi/step)/log(plane_ratio))), source=0.0_dp)
@@ -242,44 +292,22 @@ contains
          depth(i) = step*plane_ratio**(i - 2)
       end do
       allocate (places(3, 2*size(depth)), widths(2*size(depth)), stresses(6, 2*size(depth)))
+      number = merge(2, 5, self%waves%is_even)
       do i = 1, size(depth)
          points = plane_of(depth(i))
          if (self%dimension == 1) points(2) = 1
          do while (.not. has_memory_for(numbers_a_point*product(int(points, int64))))
             points = (points + 1)/2
          end do
-         call self%waves%transform(points, [0.0_dp, 0.0_dp], depth(i), body, self%pbar_over_pstar, 6, stress)
-         allocate (yielding(points(1), points(2)), shear(points(1), points(2)), source=0.0_dp)
-         do l = 1, points(2)
-            do k = 1, points(1)
-               here = stress(k, l, :)
-               yielding(k, l) = von_mises(here)
-            end do
-         end do
-         ! A shear stress is between 1/2 and 1/sqrt3 of the von Mises stress: below this bound it is not the largest.
-         least = 0.5_dp*sqrt3*maxval(yielding)
-         do l = 1, points(2)
-            do k = 1, points(1)
-               if (yielding(k, l) < least) cycle
-               here = stress(k, l, :)
-               shear(k, l) = largest_shear(here)
-            end do
-         end do
-         call take(2*i - 1, maxloc(yielding))
-         call take(2*i, maxloc(shear))
+         if (i == 1) allocate (spectra((points(1)/2 + 1)*points(2)*number))
+         call scan_plane(self, points, depth(i), body, number, spectra, place, stress)
+         places(:, 2*i - 1) = [2*pi*place(:, 1)/points, depth(i)]
+         places(:, 2*i) = [2*pi*place(:, 2)/points, depth(i)]
+         stresses(:, 2*i - 1:2*i) = stress
          widths(2*i - 1:2*i) = max(depth(i), step)
-         deallocate (yielding, shear)
       end do
 
    contains
-
-      !> Takes a point of the plane as a place.
-      subroutine take(place, point)
-         integer, intent(in) :: place, point(2)
-
-         places(:, place) = [2*pi*(point - 1)/points, depth(i)]
-         stresses(:, place) = stress(point(1), point(2), :)
-      end subroutine take
 
       !> Points along X and Y that resolve the waves that reach a depth.
       function plane_of(depth) result(points)
@@ -299,5 +327,75 @@ contains
       end function plane_of
 
    end subroutine start_places
+
+   !> Finds the points of a plane with the largest von Mises stress and with the largest shear stress, by (S10).
+   subroutine scan_plane(self, points, depth, body, number, spectra, place, stress)
+      class(series_stress), intent(inout) :: self
+      integer, intent(in) :: points(2)
+      real(dp), intent(in) :: depth
+      type(elastic_body), intent(in) :: body
+      integer, intent(in) :: number     !! of spectra: 2 if the pressure is even, otherwise 5
+      complex(dp), intent(out) :: spectra(0:points(1)/2, 0:points(2) - 1, number)
+      integer, intent(out) :: place(2, 2)   !! of both points, from 0
+      real(dp), intent(out) :: stress(6, 2) !! the deviators there
+
+      real(dp) :: here(6), largest(2), mean(6), shear
+      real(dp), allocatable :: above(:), below(:), squares(:), values(:, :)
+      type(grid_transform) :: plane
+      integer :: i, j, last(2)
+
+      call self%waves%find_spectra(points, [0.0_dp, 0.0_dp], depth, body%nu, spectra)
+      mean = body%stress(reshape([(0.0_dp, i=1, 12)], [6, 2]), self%pbar_over_pstar)
+      spectra(0, 0, 2) = spectra(0, 0, 2) + mean(xx) - mean(zz)
+      call plane%start(points, even=.false., whole=.true.)
+      do i = 1, number
+         call plane%sum_along_y(spectra(:, :, i))
+      end do
+      last = merge(points/2, points - 1, self%waves%is_even)
+      allocate (above(0:points(1) - 1), below(0:points(1) - 1), squares(0:last(1)), values(0:points(1) - 1, 5))
+      largest = -1.0_dp
+      do j = 0, last(2)
+         do i = 1, number
+            call plane%sample_column(spectra(:, j, i), values(:, i))
+         end do
+         if (self%waves%is_even) then
+            above = values(:, 1)
+            call plane%sample_column(spectra(:, modulo(-j, points(2)), 1), below)
+            do i = 0, last(1)
+               associate (a => above(i), b => above(modulo(-i, points(1))), c => below(i), &
+                          d => below(modulo(-i, points(1))))
+                  values(i, [1, 3, 4, 5]) = 0.25_dp*[a + b + c + d, a - b - c + d, a - b + c - d, a + b - c - d]
+               end associate
+            end do
+         end if
+         squares = values(:last(1), 1)**2
+         do i = 2, 5
+            squares = squares + values(:last(1), i)**2
+         end do
+         do i = 0, last(1)
+            ! A shear stress is at most 1/sqrt3 of the von Mises stress.
+            if (squares(i) <= min(largest(1), 3*largest(2)**2)) cycle
+            here(xx) = values(i, 2)/3 + values(i, 1)/sqrt3
+            here(yy) = values(i, 2)/3 - values(i, 1)/sqrt3
+            here(zz) = -2*values(i, 2)/3
+            here([xy, xz, yz]) = values(i, 3:5)/sqrt3
+            shear = largest_shear(here)
+            if (squares(i) > largest(1)) call take(1, squares(i))
+            if (shear > largest(2)) call take(2, shear)
+         end do
+      end do
+
+   contains
+
+      subroutine take(k, size)
+         integer, intent(in) :: k
+         real(dp), intent(in) :: size
+
+         largest(k) = size
+         place(:, k) = [i, j]
+         stress(:, k) = here
+      end subroutine take
+
+   end subroutine scan_plane
 
 end module wavycon_series_stress

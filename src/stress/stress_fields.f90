@@ -20,6 +20,8 @@ module wavycon_stress_fields
    contains
       procedure(parts_at_point), deferred :: at
       procedure(find_start_places), deferred :: start_places
+      procedure :: expand
+      procedure :: near
       procedure :: on_line
       procedure :: on_plane
       procedure :: at_places
@@ -38,19 +40,40 @@ module wavycon_stress_fields
          real(dp), intent(out), optional :: error
       end subroutine parts_at_point
 
-      !> Places from which the search for the largest stress starts, the best of them close to it, and the stresses
-      !> there.
+      !> Places from which the search for the largest stress starts, the best of them close to it, and about the
+      !> stresses there.
       subroutine find_start_places(self, body, places, widths, stresses)
          import :: dp, elastic_body, stress_fields
          class(stress_fields), intent(inout) :: self
          type(elastic_body), intent(in) :: body
          real(dp), allocatable, intent(out) :: places(:, :)   !! X, Y, Z, shape (3, n) [rad]
          real(dp), allocatable, intent(out) :: widths(:)      !! distance over which the stress changes, shape (n) [rad]
-         real(dp), allocatable, intent(out) :: stresses(:, :) !! with those of the mean pressure, shape (6, n) [p*]
+         real(dp), allocatable, intent(out) :: stresses(:, :) !! or their deviators, shape (6, n) [p*]
       end subroutine find_start_places
    end interface
 
 contains
+
+   !> Prepares `near` for places about a place. Here nothing needs it.
+   subroutine expand(self, place, width, reach, noise)
+      class(stress_fields), intent(inout) :: self
+      real(dp), intent(in) :: place(3)     !! X, Y, Z [rad]
+      real(dp), intent(in) :: width        !! distance over which the stress changes [rad]
+      real(dp), intent(in) :: reach        !! of the places [rad]
+      real(dp), intent(out) :: noise       !! bound of the error of `near` there over the stress; 0: that of `at`
+
+      associate (unused => self, unused_too => [place, width, reach]); end associate
+      noise = 0.0_dp
+   end subroutine expand
+
+   !> As `at`, perhaps less accurate the farther a place is from that of `expand`.
+   subroutine near(self, place, parts)
+      class(stress_fields), intent(inout) :: self
+      real(dp), intent(in) :: place(3)     !! X, Y, Z [rad]
+      real(dp), intent(out) :: parts(6, 2)
+
+      call self%at(place(1), place(2), place(3), parts)
+   end subroutine near
 
    !> The stresses of a body at places, with those of the mean pressure.
    subroutine at_places(self, body, places, stresses)

@@ -1,13 +1,15 @@
-!> The waves of a pressure that is a Fourier series, at a depth and in the stresses on a plane: (S3) and the waves of
-!> (S4) and (S5) of README.md in this directory.
+!> The waves of a pressure that is a Fourier series, at a depth, about a point and in the stresses on a plane: (S3) and
+!> the waves of (S4), (S5) and (S9) of README.md in this directory.
 module wavycon_stress_waves
    use wavycon_assertion, only: assert
-   use wavycon_constants, only: pi
+   use wavycon_constants, only: pi, sqrt3
    use wavycon_elastic_body, only: elastic_body
    use wavycon_fourier_series, only: fourier_series
    use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
+   use wavycon_lapack, only: dgemm
    use wavycon_stress_tensor, only: xx, xy, xz, yy, yz, zz
+   use wavycon_stress_tuning, only: faintest_on_planes
    implicit none (type, external)
    private
 
@@ -18,17 +20,18 @@ module wavycon_stress_waves
 
    type :: stress_waves
       real(dp) :: side_ratio = 1.0_dp           !! L_y/L_x
+      logical :: is_even = .false.              !! W_k,-l = W_kl, both real; for k = 0 the sum is half of W_0l
       !> W of (S3), p = P + sum of Re W exp(i(kX + lY)) over k > 0, and over l > 0 for k = 0; shape (0:m, -n:n) [p*].
       complex(dp), allocatable :: wave(:, :)
       real(dp) :: sampled_from = huge(1.0_dp)   !! waves with q above this are those of a grid's last octave
       real(dp) :: faintest = deepest            !! waves with q Z above this are left out
-      real(dp), allocatable :: decay(:, :)      !! exp(-q Z) of the depth in use, shape (0:., 0:.)
-      real(dp), private :: decay_depth = 0.0_dp !! Z [rad]
    contains
       procedure :: start
-      procedure :: use_depth
+      procedure :: last_waves
       procedure :: octave_reaches
+      procedure :: find_moments
       procedure :: transform
+      procedure :: find_spectra
    end type stress_waves
 
 contains
@@ -45,6 +48,7 @@ contains
       m = ubound(pressure%c, 1)
       n = ubound(pressure%c, 2)
       self%side_ratio = side_ratio
+      self%is_even = pressure%is_even()
       if (is_sampled) then
          self%sampled_from = 0.5_dp*m
          if (n > 0) self%sampled_from = 0.5_dp*min(real(m, dp), n/self%side_ratio)
@@ -71,39 +75,92 @@ contains
       end do
    end subroutine start
 
-   !> Computes the factors exp(-q Z) of a depth, unless they are those of the last call.
-   subroutine use_depth(self, depth)
-      class(stress_waves), intent(inout) :: self
-      real(dp), intent(in) :: depth   !! Z >= 0 [rad]
+   !> The highest wave numbers along X and Y that reach a depth.
+   pure function last_waves(self, depth) result(last)
+      class(stress_waves), intent(in) :: self
+      real(dp), intent(in) :: depth      !! Z >= 0 [rad]
+      integer :: last(2)
 
-      real(dp) :: q_z
-      integer :: k, l, last(2)
-
-      call assert(depth >= 0.0_dp, 'depth >= 0')
-      if (allocated(self%decay)) then
-         if (abs(depth - self%decay_depth) <= 0.0_dp) return
-         deallocate (self%decay)
-      end if
       last = ubound(self%wave)
       if (depth > 0.0_dp) last = floor(min(self%faintest/depth*[1.0_dp, self%side_ratio], real(last, dp)))
-      ! With one more in each direction, for a series without waves in one of them.
-      allocate (self%decay(0:last(1) + 1, 0:last(2) + 1), source=0.0_dp)
-      do l = 0, last(2)
+   end function last_waves
+
+   !> Whether waves of the last octave reach a depth.
+   pure logical function octave_reaches(self, depth)
+      class(stress_waves), intent(in) :: self
+      real(dp), intent(in) :: depth   !! Z >= 0 [rad]
+
+      octave_reaches = norm2(self%last_waves(depth)*[1.0_dp, 1.0_dp/self%side_ratio]) > self%sampled_from
+   end function octave_reaches
+
+   !> The moments (S9) of the waves at a point, M_abc = sum of k^a l'^b q^c W exp(i (k X + l Y) - q Z), of all waves
+   !> and, if there are two sets, of the last octave.
+   !>
+   !> Those with c = -2 and c = -1 are added up, over k by a product of matrices. The others follow from them, as
+   !> q^2 = k^2 + l'^2.
+   subroutine find_moments(self, place, order, sets, moment)
+      class(stress_waves), intent(in) :: self
+      real(dp), intent(in) :: place(3)                             !! X, Y, Z [rad]
+      integer, intent(in) :: order                                 !! of the Taylor series, >= 0
+      integer, intent(in) :: sets                                  !! 1 or 2
+      complex(dp), allocatable, intent(out) :: moment(:, :, :, :)  !! shape (0:n, 0:n, -2:n - 2, sets), n = order + 3
+
+      real(dp), allocatable :: factor(:), powers(:, :, :), q(:), weighted(:, :, :, :)
+      complex(dp) :: along_y, sum_x(0:order + 3, -2:-1, sets), turn
+      real(dp) :: q_y, sums(2, 0:order + 3, 2, sets, 2)
+      integer :: a, b, c, k, l, last(2), n, number
+
+      n = order + 3
+      last = self%last_waves(place(3))
+      allocate (moment(0:n, 0:n, -2:n - 2, sets), source=(0.0_dp, 0.0_dp))
+      allocate (powers(2, 0:n, 0:last(1)), weighted(0:last(1), 2, sets, 2), q(0:last(1)), factor(0:last(1)))
+      do k = 0, last(1)
+         turn = exp(cmplx(0.0_dp, k*place(1), dp))
+         powers(1, :, k) = [(turn%re*real(k, dp)**a, a=0, n)]
+         powers(2, :, k) = [(turn%im*real(k, dp)**a, a=0, n)]
+      end do
+      sums = 0.0_dp
+      do l = merge(0, -last(2), self%is_even), last(2)
+         q_y = l/self%side_ratio
+         number = last(1) + 1
          do k = 0, last(1)
-            q_z = depth*sqrt(k**2 + (l/self%side_ratio)**2)
-            if (q_z > self%faintest) exit
-            self%decay(k, l) = exp(-q_z)
+            q(k) = sqrt(real(k, dp)**2 + q_y**2)
+         end do
+         if (place(3) > 0.0_dp) number = count(q*place(3) <= self%faintest)
+         if (number == 0) cycle
+         q(0) = max(q(0), tiny(q))
+         associate (m => number - 1)
+            factor(:m) = exp(-q(:m)*place(3))/q(:m)
+            if (l == 0) factor(0) = 0.0_dp
+            if (self%is_even .and. l > 0) factor(0) = 0.5_dp*factor(0)
+            weighted(:m, 2, 1, 1) = factor(:m)*self%wave(:m, l)%re
+            weighted(:m, 1, 1, 1) = weighted(:m, 2, 1, 1)/q(:m)
+            if (.not. self%is_even) then
+               weighted(:m, 2, 1, 2) = factor(:m)*self%wave(:m, l)%im
+               weighted(:m, 1, 1, 2) = weighted(:m, 2, 1, 2)/q(:m)
+            end if
+            do k = 0, merge(m, -1, sets == 2)
+               weighted(k, :, 2, :) = merge(weighted(k, :, 1, :), 0.0_dp, q(k) > self%sampled_from)
+            end do
+         end associate
+         call dgemm('N', 'N', 2*(n + 1), 2*sets*merge(1, 2, self%is_even), number, 1.0_dp, powers, 2*(n + 1), &
+                    weighted, last(1) + 1, 0.0_dp, sums, 2*(n + 1))
+         sum_x = cmplx(sums(1, :, :, :, 1) - sums(2, :, :, :, 2), sums(2, :, :, :, 1) + sums(1, :, :, :, 2), dp)
+         turn = exp(cmplx(0.0_dp, l*place(2), dp))
+         do b = 0, n
+            along_y = q_y**b*turn
+            if (self%is_even .and. l > 0) along_y = along_y + (-q_y)**b*conjg(turn)
+            moment(:n - b, b, :-1, :) = moment(:n - b, b, :-1, :) + along_y*sum_x(:n - b, :, :)
          end do
       end do
-      self%decay_depth = depth
-   end subroutine use_depth
-
-   !> Whether waves of the last octave reach the depth in use.
-   pure logical function octave_reaches(self)
-      class(stress_waves), intent(in) :: self
-
-      octave_reaches = norm2((ubound(self%decay) - 1)*[1.0_dp, 1.0_dp/self%side_ratio]) > self%sampled_from
-   end function octave_reaches
+      do c = 0, n - 2
+         do b = 0, n - 2 - c
+            do a = 0, n - 2 - c - b
+               moment(a, b, c, :) = moment(a + 2, b, c - 2, :) + moment(a, b + 2, c - 2, :)
+            end do
+         end do
+      end do
+   end subroutine find_moments
 
    !> The weights of a wave of the last octave in (S5), to its sign.
    pure function octave_weights(n_x, n_y, q_z) result(weights)
@@ -116,7 +173,7 @@ contains
 
    !> The six components on a plane and, if asked for, the three sums of (S5).
    subroutine transform(self, points, offset, depth, body, pbar_over_pstar, number, fields)
-      class(stress_waves), intent(inout) :: self
+      class(stress_waves), intent(in) :: self
       integer, intent(in) :: points(2)
       real(dp), intent(in) :: offset(2), depth, pbar_over_pstar
       type(elastic_body), intent(in) :: body
@@ -129,9 +186,9 @@ contains
       integer :: i
 
       allocate (fields(points(1), points(2), number))
-      allocate (waves(points(1)/2 + 1, points(2), number), source=(0.0_dp, 0.0_dp))
+      allocate (waves(points(1)/2 + 1, points(2), number))
       call plane%start(points, even=.false., whole=.true.)
-      call add_waves(self, points, offset, depth, body%nu, waves)
+      call self%find_spectra(points, offset, depth, body%nu, waves)
       do i = 1, number
          call plane%sample_waves(waves(:, :, i), fields(:, :, i))
       end do
@@ -141,55 +198,66 @@ contains
       end do
    end subroutine transform
 
-   !> Adds the waves of the components of the stress to their spectra, and to three more, if there are, those of
-   !> the last octave for the error (S5).
-   subroutine add_waves(self, points, offset, depth, nu, spectra)
-      type(stress_waves), intent(inout) :: self
+   !> The waves on a plane, as `sample_waves` takes them: of the six components of the stress, or of nine also those of
+   !> the last octave for the error (S5). Of five they are those of the deviator (S10), of two those of q and of the
+   !> sum of the other four; waves that hardly reach the plane are left out of these.
+   subroutine find_spectra(self, points, offset, depth, nu, spectra)
+      class(stress_waves), intent(in) :: self
       integer, intent(in) :: points(2)
       real(dp), intent(in) :: offset(2), depth, nu
-      complex(dp), intent(inout) :: spectra(0:, 0:, :)   !! shape (0:N_x/2, 0:N_y - 1, 6 or 9)
+      complex(dp), intent(out) :: spectra(0:, 0:, :)   !! shape (0:N_x/2, 0:N_y - 1, 2, 5, 6 or 9)
 
-      complex(dp) :: here(size(spectra, 3)), turn_x(0:ubound(self%wave, 1)), wave
-      real(dp) :: n_x, n_y, q, q_y
-      integer :: k, l, last(2)
+      complex(dp), allocatable :: here(:, :), turn_x(:), wave(:)
+      real(dp), allocatable :: k(:), q(:), q_z(:), shear(:)
+      complex(dp) :: turn_y
+      real(dp) :: limit, q_y
+      integer :: down, half, i, j, l, last(2), number, row, up
 
-      call self%use_depth(depth)
-      last = ubound(self%decay) - 1
-      turn_x = [(exp(cmplx(0.0_dp, 2*pi*modulo(k*offset(1)/points(1), 1.0_dp), dp)), k=0, ubound(self%wave, 1))]
+      spectra = 0.0_dp
+      number = size(spectra, 3)
+      limit = merge(faintest_on_planes, self%faintest, number <= 5)
+      last = self%last_waves(depth*max(1.0_dp, self%faintest/limit))
+      allocate (here(0:last(1), 9), k(0:last(1)), q(0:last(1)), q_z(0:last(1)), shear(0:last(1)), wave(0:last(1)))
+      half = min(last(1), points(1)/2)
+      k = [(real(i, dp), i=0, last(1))]
+      turn_x = [(exp(cmplx(0.0_dp, 2*pi*modulo(i*offset(1)/points(1), 1.0_dp), dp)), i=0, last(1))]
       do l = -last(2), last(2)
          q_y = l/self%side_ratio
-         associate (turn_y => exp(cmplx(0.0_dp, 2*pi*modulo(l*offset(2)/points(2), 1.0_dp), dp)))
-            do k = merge(1, 0, l <= 0), last(1)
-               if (max(abs(self%wave(k, l)%re), abs(self%wave(k, l)%im)) <= 0.0_dp) cycle
-               q = sqrt(k**2 + q_y**2)
-               if (q*depth > self%faintest) exit
-               wave = 0.5_dp*self%decay(k, abs(l))*self%wave(k, l)*turn_x(k)*turn_y
-               n_x = k/q
-               n_y = q_y/q
-               here(xx) = -(n_x**2*(1.0_dp - q*depth) + 2*nu*n_y**2)*wave
-               here(yy) = -(n_y**2*(1.0_dp - q*depth) + 2*nu*n_x**2)*wave
-               here(zz) = -(1.0_dp + q*depth)*wave
-               here(xy) = -n_x*n_y*(1.0_dp - 2*nu - q*depth)*wave
-               here(xz) = cmplx(0.0_dp, k*depth, dp)*wave
-               here(yz) = cmplx(0.0_dp, q_y*depth, dp)*wave
-               here(7:) = (0.0_dp, 0.0_dp)
-               if (q > self%sampled_from .and. size(here) > 6) here(7:) = octave_weights(n_x, n_y, q*depth)*wave
-               call add(modulo(k, points(1)), modulo(l, points(2)), here)
-               call add(modulo(-k, points(1)), modulo(-l, points(2)), conjg(here))
+         q = sqrt(max(k**2 + q_y**2, tiny(q)))
+         q_z = q*depth
+         turn_y = exp(cmplx(0.0_dp, 2*pi*modulo(l*offset(2)/points(2), 1.0_dp), dp))
+         wave = merge(0.5_dp*exp(-q_z), 0.0_dp, q_z <= limit)*self%wave(:last(1), l)*turn_x*turn_y
+         shear = -(1.0_dp - 2*nu - q_z)/q**2
+         here(:, xy) = k*q_y*shear*wave
+         here(:, xz) = cmplx(0.0_dp, k*depth, dp)*wave
+         here(:, yz) = cmplx(0.0_dp, q_y*depth, dp)*wave
+         if (number <= 5) then
+            here(:, 3:5) = sqrt3*here(:, [xy, xz, yz])
+            here(:, 1) = 0.5_dp*sqrt3*(k**2 - q_y**2)*shear*wave
+            here(:, 2) = (0.5_dp - nu + 1.5_dp*q_z)*wave
+            if (number == 2) here(:, 1) = here(:, 1) + here(:, 3) + here(:, 4) + here(:, 5)
+         else
+            here(:, xx) = (k**2*shear - 2*nu)*wave
+            here(:, yy) = (q_y**2*shear - 2*nu)*wave
+            here(:, zz) = -(1.0_dp + q_z)*wave
+            here(:, 7) = merge(1.0_dp + q_z, 0.0_dp, q > self%sampled_from)*wave
+            here(:, 8) = cmplx(0.0_dp, k/q, dp)*here(:, 7)
+            here(:, 9) = cmplx(0.0_dp, q_y/q, dp)*here(:, 7)
+         end if
+         up = modulo(l, points(2))
+         down = modulo(-l, points(2))
+         do j = 1, number
+            spectra(:half, up, j) = spectra(:half, up, j) + here(:half, j)
+            ! The transform takes the waves -k from the others, unless they are the same ones.
+            spectra(0, down, j) = spectra(0, down, j) + conjg(here(0, j))
+            do i = (points(1) + 1)/2, last(1)
+               row = modulo(i, points(1))
+               if (i > half .and. 2*row <= points(1)) spectra(row, up, j) = spectra(row, up, j) + here(i, j)
+               row = modulo(-i, points(1))
+               if (2*row <= points(1)) spectra(row, down, j) = spectra(row, down, j) + conjg(here(i, j))
             end do
-         end associate
+         end do
       end do
-
-   contains
-
-      !> Adds a wave, unless it belongs to the half of the spectrum that the transform takes from the other one.
-      subroutine add(k, l, here)
-         integer, intent(in) :: k, l
-         complex(dp), intent(in) :: here(:)
-
-         if (2*k <= points(1)) spectra(k, l, :) = spectra(k, l, :) + here
-      end subroutine add
-
-   end subroutine add_waves
+   end subroutine find_spectra
 
 end module wavycon_stress_waves

@@ -12,17 +12,20 @@ module wavycon_stress_tuning
       !! leaving them out shows in the stress. Larger: more waves at depth.
 
    real(dp), parameter, public :: coarsest = 1e-3_dp
-      ! ! An error of the pressure above this [p*] counts as this: height maps solved on their own points may have
-      ! errors of ! p*, far above the stresses at depth, and waves left out would show as steps.
+      !! An error of the pressure above this [p*] counts as this: height maps solved on their own points may have errors
+      !! of p*, far above the stresses at depth, and waves left out would show as steps.
 
    ! Scan of planes, for the largest stress of a series. It varies over a distance of about its depth.
 
    real(dp), parameter, public :: plane_ratio = 1.5_dp
       !! Depth of a plane over that of the plane above it, above 1. Smaller: more planes. Larger: the refinement starts
       !! farther from the maximum.
-   real(dp), parameter, public :: waves_in_depth = 14.0_dp
+   real(dp), parameter, public :: waves_in_depth = 9.0_dp
       !! Points of a plane across the cell, times its depth Z. Smaller: maxima fall between the points. Larger: more
       !! expensive planes.
+   real(dp), parameter, public :: faintest_on_planes = 9.0_dp
+      !! Waves with q Z above this are left out. Smaller: other points seem to have the largest stress. Larger: more
+      !! waves.
    integer, parameter, public :: plane_points = 24
       !! Fewest points of a plane across the cell. As waves_in_depth.
 
@@ -47,6 +50,9 @@ module wavycon_stress_tuning
       !! adds to the error. Smaller: more steps.
    real(dp), parameter, public :: search_accuracy = 1e-6_dp
       !! It ends no earlier than at a gain of this part of the stress. As gain_part.
+   real(dp), parameter, public :: likely_gain = 3.0_dp
+      !! A place is given up when its stress would stay below the largest one found even if later models gained so many
+      !! times what the last one did. Smaller: a lower maximum may be taken for the largest. Larger: more time.
    real(dp), parameter, public :: first_reach = 0.25_dp
       !! Distance of the points of the first quadratic model, over the width of the maximum. Larger: the stress is not
       !! quadratic over it. Smaller: the maximum is outside the model.
@@ -55,6 +61,13 @@ module wavycon_stress_tuning
    integer, parameter, public :: most_models = 8
       !! Most models of one search. Smaller: searches that do not reach their maximum. Larger: searches that go on in
       !! rounding.
+
+   integer, parameter, public :: expansion_order = 8
+      !! Of the Taylor series that a series of waves is evaluated by. Smaller: the search follows its errors. Larger:
+      !! more to add up for each wave.
+   real(dp), parameter, public :: centre_part = 0.25_dp
+      !! A model gets its own Taylor series where it is farther from the centre of the last one than this part of its
+      !! reach. Larger: errors of the series. Smaller: more of them.
 
    ! Estimates of errors.
 
