@@ -4,13 +4,13 @@
 module wavycon_series_stress
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_fortran_env, only: int64
-   use wavycon_constants, only: pi, sqrt3
+   use wavycon_constants, only: pi
    use wavycon_elastic_body, only: elastic_body
    use wavycon_fourier_series, only: fourier_series
-   use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
+   use wavycon_plane_scan, only: scan_plane
    use wavycon_stress_fields, only: stress_fields
-   use wavycon_stress_tensor, only: largest_shear, xx, xy, xz, yy, yz, zz
+   use wavycon_stress_tensor, only: xx, xy, xz, yy, yz, zz
    use wavycon_stress_tuning, only: centre_part, coarsest, expansion_order, octave_factor, plane_points, &
       plane_ratio, pressure_part, waves_in_depth
    use wavycon_stress_waves, only: deepest, octave_weights, stress_waves
@@ -300,7 +300,7 @@ contains
             points = (points + 1)/2
          end do
          if (i == 1) allocate (spectra((points(1)/2 + 1)*points(2)*number))
-         call scan_plane(self, points, depth(i), body, number, spectra, place, stress)
+         call scan_plane(self%waves, self%pbar_over_pstar, points, depth(i), body, number, spectra, place, stress)
          places(:, 2*i - 1) = [2*pi*place(:, 1)/points, depth(i)]
          places(:, 2*i) = [2*pi*place(:, 2)/points, depth(i)]
          stresses(:, 2*i - 1:2*i) = stress
@@ -327,75 +327,5 @@ contains
       end function plane_of
 
    end subroutine start_places
-
-   !> Finds the points of a plane with the largest von Mises stress and with the largest shear stress, by (S10).
-   subroutine scan_plane(self, points, depth, body, number, spectra, place, stress)
-      class(series_stress), intent(inout) :: self
-      integer, intent(in) :: points(2)
-      real(dp), intent(in) :: depth
-      type(elastic_body), intent(in) :: body
-      integer, intent(in) :: number     !! of spectra: 2 if the pressure is even, otherwise 5
-      complex(dp), intent(out) :: spectra(0:points(1)/2, 0:points(2) - 1, number)
-      integer, intent(out) :: place(2, 2)   !! of both points, from 0
-      real(dp), intent(out) :: stress(6, 2) !! the deviators there
-
-      real(dp) :: here(6), largest(2), mean(6), shear
-      real(dp), allocatable :: above(:), below(:), squares(:), values(:, :)
-      type(grid_transform) :: plane
-      integer :: i, j, last(2)
-
-      call self%waves%find_spectra(points, [0.0_dp, 0.0_dp], depth, body%nu, spectra)
-      mean = body%stress(reshape([(0.0_dp, i=1, 12)], [6, 2]), self%pbar_over_pstar)
-      spectra(0, 0, 2) = spectra(0, 0, 2) + mean(xx) - mean(zz)
-      call plane%start(points, even=.false., whole=.true.)
-      do i = 1, number
-         call plane%sum_along_y(spectra(:, :, i))
-      end do
-      last = merge(points/2, points - 1, self%waves%is_even)
-      allocate (above(0:points(1) - 1), below(0:points(1) - 1), squares(0:last(1)), values(0:points(1) - 1, 5))
-      largest = -1.0_dp
-      do j = 0, last(2)
-         do i = 1, number
-            call plane%sample_column(spectra(:, j, i), values(:, i))
-         end do
-         if (self%waves%is_even) then
-            above = values(:, 1)
-            call plane%sample_column(spectra(:, modulo(-j, points(2)), 1), below)
-            do i = 0, last(1)
-               associate (a => above(i), b => above(modulo(-i, points(1))), c => below(i), &
-                          d => below(modulo(-i, points(1))))
-                  values(i, [1, 3, 4, 5]) = 0.25_dp*[a + b + c + d, a - b - c + d, a - b + c - d, a + b - c - d]
-               end associate
-            end do
-         end if
-         squares = values(:last(1), 1)**2
-         do i = 2, 5
-            squares = squares + values(:last(1), i)**2
-         end do
-         do i = 0, last(1)
-            ! A shear stress is at most 1/sqrt3 of the von Mises stress.
-            if (squares(i) <= min(largest(1), 3*largest(2)**2)) cycle
-            here(xx) = values(i, 2)/3 + values(i, 1)/sqrt3
-            here(yy) = values(i, 2)/3 - values(i, 1)/sqrt3
-            here(zz) = -2*values(i, 2)/3
-            here([xy, xz, yz]) = values(i, 3:5)/sqrt3
-            shear = largest_shear(here)
-            if (squares(i) > largest(1)) call take(1, squares(i))
-            if (shear > largest(2)) call take(2, shear)
-         end do
-      end do
-
-   contains
-
-      subroutine take(k, size)
-         integer, intent(in) :: k
-         real(dp), intent(in) :: size
-
-         largest(k) = size
-         place(:, k) = [i, j]
-         stress(:, k) = here
-      end subroutine take
-
-   end subroutine scan_plane
 
 end module wavycon_series_stress
