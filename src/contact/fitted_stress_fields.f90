@@ -84,7 +84,7 @@ contains
 
       type(equivalent_points) :: grid
       type(point_image) :: first
-      real(dp) :: parts(6, 2)
+      real(dp) :: here(6), parts(6, 2)
       integer :: k, l
 
       allocate (stress(points(1), points(2), 6), error(points(1), points(2)))
@@ -99,7 +99,8 @@ contains
                   end associate
                   stress(i, j, :) = body%stress(parts, self%pbar_over_pstar)
                else
-                  stress(k + 1, l + 1, :) = from_image(stress(i, j, :), first)
+                  here = stress(i, j, :)
+                  stress(k + 1, l + 1, :) = from_image(here, first)
                   error(k + 1, l + 1) = error(i, j)
                end if
             end associate

@@ -38,6 +38,7 @@ contains
       type(cell_file) :: planes
       class(stress_fields), allocatable :: fields
       real(dp), allocatable :: depths(:), errors(:, :), stress(:, :, :), values(:, :)
+      real(dp) :: here(6)
       integer :: body, i, k, l, load
 
       associate (scene => results%scene, surface => results%solver%surface, bodies => number_of_bodies(results))
@@ -55,7 +56,8 @@ contains
                                        scene%stress_setting%body(body), stress, errors)
                   do l = 1, planes%points(2)
                      do k = 1, planes%points(1)
-                        values(:, k) = [depths(i), stress_numbers(stress(k, l, :), errors(k, l), scene%p_star)]
+                        here = stress(k, l, :)
+                        values(:, k) = [depths(i), stress_numbers(here, errors(k, l), scene%p_star)]
                      end do
                      call planes%put_row([load, body], l, values)
                   end do
