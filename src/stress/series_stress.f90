@@ -105,8 +105,15 @@ contains
          distance = 0.0_dp
          call self%waves%find_moments(place, expansion_order, 1, self%moment)
       end if
-      noise = ((distance + reach)/width)**(expansion_order + 1)/8
+      noise = ((distance + reach)/min(width, max(place(3), least_width(self))))**(expansion_order + 1)/8
    end subroutine expand
+
+   !> The width of a maximum at the surface [rad]: half of the shortest wave.
+   pure real(dp) function least_width(stress)
+      class(series_stress), intent(in) :: stress
+
+      least_width = pi/max(plane_points/2.0_dp, real(maxval(ubound(stress%waves%wave)), dp))
+   end function least_width
 
    !> By that Taylor series.
    subroutine near(self, place, parts)
@@ -286,7 +293,7 @@ contains
       real(dp) :: step, stress(6, 2)
       integer :: i, number, place(2, 2), points(2)
 
-      step = pi/max(plane_points/2.0_dp, real(maxval(ubound(self%waves%wave)), dp))
+      step = least_width(self)
       allocate (depth(2 + ceiling(log(2*pi/step)/log(plane_ratio))), source=0.0_dp)
       do i = 2, size(depth)
          depth(i) = step*plane_ratio**(i - 2)
