@@ -52,6 +52,8 @@ def main():
     programs = sys.argv[2:]
     if len(sys.argv) < 2 or not all(name in PEERS for name in programs):
         sys.exit(__doc__.split('\n\n')[1])
+    if 'aspher' in programs:
+        offer_eigen(sys.argv[1])
     python = virtual_environment.python_with(
         os.path.join(sys.argv[1], '-'.join(programs) or 'numpy'), ['numpy'] + [PEERS[name][0] for name in programs],
         ['numpy'] + [IMPORTS[name] for name in programs], ['python3'], BINARIES)
