@@ -51,7 +51,10 @@ module wavycon_contact_tuning
    !> single spot, as the displacement of a point load does, and not at all in gaps that contact surrounds.
    real(dp), parameter, public :: decay_alone = 0.65_dp
    real(dp), parameter, public :: decay_growth = 1.2_dp
-   !> The preconditioner is applied again if (C4d) excludes more than this part of the points in contact.
+   !> The preconditioner is applied again if (C4d) excludes more than this part of the points in contact. Larger:
+   !> iterations grow by up to a half where many points enter at once. Smaller: it is applied for a few points. On 2048
+   !> by 2048 points, waves of 4 and 16 points, 20, 50 and 90 % in contact, six runs together took 1.07 times the time
+   !> with 0, 1.02 with 0.001, 1.03 with 0.01, 1.05 with 0.03 and 1.13 without a second application.
    real(dp), parameter, public :: blocked_part = 0.003_dp
 
    ! Error estimates of the grids.
