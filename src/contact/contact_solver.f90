@@ -31,6 +31,7 @@ module wavycon_contact_solver
       !> Points along x and y, of the part of the cell that is solved, of the finest grid that may be solved, and of the
       !> one grid that was given; zeros without.
       integer :: finest_grid(2) = 0, given_grid(2) = 0
+      logical :: needs_whole_grids = .false.   !! whether no grid can be distributed over processes
       integer :: choice = 0                    !! why 'auto' took its solvers, a name of wavycon_auto_contact
    end type solver_traits
 
@@ -103,8 +104,9 @@ contains
       if (associated(self%progress)) shall_stop = self%progress%shall_stop(0, 1.0_dp)
    end function shall_stop
 
-   !> Solves a load that needs no solver: there is no load for P <= 0; contact is full for P >= 1 unless the largest
-   !> pressure, P + full_contact_peak, exceeds the hardness H; there is no solution for P >= H and for NaN.
+   !> Solves a load that needs no solver: there is no load for P <= 0; contact is full for P >= 1 unless the surface has
+   !> free edges or the largest pressure, P + full_contact_peak, exceeds the hardness H; there is no solution for P >= H
+   !> and for NaN.
    subroutine solve_trivial_load(surface, pbar_over_pstar, record, is_trivial)
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: pbar_over_pstar        !! P; NaN is allowed
@@ -120,7 +122,7 @@ contains
          record%status = no_load
       else if (surface%has_hardness() .and. pbar_over_pstar >= surface%hardness) then
          record = no_solution(pbar_over_pstar, no_solver, above_hardness)
-      else if (pbar_over_pstar >= 1.0_dp .and. &
+      else if (pbar_over_pstar >= 1.0_dp .and. .not. surface%has_free_edges .and. &
                (.not. surface%has_hardness() .or. pbar_over_pstar + surface%full_contact_peak <= surface%hardness)) then
          record%status = full_contact
          record%measures = full_contact_measures(pbar_over_pstar, surface%full_contact_peak)

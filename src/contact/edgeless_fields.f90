@@ -15,8 +15,7 @@ module wavycon_edgeless_fields
    type, extends(contact_fields) :: edgeless_fields
       private
       type(fourier_series) :: pressure     !! p/p* in full contact
-      type(fourier_series) :: shape        !! of the surface: 1 - h/Delta
-      integer :: parts(2) = 1              !! of the surface: how often the points of on_grid fit into the cell
+      type(surface_type) :: surface
       logical :: full = .false.            !! whether the contact is full
       logical :: solved = .false.          !! whether there is a solution
    contains
@@ -34,8 +33,7 @@ contains
 
       fields%full = status == full_contact
       fields%solved = fields%full .or. status == no_load
-      fields%shape = surface%shape
-      fields%parts = surface%parts()
+      fields%surface = surface
       if (fields%full) fields%pressure = surface%full_contact_series(pbar_over_pstar)
    end subroutine start_edgeless_fields
 
@@ -48,7 +46,7 @@ contains
 
       full_pressure = 0.0_dp
       if (self%full) full_pressure = self%pressure%at(x, y)
-      call take_values(self, self%shape%at(x, y), full_pressure, pressure, displacement, gap)
+      call take_values(self, self%surface%shape_at(x, y), full_pressure, pressure, displacement, gap)
    end subroutine at
 
    subroutine on_grid(self, points, offset, pressure, displacement, gap)
@@ -60,9 +58,9 @@ contains
       real(dp), allocatable :: full_pressure(:, :), shape(:, :)
 
       allocate (pressure(points(1), points(2)), displacement(points(1), points(2)), gap(points(1), points(2)))
-      call sample_series(self%shape, points, offset, shape, self%parts)
+      call self%surface%sample_shape(points, offset, shape)
       if (self%full) then
-         call sample_series(self%pressure, points, offset, full_pressure, self%parts)
+         call sample_series(self%pressure, points, offset, full_pressure, self%surface%parts())
       else
          allocate (full_pressure(points(1), points(2)), source=0.0_dp)
       end if

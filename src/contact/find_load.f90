@@ -1,8 +1,9 @@
-!> Finds the load at which the contact area or the mean gap has a given value.
+!> Finds the load at which the contact area, the mean gap or the approach has a given value.
 !>
 !> Equation (C18) of README.md in this directory: with t the area or 1 - G, the secant method solves logit t(P) =
 !> logit t for logit P, where logit x = ln(x/(1 - x)). The two logits are nearly a straight line against each other.
-!> Gaps are compared as gaps, and logit t = -logit G: 1 - G would lose the digits of a small G.
+!> Gaps are compared as gaps, and logit t = -logit G: 1 - G would lose the digits of a small G. Where neither P nor the
+!> approach has a largest value, with free edges or a hardness, ln takes the place of logit.
 module wavycon_find_load
    use wavycon_contact_measures, only: is_known
    use wavycon_contact_solution, only: contact_solution
@@ -14,15 +15,19 @@ module wavycon_find_load
    implicit none (type, external)
    private
 
-   public :: solve_for_contact_area, solve_for_mean_gap
+   public :: solve_for_approach, solve_for_contact_area, solve_for_mean_gap
+
+   integer, parameter :: contact_area = 1, mean_gap = 2, approach = 3
 
    !> What is searched for, and how far the search is. The slope lies between 1/2 (area of a line contact at light load)
    !> and 5/2 (gap near full contact in 2-D).
    type :: root_search
-      real(dp) :: target = 0.5_dp          !! the contact area fraction or G
-      logical :: of_gap = .false.          !! whether it is G
-      real(dp) :: most = 1.0_dp            !! the least load that certainly closes the gap or exceeds what H carries
-      real(dp) :: logit_p = 0.0_dp         !! logit P/most of the next solution
+      real(dp) :: target = 0.5_dp          !! the contact area fraction, G or the approach [Delta]
+      integer :: quantity = contact_area   !! which of them: one of the names above
+      logical :: is_bounded = .true.       !! whether the target is below 1; only an approach may not be
+      !> The least load that certainly closes the gap or exceeds what H carries; huge if there is none.
+      real(dp) :: most = 1.0_dp
+      real(dp) :: logit_p = 0.0_dp         !! logit P/most, or ln P, of the next solution
       real(dp) :: slope = 1.0_dp           !! of logit t against logit P
    end type root_search
 
@@ -36,7 +41,7 @@ contains
       real(dp), intent(in) :: contact_area_fraction         !! 0 .. 1: no load at 0, P = 1 at 1
       type(contact_solution), intent(out) :: solution   !! of the load found
 
-      call solve_for(solver, root_search(target=contact_area_fraction, of_gap=.false.), solution)
+      call solve_for(solver, contact_area, contact_area_fraction, solution)
    end subroutine solve_for_contact_area
 
    !> Solves for the load at which the mean gap has a given value, with the statuses of solve_for_contact_area.
@@ -45,25 +50,39 @@ contains
       real(dp), intent(in) :: mean_gap_over_amplitude       !! G, 0 .. 1: P = 1 at 0, no load at 1
       type(contact_solution), intent(out) :: solution   !! of the load found
 
-      call solve_for(solver, root_search(target=mean_gap_over_amplitude, of_gap=.true.), solution)
+      call solve_for(solver, mean_gap, mean_gap_over_amplitude, solution)
    end subroutine solve_for_mean_gap
 
+   !> Solves for the load at which the approach has a given value, with the statuses of solve_for_contact_area.
+   subroutine solve_for_approach(solver, approach_over_amplitude, solution)
+      class(contact_solver), intent(inout) :: solver        !! started
+      real(dp), intent(in) :: approach_over_amplitude       !! >= 0: no load at 0
+      type(contact_solution), intent(out) :: solution   !! of the load found
+
+      call solve_for(solver, approach, approach_over_amplitude, solution)
+   end subroutine solve_for_approach
+
    !> Searches at each coarser level of the solver, each from the load of the one before, and then at full accuracy.
-   subroutine solve_for(solver, search_for, solution)
+   subroutine solve_for(solver, quantity, target, solution)
       class(contact_solver), intent(inout) :: solver
-      type(root_search), intent(in) :: search_for
+      integer, intent(in) :: quantity    !! one of the names above
+      real(dp), intent(in) :: target
       type(contact_solution), intent(out) :: solution
 
       type(root_search) :: search
       type(solver_traits) :: traits
       integer :: level
 
-      search = search_for
-      search%most = min(1.0_dp, solver%surface%hardness)
-      if (search%target <= 0.0_dp .or. search%target >= 1.0_dp) then
-         call solver%solve(merge(1.0_dp - search%target, search%target, search%of_gap), solution)
-         return
-      end if
+      associate (surface => solver%surface)
+         search = root_search(target=target, quantity=quantity)
+         search%most = surface%hardness
+         if (.not. surface%has_free_edges) search%most = min(1.0_dp, surface%hardness)
+         if (quantity == approach) search%is_bounded = .not. (surface%has_free_edges .or. surface%has_hardness())
+         if (target <= 0.0_dp .or. (target >= 1.0_dp .and. search%is_bounded .and. .not. surface%has_free_edges)) then
+            call solver%solve(merge(1.0_dp - target, target, quantity == mean_gap), solution)
+            return
+         end if
+      end associate
       search%logit_p = logit_t(search, search%target)
       traits = solver%traits()
       do level = traits%coarser_levels, 0, -1
@@ -94,15 +113,23 @@ contains
       last_logit_p = search%logit_p
       last_miss = 0.0_dp
       do i = 1, most_solves
-         call solver%solve(search%most/(1.0_dp + exp(-search%logit_p)), solution)
-         if (solution%status == interrupted) return
-         met = solution%measures%contact_area_fraction
-         error = solution%measures%contact_area_error
-         if (search%of_gap) then
-            met = solution%measures%mean_gap_over_amplitude
-            error = solution%measures%mean_gap_error
+         if (search%most < huge(search%most)) then
+            call solver%solve(search%most/(1.0_dp + exp(-search%logit_p)), solution)
+         else
+            call solver%solve(exp(search%logit_p), solution)
          end if
-         if (abs(met - search%target) <= allowed(error, search%target)) return
+         if (solution%status == interrupted) return
+         error = solution%measures%mean_gap_error
+         select case (search%quantity)
+         case (mean_gap)
+            met = solution%measures%mean_gap_over_amplitude
+         case (approach)
+            met = solution%measures%approach_over_amplitude
+         case default
+            met = solution%measures%contact_area_fraction
+            error = solution%measures%contact_area_error
+         end select
+         if (abs(met - search%target) <= allowed(error, search)) return
          miss = logit_t(search, met) - logit_t(search, search%target)
          if (i > 1 .and. abs(search%logit_p - last_logit_p) > 0.0_dp) &
             search%slope = min(max((miss - last_miss)/(search%logit_p - last_logit_p), flattest), steepest)
@@ -130,34 +157,36 @@ contains
       ! the distance is within the error estimate. An unknown error proves nothing. Rounding of P and of the value may
       ! keep this from a closer one: 1 - t of the 1-D wave has half the digits of 1 - P.
       if (abs(met - search%target) <= error .and. is_known(error)) return
-      if (abs(met - search%target) <= largest_fraction*smaller_part(search%target)) return
+      if (abs(met - search%target) <= largest_fraction*smaller_part(search)) return
       if (solution%is_good()) solution%status = not_accurate
    end subroutine find_root
 
    !> The largest difference from the target at which a value is accepted.
-   pure real(dp) function allowed(error, target)
+   pure real(dp) function allowed(error, search)
       real(dp), intent(in) :: error   !! error estimate of the value; 0 if there is none
-      real(dp), intent(in) :: target
+      type(root_search), intent(in) :: search
 
-      associate (scale => smaller_part(target))
+      associate (scale => smaller_part(search))
          allowed = max(min(max(fraction_of_error*error, least_fraction*scale), largest_fraction*scale), &
-                       value_roundings*spacing(target))
+                       value_roundings*spacing(search%target))
       end associate
    end function allowed
 
-   !> min(t, 1 - t)
-   pure real(dp) function smaller_part(target)
-      real(dp), intent(in) :: target
+   !> min(t, 1 - t), or t
+   pure real(dp) function smaller_part(search)
+      type(root_search), intent(in) :: search
 
-      smaller_part = min(target, 1.0_dp - target)
+      smaller_part = search%target
+      if (search%is_bounded) smaller_part = min(search%target, 1.0_dp - search%target)
    end function smaller_part
 
-   !> logit t of a contact area or a mean gap.
+   !> logit t of a contact area, a mean gap or an approach, or ln t.
    pure real(dp) function logit_t(search, x)
       type(root_search), intent(in) :: search
-      real(dp), intent(in) :: x   !! the contact area fraction or G, as search%of_gap says
+      real(dp), intent(in) :: x   !! as search%quantity says
 
-      logit_t = merge(-logit(x), logit(x), search%of_gap)
+      logit_t = log(max(x, tiny(x)))
+      if (search%is_bounded) logit_t = merge(-logit(x), logit(x), search%quantity == mean_gap)
    end function logit_t
 
    !> ln(x/(1 - x)). The values 0 and 1, which a solution on a coarse grid may have, are replaced by almost 0 and 1.

@@ -41,7 +41,8 @@ contains
 
       real(dp) :: curvature(2)
 
-      if (surface%dimension == 1 .or. .not. surface%shape%is_even() .or. surface%amplitude <= 0.0_dp) return
+      if (surface%dimension == 1 .or. surface%has_free_edges .or. surface%amplitude <= 0.0_dp) return
+      if (.not. surface%shape%is_even()) return
       if (surface%is_height_map()) return
       associate (c => surface%shape%c, length => surface%length)
          if (surface%paper_wave() /= no_paper_wave) then

@@ -96,6 +96,7 @@ contains
 
       traits = solver_traits(solver=by_grids, coarser_levels=coarser_levels(self))
       if (.not. self%is_started) return
+      traits%needs_whole_grids = self%surface%has_free_edges
       if (allocated(self%smaller)) then
          plan = plan_grids(self%smaller, self%options%points)
       else
@@ -127,8 +128,8 @@ contains
       solution%pbar_over_pstar = pbar_over_pstar
       solution%solver = by_grids
       solution%measures = contact_measures( &
-                          mean_gap_over_amplitude=answer%values(1), &
-                          approach_over_amplitude=1.0_dp - answer%state%mean_gap, &
+                          mean_gap_over_amplitude=answer%state%open_gap(), &
+                          approach_over_amplitude=answer%state%approach, &
                           contact_area_fraction=answer%values(2), &
                           peak_pressure_over_pstar=answer%values(3), &
                           min_pressure_over_pstar=least_pressure(answer%edge), &

@@ -41,7 +41,11 @@ contains
       real(dp) :: errors(3)
 
       errors = max(history%errors(), unresolved_errors(surface, edge, peak_resolved))
-      errors = max(errors, implied_errors(surface%dimension, history%values, errors(2)))
+      if (surface%has_free_edges) then
+         errors = max(errors, least_of_area*errors(2)/max(history%values(2), tiny(1.0_dp))*history%values)
+      else
+         errors = max(errors, implied_errors(surface%dimension, history%values, errors(2)))
+      end if
    end function estimate_errors
 
    !> Adds the values of a finer grid.

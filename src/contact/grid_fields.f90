@@ -6,10 +6,8 @@
 module wavycon_grid_fields
    use wavycon_constants, only: pi
    use wavycon_contact_fields, only: contact_fields
-   use wavycon_fourier_series, only: fourier_series
    use wavycon_grid_edge, only: grid_edge
    use wavycon_kinds, only: dp
-   use wavycon_series_samples, only: sample_series
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
@@ -19,11 +17,10 @@ module wavycon_grid_fields
    type, extends(contact_fields) :: grid_fields
       private
       type(grid_edge) :: edge                !! pressure or -gap at the points
-      type(fourier_series) :: shape          !! of the surface: 1 - h/Delta
-      real(dp) :: mean_gap = 1.0_dp          !! 1 - approach
+      type(surface_type) :: surface
+      real(dp) :: approach = 0.0_dp          !! [Delta]
       real(dp) :: hardness = huge(1.0_dp)    !! H, upper bound of the pressure [p*]
       logical :: rotated = .false.            !! whether the angles of the grid are X + Y and X - Y
-      integer :: parts(2) = 1                !! of the surface: how often the points of on_grid fit into the cell
       real(dp) :: scale = 1.0_dp             !! a^(2/3) [p*^2/Delta^(2/3)]
       !> psi [p*^2] at the points of the grid and at two more beyond each side, shape (-1:M+2, -1:N+2). Not allocated
       !> before it is needed.
@@ -41,26 +38,25 @@ module wavycon_grid_fields
 
 contains
 
-   subroutine start_grid_fields(fields, surface, edge, mean_gap, rotated)
+   subroutine start_grid_fields(fields, surface, edge, approach, rotated)
       type(grid_fields), intent(out) :: fields
       type(surface_type), intent(in) :: surface
       type(grid_edge), intent(in) :: edge       !! pressure [p*] and gap [Delta] at the points
-      real(dp), intent(in) :: mean_gap          !! 1 - approach
+      real(dp), intent(in) :: approach          !! [Delta]
       logical, intent(in) :: rotated             !! whether the angles of the grid are X + Y and X - Y
 
-      fields%shape = surface%shape
+      fields%surface = surface
       fields%edge = edge
-      fields%mean_gap = mean_gap
+      fields%approach = approach
       fields%hardness = surface%hardness
       fields%rotated = rotated
-      fields%parts = surface%parts()
       fields%own_slab = edge%slab
       ! The points of a rotated grid are every other point of a grid of the cell.
       if (rotated) return
       fields%own_points = edge%slab%points
       if (.not. edge%even) return
       associate (are_halved => edge%slab%points > 1)
-         fields%own_points = merge(2*edge%slab%points, 1, are_halved)/fields%parts
+         fields%own_points = merge(2*edge%slab%points, 1, are_halved)/surface%parts()
          fields%own_offset = merge(0.5_dp, 0.0_dp, are_halved)
       end associate
    end subroutine start_grid_fields
@@ -75,7 +71,7 @@ contains
          pressure = max(values, 0.0_dp)
          gap = max(-values, 0.0_dp)
       end associate
-      displacement = gap - self%mean_gap + shape
+      displacement = gap - (1.0_dp - self%approach) + shape
    end subroutine at_own_column
 
    subroutine at(self, x, y, pressure, displacement, gap)
@@ -85,7 +81,7 @@ contains
 
       real(dp), dimension(1) :: own_displacement, own_gap, own_pressure
 
-      call self%at_points(reshape([x, y], [2, 1]), [self%shape%at(x, y)], own_pressure, own_displacement, own_gap)
+      call self%at_points(reshape([x, y], [2, 1]), [self%surface%shape_at(x, y)], own_pressure, own_displacement, own_gap)
       pressure = own_pressure(1)
       displacement = own_displacement(1)
       gap = own_gap(1)
@@ -103,7 +99,7 @@ contains
       do k = 1, size(gap)
          call interpolate(self, angle(1, k)/(2*pi), angle(2, k)/(2*pi), pressure(k), gap(k))
       end do
-      displacement = gap - self%mean_gap + shape
+      displacement = gap - (1.0_dp - self%approach) + shape
    end subroutine at_points
 
    subroutine on_grid(self, points, offset, pressure, displacement, gap)
@@ -126,13 +122,13 @@ contains
                pressure(k, l) = max(value, 0.0_dp)
                gap(k, l) = max(-value, 0.0_dp)
             else
-               place = ([k, l] - 1 + offset)/(self%parts*points)
+               place = ([k, l] - 1 + offset)/(self%surface%parts()*points)
                call interpolate(self, place(1), place(2), pressure(k, l), gap(k, l))
             end if
          end do
       end do
-      call sample_series(self%shape, points, offset, displacement, self%parts)
-      displacement = gap - self%mean_gap + displacement
+      call self%surface%sample_shape(points, offset, displacement)
+      displacement = gap - (1.0_dp - self%approach) + displacement
    end subroutine on_grid
 
    !> Finds psi at the points, and its scale of gaps.

@@ -31,7 +31,8 @@ module wavycon_grid_sequence
       type(grid_state) :: state            !! on the finest grid, without the gap
       !> On the finest grid; not allocated if the first did not fit into memory, or if `progress` stopped the solver.
       type(grid_edge), allocatable :: edge
-      real(dp) :: values(3) = 0.0_dp       !! mean gap [Delta], contact area fraction, peak pressure [p*]
+      !> Mean gap, with free edges the approach [Delta], contact area fraction, peak pressure [p*].
+      real(dp) :: values(3) = 0.0_dp
       real(dp) :: errors(3) = unknown      !! their error estimates, in the same units, or `unknown`
       !> The area by the number of points in contact, and that area corrected by (C26), in 1-D `unknown`.
       real(dp) :: counted_area = unknown, corrected_area = unknown
@@ -52,7 +53,8 @@ contains
    subroutine solve_by_sequence(surface, mean_pressure, accuracy, points, answer, progress, residual)
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: mean_pressure           !! P in (0, 1), or in (0, H) if the surface has a hardness
-      real(dp), intent(in) :: accuracy                !! largest error estimate allowed of the three values, >= 0
+      !> Largest error estimate allowed of the three values, with free edges over these, >= 0.
+      real(dp), intent(in) :: accuracy
       integer, intent(in) :: points(2)                !! of the last grid, on the whole cell; zeros: to the accuracy
       type(sequence_answer), intent(out) :: answer
       !> Is called after each grid, and asked in its iterations whether to stop.
@@ -65,7 +67,7 @@ contains
       type(grid_edge), allocatable :: edge_at_hardness
       type(grid_plan) :: plan
       type(grid_slab) :: coarser
-      real(dp) :: last_residual
+      real(dp) :: last_residual, scale(3)
       logical :: last
       integer :: grid(2)
 
@@ -90,8 +92,10 @@ contains
          else
             call measure_level(surface, mean_pressure, history, answer)
          end if
+         scale = 1.0_dp
+         if (surface%has_free_edges) scale = answer%values
          answer%accurate = answer%state%converged .and. all(grid >= plan%trusted) .and. &
-            max(maxval(answer%errors), answer%area_at_hardness_error) <= accuracy
+            all(answer%errors <= accuracy*scale) .and. answer%area_at_hardness_error <= accuracy*scale(2)
          if (present(progress)) &
             call progress%grid_solved(grid*merge(2, 1, surface%shape%is_even() .and. grid > 1)/surface%parts(), &
                                       answer%state%iterations, answer%state%residual)
@@ -108,7 +112,7 @@ contains
          call refine_pressure(answer%state%pressure, coarser, surface%shape%is_even(), answer%state%slab, finer)
          call move_alloc(finer, answer%state%pressure)
       end do
-      answer%errors = known_errors(answer%errors, surface%full_contact_peak)
+      if (.not. surface%has_free_edges) answer%errors = known_errors(answer%errors, surface%full_contact_peak)
       ! No pressure is negative: an estimate as large as the peak says nothing of it.
       if (.not. answer%accurate .and. answer%errors(3) >= answer%values(3)) answer%errors(3) = unknown
    end subroutine solve_by_sequence
@@ -174,13 +178,14 @@ contains
       integer :: j
       logical :: peak_resolved
 
-      answer%values(1) = answer%state%open_gap()
+      answer%values(1) = merge(answer%state%approach, answer%state%open_gap(), surface%has_free_edges)
       if (.not. allocated(answer%edge)) allocate (answer%edge)
       do j = 1, size(answer%state%gap, 2)
          answer%state%gap(:, j) = joined(answer%state%pressure(:, j), answer%state%gap(:, j))
       end do
       call make_grid_edge(answer%edge, answer%state%gap, surface%shape%is_even(), &
-                          pressure_per_gap(surface, answer%state%slab%points), answer%state%slab)
+                          pressure_per_gap(surface, answer%state%slab%points), answer%state%slab, &
+                          surface%has_free_edges)
       call answer%edge%fetch_neighbours()
       area = grid_contact_area(answer%edge)
       answer%values(2) = area
@@ -204,7 +209,7 @@ contains
 
       allocate (edge)
       call start_grid_edge(edge, surface%hardness - state%pressure, -state%gap, surface%shape%is_even(), &
-                           pressure_per_gap(surface, state%slab%points), state%slab)
+                           pressure_per_gap(surface, state%slab%points), state%slab, surface%has_free_edges)
       call edge%fetch_neighbours()
    end subroutine find_edge_at_hardness
 

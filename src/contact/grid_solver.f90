@@ -33,7 +33,9 @@ module wavycon_grid_solver
       !> gap/Delta, negative where the surfaces overlap: at free points its deviation from zero; own columns
       real(dp), allocatable :: gap(:, :)
       real(dp) :: hardness = huge(1.0_dp)       !! H/p*, huge if there is none
-      real(dp) :: mean_gap = 1.0_dp             !! 1 - approach; without a hardness G
+      real(dp) :: approach = 0.0_dp             !! the multiplier of the mean pressure [Delta]
+      !> Mean over the map, overlaps negative [Delta]: without a hardness G. On a periodic surface 1 - approach.
+      real(dp) :: mean_gap = 1.0_dp
       real(dp) :: residual_indentation = 0.0_dp   !! mean over the cell of the overlap where p = H [Delta] (C22)
       real(dp) :: residual = huge(1.0_dp)       !! root mean square of the violated conditions on the gap, over G (C9)
       integer :: corrections = 0                !! steps
@@ -144,7 +146,7 @@ contains
       logical, intent(in) :: touched(:)   !! whether a column of the grid has points in contact, shape (n)
       type(grid_state), intent(inout) :: state
 
-      real(dp) :: approach, change, extremes(2), parts(2, size(touched)), points, sums(3), violations(3, size(touched))
+      real(dp) :: approach, change, extremes(2), parts(2, size(touched)), points, sums(4), violations(4, size(touched))
       integer :: j, threads
       logical :: has_hardness
 
@@ -152,7 +154,7 @@ contains
       points = product(real(state%slab%points, dp))
       has_hardness = state%hardness < huge(state%hardness)
       if (.not. allocated(state%gap)) allocate (state%gap, mold=undeformed_gap)
-      approach = 1.0_dp - state%mean_gap
+      approach = state%approach
       associate (gap => state%gap, p => state%pressure, h => undeformed_gap, hardness => state%hardness)
          do j = 1, size(gap, 2)
             if (touched(j)) gap(:, j) = p(:, j)
@@ -185,13 +187,17 @@ contains
                violations(1, j) = sum(min(gap(:, j), 0.0_dp)**2)
             end if
             if (has_hardness) violations(3, j) = count(p(:, j) <= 0.0_dp)
+            violations(4, j) = 0.0_dp
+            if (half_space%is_free) violations(4, j) = sum(gap(:, j))
          end do
          sums = state%slab%column_totals(violations)
       end associate
       state%residual = sqrt(sums(1)/points)
       state%residual_indentation = sums(2)/points
       state%is_open = sums(3) > 0.0_dp
-      state%mean_gap = 1.0_dp - (approach + change)
+      state%approach = approach + change
+      state%mean_gap = 1.0_dp - state%approach
+      if (half_space%is_free) state%mean_gap = sums(4)/points
    end subroutine compute_gap
 
    !> Changes the approach to that of the least residual: the mean over the free points and the points that violate

@@ -15,7 +15,6 @@ module wavycon_grid_source
    use wavycon_grid_slab, only: grid_slab
    use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
-   use wavycon_measure_tuning, only: edge_offset
    use wavycon_region_numbers, only: region_numbers
    use wavycon_rotated_series, only: to_difference_angles
    use wavycon_series_stress, only: series_stress, start_series_stress
@@ -44,7 +43,7 @@ module wavycon_grid_source
    end type grid_source
 
    !> Numbers in the array of pack_source before the field.
-   integer, parameter :: own_values = 8
+   integer, parameter :: own_values = 9
 
 contains
 
@@ -74,7 +73,7 @@ contains
       is_here = allocated(values)
       if (.not. is_here) return
       allocate (whole)
-      call make_grid_edge(whole, values, self%edge%even, self%edge%stiffness)
+      call make_grid_edge(whole, values, self%edge%even, self%edge%stiffness, of_cells=self%edge%of_cells)
       call self%take_edge(whole)
    end subroutine collect
 
@@ -88,7 +87,7 @@ contains
 
       allocate (own)
       call start_grid_fields(own, surface, self%edge, &
-                             record%measures%mean_gap_over_amplitude - self%residual_indentation, self%rotated)
+                             record%measures%approach_over_amplitude, self%rotated)
       call move_alloc(own, answer)
    end subroutine fields
 
@@ -112,7 +111,7 @@ contains
             call trace_edges(self%edge, curves, numbers=numbers, with_images=surface%mirrored)
          end if
          do i = 1, size(curves)
-            call shift_contour(curves(i), self%edge%period, edge_offset)
+            call shift_contour(curves(i), self%edge%period, self%edge%rule%offset)
          end do
          if (self%rotated) call rotate_contours(curves, factor=0.5_dp)
          call spot_loads(self%edge, numbers, loads)
@@ -166,7 +165,7 @@ contains
    end subroutine stresses
 
    !> What a checkpoint keeps: the residual indentation, the stiffness of `edge`, the points along x and y, the first of
-   !> the own columns, whether the cell is rotated, whether the grid covers a quarter of it, and the pressures and gaps
+   !> the own columns, whether the cell is rotated, whether the grid covers a quarter of it and has uniform pressures on cells, and the pressures and gaps
    !> at the own columns.
    pure subroutine pack_source(self, values)
       class(grid_source), intent(in) :: self
@@ -180,7 +179,7 @@ contains
          allocate (values(own_values + size(edge%pressure_or_gap, kind=int64)), stat=status)
          if (status /= 0) return
          values(:own_values) = [self%residual_indentation, edge%stiffness, real([slab%points, slab%first], dp), &
-                                merge(1.0_dp, 0.0_dp, [self%rotated, edge%even])]
+                                merge(1.0_dp, 0.0_dp, [self%rotated, edge%even, edge%of_cells])]
          do j = 1, size(edge%pressure_or_gap, 2)
             values(own_values + (j - 1)*rows + 1:own_values + j*rows) = edge%pressure_or_gap(:, j)
          end do
@@ -216,7 +215,7 @@ contains
          call slab%start(points, whole)
          allocate (field(rows, slab%columns()), source=ieee_value(1.0_dp, ieee_quiet_nan))
          allocate (edge)
-         call make_grid_edge(edge, field, values(8) > 0.0_dp, values(2:3), slab)
+         call make_grid_edge(edge, field, values(8) > 0.0_dp, values(2:3), slab, values(9) > 0.0_dp)
          call self%take_edge(edge)
       end if
       associate (own => self%edge%slab)

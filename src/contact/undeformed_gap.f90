@@ -1,5 +1,6 @@
 !> The gap before deformation at the points of a grid.
 module wavycon_undeformed_gap
+   use wavycon_constants, only: pi
    use wavycon_grid_slab, only: grid_slab
    use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
@@ -22,6 +23,8 @@ contains
 
       call transform%start(slab%points, surface%shape%is_even())
       call transform%sample(surface%shape, h)
+      call surface%subtract_form(h, [transform%x_angle(1), transform%y_angle(slab%first)], &
+                                 2*pi/(surface%parts()*slab%points))
       h = 1.0_dp - h
    end subroutine sample_undeformed_gap
 

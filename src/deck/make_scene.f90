@@ -4,11 +4,12 @@ module wavycon_make_scene
    use wavycon_deck, only: deck_type
    use wavycon_group_values, only: group_values
    use wavycon_kinds, only: dp
-   use wavycon_load_group, only: given_loads
+   use wavycon_load_group, only: given_loads, pressures_of_loads
    use wavycon_plain_text, only: newline
    use wavycon_resolved_deck, only: resolved_deck_text
    use wavycon_scene, only: scene_type
    use wavycon_stress_group, only: make_stress_setting
+   use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
 
@@ -31,7 +32,7 @@ contains
       scene%has_units = scene%gives_modulus .or. deck%scene%has('pressure_unit') .or. deck%scene%has('length_unit')
       if (allocated(scene%map)) scene%has_units = scene%has_units .or. allocated(scene%map%length_unit)
       if (deck%load%place > 0) then
-         call take_loads(deck%load, scene%surface%amplitude, scene%p_star, scene%loads_by, scene%target, &
+         call take_loads(deck%load, scene%surface, scene%p_star, scene%loads_by, scene%target, &
                          scene%mean_pressure)
       else
          allocate (scene%target(0), scene%mean_pressure(0))
@@ -60,9 +61,9 @@ contains
    end subroutine make_scene
 
    !> Converts loads to the program's normalisation.
-   subroutine take_loads(values, amplitude, p_star, loads_by, target, mean_pressure)
+   subroutine take_loads(values, surface, p_star, loads_by, target, mean_pressure)
       type(group_values), intent(in) :: values                   !! after check_loads_of_surface, no problems
-      real(dp), intent(in) :: amplitude                          !! Delta [length]
+      type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: p_star                             !! p* [pressure]; 0: the surface is flat
       integer, intent(out) :: loads_by                           !! a name of wavycon_scene
       real(dp), allocatable, intent(out) :: target(:)            !! as of scene_type
@@ -73,14 +74,13 @@ contains
 
       call given_loads(values, key, loads_by, loads)
       select case (key)
-      case ('pbar_over_pstar')
-         mean_pressure = p_star*loads
-         if (p_star <= 0.0_dp) loads = in_p_star(mean_pressure, p_star)
-      case ('mean_pressure')
-         mean_pressure = loads
-         loads = in_p_star(loads, p_star)
-      case ('mean_gap')
-         loads = loads/amplitude
+      case ('pbar_over_pstar', 'mean_pressure', 'force')
+         mean_pressure = pressures_of_loads(key, loads, surface, p_star)
+         if (key /= 'pbar_over_pstar' .or. p_star <= 0.0_dp) loads = in_p_star(mean_pressure, p_star)
+      case ('mean_gap', 'approach')
+         loads = loads/surface%amplitude
+      case ('contact_area')
+         loads = loads/surface%nominal_area()
       end select
       call move_alloc(loads, target)
    end subroutine take_loads

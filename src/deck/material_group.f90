@@ -9,7 +9,7 @@ module wavycon_material_group
    implicit none (type, external)
    private
 
-   public :: material_table, check_material_group
+   public :: material_table, check_material_group, plane_strain_modulus
 
    !> The keys that give the stiffness in place of e_star.
    character(3), parameter :: moduli(*) = ['e1 ', 'nu1', 'e2 ', 'nu2']

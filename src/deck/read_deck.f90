@@ -13,8 +13,8 @@ module wavycon_read_deck
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: key_group_type
    use wavycon_kinds, only: dp
-   use wavycon_load_group, only: check_load_group, check_loads_of_surface
-   use wavycon_material_group, only: check_material_group
+   use wavycon_load_group, only: check_load_group, check_loads_of_surface, given_loads
+   use wavycon_material_group, only: check_material_group, plane_strain_modulus
    use wavycon_method_group, only: check_method_group
    use wavycon_output_group, only: check_output_group
    use wavycon_plain_text, only: escaped
@@ -24,6 +24,8 @@ module wavycon_read_deck
    use wavycon_settings, only: add_settings, name_case, setting_type
    use wavycon_stress_group, only: check_stress_group
    use wavycon_surface_group, only: check_sides, check_surface_group, make_surface
+   use wavycon_surface_kind, only: surface_kind
+   use wavycon_surface_kinds, only: kind_of
    implicit none (type, external)
    private
 
@@ -121,6 +123,8 @@ contains
       before = problems%number
       call check_surface_group(deck%surface_values, problems)
       if (problems%number > before .or. deck%surface_values%any_bad()) return
+      call set_sides_of_loads(deck, problems)
+      if (problems%number > before) return
       if (deck%scene%has('length_unit')) deck%surface_values%length_unit = deck%scene%text('length_unit')
       call make_surface(deck%surface_values, deck%surface, deck%map, error, heights)
       if (allocated(error)) return
@@ -128,6 +132,34 @@ contains
       if (.not. allocated(deck%map)) return
       if (allocated(deck%map%length_unit)) call deck%scene%set('length_unit', deck%map%length_unit)
    end subroutine read_surface
+
+   !> Sets the default sides of a surface that follow from its loads. If &material or &load has problems, which are
+   !> reported later, the sides stay as they are.
+   subroutine set_sides_of_loads(deck, problems)
+      type(deck_type), intent(inout) :: deck
+      type(problem_list_type), intent(inout) :: problems
+
+      character(:), allocatable :: key
+      integer :: loads_by
+      real(dp) :: hardness
+      real(dp), allocatable :: loads(:)
+      type(surface_kind) :: kind
+
+      kind = kind_of(deck%surface_values)
+      if (.not. associated(kind%set_sides)) return
+      if (deck%material%any_bad() .or. deck%load%any_bad()) return
+      allocate (loads(0))
+      if (deck%load%place > 0) call given_loads(deck%load, key, loads_by, loads)
+      if (size(loads) == 0) then
+         key = ''
+         loads = [0.0_dp]
+         if (deck%load%place == 0 .and. .not. deck%surface_values%has('length_x')) call deck%surface_values%complain( &
+            problems, 'kind', "without loads kind = '"//trim(kind%name)//"' needs length_x")
+      end if
+      hardness = huge(hardness)
+      if (deck%material%has('hardness')) hardness = deck%material%real('hardness')
+      call kind%set_sides(deck%surface_values, plane_strain_modulus(deck%material), hardness, key, maxval(loads))
+   end subroutine set_sides_of_loads
 
    !> Checks &material, which gives p* and the hardness of the surface, and &load and, where these and the surface have
    !> no problems, the loads against p* and Delta.
@@ -142,7 +174,9 @@ contains
       call check_load_group(deck%load, problems)
       if (problems%number > before .or. deck%material%any_bad() .or. deck%load%any_bad()) return
       if (deck%load%place == 0 .or. .not. allocated(deck%surface)) return
-      call check_loads_of_surface(deck%load, deck%surface%amplitude, deck%p_star, problems)
+      call check_loads_of_surface(deck%load, deck%surface, deck%p_star, problems, &
+                                  has_own_sides=deck%surface_values%text('kind') /= 'ball' .or. &
+                                                deck%surface_values%has('length_x'))
    end subroutine check_material_and_loads
 
 end module wavycon_read_deck

@@ -1,8 +1,11 @@
-!> The elastic half-space on a periodic grid: displacement from pressure and pressure from displacement, eq. (E9) of
-!> README.md in this directory.
+!> The elastic half-space on a grid: displacement from pressure and pressure from displacement, eq. (E9) of README.md in
+!> this directory.
 !>
-!> A harmonic of wavelength w satisfies  p = stiffness u/w  (Johnson, Greenwood & Higginson 1985, App. 1).
+!> Where it is periodic a harmonic of wavelength w satisfies  p = stiffness u/w  (Johnson, Greenwood & Higginson 1985,
+!> App. 1). Where its surface has free edges the displacement is that of (E15), and the pressure of a displacement that
+!> of the mirror images, as a preconditioner needs it.
 module wavycon_compliance_operator
+   use wavycon_free_kernel, only: free_kernel, transform_of_kernel
    use wavycon_grid_convolution_dp, only: convolution_dp => grid_convolution
    use wavycon_grid_convolution_sp, only: convolution_sp => grid_convolution
    use wavycon_kinds, only: dp, sp
@@ -16,13 +19,16 @@ module wavycon_compliance_operator
    type :: compliance_operator
       integer :: transform_pairs = 0               !! number of applications so far to fields in double precision
       integer :: single_pairs = 0                  !! the same in single precision
+      logical :: is_free = .false.                 !! whether the surface has free edges: displacements have a mean
       type(convolution_dp), private :: in_double
       type(convolution_sp), private :: in_single
+      type(convolution_dp), private :: free_double
+      type(convolution_sp), private :: free_single
    contains
       procedure :: start
-      !> From a pressure [p*] to its displacement u - ubar [Delta], in place.
+      !> From a pressure [p*] to its displacement [Delta], in place: u - ubar, with free edges u.
       generic :: displacement => displacement_dp, displacement_sp
-      !> From a displacement [Delta] to its pressure p - pbar [p*], in place.
+      !> From a displacement [Delta] to its pressure p - pbar [p*] on a periodic surface, in place.
       generic :: pressure => pressure_dp, pressure_sp
       procedure, private :: displacement_dp
       procedure, private :: displacement_sp
@@ -37,6 +43,7 @@ contains
       type(surface_type), intent(in) :: surface
       integer, intent(in) :: points(2)   !! M, N >= 1, of the whole cell, or of a quarter of an even surface's cell
 
+      real(dp), allocatable :: kernel(:, :)
       real(dp) :: square_x(0:points(1) - 1), square_y(0:points(2) - 1)
       integer :: i
       logical :: even
@@ -47,6 +54,13 @@ contains
       square_y = (surface%stiffness*surface%frequency(0, [(wave(i, points(2)), i=0, points(2) - 1)]))**2
       call self%in_double%start(even, square_x, square_y)
       call self%in_single%start(even, square_x, square_y)
+      self%is_free = surface%has_free_edges
+      if (.not. self%is_free) return
+      call free_kernel(points, surface%sides()/points, kernel)
+      kernel = kernel/surface%stiffness
+      call transform_of_kernel(kernel)
+      call self%free_double%start_free(kernel)
+      call self%free_single%start_free(kernel)
 
    contains
 
@@ -66,7 +80,11 @@ contains
       logical, intent(in), optional :: nonzero(:)   !! own columns that may not be zero; default: all
       logical, intent(in), optional :: wanted(:)    !! own columns of the result that are needed, others are undefined
 
-      call self%in_double%apply(field, -1, threads_for(size(field)), nonzero, wanted)
+      if (self%is_free) then
+         call self%free_double%apply_free(field, threads_for(size(field)), nonzero, wanted)
+      else
+         call self%in_double%apply(field, -1, threads_for(size(field)), nonzero, wanted)
+      end if
       self%transform_pairs = self%transform_pairs + 1
    end subroutine displacement_dp
 
@@ -76,7 +94,11 @@ contains
       real(sp), intent(inout), contiguous :: field(:, :)
       logical, intent(in), optional :: nonzero(:), wanted(:)
 
-      call self%in_single%apply(field, -1, threads_for(size(field)), nonzero, wanted)
+      if (self%is_free) then
+         call self%free_single%apply_free(field, threads_for(size(field)), nonzero, wanted)
+      else
+         call self%in_single%apply(field, -1, threads_for(size(field)), nonzero, wanted)
+      end if
       self%single_pairs = self%single_pairs + 1
    end subroutine displacement_sp
 

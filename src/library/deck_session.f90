@@ -145,12 +145,12 @@ contains
       if (allocated(error)) return
       call read_group_text(load_table(), quantity//' = '//number_words(value), values, text, problems)
       call check_load_group(values, problems)
-      if (problems%number == 0) call check_loads_of_surface(values, self%scale%amplitude, self%scale%p_star, problems)
+      if (problems%number == 0) call check_loads_of_surface(values, self%results%solver%surface, self%scale%p_star, problems)
       if (problems%number > 0) then
          call fatal_error(error, exit_bad_input, problem_report(problems, text))
          return
       end if
-      call take_loads(values, self%scale%amplitude, self%scale%p_star, loads_by, target, mean_pressure)
+      call take_loads(values, self%results%solver%surface, self%scale%p_star, loads_by, target, mean_pressure)
       if (size(target) == 1) then
          call self%solve_one(loads_by, 1, target, mean_pressure, answer, error)
       else

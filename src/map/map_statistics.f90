@@ -117,7 +117,7 @@ contains
       class(map_statistics), intent(in) :: self
       integer, intent(in) :: direction   !! 1 or 2: along x or y
 
-      is_broken_along = self%changes%edges /= 'mirror' .and. &
+      is_broken_along = all(self%changes%edges /= ['mirror', 'free  ']) .and. &
                         self%border_step(direction) > border_ratio*self%largest_step(direction)
    end function is_broken_along
 

@@ -23,7 +23,8 @@ module wavycon_prepare_map
    type :: map_preparation
       character(9) :: detrend = 'none'         !! what is subtracted: 'none', 'mean', 'plane', 'quadratic'
       character(8) :: fill_missing = 'none'    !! 'none': missing heights are an error; 'harmonic': (M3) fills them
-      character(8) :: edges = 'periodic'       !! 'periodic'; 'mirror': mirror images continue it; 'window': tapered
+      !> 'periodic'; 'mirror': mirror images continue it; 'window': tapered; 'free': nothing continues it.
+      character(8) :: edges = 'periodic'
       real(dp) :: window_width = usual_window_width   !! over the side, 0 < window_width <= 1/2
    end type map_preparation
 

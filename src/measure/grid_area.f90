@@ -3,11 +3,10 @@
 module wavycon_grid_area
    use wavycon_assertion, only: assert
    use wavycon_constants, only: pi
-   use wavycon_grid_edge, only: aligned_offset, aligned_part, aligned_weight, angle_steps, balance, grid_edge
+   use wavycon_grid_edge, only: aligned_part, angle_steps, balance, grid_edge
    use wavycon_grid_points, only: point_angle
    use wavycon_kinds, only: dp
    use wavycon_line_zeros, only: length_inside
-   use wavycon_measure_tuning, only: turn_area
    implicit none (type, external)
    private
 
@@ -68,7 +67,7 @@ contains
             area = area + share
          else if (any([low(i:i + 1), high(i:i + 1)])) then
             area = area + share*(edge%cell_area(i, l)/product(steps) &
-                                 + turn_area*turns(low(i:i + 1), high(i:i + 1)) &
+                                 + edge%rule%turn_area*turns(low(i:i + 1), high(i:i + 1)) &
                                  + aligned_part(edge, i, l, low(i:i + 1), high(i:i + 1)))
          end if
       end do
@@ -128,7 +127,7 @@ contains
       integer, intent(in) :: k    !! the point in contact
       integer, intent(in) :: dk   !! the step to its neighbour, 1 or -1
 
-      distance = balance(edge, k, 1, k + dk, 1, aligned_weight) - aligned_offset
+      distance = balance(edge, k, 1, k + dk, 1, edge%rule%aligned_weight) - edge%rule%aligned_offset
       ! A contact of one point has no negative width.
       if (.not. edge%in_contact(k - dk, 1)) distance = max(distance, 0.0_dp)
    end function distance_to_edge

@@ -12,12 +12,26 @@ module wavycon_grid_edge
    use wavycon_grid_points, only: image_of_point, point_angle
    use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp
-   use wavycon_measure_tuning, only: aligned_slope, edge_offset, gap_weight, turn_area
+   use wavycon_measure_tuning, only: aligned_slope, cell_edge_offset, cell_gap_weight, cell_turn_area, edge_offset, &
+      gap_weight, turn_area
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
 
-   public :: grid_edge, aligned_part, angle_steps, balance, joined, make_grid_edge, pressure_per_gap, start_grid_edge
+   public :: edge_rule, grid_edge, aligned_part, angle_steps, balance, joined, make_grid_edge, pressure_per_gap, start_grid_edge
+
+   !> Constants of (C11), (C12), which depend on the kernel of the half-space on a grid. The defaults are those of waves.
+   type :: edge_rule
+      !> For an edge that runs along a line of the grid (C11): the weight of the first gap, times E*/(2 h), against the
+      !> last pressure; and how far inside the last point in contact the edge lies when that pressure vanishes, in steps.
+      real(dp) :: aligned_weight = pi/exp(1.0_dp), aligned_offset = 0.19000928592905364_dp
+      !> The same for any direction, and what a turn adds to the area, in cells (C12).
+      real(dp) :: gap_weight = gap_weight, offset = edge_offset, turn_area = turn_area
+   end type edge_rule
+
+   !> Those of uniform pressures on cells (C11a).
+   type(edge_rule), parameter :: rule_of_cells = edge_rule(1.15987199_dp, 0.17465323_dp, cell_gap_weight, &
+                                                           cell_edge_offset, cell_turn_area)
 
    type, extends(contact_edge) :: grid_edge
       !> The pressure, > 0, in contact, minus the gap, <= 0, elsewhere, in any unit, at the own columns of the grid,
@@ -28,6 +42,8 @@ module wavycon_grid_edge
       type(grid_slab) :: slab
       real(dp) :: stiffness(2) = 1.0_dp   !! E*/(2 h), h the steps along phi and theta, in these units
       logical :: even = .true.   !! whether the points are those of a quarter
+      logical :: of_cells = .false.   !! whether pressures are uniform on cells, as with free edges; else sums of waves
+      type(edge_rule) :: rule
    contains
       procedure :: in_contact
       procedure :: angles
@@ -45,13 +61,9 @@ module wavycon_grid_edge
    !> Columns of the neighbours that area and peak pressure of a distributed grid need.
    integer, parameter :: reach = 3
 
-   !> For an edge that runs along a line of the grid (C11): the weight of the first gap, times E*/(2 h), against the
-   !> last pressure; and how far inside the last point in contact the edge lies when that pressure vanishes, in steps.
-   real(dp), parameter, public :: aligned_weight = pi/exp(1.0_dp), aligned_offset = 0.19000928592905364_dp
-
 contains
 
-   pure subroutine start_grid_edge(edge, pressure, gap, even, stiffness, slab)
+   pure subroutine start_grid_edge(edge, pressure, gap, even, stiffness, slab, of_cells)
       type(grid_edge), intent(out) :: edge
       real(dp), intent(in) :: pressure(:, :)   !! positive in contact, zero elsewhere, in any unit, shape (M, columns)
       real(dp), intent(in) :: gap(:, :)        !! in any unit, of the same shape
@@ -59,21 +71,25 @@ contains
       !> From `pressure_per_gap`, in the units of pressure and gap. Only the place of the edge depends on it; absent: 1.
       real(dp), intent(in), optional :: stiffness(2)
       type(grid_slab), intent(in), optional :: slab   !! whose columns these are; absent: all columns of a grid
+      logical, intent(in), optional :: of_cells       !! whether pressures are uniform on cells; absent: .false.
 
       real(dp), allocatable :: field(:, :)
 
       field = joined(pressure, gap)
-      call make_grid_edge(edge, field, even, stiffness, slab)
+      call make_grid_edge(edge, field, even, stiffness, slab, of_cells)
    end subroutine start_grid_edge
 
    !> As start_grid_edge, from pressure and gap in one field, whose memory it takes.
-   pure subroutine make_grid_edge(edge, field, even, stiffness, slab)
+   pure subroutine make_grid_edge(edge, field, even, stiffness, slab, of_cells)
       type(grid_edge), intent(out) :: edge
       real(dp), allocatable, intent(inout) :: field(:, :)   !! as edge%pressure_or_gap; not allocated afterwards
       logical, intent(in) :: even
       real(dp), intent(in), optional :: stiffness(2)
       type(grid_slab), intent(in), optional :: slab
+      logical, intent(in), optional :: of_cells
 
+      if (present(of_cells)) edge%of_cells = of_cells
+      if (edge%of_cells) edge%rule = rule_of_cells
       if (present(slab)) then
          edge%slab = slab
       else
@@ -231,7 +247,7 @@ contains
       l_in = l + corner_l(inner)
       k_out = k + corner_k(outer)
       l_out = l + corner_l(outer)
-      t = balance(self, k_in, l_in, k_out, l_out, gap_weight)
+      t = balance(self, k_in, l_in, k_out, l_out, self%rule%gap_weight)
       call self%angles(k_in, l_in, phi_in, theta_in)
       call self%angles(k_out, l_out, phi_out, theta_out)
       point%phi = phi_in + t*(phi_out - phi_in)
@@ -280,7 +296,7 @@ contains
       type(edge_point), intent(in) :: from, to
 
       associate (steps => angle_steps(self))
-         beside_chord = edge_offset*product(steps)*norm2([to%phi - from%phi, to%theta - from%theta]/steps)
+         beside_chord = self%rule%offset*product(steps)*norm2([to%phi - from%phi, to%theta - from%theta]/steps)
       end associate
    end function beside_chord
 
@@ -295,7 +311,7 @@ contains
 
       low = [(self%in_contact(k + i, l), i=0, 1)]
       high = [(self%in_contact(k + i, l + 1), i=0, 1)]
-      area = product(angle_steps(self))*(turn_area*turns + aligned_part(self, k, l, low, high))
+      area = product(angle_steps(self))*(self%rule%turn_area*turns + aligned_part(self, k, l, low, high))
    end function area_correction
 
    !> What (C11) adds to the area of a cell, in cells, where the edge runs along a line of the grid.
@@ -321,11 +337,13 @@ contains
       else
          return
       end if
-      any_direction = [(balance(edge, k_in(i), l_in(i), k_out(i), l_out(i), gap_weight), i=1, 2)]
+      any_direction = [(balance(edge, k_in(i), l_in(i), k_out(i), l_out(i), edge%rule%gap_weight), i=1, 2)]
       slope = abs(any_direction(2) - any_direction(1))
       if (slope >= aligned_slope) return
-      aligned = [(balance(edge, k_in(i), l_in(i), k_out(i), l_out(i), aligned_weight), i=1, 2)]
-      change = (1.0_dp - slope/aligned_slope)*(0.5_dp*sum(aligned - any_direction) - aligned_offset + edge_offset)
+      aligned = [(balance(edge, k_in(i), l_in(i), k_out(i), l_out(i), edge%rule%aligned_weight), &
+                 i=1, 2)]
+      change = (1.0_dp - slope/aligned_slope)*(0.5_dp*sum(aligned - any_direction) - edge%rule%aligned_offset &
+                                                  + edge%rule%offset)
    end function aligned_part
 
 end module wavycon_grid_edge

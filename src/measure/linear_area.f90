@@ -26,6 +26,7 @@ contains
 
       fraction = unknown
       if (surface%dimension == 1 .or. .not. surface%is_height_map() .or. .not. surface%amplitude > 0.0_dp) return
+      if (surface%has_free_edges) return
       fraction = area_coefficient*pbar_over_pstar*surface%full_contact_pressure(e_star=1.0_dp)/rms_slope
    end function linear_area_fraction
 

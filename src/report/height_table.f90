@@ -9,7 +9,6 @@ module wavycon_height_table
    use wavycon_npy_header, only: npy_header
    use wavycon_output_file, only: output_file
    use wavycon_results, only: results_type
-   use wavycon_series_samples, only: sample_series
    use wavycon_shared_file, only: shared_file
    use wavycon_table, only: table_type
    implicit none (type, external)
@@ -67,7 +66,7 @@ contains
          call check_memory(file, points, numbers_a_point, '')
          if (file%is_open()) then
             first = merge(0.5_dp, 0.0_dp, surface%mirrored)
-            call sample_series(surface%shape, points, [first, first], height, surface%parts())
+            call surface%sample_shape(points, [first, first], height)
             height = surface%amplitude*height
             if (.not. associated(results%memory)) call file%put_numbers(height)
             if (associated(results%memory)) call put_places(height, surface%sides(), first, file)

@@ -44,10 +44,11 @@ contains
             call start_surface_line(line, results, number)
             associate (n => ubound(line%distance, 1))
                allocate (values(7, 0:n), p(0:n), u(0:n), gap(0:n))
-               shape = surface%shape%on_line(line%angle(:, 0), line%direction, line%parameter())
+               shape = surface%shape%on_line(line%angle(:, 0), line%direction, line%parameter()) &
+                       - surface%form_gap(line%angle(1, :), line%angle(2, :))
             end associate
             call fields%at_points(line%angle, shape, p, u, gap)
-            values(1, :) = p
+            values(1, :) = results%in_p_star(p)
             values(2, :) = u
             values(3, :) = gap
             values(4, :) = 1.0_dp - shape

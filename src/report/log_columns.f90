@@ -22,13 +22,14 @@ module wavycon_log_columns
 
 contains
 
-   !> Starts a line with the column of P.
-   subroutine start(self, pbar_over_pstar)
+   !> Starts a line with the column of the load.
+   subroutine start(self, name, load)
       class(log_line), intent(out) :: self
-      real(dp), intent(in) :: pbar_over_pstar
+      character(*), intent(in) :: name
+      real(dp), intent(in) :: load
 
-      self%names = at_right('pbar/p*', load_width)
-      self%words = cell(pbar_over_pstar, load_width)
+      self%names = at_right(name, load_width)
+      self%words = cell(load, load_width)
    end subroutine start
 
    !> Adds a word at the right of a column.

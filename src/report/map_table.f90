@@ -12,7 +12,6 @@ module wavycon_map_table
    use wavycon_memory_table, only: column_name
    use wavycon_npy_header, only: npy_header
    use wavycon_results, only: results_type
-   use wavycon_series_samples, only: sample_series
    use wavycon_shared_file, only: shared_file
    use wavycon_table, only: table_type
    implicit none (type, external)
@@ -84,7 +83,7 @@ contains
             if (map%as_text) call results%begin_block(map%file, load)
             call results%loads(load)%fields(surface, fields)
             call fields%on_grid(map%points, map%offset, p, u, gap)
-            call sample_series(surface%shape, map%points, map%offset, shape, surface%parts())
+            call surface%sample_shape(map%points, map%offset, shape)
             do l = 1, map%points(2)
                values = transpose(reshape([p_star*p(:, l), surface%amplitude*gap(:, l), surface%amplitude*u(:, l), &
                                            surface%amplitude*(1.0_dp - shape(:, l))], [map%points(1), 4]))

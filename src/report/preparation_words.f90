@@ -37,6 +37,7 @@ contains
                                               trim(merge(' ', 's', changes%filled == 1))//' filled ('// &
                                               percent(real(changes%filled, dp)/product(changes%points))//')')
       if (changes%edges == 'mirror') words = clauses(words, 'continued by its mirror images')
+      if (changes%edges == 'free') words = clauses(words, 'with free edges: nothing continues it')
       if (changes%edges == 'window') words = clauses(words, 'tapered at its borders, which changes '// &
                                                     percent(changes%tapered)//' of its points')
    end function preparation_words

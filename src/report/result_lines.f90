@@ -17,7 +17,8 @@ module wavycon_result_lines
 contains
 
    !> One load: mean gap, area and peak pressure, each followed by its error estimate if the solver has them; mean and
-   !> peak pressure in the deck's unit if the deck gives a modulus; solver and status.
+   !> peak pressure in the deck's unit if the deck gives a modulus; solver and status. With free edges approach, area and
+   !> peak pressure in the deck's units.
    subroutine line_of_load(results, load, line)
       type(results_type), intent(in) :: results   !! with a solution for each load
       integer, intent(in) :: load                 !! number in the deck's order
@@ -29,11 +30,19 @@ contains
       solver_width = max(len('solver'), maxval(len_trim(solver_names(results%loads%solver))))
       associate (solution => results%loads(load), measures => results%loads(load)%measures)
          call start_line(results, load, line)
-         call add('gap/Delta', measures%mean_gap_over_amplitude, measures%mean_gap_error)
-         call add('area/A0', measures%contact_area_fraction, measures%contact_area_error)
-         call add('peak/p*', measures%peak_pressure_over_pstar, measures%peak_pressure_error)
-         if (results%scene%gives_modulus) &
-            call line%add_number('peak', results%peak_pressure(load), results%scene%pressure_unit)
+         if (results%solver%surface%has_free_edges) then
+            call add('approach', results%solver%surface%amplitude, measures%approach_over_amplitude, &
+                     measures%mean_gap_error)
+            call add('area', results%solver%surface%nominal_area(), measures%contact_area_fraction, &
+                     measures%contact_area_error)
+            call add('peak', results%scene%p_star, measures%peak_pressure_over_pstar, measures%peak_pressure_error)
+         else
+            call add('gap/Delta', 1.0_dp, measures%mean_gap_over_amplitude, measures%mean_gap_error)
+            call add('area/A0', 1.0_dp, measures%contact_area_fraction, measures%contact_area_error)
+            call add('peak/p*', 1.0_dp, measures%peak_pressure_over_pstar, measures%peak_pressure_error)
+            if (results%scene%gives_modulus) &
+               call line%add_number('peak', results%peak_pressure(load), results%scene%pressure_unit)
+         end if
          line%names = line%names//' solver'//repeat(' ', solver_width - len('solver') + 2)//'status'
          line%words = line%words//' '//solver_names(solution%solver)(:solver_width)//'  '// &
                       trim(status_name(solution%status))
@@ -41,12 +50,12 @@ contains
 
    contains
 
-      subroutine add(name, number, error)
+      subroutine add(name, unit, number, error)
          character(*), intent(in) :: name
-         real(dp), intent(in) :: number, error
+         real(dp), intent(in) :: unit, number, error
 
-         call line%add_number(name, number)
-         if (results%traits%has_errors) call line%add_error(or_nan(error))
+         call line%add_number(name, unit*number)
+         if (results%traits%has_errors) call line%add_error(unit*or_nan(error))
       end subroutine add
 
    end subroutine line_of_load
@@ -74,13 +83,17 @@ contains
       end associate
    end subroutine line_of_stress
 
-   !> The mean pressure.
+   !> The mean pressure or, with free edges, the force.
    subroutine start_line(results, load, line)
       type(results_type), intent(in) :: results
       integer, intent(in) :: load
       type(log_line), intent(out) :: line
 
-      call line%start(results%loads(load)%pbar_over_pstar)
+      if (results%solver%surface%has_free_edges) then
+         call line%start('force', results%solver%surface%nominal_area()*results%mean_pressure(load))
+         return
+      end if
+      call line%start('pbar/p*', results%loads(load)%pbar_over_pstar)
       if (results%scene%gives_modulus) &
          call line%add_number('pbar', results%mean_pressure(load), results%scene%pressure_unit)
    end subroutine start_line

@@ -37,6 +37,7 @@ module wavycon_results
       procedure :: begin_block
       procedure :: end_row
       procedure :: unit_in_words
+      procedure :: in_p_star
       procedure :: mean_pressure
       procedure :: peak_pressure
    end type results_type
@@ -71,7 +72,7 @@ contains
                        ', Delta['//length//'] = '//exact_number(surface%amplitude)//cell_sides())
          if (allocated(self%scene%map)) call put_statistics(self%scene, file)
          call file%put('# material: e_star['//pressure//'] = '//exact_number(self%scene%e_star)// &
-                       ', p*['//pressure//'] = '//exact_number(self%scene%p_star))
+                       ', p*['//pressure//'] = '//exact_number(self%in_p_star(self%scene%p_star)))
          call file%put('# method: '//self%method)
       end associate
       call file%put_columns(column_name(columns), units)
@@ -87,7 +88,11 @@ contains
          words = ', cell_x['//self%scene%length_unit//'] = '//exact_number(side(1))
          if (self%solver%surface%dimension == 2) words = words//', cell_y['//self%scene%length_unit//'] = '// &
             exact_number(side(2))
-         if (self%solver%surface%mirrored) words = words//', mirrored'
+         if (self%solver%surface%has_free_edges) then
+            words = words//', free edges'
+         else if (self%solver%surface%mirrored) then
+            words = words//', mirrored'
+         end if
       end function cell_sides
 
    end subroutine open_table
@@ -138,6 +143,8 @@ contains
             words = length
          case ('area')
             words = length//merge('^2', '  ', self%solver%surface%dimension == 2)
+         case ('force')
+            words = trim(self%scene%pressure_unit)//'*'//length//merge('^2', '  ', self%solver%surface%dimension == 2)
          case ('length^3', 'length^4', 'rad/length')
             words = unit(:index(unit, 'length') - 1)//length//unit(index(unit, 'length') + len('length'):)
          case ('pressure')
@@ -155,9 +162,12 @@ contains
       type(output_file), intent(inout) :: file
       integer, intent(in) :: load    !! number in the deck's order
 
+      character(:), allocatable :: words
+
       associate (solution => self%loads(load))
-         call file%begin_block('load '//integer_text(load)//': pbar/p* = '//exact_number(solution%pbar_over_pstar)// &
-                               ', '//trim(status_name(solution%status)))
+         words = 'pbar/p* = '//exact_number(solution%pbar_over_pstar)
+         if (self%solver%surface%has_free_edges) words = 'mean pressure = '//exact_number(self%mean_pressure(load))
+         call file%begin_block('load '//integer_text(load)//': '//words//', '//trim(status_name(solution%status)))
       end associate
    end subroutine begin_block
 
@@ -171,6 +181,15 @@ contains
       call file%add(trim(status_name(self%loads(load)%status)))
       call file%end_row()
    end subroutine end_row
+
+   !> A number in units of p*: NaN on a surface with free edges, which has no p*.
+   elemental real(dp) function in_p_star(self, number)
+      class(results_type), intent(in) :: self
+      real(dp), intent(in) :: number
+
+      in_p_star = number
+      if (self%solver%surface%has_free_edges) in_p_star = not_a_number()
+   end function in_p_star
 
    !> The mean pressure of a load [pressure]. If the deck gives it, exactly that number.
    pure real(dp) function mean_pressure(self, load)

@@ -89,6 +89,9 @@ contains
       class(run_log), intent(inout) :: self
       type(results_type), intent(in) :: results
 
+      character(:), allocatable :: words
+      real(dp), allocatable :: loads(:)
+
       if (self%quiet) return
       associate (scene => results%scene, surface => results%solver%surface)
          call self%say('wavycon '//version//' ('//revision//')')
@@ -100,8 +103,14 @@ contains
          if (allocated(scene%map)) call show_map(self, scene, scene%map, surface%amplitude > 0.0_dp)
          call show_unlikely_slopes(self, scene)
          call self%say('material  '//material_words(scene, surface))
-         call self%say('loads     '//integer_text(size(scene%target))//', '//target_words(scene%loads_by)// &
-                       ' from '//short_number(minval(scene%target))//' to '//short_number(maxval(scene%target)))
+         loads = scene%target
+         words = target_words(scene%loads_by)
+         if (surface%has_free_edges .and. allocated(scene%mean_pressure)) then
+            loads = surface%nominal_area()*scene%mean_pressure
+            words = 'force'
+         end if
+         call self%say('loads     '//integer_text(size(scene%target))//', '//words// &
+                       ' from '//short_number(minval(loads))//' to '//short_number(maxval(loads)))
          call self%say('method    '//results%method)
          if (results%sharing%words() /= '') call self%say('ranks     '//results%sharing%words())
       end associate
@@ -149,8 +158,8 @@ contains
       type(surface_type), intent(in) :: surface
       character(:), allocatable :: words
 
-      words = 'E* = '//short_number(scene%e_star)//' ['//scene%pressure_unit//'], p* = '//short_number(scene%p_star)// &
-              ' ['//scene%pressure_unit//']'
+      words = 'E* = '//short_number(scene%e_star)//' ['//scene%pressure_unit//']'
+      if (.not. surface%has_free_edges) words = words//', p* = '//short_number(scene%p_star)//' ['//scene%pressure_unit//']'
       if (surface%has_hardness()) words = words//', hardness = '// &
          short_number(surface%hardness*scene%p_star)//' ['//scene%pressure_unit//']'
    end function material_words

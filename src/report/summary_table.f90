@@ -12,7 +12,7 @@ module wavycon_summary_table
 
    public :: summary_table, put_summary_row
 
-   !> The errors are estimates, NaN if unknown or if the solver has none. NaN too: what is at the hardness without a
+   !> With free edges numbers in p* are NaN. The errors are estimates, NaN if unknown or if the solver has none. NaN too: what is at the hardness without a
    !> hardness, areas by points without a grid, the linear law if the surface is no map.
    character(45), parameter, public :: summary_columns(*) = [character(45) :: &
       'load[-]', 'pbar_over_pstar[-]', 'mean_gap_over_amplitude[-]', 'approach_over_amplitude[-]', &
@@ -21,8 +21,9 @@ module wavycon_summary_table
       'area_at_hardness_fraction[-]', 'load_at_hardness_fraction[-]', &
       'area_at_hardness_fraction_error[-]', 'load_at_hardness_fraction_error[-]', &
       'contact_area_counted_fraction[-]', 'contact_area_corrected_fraction[-]', 'linear_area_fraction[-]', &
-      'mean_pressure[pressure]', 'mean_gap[length]', 'approach[length]', 'contact_area[area]', &
-      'peak_pressure[pressure]', 'active_constraints[-]', 'iterations[-]', 'residual[-]', 'solver[-]', &
+      'mean_pressure[pressure]', 'force[force]', 'mean_gap[length]', 'approach[length]', 'approach_error[length]', &
+      'contact_area[area]', 'contact_area_error[area]', 'peak_pressure[pressure]', 'peak_pressure_error[pressure]', &
+      'active_constraints[-]', 'iterations[-]', 'residual[-]', 'solver[-]', &
       'status_code[-]', 'status[-]']
 
 contains
@@ -55,18 +56,19 @@ contains
                at_hardness(3:) = or_nan([measures%area_at_hardness_error, measures%load_at_hardness_error])
          end if
          call file%add(load)
-         call file%add([solution%pbar_over_pstar, &
+         call file%add([results%in_p_star(solution%pbar_over_pstar), &
                         measures%mean_gap_over_amplitude, measures%approach_over_amplitude, &
-                        measures%contact_area_fraction, measures%peak_pressure_over_pstar, &
-                        measures%min_pressure_over_pstar, errors, at_hardness, &
+                        measures%contact_area_fraction, results%in_p_star(measures%peak_pressure_over_pstar), &
+                        results%in_p_star(measures%min_pressure_over_pstar), errors(:2), &
+                        results%in_p_star(errors(3)), at_hardness, &
                         or_nan(measures%contact_area_counted_fraction), &
                         or_nan(measures%contact_area_corrected_fraction), &
                         or_nan(linear_area_fraction(surface, scene%roughness%slope, solution%pbar_over_pstar)), &
-                        results%mean_pressure(load), &
-                        surface%amplitude*measures%mean_gap_over_amplitude, &
-                        surface%amplitude*measures%approach_over_amplitude, &
-                        surface%nominal_area()*measures%contact_area_fraction, &
-                        results%peak_pressure(load)])
+                        results%mean_pressure(load), surface%nominal_area()*results%mean_pressure(load), &
+                        surface%amplitude*[measures%mean_gap_over_amplitude, measures%approach_over_amplitude, &
+                                           errors(1)], &
+                        surface%nominal_area()*[measures%contact_area_fraction, errors(2)], &
+                        results%peak_pressure(load), scene%p_star*errors(3)])
          call file%add(solution%active_constraints)
          call file%add(solution%iterations)
          call file%add(solution%residual)

@@ -79,7 +79,7 @@ contains
 
       rows(1, :) = line%distance
       rows(2:3, :) = line%place
-      rows(4, :) = results%loads(load)%pbar_over_pstar
+      rows(4, :) = results%in_p_star(results%loads(load)%pbar_over_pstar)
       rows(5:, :) = values
       if (line%number > 1) call file%put('')
       call file%put_rows([load, line%number], rows)

@@ -12,7 +12,7 @@ module wavycon_scene
    public :: scene_type, target_words
 
    !> The quantity by which a deck gives its loads.
-   integer, parameter, public :: by_pressure = 1, by_mean_gap = 2, by_contact_area = 3, by_yield = 4
+   integer, parameter, public :: by_pressure = 1, by_mean_gap = 2, by_contact_area = 3, by_yield = 4, by_approach = 5
 
    type :: scene_type
       character(:), allocatable :: deck_path        !! the deck's file, as the caller named it
@@ -32,7 +32,7 @@ module wavycon_scene
       logical :: has_units = .false.                !! whether it gives a modulus or labels of units: not normalised
       real(dp) :: p_star = 0.0_dp                   !! p*, mean pressure that just closes the gap [pressure]
       integer :: loads_by = by_pressure             !! one of the names above
-      !> P, G, the contact area fraction or the largest equivalent stress over the yield stress, in the deck's order.
+      !> P, G, the contact area fraction, the approach over Delta or the largest equivalent stress over the yield stress, in the deck's order.
       real(dp), allocatable :: target(:)
       real(dp), allocatable :: mean_pressure(:)     !! [pressure]; allocated where loads are given by pressure
       type(group_values) :: stress, method, output  !! the groups &stress, &method and &output
@@ -51,6 +51,8 @@ contains
          words = 'gap/Delta'
       case (by_contact_area)
          words = 'area/A0'
+      case (by_approach)
+         words = 'approach/Delta'
       case (by_yield)
          words = 'stress/yield stress'
       case default

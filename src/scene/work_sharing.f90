@@ -63,7 +63,8 @@ contains
       call slab%start(max(traits%finest_grid, 1))
       can_distribute_loads = loads >= sharing%ranks .and. .not. need_fields
       is_large = product(int(traits%given_grid, int64)) >= large_grid
-      if (slab%is_distributed .and. .not. need_stresses .and. (is_large .or. .not. can_distribute_loads)) then
+      if (slab%is_distributed .and. .not. (need_stresses .or. traits%needs_whole_grids) .and. &
+          (is_large .or. .not. can_distribute_loads)) then
          sharing%kind = distributed_grids
       else if (can_distribute_loads) then
          sharing%kind = distributed_loads

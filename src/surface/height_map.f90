@@ -19,7 +19,7 @@ contains
 
    !> Prepares a map and makes its surface. Errors: exit_bad_input for heights that are not finite or out of range, for
    !> missing ones that are not to be filled, and for too few to determine a trend; exit_file_trouble without memory.
-   subroutine surface_of_map(source, preparation, scale, sides, map, surface, statistics, error)
+   subroutine surface_of_map(source, preparation, scale, sides, map, surface, statistics, error, radii)
       character(*), intent(in) :: source            !! of the heights, for messages
       type(map_preparation), intent(in) :: preparation
       real(dp), intent(in) :: scale                 !! length of one unit of the heights, > 0
@@ -29,6 +29,7 @@ contains
       type(surface_type), intent(inout) :: surface
       type(map_statistics), allocatable, intent(out) :: statistics   !! without the path
       type(error_type), allocatable, intent(out) :: error
+      real(dp), intent(in), optional :: radii(2)    !! of the ball that the map lies on, as of surface_of_points
 
       type(grid_slab) :: slab
       type(map_changes) :: changes
@@ -53,7 +54,8 @@ contains
       if (allocated(error)) return
       changes%rise = scale*changes%rise
       statistics = statistics_of(map%height, map%format, '', map%points())
-      surface = surface_of_points(sides, map%height, changes%edges == 'mirror', map%points())
+      surface = surface_of_points(sides, map%height, changes%edges == 'mirror', map%points(), changes%edges == 'free', &
+                                  radii)
       statistics%changes = changes
    end subroutine surface_of_map
 

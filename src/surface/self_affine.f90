@@ -17,13 +17,15 @@ module wavycon_self_affine
 contains
 
    !> Makes the surface. Errors: exit_file_trouble without enough memory, exit_bad_input for heights out of range.
-   subroutine self_affine_surface(source, spectrum, points, surface, map, error)
+   subroutine self_affine_surface(source, spectrum, points, surface, map, error, has_free_edges, radii)
       character(*), intent(in) :: source                   !! of the spectrum, for messages
       type(self_affine_spectrum), intent(in) :: spectrum   !! has_waves
       integer, intent(in) :: points(2)                     !! of the cell along x and y, not below least_points_of
       type(surface_type), intent(out) :: surface
       type(map_statistics), allocatable, intent(out) :: map
       type(error_type), allocatable, intent(out) :: error
+      logical, intent(in), optional :: has_free_edges      !! these as of surface_of_points
+      real(dp), intent(in), optional :: radii(2)
 
       type(grid_slab) :: slab
       real(dp), allocatable :: height(:, :)
@@ -49,7 +51,7 @@ contains
          return
       end if
       map = statistics_of(height, 'made', '', points)
-      surface = surface_of_points(spectrum%length, height, points=points)
+      surface = surface_of_points(spectrum%length, height, points=points, has_free_edges=has_free_edges, radii=radii)
    end subroutine self_affine_surface
 
 end module wavycon_self_affine

@@ -1,4 +1,4 @@
-!> Periodic surfaces: the gap h before deformation, and the pressure that closes it.
+!> Surfaces: the gap h before deformation, and of periodic ones the pressure that closes it.
 module wavycon_surface
    use wavycon_assertion, only: assert
    use wavycon_constants, only: pi, sqrt2
@@ -10,12 +10,13 @@ module wavycon_surface
    use wavycon_paper_wave, only: no_paper_wave, paper_wave_of, rounding, straight_paper_wave, rotated_paper_wave
    use wavycon_roughness, only: roughness_of, roughness_type
    use wavycon_series_peak, only: find_peak
+   use wavycon_series_samples, only: sample_series
    use wavycon_series_weights, only: divide_series, divided, weighted
    use wavycon_rotated_series, only: to_sum_angles
    implicit none (type, external)
    private
 
-   public :: surface_type, surface_of_series, surface_of_points, whole_surface
+   public :: surface_type, surface_of_ball, surface_of_series, surface_of_points, whole_surface
    public :: no_paper_wave, straight_paper_wave, rotated_paper_wave
 
    !> h/Delta = 1 - shape(X, Y),  X = 2 pi x/L_x,  Y = 2 pi y/L_y. The shape has mean 0 and peak 1: the surfaces first
@@ -29,6 +30,13 @@ module wavycon_surface
       integer :: points(2) = 0                  !! of the grid of a height map on the cell; zeros for a sum of waves
       !> Whether the cell consists of a height map and its mirror images. The map is then the quarter 0 <= X, Y <= pi.
       logical :: mirrored = .false.
+      !> Whether the map alone exists: nothing repeats it, and h has no images. Its points are those of a mirrored map,
+      !> which also interpolates its heights. p* is only a unit then, that of `stiffness` = the square root of its area,
+      !> in 1-D its length: there is no full contact.
+      logical :: has_free_edges = .false.
+      !> With free edges: half the curvatures along x and y of a paraboloid that is added to h, about the map's centre,
+      !> times Delta over the square of an angle.
+      real(dp) :: form(2) = 0.0_dp
       real(dp) :: crest(2) = 0.0_dp             !! X, Y of a peak of the shape [rad]
       real(dp) :: stiffness = 1.0_dp            !! pressure [p*] over displacement [Delta] of a wave, times wavelength
       real(dp) :: full_contact_peak = 1.0_dp    !! largest p - pbar in full contact [p*]; the least is -1
@@ -39,10 +47,16 @@ module wavycon_surface
       procedure :: sides
       procedure :: nominal_area
       procedure :: is_height_map
+      procedure :: is_ball
+      procedure :: radii
       procedure :: is_distributed
       procedure :: has_hardness
       procedure :: full_contact_pressure
       procedure :: undeformed_gap_over_amplitude
+      procedure :: shape_at
+      procedure :: sample_shape
+      procedure :: form_gap
+      procedure :: subtract_form
       procedure :: roughness
       procedure :: rms_slope
       procedure :: frequency
@@ -89,12 +103,16 @@ contains
    !>
    !> The grid is that of the whole cell, with the first point at X = Y = 0, or that of a quarter, which mirror images
    !> continue: equation (M6) of src/map/README.md.
-   type(surface_type) function surface_of_points(sides, height, mirrored, points) result(surface)
+   !>
+   !> With free edges the map may lie on a ball: a paraboloid of the given radii about its centre is subtracted.
+   type(surface_type) function surface_of_points(sides, height, mirrored, points, has_free_edges, radii) result(surface)
       real(dp), intent(in) :: sides(2)                 !! of the map along x and y [length], > 0
       !> [length], shape (M, N), N = 1 for a profile, or (M, columns of the grid's slab).
       real(dp), intent(in), contiguous :: height(:, :)
       logical, intent(in), optional :: mirrored        !! whether mirror images continue it; .false. if absent
       integer, intent(in), optional :: points(2)       !! M, N if the grid may be distributed; shape of height if absent
+      logical, intent(in), optional :: has_free_edges  !! .false. if absent; then mirrored too
+      real(dp), intent(in), optional :: radii(2)       !! of the ball [length], > 0, huge for a plane
 
       type(grid_transform) :: transform
       real(dp), allocatable :: values(:, :)
@@ -105,6 +123,8 @@ contains
       if (present(points)) grid = points
       surface%dimension = merge(1, 2, grid(2) == 1)
       if (present(mirrored)) surface%mirrored = mirrored
+      if (present(has_free_edges)) surface%has_free_edges = has_free_edges
+      surface%mirrored = surface%mirrored .or. surface%has_free_edges
       call assert(all(sides > 0.0_dp), 'sides > 0')
       surface%length = surface%parts()*sides
       surface%points = surface%parts()*grid
@@ -112,24 +132,111 @@ contains
       call transform%series(height, surface%shape)
       if (lbound(surface%shape%c, 1) == 0) surface%shape%c(0, 0) = 0.0_dp
       mean = transform%slab%column_totals(reshape(sum(height, dim=1), [1, size(height, 2)]))/product(real(grid, dp))
-      call transform%slab%find_largest(height, surface%amplitude, crest)
+      if (present(radii)) then
+         surface%form = half_curvatures(surface, radii)
+         values = height
+         call surface%subtract_form(values, [transform%x_angle(1), transform%y_angle(transform%slab%first)], &
+                                    2*pi/surface%points)
+         call transform%slab%find_largest(values, surface%amplitude, crest)
+      else
+         call transform%slab%find_largest(height, surface%amplitude, crest)
+      end if
       surface%amplitude = surface%amplitude - mean(1)
       surface%crest = point_angle(crest, transform%points, transform%even)
       if (surface%dimension == 1) surface%crest(2) = 0.0_dp
       if (surface%amplitude <= 0.0_dp) return
       call divide_series(surface%shape, surface%amplitude)
+      surface%form = surface%form/surface%amplitude
       per_wave = 1.0_dp/surface%length
-      allocate (values, mold=height)
-      call transform%sample(surface%shape, values, 1, per_wave)
-      extremes = [maxval(values), -minval(values)]
-      call transform%slab%largest(extremes)
-      surface%stiffness = 1.0_dp/extremes(2)
-      surface%full_contact_peak = extremes(1)*surface%stiffness
+      if (.not. allocated(values)) allocate (values, mold=height)
+      if (.not. surface%has_free_edges) then
+         call transform%sample(surface%shape, values, 1, per_wave)
+         extremes = [maxval(values), -minval(values)]
+         call transform%slab%largest(extremes)
+         surface%stiffness = 1.0_dp/extremes(2)
+         surface%full_contact_peak = extremes(1)*surface%stiffness
+      end if
       call transform%sample(surface%shape, values, 2, per_wave)
       extremes(1) = maxval(values)
       call transform%slab%largest(extremes)
       surface%crest_curvature = extremes(1)
+      if (surface%has_free_edges) call set_units_without_closure(surface)
    end function surface_of_points
+
+   !> A paraboloid with free edges, about the middle of a rectangle: a ball near its lowest point, in 1-D a roller.
+   type(surface_type) function surface_of_ball(sides, radii, dimension) result(surface)
+      real(dp), intent(in) :: sides(2)       !! of the rectangle along x and y [length], > 0
+      real(dp), intent(in) :: radii(2)       !! along x and y [length], > 0; the second is ignored in 1-D
+      integer, intent(in) :: dimension       !! 1 or 2
+
+      surface%dimension = dimension
+      surface%mirrored = .true.
+      surface%has_free_edges = .true.
+      surface%length = surface%parts()*sides
+      allocate (surface%shape%c(0:0, 0:0), source=0.0_dp)
+      surface%form = half_curvatures(surface, radii)
+      surface%amplitude = sum(surface%form)*pi**2/12
+      surface%form = surface%form/surface%amplitude
+      surface%crest = 0.5_dp*pi
+      if (dimension == 1) surface%crest(2) = 0.0_dp
+      surface%crest_curvature = 0.0_dp
+      call set_units_without_closure(surface)
+   end function surface_of_ball
+
+   !> Half the curvatures of a paraboloid over the square of an angle [length].
+   pure function half_curvatures(surface, radii) result(form)
+      type(surface_type), intent(in) :: surface   !! with its sides
+      real(dp), intent(in) :: radii(2)
+      real(dp) :: form(2)
+
+      form = 0.5_dp*(surface%length/(2*pi))**2/radii
+      if (surface%dimension == 1) form(2) = 0.0_dp
+   end function half_curvatures
+
+   !> Sets what of a surface with free edges does not follow from its shape alone.
+   pure subroutine set_units_without_closure(surface)
+      type(surface_type), intent(inout) :: surface
+
+      surface%stiffness = surface%nominal_area()**(1.0_dp/surface%dimension)
+      surface%full_contact_peak = huge(1.0_dp)
+      surface%crest_curvature = surface%crest_curvature + 2*sum(surface%form/surface%length**2)
+   end subroutine set_units_without_closure
+
+   !> What the paraboloid adds to h/Delta: its mean over the map is zero.
+   elemental real(dp) function form_gap(self, x, y) result(gap)
+      class(surface_type), intent(in) :: self
+      real(dp), intent(in) :: x, y   !! X, Y [rad], anywhere
+
+      gap = 0.0_dp
+      if (all(self%form <= 0.0_dp)) return
+      gap = one_way(self%form(1), x) + one_way(self%form(2), y)
+
+   contains
+
+      pure real(dp) function one_way(form, angle) result(gap)
+         real(dp), intent(in) :: form, angle
+
+         ! The mirror image of an angle within the map.
+         gap = form*((0.5_dp*pi - abs(pi - modulo(angle, 2*pi)))**2 - pi**2/12)
+      end function one_way
+
+   end function form_gap
+
+   !> Subtracts the paraboloid from a field over points that are equally spaced.
+   pure subroutine subtract_form(self, field, first, step)
+      class(surface_type), intent(in) :: self
+      real(dp), intent(inout) :: field(:, :)
+      real(dp), intent(in) :: first(2), step(2)   !! X, Y of the first point, and of a step [rad]
+
+      integer :: i, j
+
+      if (all(self%form <= 0.0_dp)) return
+      do j = 1, size(field, 2)
+         do i = 1, size(field, 1)
+            field(i, j) = field(i, j) - self%form_gap(first(1) + (i - 1)*step(1), first(2) + (j - 1)*step(2))
+         end do
+      end do
+   end subroutine subtract_form
 
    !> Gathers a distributed surface, on the rank that writes the tables or on all; on other ranks it stays distributed.
    !> The shape has 8 bytes a point, and takes twice as much for a moment.
@@ -175,6 +282,22 @@ contains
       is_height_map = all(self%points > 0)
    end function is_height_map
 
+   !> Whether the surface is a paraboloid without roughness.
+   pure logical function is_ball(self)
+      class(surface_type), intent(in) :: self
+
+      is_ball = self%has_free_edges .and. any(self%form > 0.0_dp) .and. all(abs(self%shape%c) <= 0.0_dp)
+   end function is_ball
+
+   !> The radii of the paraboloid along x and y [length]; infinite where there is none.
+   pure function radii(self)
+      class(surface_type), intent(in) :: self
+      real(dp) :: radii(2)
+
+      radii = huge(radii)
+      where (self%form > 0.0_dp) radii = 0.5_dp*(self%length/(2*pi))**2/(self%amplitude*self%form)
+   end function radii
+
    !> Whether the shape has the coefficients of own wave numbers in X only, see wavycon_own_waves. Then only
    !> wavycon_undeformed_gap can evaluate it; `whole_surface` gathers it. All other components are those of the whole
    !> surface.
@@ -205,9 +328,28 @@ contains
       class(surface_type), intent(in) :: self
       real(dp), intent(in) :: x, y   !! X, Y [rad]
 
-      call assert(.not. self%is_distributed(), 'the surface is whole')
-      gap = 1.0_dp - self%shape%at(x, y)
+      gap = 1.0_dp - self%shape_at(x, y)
    end function undeformed_gap_over_amplitude
+
+   !> 1 - h/Delta, of mean zero.
+   elemental real(dp) function shape_at(self, x, y)
+      class(surface_type), intent(in) :: self
+      real(dp), intent(in) :: x, y   !! X, Y [rad]
+
+      call assert(.not. self%is_distributed(), 'the surface is whole')
+      shape_at = self%shape%at(x, y) - self%form_gap(x, y)
+   end function shape_at
+
+   !> 1 - h/Delta at points of the part that tables refer to, as of `sample_series`.
+   subroutine sample_shape(self, points, offset, values)
+      class(surface_type), intent(in) :: self
+      integer, intent(in) :: points(2)                     !! N_x, N_y >= 1; N_y = 1 in 1-D
+      real(dp), intent(in) :: offset(2)                    !! of the first point, in steps
+      real(dp), allocatable, intent(out) :: values(:, :)   !! shape (N_x, N_y)
+
+      call sample_series(self%shape, points, offset, values, self%parts())
+      call self%subtract_form(values, 2*pi*offset/(self%parts()*points), 2*pi/(self%parts()*points))
+   end subroutine sample_shape
 
    !> Root mean squares of height, slope and curvature.
    type(roughness_type) function roughness(self)
@@ -265,7 +407,8 @@ contains
       class(surface_type), intent(in) :: self
 
       paper_wave = no_paper_wave
-      if (.not. self%is_distributed()) paper_wave = paper_wave_of(self%shape, self%dimension, is_square(self))
+      if (self%is_distributed() .or. self%has_free_edges) return
+      paper_wave = paper_wave_of(self%shape, self%dimension, is_square(self))
    end function paper_wave
 
    !> Whether the surface is a wave of the paper. A flat surface that is not a height map counts as one of amplitude 0
@@ -274,7 +417,7 @@ contains
       class(surface_type), intent(in) :: self
 
       is_paper_wave = self%paper_wave() /= no_paper_wave
-      if (.not. self%amplitude > 0.0_dp) is_paper_wave = .not. self%is_height_map() .and. &
+      if (.not. (self%amplitude > 0.0_dp .or. self%has_free_edges)) is_paper_wave = .not. self%is_height_map() .and. &
          (self%dimension == 1 .or. is_square(self))
    end function is_paper_wave
 
@@ -308,8 +451,8 @@ contains
       integer :: i, j, n
 
       n = ubound(self%shape%c, 1)
-      has_smaller_cell = .not. self%is_height_map() .and. self%dimension == 2 .and. self%shape%is_even() .and. &
-                         is_square(self) .and. n == ubound(self%shape%c, 2)
+      has_smaller_cell = .not. (self%is_height_map() .or. self%has_free_edges) .and. self%dimension == 2 .and. &
+                         self%shape%is_even() .and. is_square(self) .and. n == ubound(self%shape%c, 2)
       if (.not. has_smaller_cell) return
       has_smaller_cell = all(abs(self%shape%c - transpose(self%shape%c)) <= rounding)
       do j = 0, n

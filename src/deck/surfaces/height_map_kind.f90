@@ -16,7 +16,7 @@ module wavycon_height_map_kind
    use wavycon_prepare_map, only: map_preparation
    use wavycon_problems, only: problem_list_type
    use wavycon_surface, only: surface_type
-   use wavycon_surface_kind, only: length_x_key, length_y_key, surface_kind
+   use wavycon_surface_kind, only: check_form, form_radius_keys, length_x_key, length_y_key, radii_of, surface_kind
    use wavycon_system, only: full_path, path_absent, path_kind
    implicit none (type, external)
    private
@@ -56,10 +56,11 @@ contains
             "smooth surface of Laplace's equation.", [character(8) :: 'none', 'harmonic']), &
          choice_key('edges', "'periodic'", &
             "how the map continues beyond its borders: 'periodic', its last points are neighbours of its first; "// &
-            "'mirror', by its mirror images; 'window', periodic after a taper to the mean at the borders.", &
-            [character(8) :: 'periodic', 'mirror', 'window']), &
+            "'mirror', by its mirror images; 'window', periodic after a taper to the mean at the borders; 'free', not "// &
+            'at all: it is pressed on a half-space.', [character(8) :: 'periodic', 'mirror', 'window', 'free']), &
          real_key('window_width', short_number(usual_window_width), '-', &
-            "with edges = 'window': width of the taper at each border, over the side.", above=0.0_dp, most=0.5_dp)])
+            "with edges = 'window': width of the taper at each border, over the side.", above=0.0_dp, most=0.5_dp), &
+         form_radius_keys('form_radius', "a ball that the map lies on, with edges = 'free'")])
       kind%make => make
       kind%check => check
    end function height_map_kind
@@ -70,6 +71,7 @@ contains
 
       if (values%has('window_width') .and. values%text('edges') /= 'window') &
          call values%complain(problems, 'window_width', "window_width is for edges = 'window'")
+      call check_form(values, problems)
    end subroutine check
 
    !> Reads the map. Errors: exit_file_trouble if the file cannot be read, exit_bad_input if it is not a map, its holes
@@ -158,7 +160,7 @@ contains
       if (.not. allocated(error)) call surface_of_map(source, &
          map_preparation(values%text('detrend'), values%text('fill_missing'), values%text('edges'), &
                          values%real('window_width')), values%real('height_scale'), length, heights, surface, map, &
-                         error)
+                         error, radii_of(values, 'form_radius'))
       if (.not. allocated(error)) map%assumed_sides = assumed_sides
    end subroutine make_of
 

@@ -11,7 +11,7 @@ module wavycon_self_affine_kind
    use wavycon_self_affine, only: self_affine_surface
    use wavycon_self_affine_heights, only: has_waves, least_points_of, self_affine_spectrum
    use wavycon_surface, only: surface_type
-   use wavycon_surface_kind, only: length_x_key, length_y_key, surface_kind
+   use wavycon_surface_kind, only: check_form, form_radius_keys, length_x_key, length_y_key, radii_of, surface_kind
    implicit none (type, external)
    private
 
@@ -48,7 +48,10 @@ contains
                      'points of the cell along x and y on which the surface is made, and solved unless &method '// &
                      'says otherwise; one number for both, and 1 along y for a profile. The default is the least '// &
                      'power of two with at least four points to short_wavelength, if that is not more than 8192.', &
-                     1, most_points, most_values=2)])
+                     1, most_points, most_values=2), &
+         choice_key('edges', "'periodic'", "how the surface continues beyond its borders: 'periodic'; 'free', not "// &
+                    'at all: it is pressed on a half-space.', [character(8) :: 'periodic', 'mirror', 'window', 'free']), &
+         form_radius_keys('form_radius', "a ball that the surface lies on, with edges = 'free'")])
       kind%make => make
       kind%set_defaults => set_defaults
       kind%check => check
@@ -96,6 +99,9 @@ contains
       if (.not. values%has('rms_height') .and. .not. values%has('rms_slope')) &
          call values%complain(problems, 'kind', "kind = 'self_affine' needs rms_height or rms_slope")
       call values%forbid(problems, 'rms_height', 'rms_slope', 'give one of them')
+      if (all(values%text('edges') /= ['periodic', 'free    '])) call values%complain(problems, 'edges', &
+         "a random surface is made periodic: edges must be 'periodic' or 'free'")
+      call check_form(values, problems)
       if (values%any_bad()) return
       before = problems%number
       spectrum = spectrum_of(values)
@@ -185,7 +191,9 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       call self_affine_surface(escaped(values%deck_path)//": kind = 'self_affine'", spectrum_of(values), &
-                               values%integers('points'), surface, map, error)
+                               values%integers('points'), surface, map, error, values%text('edges') == 'free', &
+                               radii_of(values, 'form_radius'))
+      map%changes%edges = values%text('edges')
    end subroutine make
 
 end module wavycon_self_affine_kind

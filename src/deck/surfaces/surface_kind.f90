@@ -12,7 +12,7 @@ module wavycon_surface_kind
    implicit none (type, external)
    private
 
-   public :: length_x_key, length_y_key, surface_kind
+   public :: check_form, form_radius_keys, length_x_key, length_y_key, radii_of, surface_kind
 
    !> A value of the key `kind`. A key that two kinds read must have the same type, unit and bounds in both; its meaning
    !> may differ.
@@ -23,6 +23,7 @@ module wavycon_surface_kind
       procedure(make_interface), pointer, nopass :: make => null()
       procedure(defaults_interface), pointer, nopass :: set_defaults => null()   !! null: none depends on other keys
       procedure(check_interface), pointer, nopass :: check => null()             !! null: none contradicts another
+      procedure(sides_interface), pointer, nopass :: set_sides => null()         !! null: no side depends on the loads
    end type surface_kind
 
    abstract interface
@@ -48,6 +49,15 @@ module wavycon_surface_kind
          type(group_values), intent(in) :: values             !! after `set_defaults`
          type(problem_list_type), intent(inout) :: problems   !! to which they are added
       end subroutine check_interface
+
+      !> `set_sides`: sets the default sides, which depend on the loads.
+      subroutine sides_interface(values, e_star, hardness, key, largest)
+         import :: dp, group_values
+         type(group_values), intent(inout) :: values   !! of &surface, without problems
+         real(dp), intent(in) :: e_star, hardness      !! [pressure]; the second huge if there is none
+         character(*), intent(in) :: key               !! of &load that gives the loads
+         real(dp), intent(in) :: largest               !! of the loads, in the unit of the key
+      end subroutine sides_interface
    end interface
 
 contains
@@ -63,5 +73,46 @@ contains
       key = real_key('length_y', 'length_x', 'length', 'side of the periodic cell along y.', above=0.0_dp)
       if (present(meaning)) key%meaning = meaning
    end function length_y_key
+
+   !> The radii of the ball that a map with free edges lies on, or of a ball, by the name of the first key.
+   pure function form_radius_keys(name, of_what) result(keys)
+      character(*), intent(in) :: name      !! 'radius' or 'form_radius'
+      character(*), intent(in) :: of_what
+      type(key_type) :: keys(3)
+
+      keys(1) = real_key(name, '', 'length', 'radius of '//of_what//'.', above=0.0_dp, way=1)
+      keys(2) = real_key(name//'_x', '', 'length', 'radius of curvature along x of '//of_what//'; needs '//name// &
+                         '_y.', above=0.0_dp, way=2)
+      keys(3) = real_key(name//'_y', '', 'length', 'radius of curvature along y; needs '//name//'_x.', above=0.0_dp, &
+                         way=2)
+   end function form_radius_keys
+
+   !> Reports the radius of a form without free edges, and radii of which one is missing.
+   subroutine check_form(values, problems)
+      type(group_values), intent(in) :: values             !! of a kind with the keys `edges` and `form_radius`
+      type(problem_list_type), intent(inout) :: problems
+
+      character(13), parameter :: keys(3) = [character(13) :: 'form_radius', 'form_radius_x', 'form_radius_y']
+      integer :: k
+
+      do k = 1, size(keys)
+         if (values%has(trim(keys(k))) .and. values%text('edges') /= 'free') call values%complain(problems, &
+            trim(keys(k)), trim(keys(k))//" is for edges = 'free': a ball is not periodic")
+      end do
+      call values%require(problems, 'form_radius_x', 'form_radius_y')
+      call values%require(problems, 'form_radius_y', 'form_radius_x')
+   end subroutine check_form
+
+   !> The radii along x and y that these keys give [length]; huge where they give none.
+   pure function radii_of(values, name) result(radii)
+      type(group_values), intent(in) :: values
+      character(*), intent(in) :: name
+      real(dp) :: radii(2)
+
+      radii = huge(radii)
+      if (values%has(name)) radii = values%real(name)
+      if (values%has(name//'_x')) radii(1) = values%real(name//'_x')
+      if (values%has(name//'_y')) radii(2) = values%real(name//'_y')
+   end function radii_of
 
 end module wavycon_surface_kind

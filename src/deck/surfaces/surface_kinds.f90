@@ -1,5 +1,6 @@
 !> The list of all kinds of surface. A new kind adds its line to `get_surface_kinds`.
 module wavycon_surface_kinds
+   use wavycon_ball_kind, only: ball_kind
    use wavycon_group_values, only: group_values
    use wavycon_height_map_kind, only: height_map_kind
    use wavycon_plain_text, only: listed
@@ -12,7 +13,7 @@ module wavycon_surface_kinds
 
    public :: get_surface_kinds, kind_of, paper_waves, is_paper_kind
 
-   integer, parameter, public :: number_of_kinds = 7
+   integer, parameter, public :: number_of_kinds = 8
 
 contains
 
@@ -24,6 +25,7 @@ contains
       kinds(5) = wave_sum_kind()
       kinds(6) = height_map_kind()
       kinds(7) = self_affine_kind()
+      kinds(8) = ball_kind()
    end subroutine get_surface_kinds
 
    !> The kind that &surface names. Its pointers are null if there is none of that name.

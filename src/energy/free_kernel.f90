@@ -1,0 +1,102 @@
+!> The kernel of the elastic half-space in free space on a grid: the displacement that a uniform pressure on one cell
+!> causes at the centres of all cells, (E15) of README.md in this directory, and its transform (E17).
+module wavycon_free_kernel
+   use, intrinsic :: iso_c_binding, only: c_int, c_ptr
+   use wavycon_assertion, only: assert
+   use wavycon_fftw, only: fftw_destroy_plan, FFTW_ESTIMATE, fftw_execute_r2r, fftw_plan_r2r, FFTW_REDFT00
+   use wavycon_kinds, only: dp
+   implicit none (type, external)
+   private
+
+   public :: free_kernel, transform_of_kernel
+
+   !> Cells farther away than this, in steps, have their integral by three Gauss points each way: the relative error is
+   !> below 1e-13, and differences of the closed form would lose digits there.
+   real(dp), parameter :: far = 40.0_dp
+
+contains
+
+   !> The displacement over stiffness at the centre of cell (i, j) from a unit pressure on cell (0, 0), times sigma: in
+   !> 2-D the integral of 1/r over the cell, in 1-D that of -2 ln(r/L), L the length of the profile.
+   pure subroutine free_kernel(points, step, kernel)
+      integer, intent(in) :: points(2)     !! M, N; N = 1 in 1-D
+      real(dp), intent(in) :: step(2)      !! of the grid [length], > 0
+      real(dp), allocatable, intent(out) :: kernel(:, :)   !! shape (0:M, 0:N), (0:M, 0:0) in 1-D
+
+      real(dp), parameter :: nodes(3) = [-sqrt(0.15_dp), 0.0_dp, sqrt(0.15_dp)], weights(3) = [5.0_dp, 8.0_dp, 5.0_dp]/18
+      integer :: a, b, i, j
+      real(dp) :: x, y
+
+      if (points(2) == 1) then
+         allocate (kernel(0:points(1), 0:0))
+         do i = 0, points(1)
+            kernel(i, 0) = -2*step(1)*(line(i + 0.5_dp) - line(i - 0.5_dp) - log(real(points(1), dp)))
+         end do
+         return
+      end if
+      allocate (kernel(0:points(1), 0:points(2)), source=0.0_dp)
+      do j = 0, points(2)
+         y = j*step(2)
+         do i = 0, points(1)
+            x = i*step(1)
+            if (hypot(x, y) > far*maxval(step)) then
+               do b = 1, 3
+                  do a = 1, 3
+                     kernel(i, j) = kernel(i, j) + weights(a)*weights(b) &
+                        /sqrt((x + nodes(a)*step(1))**2 + (y + nodes(b)*step(2))**2)
+                  end do
+               end do
+               kernel(i, j) = product(step)*kernel(i, j)
+            else
+               associate (h => 0.5_dp*step)
+                  kernel(i, j) = corner(x + h(1), y + h(2)) - corner(x - h(1), y + h(2)) &
+                                 - corner(x + h(1), y - h(2)) + corner(x - h(1), y - h(2))
+               end associate
+            end if
+         end do
+      end do
+
+   contains
+
+      !> The integral of ln|x|.
+      pure real(dp) function line(x)
+         real(dp), intent(in) :: x   !! /= 0
+
+         line = x*(log(abs(x)) - 1.0_dp)
+      end function line
+
+      !> The integral of 1/r over the rectangle between the origin and a corner.
+      pure real(dp) function corner(x, y)
+         real(dp), intent(in) :: x, y   !! /= 0
+
+         corner = x*asinh(y/abs(x)) + y*asinh(x/abs(y))
+      end function corner
+
+   end subroutine free_kernel
+
+   !> The transform (E17) of a kernel that is even both ways, in place: that of the kernel's 2M x 2N values, which repeat.
+   subroutine transform_of_kernel(kernel)
+      real(dp), intent(inout), allocatable :: kernel(:, :)   !! shape (0:M, 0:N)
+
+      integer(c_int) :: kinds(2), lengths(2), rank
+      real(dp), allocatable :: transform(:, :)
+      type(c_ptr) :: plan
+
+      call assert(all(lbound(kernel) == 0), 'the kernel begins at 0')
+      rank = merge(1, 2, ubound(kernel, 2) == 0)
+      kinds = FFTW_REDFT00
+      lengths = shape(kernel)
+      if (rank == 2) lengths = lengths(2:1:-1)
+      allocate (transform, mold=kernel)
+      ! FFTW's planner is not thread-safe.
+      !$omp critical (wavycon_fftw_planner)
+      plan = fftw_plan_r2r(rank, lengths, kernel, transform, kinds, FFTW_ESTIMATE)
+      !$omp end critical (wavycon_fftw_planner)
+      call fftw_execute_r2r(plan, kernel, transform)
+      !$omp critical (wavycon_fftw_planner)
+      call fftw_destroy_plan(plan)
+      !$omp end critical (wavycon_fftw_planner)
+      call move_alloc(transform, kernel)
+   end subroutine transform_of_kernel
+
+end module wavycon_free_kernel

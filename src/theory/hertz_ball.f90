@@ -1,0 +1,129 @@
+!> Hertz's contact of two bodies whose gap is a paraboloid, x^2/(2 R_x) + y^2/(2 R_y): K. L. Johnson, *Contact
+!> mechanics*, Cambridge University Press (1985), eqs. (4.25), (4.26).
+!>
+!> With a >= b the half axes along the larger radius R and the smaller R', k = (1 - b^2/a^2)^(1/2), K and D = (K -
+!> E)/k^2 complete elliptic integrals of modulus k:
+!>
+!>     R/R' = (K - D)/(D b^2/a^2),   p_0 = E* a^2/(2 R b D),   approach = a^2 K/(2 R D),   force = (2/3) pi a b p_0.
+module wavycon_hertz_ball
+   use, intrinsic :: iso_c_binding, only: c_int
+   use wavycon_constants, only: pi
+   use wavycon_gsl, only: gsl_sf_ellint_Dcomp, gsl_sf_ellint_Kcomp
+   use wavycon_kinds, only: dp
+   implicit none (type, external)
+   private
+
+   public :: hertz_ball, hertz_of_approach, hertz_of_area, hertz_of_force, hertz_of_peak_pressure
+
+   !> A contact, in any unit of length and of pressure.
+   type :: hertz_ball
+      real(dp) :: half_axis(2) = 0.0_dp      !! of the contact, along x and y [length]
+      real(dp) :: force = 0.0_dp             !! [pressure length^2]
+      real(dp) :: approach = 0.0_dp          !! [length]
+      real(dp) :: peak_pressure = 0.0_dp     !! [pressure]
+   contains
+      procedure :: contact_area
+   end type hertz_ball
+
+contains
+
+   !> The contact under a force.
+   pure type(hertz_ball) function hertz_of_force(radii, e_star, force) result(contact)
+      real(dp), intent(in) :: radii(2)   !! along x and y [length], > 0
+      real(dp), intent(in) :: e_star     !! [pressure], > 0
+      real(dp), intent(in) :: force      !! >= 0
+
+      contact = scaled(unit_contact(radii, e_star), 3, force)
+   end function hertz_of_force
+
+   !> The contact at an approach [length], >= 0.
+   pure type(hertz_ball) function hertz_of_approach(radii, e_star, approach) result(contact)
+      real(dp), intent(in) :: radii(2), e_star, approach
+
+      contact = scaled(unit_contact(radii, e_star), 2, approach)
+   end function hertz_of_approach
+
+   !> The contact of an area [length^2], >= 0.
+   pure type(hertz_ball) function hertz_of_area(radii, e_star, area) result(contact)
+      real(dp), intent(in) :: radii(2), e_star, area
+
+      contact = unit_contact(radii, e_star)
+      contact = scaled(contact, 1, sqrt(area/contact%contact_area())*contact%peak_pressure)
+   end function hertz_of_area
+
+   !> The contact of a peak pressure [pressure], >= 0.
+   pure type(hertz_ball) function hertz_of_peak_pressure(radii, e_star, peak_pressure) result(contact)
+      real(dp), intent(in) :: radii(2), e_star, peak_pressure
+
+      contact = scaled(unit_contact(radii, e_star), 1, peak_pressure)
+   end function hertz_of_peak_pressure
+
+   pure real(dp) function contact_area(self)
+      class(hertz_ball), intent(in) :: self
+
+      contact_area = pi*product(self%half_axis)
+   end function contact_area
+
+   !> A contact of the same bodies: peak pressure and axes are proportional to each other, the approach goes with their
+   !> square and the force with their cube.
+   pure type(hertz_ball) function scaled(contact, power, value) result(other)
+      type(hertz_ball), intent(in) :: contact
+      integer, intent(in) :: power   !! 1, 2, 3: `value` is the peak pressure, the approach, the force
+      real(dp), intent(in) :: value
+
+      real(dp) :: factor, present(3)
+
+      present = [contact%peak_pressure, contact%approach, contact%force]
+      factor = (value/present(power))**(1.0_dp/power)
+      other = hertz_ball(factor*contact%half_axis, factor**3*contact%force, factor**2*contact%approach, &
+                         factor*contact%peak_pressure)
+   end function scaled
+
+   !> The contact whose longer half axis is the larger radius.
+   pure type(hertz_ball) function unit_contact(radii, e_star) result(contact)
+      real(dp), intent(in) :: radii(2), e_star
+
+      integer(c_int), parameter :: all_digits = 0
+      integer, parameter :: most_steps = 200
+      real(dp) :: a, b, d, high, k, k1, low, middle
+      integer :: step
+
+      ! ln(b/a), by bisection: the ratio of the radii falls with it.
+      low = -1.5_dp*log(maxval(radii)/minval(radii)) - 1e-3_dp
+      high = 0.0_dp
+      do step = 1, most_steps
+         middle = 0.5_dp*(low + high)
+         if (high - low <= epsilon(middle)*abs(middle) .or. middle <= low .or. middle >= high) exit
+         call integrals(exp(middle), k1, d)
+         if ((k1 - d)/(d*exp(2*middle)) > maxval(radii)/minval(radii)) then
+            low = middle
+         else
+            high = middle
+         end if
+      end do
+      if (abs(radii(1) - radii(2)) <= 0.0_dp) high = 0.0_dp
+      k = exp(high)
+      call integrals(k, k1, d)
+      a = maxval(radii)
+      b = k*a
+      contact%half_axis = merge([a, b], [b, a], radii(1) >= radii(2))
+      contact%peak_pressure = e_star*a**2/(2*maxval(radii)*b*d)
+      contact%approach = a**2*k1/(2*maxval(radii)*d)
+      contact%force = 2*pi*a*b*contact%peak_pressure/3
+
+   contains
+
+      pure subroutine integrals(ratio, first_kind, d)
+         real(dp), intent(in) :: ratio   !! b/a
+         real(dp), intent(out) :: first_kind, d
+
+         real(dp) :: modulus
+
+         modulus = sqrt((1.0_dp - ratio)*(1.0_dp + ratio))
+         first_kind = gsl_sf_ellint_Kcomp(modulus, all_digits)
+         d = gsl_sf_ellint_Dcomp(modulus, all_digits)
+      end subroutine integrals
+
+   end function unit_contact
+
+end module wavycon_hertz_ball
