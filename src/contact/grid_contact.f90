@@ -10,7 +10,7 @@ module wavycon_grid_contact
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, default_accuracy, solver_traits
    use wavycon_contact_status, only: converged, interrupted, iteration_limit, no_memory, not_accurate, unresolved
-   use wavycon_contact_tuning, only: largest_spot, least_search_points, worst_search_accuracy
+   use wavycon_contact_tuning, only: border, largest_spot, least_search_points, worst_search_accuracy
    use wavycon_grid_sequence, only: sequence_answer, solve_by_sequence
    use wavycon_grid_edge, only: grid_edge
    use wavycon_grid_plan, only: grid_plan, plan_grids
@@ -148,6 +148,7 @@ contains
       end if
       if (all(self%surface%points > 0) .and. answer%values(2) <= largest_spot) &
          solution%measures%load_concentration = load_concentration(answer%edge)
+      if (self%surface%has_free_edges) solution%measures%load_at_border = load_at_border(answer%edge)
       solution%active_constraints = bound_points(answer%edge, self%surface%hardness)
       solution%iterations = answer%iterations
       solution%residual = answer%state%residual
@@ -188,6 +189,21 @@ contains
          end if
       end associate
    end subroutine solve_cell
+
+   !> The part of the load that lies within `border` sides of the border.
+   pure real(dp) function load_at_border(edge) result(part)
+      type(grid_edge), intent(in) :: edge   !! whole, of a surface with free edges
+
+      integer :: inner(2)
+
+      associate (p => edge%pressure_or_gap, points => edge%slab%points)
+         inner = nint(border*points)
+         if (points(2) == 1) inner(2) = 0
+         associate (middle => p(1 + inner(1):points(1) - inner(1), 1 + inner(2):points(2) - inner(2)))
+            part = 1.0_dp - sum(middle, middle > 0.0_dp)/sum(p, p > 0.0_dp)
+         end associate
+      end associate
+   end function load_at_border
 
    !> The least pressure at the points of the grid.
    real(dp) function least_pressure(edge) result(least)

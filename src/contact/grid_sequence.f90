@@ -31,7 +31,7 @@ module wavycon_grid_sequence
       type(grid_state) :: state            !! on the finest grid, without the gap
       !> On the finest grid; not allocated if the first did not fit into memory, or if `progress` stopped the solver.
       type(grid_edge), allocatable :: edge
-      !> Mean gap, with free edges the approach [Delta], contact area fraction, peak pressure [p*].
+      !> Mean gap, with free edges in 2-D the approach [Delta], contact area fraction, peak pressure [p*].
       real(dp) :: values(3) = 0.0_dp
       real(dp) :: errors(3) = unknown      !! their error estimates, in the same units, or `unknown`
       !> The area by the number of points in contact, and that area corrected by (C26), in 1-D `unknown`.
@@ -178,7 +178,8 @@ contains
       integer :: j
       logical :: peak_resolved
 
-      answer%values(1) = merge(answer%state%approach, answer%state%open_gap(), surface%has_free_edges)
+      answer%values(1) = merge(answer%state%approach, answer%state%open_gap(), &
+                                surface%has_free_edges .and. surface%dimension == 2)
       if (.not. allocated(answer%edge)) allocate (answer%edge)
       do j = 1, size(answer%state%gap, 2)
          answer%state%gap(:, j) = joined(answer%state%pressure(:, j), answer%state%gap(:, j))

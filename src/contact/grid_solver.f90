@@ -11,7 +11,8 @@
 module wavycon_grid_solver
    use, intrinsic :: iso_c_binding, only: c_bool
    use wavycon_compliance_operator, only: compliance_operator
-   use wavycon_contact_tuning, only: correction_limit, correction_margin, correction_part, edge_tolerance, halo
+   use wavycon_contact_tuning, only: approach_tolerance, correction_limit, correction_margin, correction_part, &
+      edge_tolerance, halo
    use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp, sp
    use wavycon_local_stiffness, only: local_stiffness
@@ -71,7 +72,10 @@ contains
          touched = any(state%pressure > 0.0_dp, dim=1)
          call compute_gap(half_space, undeformed_gap, touched, state)
          allowed = residual*size_of_gaps(state)
-         if (residual <= 0.0_dp) allowed = edge_tolerance*gap_at_edge(state, touched)
+         if (residual <= 0.0_dp) then
+            allowed = edge_tolerance*gap_at_edge(state, touched)
+            if (half_space%is_free) allowed = min(allowed, approach_tolerance*approach_in_contact(state))
+         end if
          allowed = max(allowed, rounding)
          state%converged = state%residual <= allowed .or. &
                            (state%residual <= most_rounding .and. 2*state%residual > last_residual)
@@ -272,6 +276,20 @@ contains
       sums = state%slab%column_totals(parts)
       gap = sqrt(sums(1)/max(sums(2), 1.0_dp)*sums(3)/product(real(state%slab%points, dp)))
    end function gap_at_edge
+
+   !> The approach, times the square root of the part of all points that are in contact [Delta], (C28).
+   real(dp) function approach_in_contact(state) result(approach)
+      type(grid_state), intent(in) :: state
+
+      real(dp) :: parts(1, size(state%pressure, 2)), points(1)
+      integer :: j
+
+      do j = 1, size(state%pressure, 2)
+         parts(1, j) = count(state%pressure(:, j) > 0.0_dp)
+      end do
+      points = state%slab%column_totals(parts)
+      approach = abs(state%approach)*sqrt(points(1)/product(real(state%slab%points, dp)))
+   end function approach_in_contact
 
    !> The points that may be free after the next correction: points that are free or whose gap has the wrong sign, and
    !> points within some steps of these.

@@ -152,4 +152,15 @@ module wavycon_contact_tuning
    !> Largest ratio of the two curvatures of a crest, for the same reason.
    real(dp), parameter, public :: largest_curvature_ratio = 50.0_dp
 
+   ! Free edges.
+
+   !> Tolerance of the residual over the approach (C28): where the gap beside the contact is a step, as beside a punch,
+   !> that of (C10) says nothing. 5e-5 keeps the iteration error of the approach below a tenth of the error estimates of
+   !> punches of 128 points a side.
+   real(dp), parameter, public :: approach_tolerance = 5e-5_dp
+
+   !> Width of the border, over the sides of the map, whose part of the load the log tells: nearer contacts may miss
+   !> neighbours beyond the border.
+   real(dp), parameter, public :: border = 0.05_dp
+
 end module wavycon_contact_tuning

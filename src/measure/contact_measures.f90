@@ -39,6 +39,8 @@ module wavycon_contact_measures
       real(dp) :: contact_area_corrected_fraction = unknown
       !> That of wavycon_load_concentration, of a light contact on a height map; otherwise 0.
       real(dp) :: load_concentration = 0.0_dp
+      !> With free edges the part of the load that lies within `border` sides of the border; otherwise 0.
+      real(dp) :: load_at_border = 0.0_dp
    contains
       procedure :: errors => errors_of_measures
       procedure :: are_resolved

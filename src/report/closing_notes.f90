@@ -3,12 +3,12 @@ module wavycon_closing_notes
    use wavycon_constants, only: pi
    use wavycon_contact_measures, only: is_known
    use wavycon_contact_status, only: converged, not_found, unresolved
-   use wavycon_contact_tuning, only: least_concentration
+   use wavycon_contact_tuning, only: border, least_concentration
    use wavycon_error, only: exit_fine, exit_not_converged
    use wavycon_kinds, only: dp
    use wavycon_lattice_sums, only: rectangular_distance_sum
    use wavycon_method_list, only: method_of
-   use wavycon_plain_text, only: escaped, integer_text, listed, short_number
+   use wavycon_plain_text, only: escaped, integer_text, listed, percent, short_number
    use wavycon_results, only: results_type
    use wavycon_run_log, only: run_log
    use wavycon_scene, only: by_contact_area, by_yield
@@ -39,6 +39,7 @@ contains
          call note_unresolved(results, log)
          if (scene%loads_by /= by_yield) call note_unreached(results, log)
          call note_images(results, log)
+         call note_free_edges(results, log)
          if (without_area > 0) then
             method = method_of(scene%method)
             call method%why_no_area(scene%method, words)
@@ -93,6 +94,21 @@ contains
             merge('+ ', '- ', factor < 0.0_dp)//short_number(abs(factor))//'*mean_pressure*sqrt(cell_x*cell_y)/e_star')
       end associate
    end subroutine note_images
+
+   !> Says how much of the load lies at the border of a map with free edges, and that a profile has no approach.
+   subroutine note_free_edges(results, log)
+      type(results_type), intent(in) :: results
+      type(run_log), intent(inout) :: log
+
+      real(dp) :: largest
+
+      if (.not. results%solver%surface%has_free_edges) return
+      largest = maxval(results%loads%measures%load_at_border)
+      if (largest > 0.0_dp) call log%say('note: contact reaches the border: up to '//percent(largest)// &
+         ' of the load is within '//percent(border)//' of the sides from it, where a larger map might carry more')
+      if (results%solver%surface%dimension == 1) call log%say('note: the approach of a profile with free edges is '// &
+         'not defined and shows as NaN: it grows with the logarithm of the length over which it is measured')
+   end subroutine note_free_edges
 
    !> Says how many contact areas or mean gaps no load has on the grid, and what helps.
    subroutine note_unreached(results, log)

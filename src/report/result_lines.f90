@@ -25,14 +25,15 @@ contains
       type(log_line), intent(out) :: line
 
       integer :: solver_width
+      real(dp) :: approach(2)
 
       ! The longest name of a solver among the loads.
       solver_width = max(len('solver'), maxval(len_trim(solver_names(results%loads%solver))))
       associate (solution => results%loads(load), measures => results%loads(load)%measures)
          call start_line(results, load, line)
          if (results%solver%surface%has_free_edges) then
-            call add('approach', results%solver%surface%amplitude, measures%approach_over_amplitude, &
-                     measures%mean_gap_error)
+            approach = results%approach_over_amplitude(load)
+            call add('approach', results%solver%surface%amplitude, approach(1), approach(2))
             call add('area', results%solver%surface%nominal_area(), measures%contact_area_fraction, &
                      measures%contact_area_error)
             call add('peak', results%scene%p_star, measures%peak_pressure_over_pstar, measures%peak_pressure_error)

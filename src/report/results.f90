@@ -2,6 +2,7 @@
 module wavycon_results
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use wavycon_contact_solution, only: contact_solution
+   use wavycon_contact_measures, only: or_nan
    use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_contact_status, only: status_code, status_name
    use wavycon_kinds, only: dp
@@ -38,6 +39,7 @@ module wavycon_results
       procedure :: end_row
       procedure :: unit_in_words
       procedure :: in_p_star
+      procedure :: approach_over_amplitude
       procedure :: mean_pressure
       procedure :: peak_pressure
    end type results_type
@@ -190,6 +192,19 @@ contains
       in_p_star = number
       if (self%solver%surface%has_free_edges) in_p_star = not_a_number()
    end function in_p_star
+
+   !> The approach of a load and its error [Delta], as the table has them: NaN for a profile with free edges.
+   pure function approach_over_amplitude(self, load) result(approach)
+      class(results_type), intent(in) :: self
+      integer, intent(in) :: load
+      real(dp) :: approach(2)
+
+      associate (measures => self%loads(load)%measures)
+         approach = [measures%approach_over_amplitude, or_nan(measures%mean_gap_error)]
+      end associate
+      if (.not. self%traits%has_errors) approach(2) = not_a_number()
+      if (self%solver%surface%has_free_edges .and. self%solver%surface%dimension == 1) approach = not_a_number()
+   end function approach_over_amplitude
 
    !> The mean pressure of a load [pressure]. If the deck gives it, exactly that number.
    pure real(dp) function mean_pressure(self, load)

@@ -43,12 +43,13 @@ contains
       integer, intent(in) :: load
       type(output_file), intent(inout) :: file   !! with summary_columns
 
-      real(dp) :: at_hardness(4), errors(3)
+      real(dp) :: approach(2), at_hardness(4), errors(3)
 
       associate (scene => results%scene, surface => results%solver%surface, solution => results%loads(load), &
                  measures => results%loads(load)%measures)
          errors = not_a_number()
          if (results%traits%has_errors) errors = or_nan(measures%errors())
+         approach = results%approach_over_amplitude(load)
          at_hardness = not_a_number()
          if (surface%has_hardness()) then
             at_hardness(:2) = [measures%area_at_hardness_fraction, measures%load_at_hardness_fraction]
@@ -57,7 +58,7 @@ contains
          end if
          call file%add(load)
          call file%add([results%in_p_star(solution%pbar_over_pstar), &
-                        measures%mean_gap_over_amplitude, measures%approach_over_amplitude, &
+                        measures%mean_gap_over_amplitude, approach(1), &
                         measures%contact_area_fraction, results%in_p_star(measures%peak_pressure_over_pstar), &
                         results%in_p_star(measures%min_pressure_over_pstar), errors(:2), &
                         results%in_p_star(errors(3)), at_hardness, &
@@ -65,8 +66,7 @@ contains
                         or_nan(measures%contact_area_corrected_fraction), &
                         or_nan(linear_area_fraction(surface, scene%roughness%slope, solution%pbar_over_pstar)), &
                         results%mean_pressure(load), surface%nominal_area()*results%mean_pressure(load), &
-                        surface%amplitude*[measures%mean_gap_over_amplitude, measures%approach_over_amplitude, &
-                                           errors(1)], &
+                        surface%amplitude*[measures%mean_gap_over_amplitude, approach], &
                         surface%nominal_area()*[measures%contact_area_fraction, errors(2)], &
                         results%peak_pressure(load), scene%p_star*errors(3)])
          call file%add(solution%active_constraints)

@@ -13,7 +13,7 @@ module wavycon_hertz_ball
    implicit none (type, external)
    private
 
-   public :: hertz_ball, hertz_of_approach, hertz_of_area, hertz_of_force, hertz_of_peak_pressure
+   public :: hertz_ball, hertz_of_approach, hertz_of_area, hertz_of_force, hertz_of_peak_pressure, hertz_roller
 
    !> A contact, in any unit of length and of pressure.
    type :: hertz_ball
@@ -57,6 +57,17 @@ contains
 
       contact = scaled(unit_contact(radii, e_star), 1, peak_pressure)
    end function hertz_of_peak_pressure
+
+   !> Half width [length] and peak pressure [pressure] of a roller under a force a depth, Johnson (1985), eqs. (4.43),
+   !> (4.45).
+   pure function hertz_roller(radius, e_star, force) result(answer)
+      real(dp), intent(in) :: radius   !! [length], > 0
+      real(dp), intent(in) :: e_star   !! [pressure], > 0
+      real(dp), intent(in) :: force    !! [pressure length], >= 0
+      real(dp) :: answer(2)
+
+      answer = [sqrt(4*force*radius/(pi*e_star)), sqrt(force*e_star/(pi*radius))]
+   end function hertz_roller
 
    pure real(dp) function contact_area(self)
       class(hertz_ball), intent(in) :: self

@@ -41,7 +41,7 @@ def python_with(peer, directory):
 
 def offer_eigen(directory):
     """Lets CMake find Eigen, from which aspher is compiled; without it aspher downloads it, which may be barred."""
-    home = os.path.join(directory, 'eigen')
+    home = os.path.abspath(os.path.join(directory, 'eigen'))
     if virtual_environment.python_with(home, ['cmeel-eigen==3.4.1'], ['cmeel']):
         prefixes = glob.glob(os.path.join(home, 'lib', 'python*', 'site-packages', 'cmeel.prefix'))
         os.environ['CMAKE_PREFIX_PATH'] = ':'.join(
