@@ -197,7 +197,7 @@ contains
       integer :: inner(2)
 
       associate (p => edge%pressure_or_gap, points => edge%slab%points)
-         inner = nint(border*points)
+         inner = ceiling(border*points)
          if (points(2) == 1) inner(2) = 0
          associate (middle => p(1 + inner(1):points(1) - inner(1), 1 + inner(2):points(2) - inner(2)))
             part = 1.0_dp - sum(middle, middle > 0.0_dp)/sum(p, p > 0.0_dp)

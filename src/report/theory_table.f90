@@ -31,7 +31,7 @@ module wavycon_theory_table
    public :: refuse_other_waves, theory_table
 
    character(45), parameter :: columns(*) = [character(45) :: &
-      'load[-]', 'pbar_over_pstar[-]', &
+      'load[-]', 'pbar_over_pstar[-]', 'force[force]', &
       'kuznetsov_mean_gap_over_amplitude[-]', 'westergaard_contact_area_fraction[-]', &
       'westergaard_peak_pressure_over_pstar[-]', 'hertz_line_contact_area_fraction[-]', &
       'line_crack_contact_area_fraction[-]', &
@@ -42,8 +42,8 @@ module wavycon_theory_table
       'hertz_peak_pressure_over_pstar[-]', 'hertz_radius[length]', 'crack_radius[length]', &
       'ball_contact_area[area]', 'ball_approach[length]', 'ball_peak_pressure[pressure]', 'ball_half_axis_x[length]', &
       'ball_half_axis_y[length]']
-   !> Columns for the wave in one dimension, for that in two and for a ball, after the first two columns. Those of the
-   !> others are NaN.
+   !> Columns for the wave in one dimension, for that in two and for a ball, after the first three columns. Those of
+   !> the others are NaN.
    integer, parameter :: closed_forms(3) = [5, 12, 5]
 
 contains
@@ -111,7 +111,7 @@ contains
                 wavelength*penny_crack_radius_over_wavelength(p)]
          end if
          call file%add(load)
-         call file%add([results%in_p_star(p), values])
+         call file%add([results%in_p_star(p), results%solver%surface%nominal_area()*results%mean_pressure(load), values])
       end associate
       call file%end_row()
    end subroutine put_theory

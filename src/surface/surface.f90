@@ -189,7 +189,8 @@ contains
       real(dp), intent(in) :: radii(2)
       real(dp) :: form(2)
 
-      form = 0.5_dp*(surface%length/(2*pi))**2/radii
+      form = 0.0_dp
+      where (radii < huge(radii)) form = 0.5_dp*(surface%length/(2*pi))**2/radii
       if (surface%dimension == 1) form(2) = 0.0_dp
    end function half_curvatures
 

@@ -44,7 +44,7 @@ contains
             'this spectrum. Phases are random.', [character(6) :: 'ideal', 'random']), &
          integer_key('seed', '1', 'of the random numbers. The surface depends on the seed and on the keys above, '// &
                      'not on points.', 1, huge(1)), &
-         integer_key('points', 'from short_wavelength', &
+         integer_key('points', 'as kind says', &
                      'points of the cell along x and y on which the surface is made, and solved unless &method '// &
                      'says otherwise; one number for both, and 1 along y for a profile. The default is the least '// &
                      'power of two with at least four points to short_wavelength, if that is not more than 8192.', &
