@@ -81,7 +81,8 @@ contains
 
       real(dp), dimension(1) :: own_displacement, own_gap, own_pressure
 
-      call self%at_points(reshape([x, y], [2, 1]), [self%surface%shape_at(x, y)], own_pressure, own_displacement, own_gap)
+      call self%at_points(reshape([x, y], [2, 1]), [self%surface%shape_at(x, y)], own_pressure, own_displacement, &
+                          own_gap)
       pressure = own_pressure(1)
       displacement = own_displacement(1)
       gap = own_gap(1)

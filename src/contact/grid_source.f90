@@ -9,6 +9,7 @@ module wavycon_grid_source
    use wavycon_contact_measures, only: or_nan
    use wavycon_field_source, only: field_source
    use wavycon_fourier_series, only: fourier_series
+   use wavycon_free_stress, only: free_stress, start_free_stress
    use wavycon_grid_area, only: grid_strip_edges
    use wavycon_grid_edge, only: grid_edge, make_grid_edge
    use wavycon_grid_fields, only: grid_fields, start_grid_fields
@@ -149,6 +150,10 @@ contains
          call move_alloc(own, answer)
          return
       end if
+      if (surface%has_free_edges) then
+         call stresses_with_free_edges(self, record, surface, answer)
+         return
+      end if
       values = max(self%edge%pressure_or_gap, 0.0_dp)
       ! If all points are in contact at P < 1, the grid misses a gap. If that gap were closed the pressure there would
       ! be P - 1.
@@ -164,9 +169,44 @@ contains
       call move_alloc(own, answer)
    end subroutine stresses
 
+   !> The stresses of the series that interpolates the pressures of the map and zeros beyond it, without its images.
+   subroutine stresses_with_free_edges(self, record, surface, answer)
+      class(grid_source), intent(in) :: self
+      type(solution_record), intent(in) :: record
+      type(surface_type), intent(in) :: surface
+      class(stress_fields), allocatable, intent(out) :: answer
+
+      type(fourier_series) :: pressure
+      type(free_stress), allocatable :: own
+      type(grid_transform) :: transform
+      integer :: i, j
+      real(dp) :: centre(2), load, spread, x(self%edge%slab%points(1)), y(self%edge%slab%points(2))
+      real(dp), allocatable :: values(:, :)
+
+      allocate (own)
+      associate (points => self%edge%slab%points)
+         allocate (values(2*points(1), 2*points(2)), source=0.0_dp)
+         associate (p => values(:points(1), :points(2)))
+            p = max(self%edge%pressure_or_gap, 0.0_dp)
+            call transform%start(points, self%edge%even, whole=.true.)
+            x = transform%x_angle([(i, i=1, points(1))])
+            y = transform%y_angle([(j, j=1, points(2))])
+            load = sum(p)
+            centre = [dot_product(x, sum(p, dim=2)), dot_product(y, sum(p, dim=1))]/load
+            spread = sqrt((dot_product((x - centre(1))**2, sum(p, dim=2)) + (surface%length(2)/surface%length(1))**2 &
+                           *dot_product((y - centre(2))**2, sum(p, dim=1)))/load)
+         end associate
+      end associate
+      call transform%start(shape(values), .false., whole=.true.)
+      call transform%series(values, pressure)
+      call start_free_stress(own, surface, pressure, [x(1), y(1)], centre, spread, record%pbar_over_pstar, &
+                             or_nan(record%measures%peak_pressure_error))
+      call move_alloc(own, answer)
+   end subroutine stresses_with_free_edges
+
    !> What a checkpoint keeps: the residual indentation, the stiffness of `edge`, the points along x and y, the first of
-   !> the own columns, whether the cell is rotated, whether the grid covers a quarter of it and has uniform pressures on cells, and the pressures and gaps
-   !> at the own columns.
+   !> the own columns, whether the cell is rotated, whether the grid covers a quarter of it, whether its pressures are
+   !> uniform on cells, and the pressures and gaps at the own columns.
    pure subroutine pack_source(self, values)
       class(grid_source), intent(in) :: self
       real(dp), allocatable, intent(out) :: values(:)   !! not allocated if there is not enough memory

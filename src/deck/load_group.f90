@@ -118,14 +118,14 @@ contains
       worst = maxval(loads)
       if (surface%has_free_edges) then
          if (any(periodic_lists == key)) then
-            call values%complain(problems, given, given//' needs a surface that is repeated: one with free edges has '// &
-               'no p* and no mean gap. Give force, mean_pressure, approach or contact_area')
+            call values%complain(problems, given, given//' needs a surface that is repeated: one with free edges '// &
+               'has no p* and no mean gap. Give force, mean_pressure, approach or contact_area')
          else if (.not. has_area .and. any(key == ['mean_pressure        ', 'contact_area_fraction'])) then
             call values%complain(problems, key, key//' needs the sides of the ball, length_x and length_y: give '// &
                                  'them, or force, approach or contact_area')
          else if (loads_by == by_approach .and. surface%dimension == 1) then
-            call values%complain(problems, key, 'the approach of a profile with free edges is not defined: it grows '// &
-               'with the logarithm of the length over which it is measured. Give force or contact_area')
+            call values%complain(problems, key, 'the approach of a profile with free edges is not defined: it '// &
+               'grows with the logarithm of the length over which it is measured. Give force or contact_area')
          end if
       end if
       if (p_star <= 0.0_dp) then

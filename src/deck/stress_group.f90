@@ -78,8 +78,14 @@ contains
       end if
       if (.not. material%any_bad() .and. .not. values%is_bad('nu')) call take_ratios(values, material, problems)
       if (present(surface)) then
-         if (surface%has_free_edges) call problems%add(values%place, &
-            'stresses below a surface with free edges are not computed: leave &stress out')
+         if (surface%has_free_edges) then
+            if (surface%dimension == 1) call problems%add(values%place, &
+               'stresses below a profile with free edges are not computed: leave &stress out')
+            if (values%has('lateral')) call values%complain(problems, 'lateral', &
+               'a surface with free edges has no mean pressure far below it: leave lateral out')
+            call values%set('lateral', 'free')
+            call values%leave_out('lateral')
+         end if
          if (surface%dimension == 1 .and. any(values%text('section') == ['y       ', 'diagonal'])) &
             call values%complain(problems, 'section', &
             "the surface does not change along y: section must be 'none' or 'x'")

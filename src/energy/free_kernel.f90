@@ -23,7 +23,8 @@ contains
       real(dp), intent(in) :: step(2)      !! of the grid [length], > 0
       real(dp), allocatable, intent(out) :: kernel(:, :)   !! shape (0:M, 0:N), (0:M, 0:0) in 1-D
 
-      real(dp), parameter :: nodes(3) = [-sqrt(0.15_dp), 0.0_dp, sqrt(0.15_dp)], weights(3) = [5.0_dp, 8.0_dp, 5.0_dp]/18
+      real(dp), parameter :: nodes(3) = [-sqrt(0.15_dp), 0.0_dp, sqrt(0.15_dp)]
+      real(dp), parameter :: weights(3) = [5.0_dp, 8.0_dp, 5.0_dp]/18
       integer :: a, b, i, j
       real(dp) :: x, y
 
@@ -74,7 +75,7 @@ contains
 
    end subroutine free_kernel
 
-   !> The transform (E17) of a kernel that is even both ways, in place: that of the kernel's 2M x 2N values, which repeat.
+   !> The transform (E17) of a kernel that is even both ways, in place: that of its 2M x 2N values, which repeat.
    subroutine transform_of_kernel(kernel)
       real(dp), intent(inout), allocatable :: kernel(:, :)   !! shape (0:M, 0:N)
 

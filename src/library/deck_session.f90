@@ -145,7 +145,8 @@ contains
       if (allocated(error)) return
       call read_group_text(load_table(), quantity//' = '//number_words(value), values, text, problems)
       call check_load_group(values, problems)
-      if (problems%number == 0) call check_loads_of_surface(values, self%results%solver%surface, self%scale%p_star, problems)
+      if (problems%number == 0) &
+         call check_loads_of_surface(values, self%results%solver%surface, self%scale%p_star, problems)
       if (problems%number > 0) then
          call fatal_error(error, exit_bad_input, problem_report(problems, text))
          return

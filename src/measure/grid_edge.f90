@@ -18,12 +18,13 @@ module wavycon_grid_edge
    implicit none (type, external)
    private
 
-   public :: edge_rule, grid_edge, aligned_part, angle_steps, balance, joined, make_grid_edge, pressure_per_gap, start_grid_edge
+   public :: edge_rule, grid_edge, aligned_part, angle_steps, balance, joined, make_grid_edge, pressure_per_gap, &
+      start_grid_edge
 
-   !> Constants of (C11), (C12), which depend on the kernel of the half-space on a grid. The defaults are those of waves.
+   !> Constants of (C11), (C12), which depend on the kernel of the half-space. The defaults are those of waves.
    type :: edge_rule
       !> For an edge that runs along a line of the grid (C11): the weight of the first gap, times E*/(2 h), against the
-      !> last pressure; and how far inside the last point in contact the edge lies when that pressure vanishes, in steps.
+      !> last pressure; and how far inside the last point in contact the edge lies when that pressure vanishes [steps].
       real(dp) :: aligned_weight = pi/exp(1.0_dp), aligned_offset = 0.19000928592905364_dp
       !> The same for any direction, and what a turn adds to the area, in cells (C12).
       real(dp) :: gap_weight = gap_weight, offset = edge_offset, turn_area = turn_area

@@ -24,8 +24,8 @@ module wavycon_measure_tuning
    !> each hole, of which -0.15 and 0.95 do not come from the curvature.
    real(dp), parameter, public :: turn_area = 0.56_dp
 
-   ! The same three on a surface with free edges, whose pressures are uniform on the cells of the grid: Hertz's contact of
-   ! a ball, 40 loads, 2 to 54 cells of radius.
+   ! The same three on a surface with free edges, whose pressures are uniform on the cells of the grid: Hertz's contact
+   ! of a ball, 40 loads, 2 to 54 cells of radius.
 
    !> With it the area's error has the least scatter, 0.26 cells; 0.28 with 1.15 and 1.3.
    real(dp), parameter, public :: cell_gap_weight = 1.225_dp

@@ -17,8 +17,10 @@ module wavycon_largest_stress_table
       'largest_von_mises_over_pstar[-]', 'largest_von_mises_over_pstar_error[-]', &
       'largest_shear_over_pstar[-]', 'largest_shear_over_pstar_error[-]', &
       'stress_over_yield_stress[-]', 'stress_over_yield_stress_error[-]', 'mean_pressure[pressure]', &
-      'largest_von_mises[pressure]', 'von_mises_x[length]', 'von_mises_y[length]', 'von_mises_depth[length]', &
-      'largest_shear[pressure]', 'shear_x[length]', 'shear_y[length]', 'shear_depth[length]', &
+      'largest_von_mises[pressure]', 'largest_von_mises_error[pressure]', 'von_mises_x[length]', &
+      'von_mises_y[length]', 'von_mises_depth[length]', &
+      'largest_shear[pressure]', 'largest_shear_error[pressure]', 'shear_x[length]', 'shear_y[length]', &
+      'shear_depth[length]', &
       'status_code[-]', 'status[-]']
 
 contains
@@ -48,8 +50,9 @@ contains
             if (allocated(setting%yield_stress)) &
                ratio = setting%over_yield_stress(body, [yielding%value, yielding%error], [shear%value, shear%error])
             call file%add([load, body])
-            call file%add([setting%body(body)%nu, results%loads(load)%pbar_over_pstar, yielding%value, yielding%error, &
-                           shear%value, shear%error, ratio, results%mean_pressure(load)])
+            call file%add([setting%body(body)%nu, results%in_p_star([results%loads(load)%pbar_over_pstar, &
+                           yielding%value, yielding%error, shear%value, shear%error]), ratio, &
+                           results%mean_pressure(load)])
             call put_largest(yielding)
             call put_largest(shear)
             call results%end_row(file, load)
@@ -64,7 +67,8 @@ contains
 
          associate (scene => results%scene, length => results%solver%surface%length, &
                     parts => results%solver%surface%parts())
-            call file%add([scene%p_star*largest%value, [length, length(1)]*largest%place_in_cell(parts)])
+            call file%add([scene%p_star*[largest%value, largest%error], &
+                           [length, length(1)]*largest%place_in_cell(parts)])
          end associate
       end subroutine put_largest
 

@@ -17,8 +17,8 @@ module wavycon_result_lines
 contains
 
    !> One load: mean gap, area and peak pressure, each followed by its error estimate if the solver has them; mean and
-   !> peak pressure in the deck's unit if the deck gives a modulus; solver and status. With free edges approach, area and
-   !> peak pressure in the deck's units.
+   !> peak pressure in the deck's unit if the deck gives a modulus; solver and status. With free edges approach, area
+   !> and peak pressure in the deck's units.
    subroutine line_of_load(results, load, line)
       type(results_type), intent(in) :: results   !! with a solution for each load
       integer, intent(in) :: load                 !! number in the deck's order
@@ -62,8 +62,8 @@ contains
    end subroutine line_of_load
 
    !> One load and body: von Mises stress and shear stress, each followed by its error estimate, and the depth of the
-   !> first over the side of the cell along x; in the deck's units if it gives a modulus; if the deck gives a yield
-   !> stress the ratio to it.
+   !> first over the side of the cell along x; in the deck's units if it gives a modulus, with free edges in these
+   !> alone; if the deck gives a yield stress the ratio to it.
    subroutine line_of_stress(results, load, body, line)
       type(results_type), intent(in) :: results   !! with the largest stresses
       integer, intent(in) :: load                 !! number in the deck's order
@@ -73,12 +73,20 @@ contains
       associate (yielding => results%von_mises(body, load), shear => results%shear(body, load), scene => results%scene)
          call start_line(results, load, line)
          call line%add_word('body', achar(iachar('0') + body), body_width)
-         call line%add_number('vMises/p*', yielding%value)
-         call line%add_error(yielding%error)
-         call line%add_number('depth/cell', yielding%place(3)/(2*pi))
-         call line%add_number('shear/p*', shear%value)
-         call line%add_error(shear%error)
-         if (scene%gives_modulus) call line%add_number('vMises', scene%p_star*yielding%value, scene%pressure_unit)
+         if (results%solver%surface%has_free_edges) then
+            call line%add_number('vMises', scene%p_star*yielding%value, scene%pressure_unit)
+            call line%add_error(scene%p_star*yielding%error)
+            call line%add_number('depth', results%solver%surface%length(1)*yielding%place(3)/(2*pi), scene%length_unit)
+            call line%add_number('shear', scene%p_star*shear%value, scene%pressure_unit)
+            call line%add_error(scene%p_star*shear%error)
+         else
+            call line%add_number('vMises/p*', yielding%value)
+            call line%add_error(yielding%error)
+            call line%add_number('depth/cell', yielding%place(3)/(2*pi))
+            call line%add_number('shear/p*', shear%value)
+            call line%add_error(shear%error)
+            if (scene%gives_modulus) call line%add_number('vMises', scene%p_star*yielding%value, scene%pressure_unit)
+         end if
          if (allocated(scene%stress_setting%yield_stress)) call line%add_number( &
             'over yield', scene%stress_setting%over_yield_stress(body, yielding%value, shear%value))
       end associate

@@ -159,7 +159,8 @@ contains
       character(:), allocatable :: words
 
       words = 'E* = '//short_number(scene%e_star)//' ['//scene%pressure_unit//']'
-      if (.not. surface%has_free_edges) words = words//', p* = '//short_number(scene%p_star)//' ['//scene%pressure_unit//']'
+      if (.not. surface%has_free_edges) &
+         words = words//', p* = '//short_number(scene%p_star)//' ['//scene%pressure_unit//']'
       if (surface%has_hardness()) words = words//', hardness = '// &
          short_number(surface%hardness*scene%p_star)//' ['//scene%pressure_unit//']'
    end function material_words

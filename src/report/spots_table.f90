@@ -39,7 +39,7 @@ contains
       associate (solution => results%loads(load))
          call solution%spots(results%solver%surface, regions)
          call file%add(load)
-         call file%add([solution%pbar_over_pstar, solution%measures%contact_area_fraction])
+         call file%add([results%in_p_star(solution%pbar_over_pstar), solution%measures%contact_area_fraction])
       end associate
       call put_regions(file, regions)
       call results%end_row(file, load)

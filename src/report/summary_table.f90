@@ -12,8 +12,9 @@ module wavycon_summary_table
 
    public :: summary_table, put_summary_row
 
-   !> With free edges numbers in p* are NaN. The errors are estimates, NaN if unknown or if the solver has none. NaN too: what is at the hardness without a
-   !> hardness, areas by points without a grid, the linear law if the surface is no map.
+   !> With free edges numbers in p* are NaN. The errors are estimates, NaN if unknown or if the solver has none. NaN
+   !> too: what is at the hardness without a hardness, areas by points without a grid, the linear law if the surface is
+   !> no map.
    character(45), parameter, public :: summary_columns(*) = [character(45) :: &
       'load[-]', 'pbar_over_pstar[-]', 'mean_gap_over_amplitude[-]', 'approach_over_amplitude[-]', &
       'contact_area_fraction[-]', 'peak_pressure_over_pstar[-]', 'min_pressure_over_pstar[-]', &

@@ -111,7 +111,8 @@ contains
                 wavelength*penny_crack_radius_over_wavelength(p)]
          end if
          call file%add(load)
-         call file%add([results%in_p_star(p), results%solver%surface%nominal_area()*results%mean_pressure(load), values])
+         call file%add([results%in_p_star(p), results%solver%surface%nominal_area()*results%mean_pressure(load), &
+                        values])
       end associate
       call file%end_row()
    end subroutine put_theory

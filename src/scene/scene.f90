@@ -32,7 +32,8 @@ module wavycon_scene
       logical :: has_units = .false.                !! whether it gives a modulus or labels of units: not normalised
       real(dp) :: p_star = 0.0_dp                   !! p*, mean pressure that just closes the gap [pressure]
       integer :: loads_by = by_pressure             !! one of the names above
-      !> P, G, the contact area fraction, the approach over Delta or the largest equivalent stress over the yield stress, in the deck's order.
+      !> P, G, the contact area fraction, the approach over Delta or the largest equivalent stress over the yield
+      !> stress, in the deck's order.
       real(dp), allocatable :: target(:)
       real(dp), allocatable :: mean_pressure(:)     !! [pressure]; allocated where loads are given by pressure
       type(group_values) :: stress, method, output  !! the groups &stress, &method and &output

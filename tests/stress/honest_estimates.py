@@ -20,6 +20,9 @@ COARSEST = 1e-1
 HARD, LOAD_OVER_HARDNESS = "grid with a hardness", (0.05, 0.95)
 HARD_MAPS, QUICK_HARD_MAPS = 300, 6
 OF_HARDNESS = ("area_at_hardness_fraction", "load_at_hardness_fraction")
+# Balls and rough maps on balls, with free edges, their number, and their values.
+FREE, FREE_SCENES, QUICK_FREE_SCENES = "grid with free edges", 300, 6
+OF_FREE_EDGES = ("approach", "contact_area", "peak_pressure")
 FITTED_ACCURACIES = (1e-10, 1e-3)
 FINER, FITTED_FINER, FINEST_FITTED = 10.0, 100.0, 1e-12  # ratio of the accuracies of grids, of expansions; finest
 
@@ -52,6 +55,28 @@ def hard_case(stream):
             for grid in (points, 4*points)]
 
 
+def free_case(stream):
+    """The files of a ball to a random accuracy, or of a rough map on a ball on its own points, and those of a much finer
+    solution."""
+    radius = 10.0**stream.uniform(-0.5, 1.5)
+    if stream.random() < 0.5:
+        accuracy = 10.0**stream.uniform(-3.5, -1.5)
+        surface = f"kind = 'ball', radius_x = {radius!r}, radius_y = {radius*10.0**stream.uniform(-1.0, 1.0)!r}"
+        # A load that moves the edge between the points of its grids.
+        loads = [force*10.0**stream.uniform(0.0, 0.5) for force in (1e-6, 1e-5, 1e-4)]
+        methods = [f"accuracy = {each!r}" for each in (accuracy, accuracy/FINER)]
+    else:
+        points = stream.choice((64, 128, 256))
+        surface = (f"kind = 'self_affine', edges = 'free', points = {points}, rms_slope = {10.0**stream.uniform(-3, -1)!r},\n"
+                   f"   form_radius = {radius!r}, hurst = {stream.choice((0.3, 0.8, 1.0))!r},\n"
+                   f"   long_wavelength = {stream.choice((0.25, 1.0))!r},\n"
+                   f"   short_wavelength = {stream.choice((4.0, 8.0, 16.0))/points!r}, seed = {stream.randint(1, 2**30)}")
+        loads = [10.0**stream.uniform(-5.0, -1.5)/radius for _ in range(3)]
+        methods = [f"grid_points = {grid}" for grid in (points, 4*points)]
+    return [{"deck.nml": f"&surface {surface} /\n&load force = {', '.join(map(repr, loads))} /\n"
+                         f"&method solver = 'grid', {method} /\n"} for method in methods]
+
+
 def ratios_of(row, truth, names):
     """Of each value its error beyond that of the truth over its estimate, None if one is unknown, and the estimate."""
     for name in names:
@@ -62,29 +87,32 @@ def ratios_of(row, truth, names):
 
 
 def campaign(program, seed, kinds, scenes, work, failures):
-    """So many scenes of each kind with each solver for it, and maps with a hardness."""
+    """So many scenes of each kind with each solver for it, maps with a hardness, and surfaces with free edges."""
     part = Part("error estimates")
-    ratios = {solver: [] for solver in ("grid", "fitted", HARD)}
+    ratios = {solver: [] for solver in ("grid", "fitted", HARD, FREE)}
+    more_values = {HARD: VALUES + OF_HARDNESS, FREE: OF_FREE_EDGES}
+    rare = {HARD: hard_case, FREE: free_case}
     unknown = dict.fromkeys(ratios, 0)
     cases = [(kind, solver, number) for kind in kinds for solver in ("grid", "fitted") for number in range(scenes)
              if solver == "grid" or kind in FITTED]
     cases += [("self_affine", HARD, number) for number in range(HARD_MAPS if scenes > 1 else QUICK_HARD_MAPS)]
+    cases += [("free edges", FREE, number) for number in range(FREE_SCENES if scenes > 1 else QUICK_FREE_SCENES)]
     for kind, solver, number in cases:
         name = f"estimates-{solver}-{kind}-{number}".replace(" ", "-")
         stream = random.Random(f"{seed} {name}")
-        files, finer = hard_case(stream) if solver == HARD else random_case(stream, kind, solver)
+        files, finer = rare[solver](stream) if solver in rare else random_case(stream, kind, solver)
         rows, complaints = solve(program, files, work/name)
         truths, more = solve(program, finer, work/name)
         for row, truth in zip(rows, truths):
             if not (row.has_numbers and truth.has_numbers):
                 continue  # spots have merged
-            for value, ratio, allowed in ratios_of(row, truth, VALUES + (OF_HARDNESS if solver == HARD else ())):
+            for value, ratio, allowed in ratios_of(row, truth, more_values.get(solver, VALUES)):
                 if ratio is None:
                     unknown[solver] += 1
                     continue
                 ratios[solver].append(ratio)
                 if ratio > LARGEST_RATIO:
-                    complaints.append(f"{value} at P = {row.load!r} is off by {ratio:.1f} times its estimate, {allowed:.1e}")
+                    complaints.append(f"{value} of load {row.words['load']} is off by {ratio:.1f} times its estimate, {allowed:.1e}")
         if not part.count(name, complaints + more):
             keep(failures, name, files)
     words = []

@@ -29,7 +29,8 @@ contains
          form_radius_keys('radius', 'the ball'), &
          length_x_key(), length_y_key(), &
          integer_key('points', 'as kind says', 'points of the rectangle length_x x length_y along x and y on which '// &
-                     'the ball is solved; one number for both. Without it grids are refined to the accuracy of &method.', &
+                     'the ball is solved; one number for both. Without it grids are refined to the accuracy of '// &
+                     '&method.', &
                      1, most_points, most_values=2)])
       kind%make => make
       kind%check => check

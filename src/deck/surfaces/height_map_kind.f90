@@ -56,8 +56,8 @@ contains
             "smooth surface of Laplace's equation.", [character(8) :: 'none', 'harmonic']), &
          choice_key('edges', "'periodic'", &
             "how the map continues beyond its borders: 'periodic', its last points are neighbours of its first; "// &
-            "'mirror', by its mirror images; 'window', periodic after a taper to the mean at the borders; 'free', not "// &
-            'at all: it is pressed on a half-space.', [character(8) :: 'periodic', 'mirror', 'window', 'free']), &
+            "'mirror', by its mirror images; 'window', periodic after a taper to the mean at the borders; 'free', "// &
+            'not at all: it is pressed on a half-space.', [character(8) :: 'periodic', 'mirror', 'window', 'free']), &
          real_key('window_width', short_number(usual_window_width), '-', &
             "with edges = 'window': width of the taper at each border, over the side.", above=0.0_dp, most=0.5_dp), &
          form_radius_keys('form_radius', "a ball that the map lies on, with edges = 'free'")])

@@ -50,7 +50,8 @@ contains
                      'power of two with at least four points to short_wavelength, if that is not more than 8192.', &
                      1, most_points, most_values=2), &
          choice_key('edges', "'periodic'", "how the surface continues beyond its borders: 'periodic'; 'free', not "// &
-                    'at all: it is pressed on a half-space.', [character(8) :: 'periodic', 'mirror', 'window', 'free']), &
+                    'at all: it is pressed on a half-space.', &
+                    [character(8) :: 'periodic', 'mirror', 'window', 'free']), &
          form_radius_keys('form_radius', "a ball that the surface lies on, with edges = 'free'")])
       kind%make => make
       kind%set_defaults => set_defaults
