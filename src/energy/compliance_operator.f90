@@ -5,6 +5,7 @@
 !> App. 1). Where its surface has free edges the displacement is that of (E15), and the pressure of a displacement that
 !> of the mirror images, as a preconditioner needs it.
 module wavycon_compliance_operator
+   use wavycon_assertion, only: assert
    use wavycon_free_kernel, only: free_kernel, transform_of_kernel
    use wavycon_grid_convolution_dp, only: convolution_dp => grid_convolution
    use wavycon_grid_convolution_sp, only: convolution_sp => grid_convolution
@@ -19,13 +20,17 @@ module wavycon_compliance_operator
    type :: compliance_operator
       integer :: transform_pairs = 0               !! number of applications so far to fields in double precision
       integer :: single_pairs = 0                  !! the same in single precision
+      integer :: points(2) = 0                     !! of the grid that it was started on
       logical :: is_free = .false.                 !! whether the surface has free edges: displacements have a mean
+      real(dp), private :: stiffness = 1.0_dp      !! sigma [length]
+      real(dp), private :: step(2) = 1.0_dp        !! between the points [length]
       type(convolution_dp), private :: in_double
       type(convolution_sp), private :: in_single
       type(convolution_dp), private :: free_double
       type(convolution_sp), private :: free_single
    contains
       procedure :: start
+      procedure :: start_part
       !> From a pressure [p*] to its displacement [Delta], in place: u - ubar, with free edges u.
       generic :: displacement => displacement_dp, displacement_sp
       !> From a displacement [Delta] to its pressure p - pbar [p*] on a periodic surface, in place.
@@ -43,21 +48,47 @@ contains
       type(surface_type), intent(in) :: surface
       integer, intent(in) :: points(2)   !! M, N >= 1, of the whole cell, or of a quarter of an even surface's cell
 
-      real(dp), allocatable :: kernel(:, :)
-      real(dp) :: square_x(0:points(1) - 1), square_y(0:points(2) - 1)
-      integer :: i
-      logical :: even
+      self%points = points
+      self%is_free = surface%has_free_edges
+      self%stiffness = surface%stiffness
+      self%step = surface%length/(merge(2, 1, surface%shape%is_even())*points)
+      if (points(2) == 1) self%step(2) = surface%length(2)
+      call start_on_points(self, points, surface%shape%is_even())
+   end subroutine start
 
-      even = surface%shape%is_even()
+   !> The half-space on a part of the grid of another one, whose surface has free edges.
+   subroutine start_part(self, whole, points)
+      class(compliance_operator), intent(out) :: self
+      type(compliance_operator), intent(in) :: whole   !! started, is_free
+      integer, intent(in) :: points(2)                 !! of the part
+
+      call assert(whole%is_free, 'images do not depend on a part')
+      self%points = points
+      self%is_free = .true.
+      self%stiffness = whole%stiffness
+      self%step = whole%step
+      call start_on_points(self, points, .true.)
+   end subroutine start_part
+
+   !> Starts the convolutions for a number of points.
+   subroutine start_on_points(self, points, even)
+      type(compliance_operator), intent(inout) :: self   !! with stiffness, step, is_free
+      integer, intent(in) :: points(2)
+      logical, intent(in) :: even
+
+      real(dp), allocatable :: kernel(:, :)
+      real(dp) :: frequency(2), square_x(0:points(1) - 1), square_y(0:points(2) - 1)
+      integer :: i
+
       ! Stiffness over wavelength, squared: of the order of one in any unit of length.
-      square_x = (surface%stiffness*surface%frequency([(wave(i, points(1)), i=0, points(1) - 1)], 0))**2
-      square_y = (surface%stiffness*surface%frequency(0, [(wave(i, points(2)), i=0, points(2) - 1)]))**2
+      frequency = self%stiffness/(merge(2, 1, even .and. points > 1)*points*self%step)
+      square_x = (frequency(1)*[(wave(i, points(1)), i=0, points(1) - 1)])**2
+      square_y = (frequency(2)*[(wave(i, points(2)), i=0, points(2) - 1)])**2
       call self%in_double%start(even, square_x, square_y)
       call self%in_single%start(even, square_x, square_y)
-      self%is_free = surface%has_free_edges
       if (.not. self%is_free) return
-      call free_kernel(points, surface%sides()/points, kernel)
-      kernel = kernel/surface%stiffness
+      call free_kernel(points, self%step, kernel)
+      kernel = kernel/self%stiffness
       call transform_of_kernel(kernel)
       call self%free_double%start_free(kernel)
       call self%free_single%start_free(kernel)
@@ -72,7 +103,7 @@ contains
          wave = merge(index, min(index, length - index), even)
       end function wave
 
-   end subroutine start
+   end subroutine start_on_points
 
    subroutine displacement_dp(self, field, nonzero, wanted)
       class(compliance_operator), intent(inout) :: self
