@@ -124,6 +124,9 @@ contains
       words = preparation_words(map%changes, scene%length_unit)
       if (words /= '') call self%say('prepared  '//words)
       if (map%lacks_missing_value) call self%say('note: no height of the file has the missing_value of the deck')
+      if (map%spikes > 0) call self%say('note: '//integer_text(map%spikes)//' of the heights are far from all '// &
+         'around them (kurtosis '//short_number(map%kurtosis)//'): spikes of an instrument carry load that the '// &
+         'surface does not. Remedy: despike = .true.')
       call show_broken_borders(self, map, scene%length_unit)
       ! A broken border is a step between two points.
       if (.not. any(map%is_broken_along([1, 2]))) call show_unresolved_slopes(self, scene%roughness)

@@ -4,7 +4,7 @@ module wavycon_self_affine_kind
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: choice_key, integer_key, real_key
    use wavycon_kinds, only: dp
-   use wavycon_map_size, only: least_points, most_points
+   use wavycon_map_size, only: most_points
    use wavycon_map_statistics, only: map_statistics
    use wavycon_plain_text, only: escaped, integer_text, short_number
    use wavycon_problems, only: problem_list_type
@@ -19,6 +19,7 @@ module wavycon_self_affine_kind
 
    !> Most points along a side that a deck without `points` gets.
    integer, parameter :: most_default_points = 8192
+   integer, parameter :: least_points = 4
 
 contains
 
