@@ -2,10 +2,11 @@
 !>
 !> The processes of the parallel program all do the same; only the first one writes. Errors are those of all.
 module wavycon_run_program
+   use, intrinsic :: iso_c_binding, only: c_null_char
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use wavycon_check_scene, only: check_scene
    use wavycon_collected_table, only: collected_table
-   use wavycon_command_line, only: command_line_type, help_text, read_command_line, usage
+   use wavycon_command_line, only: command_line_type, command_to_resume, help_text, read_command_line, usage
    use wavycon_deck, only: deck_type
    use wavycon_deck_keys, only: deck_key, list_keys
    use wavycon_error, only: error_type, exit_bad_input, exit_fine, fatal_error
@@ -17,7 +18,7 @@ module wavycon_run_program
    use wavycon_results, only: results_type
    use wavycon_run_scene, only: run_scene
    use wavycon_scene, only: scene_type
-   use wavycon_system, only: outlive_file_size_limit
+   use wavycon_system, only: note_command, outlive_file_size_limit
    use wavycon_threads, only: set_threads, use_one_thread_for_matrices
    use wavycon_version, only: revision, version
    implicit none (type, external)
@@ -74,6 +75,7 @@ contains
          end do
          call finish(worst)
       end if
+      if (is_first_rank()) call note_command(command_to_resume()//c_null_char)
       call run_scenes(command_line, scenes, worst)
       call finish(worst)
    end subroutine run_program

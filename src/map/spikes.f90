@@ -20,36 +20,25 @@ contains
       integer, intent(out) :: number                          !! of spikes
       logical, intent(in) :: replace                          !! by the median of the neighbours; their number only
 
-      real(dp) :: distance, median, spread, spreads, typical
-      real(dp), allocatable :: found(:, :)    ! of candidates: distance and median
-      integer, allocatable :: place(:, :)
-      integer :: candidates, i, j, k
+      real(dp) :: median, spread, spreads
+      real(dp), allocatable :: was(:, :)
+      integer :: i, j, pass
 
-      allocate (found(2, 64), place(2, 64))
-      candidates = 0
-      spreads = 0.0_dp
-      do j = 1, size(height, 2)
-         do i = 1, size(height, 1)
-            if (is_missing(i, j)) cycle
-            call look_around(i, j, median, spread)
-            spreads = spreads + spread
-            distance = abs(height(i, j) - median)
-            if (.not. distance > reach_of_spike*spread) cycle
-            if (candidates == size(found, 2)) then
-               found = reshape(found, [2, 2*candidates], pad=[0.0_dp])
-               place = reshape(place, [2, 2*candidates], pad=[0])
-            end if
-            candidates = candidates + 1
-            found(:, candidates) = [distance, median]
-            place(:, candidates) = [i, j]
-         end do
-      end do
-      typical = spreads/size(height)
+      allocate (was, source=height)
       number = 0
-      do k = 1, candidates
-         if (.not. found(1, k) > reach_of_spike*typical) cycle
-         number = number + 1
-         if (replace) height(place(1, k), place(2, k)) = found(2, k)
+      spreads = 0.0_dp
+      do pass = 1, 2
+         do j = 1, size(height, 2)
+            do i = 1, size(height, 1)
+               if (is_missing(i, j)) cycle
+               call look_around(i, j, median, spread)
+               if (pass == 1) spreads = spreads + spread
+               if (pass == 1) cycle
+               if (.not. abs(was(i, j) - median) > reach_of_spike*max(spread, spreads/size(height))) cycle
+               number = number + 1
+               if (replace) height(i, j) = median
+            end do
+         end do
       end do
 
    contains
@@ -78,13 +67,13 @@ contains
                if ((k == i .and. l == j) .or. is_missing(k, l)) cycle
                n = n + 1
                do m = n, 2, -1
-                  if (sorted(m - 1) <= height(k, l)) exit
+                  if (sorted(m - 1) <= was(k, l)) exit
                   sorted(m) = sorted(m - 1)
                end do
-               sorted(m) = height(k, l)
+               sorted(m) = was(k, l)
             end do
          end do
-         median = height(i, j)
+         median = was(i, j)
          spread = 0.0_dp
          if (n < 6) return
          median = 0.5_dp*(sorted((n + 1)/2) + sorted(n/2 + 1))
