@@ -11,6 +11,7 @@ from variables import MOST_CURVES, MOST_EDGES, MOST_PANELS, CannotBeDrawn, array
 MOST_PIXELS = 800
 # A colour map ends at this part of its numbers if the largest is so many times as large, and then says the largest.
 SHOWN, FAR = 0.995, 1.25
+SAMPLE = 300000   # numbers of a map from which this is found
 # An outline is this part of the spots' width wide, at most the second number in points. One thinner than the third is
 # not drawn: where spots have few pixels it would hide them.
 PART_OF_SPOT, WIDEST, THINNEST = 0.08, 0.8, 0.3
@@ -101,8 +102,9 @@ def maps(tables, beside, choice, folder):
         numbers = [found[1][0]*number for number in ends]
         facts += put_range(name, numbers, may_be_wide=False)
         if height > 1:
-            facts += end_of_colours(name, (found[1][0]*number for place in places
-                                           for number in table.blocks[place].columns[name]), max(numbers))
+            columns = [table.blocks[place].columns[name] for place in places]
+            facts += end_of_colours(name, (found[1][0]*number for column in columns
+                                           for number in column[::1 + len(column)//SAMPLE]), max(numbers))
     cell = [length[1][0]*side for side in cell_of(table)]
     facts += array_of("cell", [repr(side) for side in cell])
     facts += [f"length_step = {step_of(max(3*min(cell), max(cell)))!r}"]

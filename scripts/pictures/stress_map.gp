@@ -10,8 +10,9 @@ set border 15 lw 0.7 front
 set xtics step_of[1] out font small
 set ytics step_of[2] out font small
 # Where there is tension and compression the first is orange.
-eval signed ? of_sign : of_size
-set cbrange [(signed ? -most : 0):most]
+eval negative && positive ? of_sign : of_size
+if (!positive) { set palette negative }
+set cbrange [(negative ? -most : 0):(positive || !negative ? most : 0)]
 set xrange [0:side[1]]
 if (downwards) { set yrange [side[2]:0] } else { set yrange [0:side[2]] }
 left(c) = (102 + (c - 1)*(panel_wide + 24))/width

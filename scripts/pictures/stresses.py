@@ -135,7 +135,8 @@ def colours(table, name, places):
     on_axis = [found[1][0]*number for number in numbers] or [0.0]
     most = max(map(abs, on_axis)) or 1.0
     return put_scale("stress", found, *SYMBOLS[name]) + put_range("stress", on_axis, may_be_wide=False) + \
-        [f"signed = {int(min(on_axis) < -VANISHING*most)}", f"most = {most!r}"]
+        [f"negative = {int(min(on_axis) < -VANISHING*most)}", f"positive = {int(max(on_axis) > VANISHING*most)}",
+         f"most = {most!r}"]
 
 
 def panel_of(sides):

@@ -429,7 +429,7 @@ class Numbers(unittest.TestCase):
                 self.assertAlmostEqual(1.0, slope/(sum(slopes)/len(slopes)), delta=0.2)
         for picture in list((ROOT/"scripts").glob("*.sh")) + list((ROOT/"scripts/pictures").glob("*.gp")):
             if picture.name != "fig09.sh":   # contact and gap alone
-                self.assertNotIn("set palette", picture.read_text())
+                self.assertNotIn("set palette defined", picture.read_text())
 
     def test_titles_fit(self):
         self.assertEqual(("case", 15.0), variables.fitted("case", "", 430))
