@@ -13,7 +13,7 @@ module wavycon_run_program
    use wavycon_make_scene, only: make_scene
    use wavycon_output_group, only: plain_directory
    use wavycon_plain_text, only: escaped, integer_text
-   use wavycon_ranks, only: end_ranks, is_first_rank, rank_library, share_error
+   use wavycon_ranks, only: end_ranks, is_first_rank, rank_count, rank_library, share_error
    use wavycon_read_deck, only: read_deck
    use wavycon_results, only: results_type
    use wavycon_run_scene, only: run_scene
@@ -43,7 +43,7 @@ contains
 
    !> Runs the program from its command line to its exit status, and ends it.
    subroutine run_program()
-      character(:), allocatable :: library
+      character(:), allocatable :: command, library
       type(command_line_type) :: command_line
       type(scene_item), allocatable :: scenes(:)
       type(error_type), allocatable :: error
@@ -75,7 +75,9 @@ contains
          end do
          call finish(worst)
       end if
-      if (is_first_rank()) call note_command(command_to_resume()//c_null_char)
+      command = command_to_resume()
+      if (rank_count() > 1) command = 'mpirun -n '//integer_text(rank_count())//' '//command
+      if (is_first_rank()) call note_command(command//c_null_char)
       call run_scenes(command_line, scenes, worst)
       call finish(worst)
    end subroutine run_program

@@ -21,16 +21,19 @@ contains
       logical, intent(in) :: replace                          !! by the median of the neighbours; their number only
 
       real(dp) :: median, spread, spreads
+      logical, allocatable :: there(:, :)
       real(dp), allocatable :: was(:, :)
       integer :: i, j, pass
 
       allocate (was, source=height)
+      allocate (there(size(height, 1), size(height, 2)), source=.true.)
+      if (allocated(missing)) there = .not. missing
       number = 0
       spreads = 0.0_dp
       do pass = 1, 2
          do j = 1, size(height, 2)
             do i = 1, size(height, 1)
-               if (is_missing(i, j)) cycle
+               if (.not. there(i, j)) cycle
                call look_around(i, j, median, spread)
                if (pass == 1) spreads = spreads + spread
                if (pass == 1) cycle
@@ -43,15 +46,8 @@ contains
 
    contains
 
-      pure logical function is_missing(i, j)
-         integer, intent(in) :: i, j
-
-         is_missing = .false.
-         if (allocated(missing)) is_missing = missing(i, j)
-      end function is_missing
-
       !> The median of the neighbours of a height that are there, and by how much they differ without the sixth of them
-      !> at either end, which may be parts of the same spike; huge if there are too few.
+      !> at either end, which may be parts of the same spike. With fewer than six a height is its own median.
       pure subroutine look_around(i, j, median, spread)
          integer, intent(in) :: i, j
          real(dp), intent(out) :: median, spread
@@ -64,7 +60,7 @@ contains
          n = 0
          do l = max(1, j - around(2)), min(size(height, 2), j + around(2))
             do k = max(1, i - around(1)), min(size(height, 1), i + around(1))
-               if ((k == i .and. l == j) .or. is_missing(k, l)) cycle
+               if ((k == i .and. l == j) .or. .not. there(k, l)) cycle
                n = n + 1
                do m = n, 2, -1
                   if (sorted(m - 1) <= was(k, l)) exit

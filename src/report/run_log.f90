@@ -37,6 +37,7 @@ module wavycon_run_log
       procedure :: is_due
       procedure :: show_loads
       procedure :: show_stresses
+      procedure :: elapsed
    end type run_log
 
    !> Shows the grids of a load as progress lines.
@@ -46,7 +47,6 @@ module wavycon_run_log
       integer :: solved = 0            !! loads that were solved
       real(dp) :: last = 0.0_dp        !! when the last of them was, since the start of the log [s]
    contains
-      procedure :: count_load
       procedure :: grid_solved
       procedure :: shall_stop
    end type log_progress
@@ -84,7 +84,7 @@ contains
 
       character(24) :: time
 
-      write (time, '(a, f9.3, a)') '[', elapsed(self), ' s] '
+      write (time, '(a, f9.3, a)') '[', self%elapsed(), ' s] '
       call self%say(trim(time)//' '//line)
    end subroutine say_timed
 
@@ -260,14 +260,6 @@ contains
          integer_text(iterations)//', residual '//short_number(residual))
    end function shall_stop
 
-   !> Counts a load that was solved, for the time that the others take.
-   subroutine count_load(self)
-      class(log_progress), intent(inout) :: self
-
-      self%solved = self%solved + 1
-      self%last = elapsed(self%log)
-   end subroutine count_load
-
    !> The load being solved, the time since the start and, from the second load on, what is left if the others take as
    !> long as those before.
    function words_of_load(self) result(words)
@@ -276,7 +268,7 @@ contains
 
       real(dp) :: now
 
-      now = elapsed(self%log)
+      now = self%log%elapsed()
       words = 'load '//integer_text(self%load)//' of '//integer_text(self%loads)//', '//duration(now)
       if (self%solved == 0) return
       words = words//', some '//duration(max(0.0_dp, self%last/self%solved*(self%loads - self%load + 1) &

@@ -68,7 +68,8 @@ contains
                call solve_target(solver, loads_by, target(load), results%loads(load), &
                                  results%scene%stress_setting)
                call checkpoint%add(load, results%loads(load))
-               call progress%count_load()
+               progress%solved = progress%solved + 1
+               progress%last = log%elapsed()
             end if
          end do
          solver%progress => null()

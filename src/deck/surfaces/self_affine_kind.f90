@@ -38,8 +38,8 @@ contains
          real_key('rolloff_wavelength', 'long_wavelength', 'length', &
                   'the spectrum of the heights is flat for longer waves and self-affine for shorter ones.', &
                   above=0.0_dp), &
-         real_key('short_wavelength', 'rolloff_wavelength/64', 'length', 'shortest wave, the short cut-off.', &
-                  above=0.0_dp), &
+         real_key('short_wavelength', '', 'length', 'shortest wave, the short cut-off; without it '// &
+                  'rolloff_wavelength/64.', above=0.0_dp), &
          choice_key('spectrum', "'ideal'", &
             "amplitudes of the waves: 'ideal', those of the spectrum; 'random', those of a Gaussian process with "// &
             'this spectrum. Phases are random.', [character(6) :: 'ideal', 'random']), &
