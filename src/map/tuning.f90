@@ -19,7 +19,7 @@ module wavycon_map_tuning
    !> of an instrument's error is beyond 10.
    real(dp), parameter, public :: reach_of_spike = 4.0_dp
 
-   !> Maps of a lower kurtosis are not searched for spikes, which takes 0.2 s for 1024 x 1024 points: that of Gaussian
+   !> Maps of a lower kurtosis are not searched for spikes, which takes 0.8 s for 1024 x 1024 points: that of Gaussian
    !> heights is 3, of exponential ones 9.
    real(dp), parameter, public :: spiky_kurtosis = 10.0_dp
 

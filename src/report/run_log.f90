@@ -255,7 +255,6 @@ contains
       real(dp), intent(in) :: residual
 
       shall_stop = .false.
-      if (iterations == 0) return
       if (self%log%is_due()) call self%log%say_progress(words_of_load(self)//': iteration '// &
          integer_text(iterations)//', residual '//short_number(residual))
    end function shall_stop

@@ -33,6 +33,9 @@ contains
                   above=0.0_dp, way=1), &
          real_key('rms_slope', '', '-', 'root mean square of the slope, the size of the gradient; or give '// &
                   'rms_height.', above=0.0_dp, way=2), &
+         real_key('spectral_density', '', 'length^4', 'in place of rms_height or rms_slope: the spectral density '// &
+                  'of waves longer than rolloff_wavelength, as &output spectrum has it; of a profile in length^3.', &
+                  above=0.0_dp, way=3), &
          real_key('long_wavelength', 'the longer side of the cell', 'length', 'longest wave, the long cut-off.', &
                   above=0.0_dp), &
          real_key('rolloff_wavelength', 'long_wavelength', 'length', &
@@ -94,9 +97,11 @@ contains
       type(self_affine_spectrum) :: spectrum
       integer :: before
 
-      if (.not. values%has('rms_height') .and. .not. values%has('rms_slope')) &
-         call values%complain(problems, 'kind', "kind = 'self_affine' needs rms_height or rms_slope")
+      if (.not. any([values%has('rms_height'), values%has('rms_slope'), values%has('spectral_density')])) &
+         call values%complain(problems, 'kind', "kind = 'self_affine' needs rms_height, rms_slope or spectral_density")
       call values%forbid(problems, 'rms_height', 'rms_slope', 'give one of them')
+      call values%forbid(problems, 'rms_height', 'spectral_density', 'give one of them')
+      call values%forbid(problems, 'rms_slope', 'spectral_density', 'give one of them')
       if (values%any_bad()) return
       before = problems%number
       spectrum = spectrum_of(values)
@@ -174,6 +179,7 @@ contains
       spectrum%shortest = values%real('short_wavelength')
       spectrum%by_slope = values%has('rms_slope')
       spectrum%rms = merge(values%real('rms_slope'), values%real('rms_height'), spectrum%by_slope)
+      if (values%has('spectral_density')) spectrum%density = values%real('spectral_density')
       spectrum%random_amplitudes = values%text('spectrum') == 'random'
       spectrum%seed = values%integer('seed')
    end function spectrum_of
