@@ -34,10 +34,15 @@ do for [i = 0:loads - 1] {
    stats edges index i \
       using (abs(column("y")) < 0.01 && abs(column("x")) < 0.5 ? abs(column("x")) : NaN) nooutput
    r = STATS_mean
-   # The lightest load's would hide the circle beside its curve.
-   aside = (i == 0 ? 0.022 : 0)
-   set label sprintf('%.1f', P[i + 1]) at 0.5 + (i % 2 ? -r : r) + aside, 0.5 \
-      center rotate by 90 front font ',10' boxed
+   # The lightest load's stands where its curve is farthest from the circle beside it, on the diagonal.
+   if (i == 0) {
+      stats edges index i \
+         using (abs(column("x") - column("y")) < 0.01 && column("x") > 0 && column("x") < 0.25 ? column("x") : NaN) nooutput
+      set label sprintf('%.1f', P[i + 1]) at 0.5 + STATS_mean, 0.5 + STATS_mean \
+         center rotate by -45 front font ',9' boxed
+   } else {
+      set label sprintf('%.1f', P[i + 1]) at 0.5 + (i % 2 ? -r : r), 0.5 center rotate by 90 front font ',10' boxed
+   }
 }
 
 # The circles of one load: contact spots of the first, open pools of the second.

@@ -54,8 +54,18 @@ set style line 36 lc rgb grey lw 1.6 dt solid pt 6 ps 0.8*mark
 set style line 37 lc rgb '#a67c00' lw 1.3 dt solid pt 4 ps 0.65*mark
 set style line 38 lc rgb '#5ab4e0' lw 1.3 dt (7, 3) pt 8 ps 0.8*mark
 
-# From light loads, pale, to heavy ones.
-set palette defined (0 '#7fb8de', 0.5 '#2f6fb0', 1 '#08204a')
+# Colour maps, to be chosen by `eval`: equal steps of a number are equal steps of lightness, so that they read in grey.
+# Curves from light loads, pale, to heavy ones.
+of_loads = "set palette defined (0 '#7baad5', 1 '#4985bc', 2 '#2f6191', 3 '#1c3e66', 4 '#0a1f3d')"
+# What is positive in the contact, or in the gap: the least of it is well off the white of where it is not.
+of_contact = "set palette defined (0 '#a9d0ee', 1 '#7baad5', 2 '#4985bc', 3 '#2f6191', 4 '#1c3e66', 5 '#0a1f3d')"
+of_gap = "set palette defined (0 '#f6cda2', 1 '#e49d66', 2 '#cd6e2b', 3 '#9e4d18', 4 '#6c3110', 5 '#3f1702')"
+# From zero, white; and from negative numbers, blue, over zero, grey, to positive ones.
+of_size = "set palette defined (0 '#ffffff', 1 '#bbd9f1', 2 '#85b1da', 3 '#518ac0', 4 '#316496', 5 '#1d4068', 6 '#0a1f3d')"
+of_sign = "set palette defined (-4 '#0b2f5e', -3 '#234574', -2 '#365d8a', -1 '#4975a1', 0 '#8b8b8b', 1 '#b0a090', \
+   2 '#e2b47c', 3 '#f1d2a9', 4 '#fdf0d8')"
+outline = '#303338'
+eval of_loads
 unset colorbox
 
 set border lw 0.7

@@ -38,7 +38,7 @@ set surface
 
 # Above: sections through the crest in the middle, with isolines, the contact, and the place of the largest stress.
 unset key
-set palette defined (0 '#ffffff', 0.05 '#e8eef5', 0.5 '#5b8db8', 1 '#14304a')
+eval of_size
 set cbrange [0:1.2]
 set multiplot
 set border 15 lw 0.7
@@ -76,7 +76,7 @@ do for [i = 1:words(loads)] {
    set xtics ('' -0.4, '' 0, '' 0.4)
    set format y ''
    unset colorbox
-   plot for [side in '-1 1'] isolines(i) using (side*$1):2 with lines lc rgb '#303338' lw 0.5
+   plot for [side in '-1 1'] isolines(i) using (side*$1):2 with lines lc rgb outline lw 0.5
 }
 set datafile columnheaders
 

@@ -10,6 +10,7 @@ CONVERTED = re.compile(r"([nµumkMG]?)(Pa|m)")
 SMALL, LARGE = 1e-2, 1e4
 # An axis is logarithmic if its numbers span more than this and half of them would lie in its first tenth.
 WIDE, CROWDED = 100, 0.1
+ALIKE = 1e-3   # numbers that differ by no more of the largest count as one
 
 
 def quoted(text):
@@ -33,15 +34,18 @@ class Scale:
     """How the numbers of an axis are shown: times `factor`, beside a label.
 
     most: the largest number. unit: its label, '' if it has none. over: a name of gnuplot's for that by which numbers
-    without a label are divided, '' if they are not.
+    without a label are divided, '' if they are not. size: the number that is to be 1 to 1000 in the unit shown, None
+    for the largest: all pictures of a run then have the same unit.
     """
 
-    def __init__(self, most, unit="", over=""):
+    def __init__(self, most, unit="", over="", size=None):
         self.unit, self.over = unit, "" if unit else over
         self.factor, self.power = 1.0, 0
+        known = CONVERTED.fullmatch(unit)
+        if known and size:
+            most = size
         if not most > 0:
             return
-        known = CONVERTED.fullmatch(unit)
         # The largest number is then 1 to 1000, as far as there are prefixes; 0.9999 counts as 1.
         power = 3*math.floor(math.log10(1.001*most)/3)
         if known and PREFIXES[known[1]] + power in SHOWN:
@@ -88,6 +92,8 @@ def axis(numbers, may_be_wide=True, up_to=None):
     """
     numbers = [number for number in numbers if math.isfinite(number)] or [0.0, 1.0]
     low, high = min(numbers), max(numbers)
+    if high - low < ALIKE*high:
+        low = high   # numbers that differ by less would have tics that read alike
     positive = sorted(number for number in numbers if number > 0)
     if may_be_wide and low >= 0 and positive and high > WIDE*positive[0] and \
             positive[(len(positive) - 1)//2] < CROWDED*high:

@@ -16,8 +16,8 @@ set tmargin at screen 1 - 42.0/height
 first(x) = (begin = end, end = x, int(column(0))%2 ? begin : NaN)
 begin = 0
 end = 0
-plot for [i = 1:loads_shown] for [k = first_copy[1]:last_copy[1]] \
+plot for [i = 1:loads_shown] for [k = first_copy:last_copy] \
    run(1) index block_of[i] using (k*cell[1] + s*first(column('x'))):(load_of[i]):(s*(end - begin)):(0) \
    with vectors nohead lc rgb blue lw 2, \
-   for [i = 1:loads_shown] for [k = first_copy[1]:last_copy[1]] \
+   for [i = 1:loads_shown] for [k = first_copy:last_copy] \
    run(1) index block_of[i] using (k*cell[1] + s*column('x')):(load_of[i]) with points lc rgb blue pt 7 ps 0.4*mark

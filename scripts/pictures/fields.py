@@ -4,11 +4,17 @@ import math
 import os
 
 from axes import axis, chosen, quoted, step_of
-from variables import MOST_CURVES, MOST_EDGES, MOST_PANELS, REFERENCE, CannotBeDrawn, array_of, load_facts, \
+from variables import MOST_CURVES, MOST_EDGES, MOST_PANELS, CannotBeDrawn, array_of, load_facts, \
     numbers_in, of_column, of_loads, put_range, put_scale, shown
 
 # Points of a map along a side that a picture can show.
 MOST_PIXELS = 800
+# A colour map ends at this part of its numbers if the largest is so many times as large, and then says the largest.
+SHOWN, FAR = 0.995, 1.25
+SAMPLE = 300000   # numbers of a map from which this is found
+# An outline is this part of the spots' width wide, at most the second number in points. One thinner than the third is
+# not drawn: where spots have few pixels it would hide them.
+PART_OF_SPOT, WIDEST, THINNEST = 0.08, 0.8, 0.3
 
 
 def matched(tables, loads, most):
@@ -77,7 +83,7 @@ def lines(tables, beside, choice, folder):
     if solved and not theory:
         # gnuplot wants the file even if it plots nothing of it.
         os.symlink(os.path.abspath(first.path), os.path.join(folder, "theory_lines"))
-    return "lines", (430 if dimension == 1 else 710, 430), facts
+    return "lines", (470 if dimension == 1 else 760, 430), facts
 
 
 def maps(tables, beside, choice, folder):
@@ -94,7 +100,11 @@ def maps(tables, beside, choice, folder):
         found = numbers_in(tables, lambda table: ends, unit, over)
         facts += put_scale(name, found, symbol, name)
         numbers = [found[1][0]*number for number in ends]
-        facts += put_range(name, numbers, may_be_wide=False) + [f"{name}_most = {max(numbers) or 1.0!r}"]
+        facts += put_range(name, numbers, may_be_wide=False)
+        if height > 1:
+            columns = [table.blocks[place].columns[name] for place in places]
+            facts += end_of_colours(name, (found[1][0]*number for column in columns
+                                           for number in column[::1 + len(column)//SAMPLE]), max(numbers))
     cell = [length[1][0]*side for side in cell_of(table)]
     facts += array_of("cell", [repr(side) for side in cell])
     facts += [f"length_step = {step_of(max(3*min(cell), max(cell)))!r}"]
@@ -102,18 +112,25 @@ def maps(tables, beside, choice, folder):
         columns, rows = write_closed(table, place, os.path.join(folder, f"map{number}"))
     facts += [f"columns = {columns}", f"rows = {rows}"]
     if height == 1:
-        return "map_1d", (430, 430), facts
-    facts += edge_facts(beside.get("contour"), [table.blocks[place].load for place in places], cell_of(table))
-    if "contour" not in beside:
-        # gnuplot wants the file even if it plots nothing of it.
-        os.symlink(os.path.realpath(REFERENCE), os.path.join(folder, "contour"))
+        return "map_1d", (470, 430), facts
     # Panels of about the same area, whatever the cell's shape.
     stretch = min(max(math.sqrt(cell[1]/cell[0]), 0.45), 2.2)
     wide, tall = 150/stretch, 150*stretch
-    across = 2 if len(places) == 1 else len(places)
-    down = 1 if len(places) == 1 else 2
-    size = (70 + across*(wide + 16) + 75 + (75 if down == 1 else 0), 46 + down*(tall + 16) + 60)
+    facts += outlines(beside.get("contour"), table, places, length[1][0], wide, folder)
+    # The paper's series has contact where the pressure exceeds a level.
+    facts += [f"edge_pressure = {table.numbers.get('edge_level', 0.0)*table.numbers.get('p*', 1.0)!r}"]
+    across, down = (3, 1) if len(places) == 1 else (len(places), 3)
+    size = (96 + across*(wide + 30) + (160 if down == 1 else 80), 46 + down*(tall + 16) + 60)
     return "map", size, facts + [f"panel_wide = {wide!r}", f"panel_tall = {tall!r}"]
+
+
+def end_of_colours(name, numbers, largest):
+    """Where a colour map ends, and what its label says of a largest number that lies beyond."""
+    found = sorted(number for number in numbers if number > 0) or [1.0]
+    most = found[int(SHOWN*(len(found) - 1))]
+    if largest <= FAR*most:
+        return [f"{name}_most = {max(found[-1], largest)!r}", f"{name}_beyond = ''"]
+    return [f"{name}_most = {most!r}", f'{name}_beyond = "\\n".{quoted(f"largest {largest:.4g}")}']
 
 
 def ends_of(table, name, places):
@@ -157,22 +174,48 @@ def write_closed(table, place, path, names=("pressure", "gap")):
     return len(across), len(down)
 
 
-def edge_facts(contour, numbers, cell):
-    """The blocks of contours of loads, -1 without, and the cells in which copies of the curves are to be drawn.
+def copies(table, numbers, side):
+    """The cells, counted from 0, in which copies of a curve are to be drawn so that the cell shows all of it.
 
-    Curves across the border of a mirrored map are their own mirror images: they have no copies.
+    numbers: its places along a side. Curves across the border of a mirrored map are their own mirror images.
     """
-    places, low, high = [-1]*len(numbers), [0, 0], [0, 0]
-    if contour:
-        blocks = {block.load: i for i, block in enumerate(contour.blocks)}
-        places = [blocks.get(number, -1) for number in numbers]
-        for axis_name, side, k in zip("xy", cell, (0, 1)):
-            found = contour.column(axis_name, [place for place in places if place >= 0]) or [0.0]
-            if contour.mirrored:
-                continue
-            low[k], high[k] = -math.floor(max(found)/side), -math.floor(min(found)/side)
-    return array_of("edge_of", [str(place) for place in places]) + array_of("first_copy", [str(k) for k in low]) \
-        + array_of("last_copy", [str(k) for k in high])
+    return range(1) if table.mirrored else range(-math.floor(max(numbers)/side), 1 - math.floor(min(numbers)/side))
+
+
+def outlines(contour, table, places, factor, wide, folder):
+    """Writes the edges of contact of loads as they are drawn over one cell, to the files edge1, edge2 ..., and the
+    widths of their lines in points: thinner where spots are small, 0 where lines would hide them.
+
+    table: has the loads as blocks. factor: of lengths on the axis. wide: the width of the cell's picture in points.
+    """
+    cell, widths = cell_of(table), []
+    for number, place in enumerate(places, 1):
+        block = next((block for block in (contour.blocks if contour else ())
+                      if block.load == table.blocks[place].load), None)
+        lines, length, area = ["x y", "-1 -1"], 0.0, 0.0   # gnuplot wants a point even if there is no edge
+        for x, y in curves_of(block):
+            for i in copies(contour, x, cell[0]):
+                for j in copies(contour, y, cell[1]):
+                    lines += [""] + [f"{factor*(i*cell[0] + u):.7g} {factor*(j*cell[1] + v):.7g}" for u, v in zip(x, y)]
+            length += sum(map(math.dist, zip(x, y), zip(x[1:], y[1:])))
+            # Contact lies on the left: holes count as negative. A band's edge does not end where it began.
+            closed = math.dist((x[0], y[0]), (x[-1], y[-1])) < 1e-6*cell[0]
+            area += sum(u*w - t*v for u, v, t, w in zip(x, y, x[1:], y[1:]))/2 if closed else math.prod(cell)/4
+        spots = min(abs(area), abs(math.prod(cell) - abs(area)))
+        width = PART_OF_SPOT*wide/cell[0]*2*spots/length if length else 0.0
+        widths.append(min(WIDEST, width) if width > THINNEST else 0.0)
+        with open(os.path.join(folder, f"edge{number}"), "w", encoding="ascii") as file:
+            file.write("\n".join(lines) + "\n")
+    return array_of("edge_width", [repr(width) for width in widths])
+
+
+def curves_of(block):
+    """The places along x and y of each curve of a load, which may have none."""
+    if block:
+        number, x, y = (block.columns[name] for name in ("curve", "x", "y"))
+        starts = [k for k in range(len(number)) if k == 0 or number[k] != number[k - 1]] + [len(number)]
+        for start, end in zip(starts, starts[1:]):
+            yield x[start:end], y[start:end]
 
 
 def edges(tables, beside, choice, folder):
@@ -191,12 +234,13 @@ def edges(tables, beside, choice, folder):
     facts += put_scale("length", length, "x_symbol") + [f"y_label = {length[0].label('y_symbol')}"]
     facts += array_of("cell", [repr(side) for side in cell])
     facts += [f"length_step = {step_of(max(1.5*min(cell), max(cell)))!r}"]
-    facts += edge_facts(table, [table.blocks[place].load for place in places], cell_in_head(table))
     if len(cell) == 1:
-        return "contour_1d", (480, 320), facts
+        found = copies(table, table.column("x", places), cell_in_head(table)[0])
+        return "contour_1d", (480, 320), facts + [f"first_copy = {found[0]}", f"last_copy = {found[-1]}"]
     stretch = min(max(math.sqrt(cell[1]/cell[0]), 0.45), 2.2)
     wide, tall = 300/stretch, 300*stretch
-    return "contour", (wide + 170, tall + 105), facts + [f"panel_wide = {wide!r}", f"panel_tall = {tall!r}"]
+    facts += outlines(table, table, places, length[1][0], wide, folder)
+    return "contour", (wide + 180, tall + 105), facts + [f"panel_wide = {wide!r}", f"panel_tall = {tall!r}"]
 
 
 def cell_in_head(table):

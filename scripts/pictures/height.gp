@@ -1,7 +1,7 @@
 # The picture of the heights over one cell. They stand in folder.'/heights' as records of x, y and height.
 unset key
 unset grid
-set border 15 lw 0.7
+set border 15 lw 0.7 front
 set size ratio -1
 set xrange [0:cell[1]]
 set yrange [0:cell[2]]
@@ -9,14 +9,14 @@ set xtics length_step
 set ytics length_step
 set xlabel length_label
 set ylabel y_label
-set lmargin at screen 72.0/width
-set rmargin at screen (72 + panel_wide)/width
+set lmargin at screen 80.0/width
+set rmargin at screen (80 + panel_wide)/width
 set bmargin at screen 66.0/height
 set tmargin at screen (66 + panel_tall)/height
-# White at the mean.
-set palette defined (-1 '#14304a', -0.5 '#5b8db8', 0 '#ffffff', 0.5 '#d98a55', 1 '#5a2403')
+# Grey at the mean.
+eval of_sign
 set cbrange [-height_most:height_most]
-set colorbox user origin screen (72 + panel_wide + 14)/width, screen (66 + 0.1*panel_tall)/height \
+set colorbox user origin screen (80 + panel_wide + 14)/width, screen (66 + 0.1*panel_tall)/height \
    size screen 12.0/width, screen 0.8*panel_tall/height
 set cblabel height_label
 set cbtics font small offset -0.5, 0

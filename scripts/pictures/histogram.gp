@@ -5,8 +5,8 @@ set bmargin at screen 67.5/height
 set tmargin at screen 1 - 42.0/height
 set multiplot
 
-set lmargin at screen 70.0/width
-set rmargin at screen 285.0/width
+set lmargin at screen 82.0/width
+set rmargin at screen 297.0/width
 set xrange [pressure_low:pressure_high]
 set xtics pressure_step
 set yrange [pressure_density_low:pressure_density_high]
@@ -19,8 +19,8 @@ plot for [i = 1:loads_shown] run(1) index block_of[i] \
    with histeps lc palette cb shade(i) lw 1.2
 unset label 1
 
-set lmargin at screen 375.0/width
-set rmargin at screen 590.0/width
+set lmargin at screen 387.0/width
+set rmargin at screen 602.0/width
 set xrange [gap_low:gap_high]
 set xtics gap_step
 set yrange [gap_density_low:gap_density_high]

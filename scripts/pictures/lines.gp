@@ -20,9 +20,9 @@ shade(i) = loads_shown == 1 ? 0.6 : (i - 1.0)/(loads_shown - 1)
 set cbrange [0:1]
 if (solved) { set style line 43 lw 1.2 dt (4, 3) } else { set style line 43 lw 1.5 dt solid }
 
-left = dimension == 1 ? 0.16 : 0.097
-right = dimension == 1 ? 0.7 : 0.8
-between = dimension == 1 ? 0 : 0.03
+left = 72.0/width
+right = 1 - 150.0/width
+between = dimension == 1 ? 0 : 0.04
 unit = (right - left - between)/(dimension == 1 ? longest[1] : longest[1] + longest[2])
 # Runs that are compared have their loads above.
 if (runs > 1) { do for [i = 1:loads_shown] { title_words = title_words.(i > 1 ? ', ' : '').load_name[i] } }
@@ -43,7 +43,7 @@ do for [row = 1:2] {
       set xrange [0:longest[line]]
       if (line == 1) { set ylabel label_of[row]; set format y '%g' } else { unset ylabel; set format y '' }
       if (row == 2) { set xlabel (line == 1 ? length_label : diagonal_label) }
-      if (row == 1 && line == dimension) { set key at screen right + 0.015, 0.93 left top samplen 2 } else { unset key }
+      if (row == 1 && line == dimension) { set key at screen right + 0.015, 0.93 left top samplen 2 spacing 1 font ',10.5' } else { unset key }
       plot for [i = 1:runs == 1 && solved ? loads_shown : 0] run(1) index block(1, i) every :::line - 1::line - 1 \
               using (length_factor[1]*column('distance')):(factor(row, 1)*column(field[row])) \
               with lines lc palette cb shade(i) lw 1.5 title load_name[i], \

@@ -11,8 +11,8 @@ set cbrange [0:1]
 
 set xrange [0:cell[1]]
 set xtics length_step
-set lmargin at screen 0.16
-set rmargin at screen 0.7
+set lmargin at screen 72.0/width
+set rmargin at screen 1 - 150.0/width
 set multiplot
 do for [row = 1:2] {
    set tmargin at screen (row == 1 ? 0.92 : 0.52)
@@ -22,7 +22,7 @@ do for [row = 1:2] {
    set ylabel label_of[row]
    set format x (row == 1 ? '' : '%g')
    if (row == 2) { set xlabel length_label }
-   if (row == 1) { set key at screen 0.715, 0.93 left top samplen 2 } else { unset key }
+   if (row == 1) { set key at screen 1 - 143.0/width, 0.93 left top samplen 2 } else { unset key }
    plot for [i = 1:loads_shown] map(i) binary record=(columns) format='%double%double%double%double' \
       using (length_factor[1]*$1):(factor(row)*column(2 + row)) \
       with lines lc palette cb shade(i) lw 1.5 title load_name[i]

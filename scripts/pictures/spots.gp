@@ -8,12 +8,12 @@ set xlabel load_label
 # On the axis p* is `full`.
 x(r) = full*column("pbar_over_pstar")
 set bmargin at screen 67.5/height
-set tmargin at screen 1 - 80.0/height
-set key at graph 0.5, 1.02 center bottom horizontal maxrows 2 samplen 1.5
+set tmargin at screen 1 - 95.0/height
+set key at graph 0, 1.03 left bottom vertical maxrows 3 samplen 1.5
 set multiplot
 
-set lmargin at screen 60.0/width
-set rmargin at screen 260.0/width
+set lmargin at screen 75.0/width
+set rmargin at screen 290.0/width
 set yrange [number_low:number_high]
 if (number_wide) { set logscale y }
 set ytics number_step
@@ -23,8 +23,8 @@ plot run(1) using (x(1)):"spots" with linespoints ls 31 ps point_size title 'spo
      run(1) using (x(1)):"closed_pools" with linespoints ls 32 ps point_size title 'closed pools'
 unset label 1
 
-set lmargin at screen 330.0/width
-set rmargin at screen 530.0/width
+set lmargin at screen 375.0/width
+set rmargin at screen 590.0/width
 unset logscale y
 set yrange [area_low:area_high]
 if (area_wide) { set logscale y }
@@ -37,8 +37,8 @@ plot run(1) using (x(1)):"spots_area_fraction" with linespoints ls 31 ps point_s
      run(1) using (x(1)):"closed_pools_area_fraction" with linespoints ls 32 ps point_size \
         title 'closed pools'
 
-set lmargin at screen 620.0/width
-set rmargin at screen 765.0/width
+set lmargin at screen 705.0/width
+set rmargin at screen 865.0/width
 unset logscale y
 unset ylabel
 set yrange [0.5:4.5]

@@ -1,7 +1,12 @@
 """What the pictures of contact spots and of histograms show. See facts.py."""
+import os
+
 from axes import axis
 from variables import MOST_CURVES, array_of, load_facts, numbers_in, of_column, put_range, \
     put_scale, shown
+
+
+NONE = 0.5   # less than one spot, on a logarithmic axis
 
 
 def spots(tables, beside, choice, folder):
@@ -21,7 +26,7 @@ def spots(tables, beside, choice, folder):
              for number in table.column(name)]
     facts += put_range("number", numbers) + put_range("area", areas, may_be_wide=wide, up_to=1.0)
     facts.append("if (number_step < 1) { number_step = 1 }")
-    return "spots", (780, 300), facts
+    return "spots", (900, 310), facts
 
 
 def spot_sizes(tables, beside, choice, folder):
@@ -29,10 +34,21 @@ def spot_sizes(tables, beside, choice, folder):
     table = tables[0]
     places = shown(table, choice.loads, MOST_CURVES)
     areas = [area for area in table.column("area_fraction", places) if area > 0]
-    facts = load_facts(table, places) + array_of("block_of", [str(place) for place in places])
-    facts += [f"least = {min(areas, default=0.1)/1.6!r}", f"most = {max(areas, default=1.0)*1.6!r}"]
+    least = min(areas, default=0.1)/1.6
+    for i, place in enumerate(places, 1):
+        columns = table.blocks[place].columns
+        # A pool carries no load, but its rank begins again from 1.
+        sizes = list(zip(columns["rank"], columns["area_fraction"]))
+        first = next((k for k in range(1, len(sizes)) if sizes[k][0] <= sizes[k - 1][0]), len(sizes))
+        for kind, part in (("spots", sizes[:first]), ("pools", sizes[first:])):
+            with open(os.path.join(folder, f"{kind}{i}"), "w", encoding="ascii") as file:
+                # From the largest downwards, to the edge of the picture; none lies below it.
+                steps = [(area, rank) for rank, area in part if area > 0] or [(least, NONE)]
+                steps = [(steps[0][0], NONE), *steps, (least, steps[-1][1])]
+                file.writelines(["area number\n"] + [f"{area!r} {rank!r}\n" for area, rank in steps])
+    facts = load_facts(table, places) + [f"least = {least!r}", f"most = {max(areas, default=1.0)*1.6!r}"]
     facts += [f"highest = {1.6*max(table.column('rank', places), default=1.0)!r}"]
-    return "spot_sizes", (560, 340), facts
+    return "spot_sizes", (600, 360), facts
 
 
 def histogram(tables, beside, choice, folder):
@@ -52,4 +68,4 @@ def histogram(tables, beside, choice, folder):
         facts += put_range(name + "_density", [0.0] + [number for number in heights
                                                        if number <= 3*heights[int(0.98*(len(heights) - 1))]],
                            may_be_wide=False)
-    return "histogram", (780, 320), facts
+    return "histogram", (800, 320), facts

@@ -8,8 +8,10 @@ x(r) = load_factor[r]*column('mean_pressure')
 # Bars of errors; depths have none, but gnuplot wants a column that is there.
 array error_of[4] = ['largest_von_mises_over_pstar_error', 'largest_shear_over_pstar_error', 'von_mises_depth', \
                      'stress_over_yield_stress_error']
-error(n, r) = (n == 4 ? 1 : factor(n, r)*p_star_of[r])*column(error_of[n])
+error_on_axis(n, r) = (n == 4 ? 1 : factor(n, r)*p_star_of[r])*column(error_of[n])
 y(n, r) = factor(n, r)*column(quantity[n])
+# As in the summary an error that is as large as the value has no bar.
+error(n, r) = error_on_axis(n, r) < y(n, r) ? error_on_axis(n, r) : NaN
 
 set xlabel load_label
 set xrange [load_low:load_high]

@@ -2,27 +2,22 @@
 # folder.'/map1-1' ..., numbers of load and depth, as records of two coordinates and the stress.
 map(i, j) = sprintf('%s/map%d-%d', folder, i, j)
 s = length_factor[1]
-has_edge(i) = !downwards && edge_of[i] >= 0
 by_load = loads_shown > 1
-if (downwards) { array edge_of[loads_shown]; array first_copy[2] = [0, 0]; array last_copy[2] = [0, 0] }
 
 unset key
 unset grid
-set border 15 lw 0.7
-set xtics step_of[1] out
-set ytics step_of[2] out
-# White without stress; where there is tension and compression the first is red.
-if (signed) {
-   set palette defined (-1 '#14304a', -0.5 '#5b8db8', 0 '#ffffff', 0.5 '#d98a55', 1 '#5a2403')
-   set cbrange [-most:most]
-} else {
-   set palette defined (0 '#ffffff', 0.05 '#e8eef5', 0.5 '#5b8db8', 1 '#14304a')
-   set cbrange [0:most]
-}
+set border 15 lw 0.7 front
+set xtics step_of[1] out font small
+set ytics step_of[2] out font small
+# Where there is tension and compression the first is orange.
+eval negative && positive ? of_sign : of_size
+if (!positive) { set palette negative }
+set cbrange [(negative ? -most : 0):(positive || !negative ? most : 0)]
 set xrange [0:side[1]]
 if (downwards) { set yrange [side[2]:0] } else { set yrange [0:side[2]] }
-left(c) = (90 + (c - 1)*(panel_wide + 24))/width
+left(c) = (102 + (c - 1)*(panel_wide + 24))/width
 top(r) = 1 - (46 + (r - 1)*(panel_tall + 16))/height
+bottom = top(down) - panel_tall/height
 set multiplot
 do for [r = 1:down] {
    do for [c = 1:across] {
@@ -42,21 +37,19 @@ do for [r = 1:down] {
       if (c == 1 && beside_it eq '') { set ylabel y_label offset 0, 0 }
       if (c == 1 && beside_it ne '') { set ylabel beside_it."\n".y_label offset -1.2, 0 }
       if (r == 1) { set title above offset 0, -0.6 font small } else { unset title }
-      if (c == across && r == 1) {
-         set colorbox user origin screen left(c) + (panel_wide + 8)/width, screen top(r) - 0.9*panel_tall/height \
-            size screen 9.0/width, screen 0.8*panel_tall/height
-         # Beside flat panels there is little room.
-         set cblabel stress_label offset -0.5, 0 font (panel_tall < 120 ? ',10' : '')
+      if (c == across && r == down) {
+         # Beside all rows.
+         set colorbox user origin screen left(c) + (panel_wide + 8)/width, screen bottom \
+            size screen 9.0/width, screen top(1) - bottom
+         set cblabel stress_label offset -0.5, 0 font (panel_tall < 160 && down == 1 ? ',11' : '')
          set cbtics font ',11' offset -0.6, 0
       } else {
          unset colorbox
       }
       plot map(i, j) binary record=(columns, rows) format='%double%double%double' \
               using (s*$1):(s*$2):(stress_factor[1]*$3) with image, \
-           for [k = 1:has_edge(i)] for [l = first_copy[1]:last_copy[1]] for [m = first_copy[2]:last_copy[2]] \
-              folder.'/contour' index (has_edge(i) ? edge_of[i] : 0) \
-              using (l*side[1] + s*(has_edge(i) ? column('x') : 0)):(m*side[2] + s*(has_edge(i) ? column('y') : 0)) \
-              with lines lc rgb '#303338' lw 0.8 dt (3, 3)
+           for [k = 1:edge_width[i] > 0] sprintf('%s/edge%d', folder, i) using 1:2 \
+              with lines lc rgb outline lw edge_width[i] dt (3, 3)
       unset label 1
    }
 }

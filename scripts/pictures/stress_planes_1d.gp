@@ -5,7 +5,7 @@ shade(i) = loads_shown == 1 ? 0.6 : (i - 1.0)/(loads_shown - 1)
 set cbrange [0:1]
 
 set xrange [0:longest]
-set xtics length_step
+set xtics length_step font small
 set yrange [stress_low:stress_high]
 set ytics stress_step
 set xlabel length_label
@@ -14,7 +14,7 @@ set bmargin at screen 56.0/height
 set multiplot
 do for [j = 1:depths_shown] {
    set lmargin at screen (78.0 + 190*(j - 1))/width
-   set rmargin at screen (78.0 + 190*(j - 1) + 170)/width
+   set rmargin at screen (78.0 + 190*(j - 1) + 158)/width
    set title depth_name[j] offset 0, -0.6 font small
    if (j == 1) { set ylabel stress_label; set format y '%g' } else { unset ylabel; set format y '' }
    if (j == depths_shown) { set key at screen (78.0 + 190*j)/width, graph 1 left top samplen 2 } else { unset key }

@@ -6,8 +6,9 @@ import os
 import sys
 
 from axes import axis, chosen, quoted, step_of
-from fields import MOST_PIXELS, cell_of, edge_facts, matched, write_closed
-from variables import MOST_CURVES, MOST_PANELS, REFERENCE, CannotBeDrawn, array_of, load_facts, \
+from fields import MOST_PIXELS, cell_of, matched, outlines, write_closed
+from loading import ends_of_bars
+from variables import MOST_CURVES, MOST_PANELS, CannotBeDrawn, array_of, load_facts, \
     mean_pressure_axis, names_of, numbers_in, of_column, put_range, put_scale, scaled, shown
 
 # The columns of stresses that can be shown, and their labels: gnuplot's symbol and words.
@@ -62,7 +63,7 @@ def below_crest(tables, beside, choice, folder):
     facts += [f"deepest = {deepest!r}", f"depth_step = {step_of(deepest)!r}"]
     across = min(len(names), 5 if len(names) < 6 else 4)
     down = math.ceil(len(names)/across)
-    return "stress_line", (221 + 112*across, 45 + 235*down), \
+    return "stress_line", (228 + 132*across, 45 + 235*down), \
         facts + [f"panels = {len(names)}", f"across = {across}", f"down = {down}"]
 
 
@@ -79,7 +80,8 @@ def section(tables, beside, choice, folder):
         columns, rows = write_section(table.blocks[place].columns, choice.variable,
                                       os.path.join(folder, f"map{number}-1"))
     sides = [length[1][0]*max(table.column(side)) for side in ("distance", "depth")]
-    return "stress_map", *panels(sides, len(places), facts + [f"columns = {columns}", f"rows = {rows}"], folder)
+    facts += [f"columns = {columns}", f"rows = {rows}"] + outlines(None, table, places, 1.0, 1.0, folder)
+    return "stress_map", *panels(sides, len(places), facts)
 
 
 def planes(tables, beside, choice, folder):
@@ -105,9 +107,9 @@ def planes(tables, beside, choice, folder):
     if flat:
         facts += [f"longest = {sides[0]!r}", f"length_step = {step_of(1.5*sides[0])!r}"]
         return "stress_planes_1d", (221 + 190*len(numbers), 290), facts
-    contour = beside.get("contour")
-    facts += edge_facts(contour, [at_depth[0].blocks[place].load for place in places], cell_of(table))
-    return "stress_map", *panels(sides, len(places), facts, folder, len(numbers), contour)
+    size, variables = panels(sides, len(places), facts, len(numbers))
+    return "stress_map", size, variables + outlines(beside.get("contour"), at_depth[0], places, length[1][0],
+                                                    panel_of(sides)[0], folder)
 
 
 def shown_depths(table, count, wanted):
@@ -133,19 +135,21 @@ def colours(table, name, places):
     on_axis = [found[1][0]*number for number in numbers] or [0.0]
     most = max(map(abs, on_axis)) or 1.0
     return put_scale("stress", found, *SYMBOLS[name]) + put_range("stress", on_axis, may_be_wide=False) + \
-        [f"signed = {int(min(on_axis) < -VANISHING*most)}", f"most = {most!r}"]
+        [f"negative = {int(min(on_axis) < -VANISHING*most)}", f"positive = {int(max(on_axis) > VANISHING*most)}",
+         f"most = {most!r}"]
 
 
-def panels(sides, loads, facts, folder, depths=1, contour=None):
+def panel_of(sides):
+    """Width and height of a panel in points: about the same area, whatever the sides."""
+    stretch = min(max(math.sqrt(sides[1]/sides[0]), 0.7), 1.5)
+    return 150/stretch, 150*stretch
+
+
+def panels(sides, loads, facts, depths=1):
     """The size of a picture of panels for loads and depths, side by side if there is one load, and its variables."""
-    if contour is None:
-        # gnuplot wants the file even if it plots nothing of it.
-        os.symlink(os.path.realpath(REFERENCE), os.path.join(folder, "contour"))
-    # Panels of about the same area, whatever the sides.
-    stretch = min(max(math.sqrt(sides[1]/sides[0]), 0.45), 2.2)
-    wide, tall = 150/stretch, 150*stretch
+    wide, tall = panel_of(sides)
     across, down = (loads, depths) if loads > 1 else (depths, 1)
-    size = (100 + across*(wide + 24) + 75, 46 + down*(tall + 16) + 60)
+    size = (112 + across*(wide + 24) + 75, max(46 + down*(tall + 16) + 60, 230))
     return size, facts + array_of("side", [repr(side) for side in sides]) + \
         array_of("step_of", [repr(step_of(2*side)) for side in sides]) + \
         [f"panel_wide = {wide!r}", f"panel_tall = {tall!r}", f"across = {across}", f"down = {down}"]
@@ -189,7 +193,9 @@ def largest(tables, beside, choice, folder):
             ("von_mises_depth", depth, depth[0].label("depth_symbol", "depth")),
             ("stress_over_yield_stress", ratio, quoted("largest stress over yield stress"))):
         numbers = scaled(tables, found[1], name)
-        if name == "von_mises_depth":
+        if name.startswith("largest"):
+            numbers += ends_of_bars(tables, found[1], name, name + "_over_pstar_error", "p*")
+        elif name == "von_mises_depth":
             numbers += scaled(tables, found[1], "shear_depth")
         elif name == "stress_over_yield_stress":
             if not numbers:

@@ -8,7 +8,7 @@ from fields import MOST_PIXELS, cell_in_head
 from variables import CannotBeDrawn, array_of, numbers_in, put_range, put_scale
 
 # Densities this far below the largest are rounding of the heights, and not shown.
-ROUNDING = 1e-16
+ROUNDING = 1e-12
 # The columns of the directions; in the other one there is no number.
 DENSITIES = {"radial": "spectrum_2d", "x": "spectrum_1d", "y": "spectrum_1d"}
 
@@ -23,7 +23,8 @@ def spectra(tables, beside, choice, folder):
         column = DENSITIES[name]
         # Zeros, such as the mean, have no place on these axes.
         pairs = [(q, c) for q, c in zip(block.columns["wave_number"], block.columns[column]) if q > 0 and c > 0]
-        limits.setdefault(column, []).extend(pairs)
+        least = ROUNDING*max((c for _, c in pairs), default=0.0)
+        limits.setdefault(column, []).extend((q, c) for q, c in pairs if c > least)
     pairs = [pair for found in limits.values() for pair in found]
     if not pairs:
         raise CannotBeDrawn("there are no waves")
@@ -33,13 +34,13 @@ def spectra(tables, beside, choice, folder):
         low, high = 10.0**math.floor(math.log10(low)), 10.0**math.ceil(math.log10(high))
     unit = label_of_unit(table.label("cell_x"))
     facts = [f"lines = {int(len(blocks) == 3)}", f"panels = {len(limits)}"]
-    facts += [f"q_label = '{{/:Italic q}}'.{quoted(unit and f' (rad/{unit})')}",
+    facts += [f"q_label = 'wave number {{/:Italic q}}'.{quoted(unit and f' (rad/{unit})')}",
               f"q_low = {low!r}", f"q_high = {high!r}"]
     for column, power in (("spectrum_2d", 4), ("spectrum_1d", 3)):
         sizes = [c for _, c in limits.get(column, [])] or [1.0]
         label = "{/:Italic C}" + ("" if power == 4 else "_1")
-        facts += [f"{column}_label = '{label}'.{quoted(unit and f' ({unit}^{power})')}",
-                  f"{column}_low = {10.0**math.floor(math.log10(max(min(sizes), ROUNDING*max(sizes))))!r}",
+        facts += [f"{column}_label = 'spectrum {label}'.{quoted(unit and f' ({unit}^{power})')}",
+                  f"{column}_low = {10.0**math.floor(math.log10(min(sizes)))!r}",
                   f"{column}_high = {10.0**math.ceil(math.log10(1.001*max(sizes)))!r}"]
     return "spectrum", (90 + 330*len(limits), 330), facts
 

@@ -67,6 +67,7 @@ class Table:
         self.names, self.blocks = [], []
         self.numbers, self.units, self.surface, self.method, self.title = {}, {}, "", "", ""
         self.mirrored = False
+        self.summary = None   # that of the same run, if there is one
         self.points = self.skip = self.endian = None   # of a map in numpy's format
         with open(path, "rb") as file:
             binary = file.read(len(MAGIC)) == MAGIC
@@ -167,6 +168,18 @@ class Table:
         for block in self.blocks:
             if self.kind != "height" and block.load <= len(of_load):
                 block.pbar_over_pstar = of_load[block.load - 1]
+
+    def size_of(self, name):
+        """The size of a quantity that decides on its unit in all pictures of a run, None if it is not known.
+
+        name: "cell_x" for places, "Delta" for heights and gaps, "p*" for pressures and stresses: of these the size lies
+        between the lightest load and the largest pressure of the summary. A third of it: rather 2000 MPa than 0.1 GPa.
+        """
+        if name == "p*":
+            ends = [min((p for p in self.summary.column("mean_pressure") if p > 0), default=0.0),
+                    max(self.summary.column("peak_pressure"), default=0.0)] if self.summary else [0.0]
+            return math.sqrt(math.prod(ends))/3 or None
+        return self.numbers.get(name, 0.0)/(3 if name == "cell_x" else 1) or None
 
     def with_blocks(self, blocks):
         """The same table with some of its blocks alone."""

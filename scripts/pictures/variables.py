@@ -50,7 +50,7 @@ def numbers_in(tables, column, name, over, may_be_wide=False):
         over, divisors = "", [1.0]*len(tables)
     numbers = [number/divisor for table, divisor in zip(tables, divisors) for number in column(table)]
     most = max((abs(number) for number in numbers), default=0.0)
-    scale = Scale(1.0 if may_be_wide and axis(numbers)[-1] else most, unit, over)
+    scale = Scale(1.0 if may_be_wide and axis(numbers)[-1] else most, unit, over, tables[0].size_of(name))
     return scale, [scale.factor/divisor for divisor in divisors]
 
 

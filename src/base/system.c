@@ -4,11 +4,11 @@
 #include <errno.h>
 #include <limits.h>
 #include <signal.h>
-#include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/ioctl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/types.h>
@@ -43,24 +43,50 @@ int wavycon_make_directory(const char *path)
 /* The file to be removed if the program is interrupted; empty if there is none. */
 static char unfinished[4096];
 
+/* What a user is told if the program is interrupted: what is kept, and the command that goes on; empty: nothing. */
+static char kept[4096], command[8192];
+
+static void tell(const char *words)
+{
+    if (write(STDERR_FILENO, words, strlen(words)) < 0)
+        return;
+}
+
 static void remove_unfinished(int number)
 {
     if (unfinished[0] != '\0')
         unlink(unfinished);
+    if (kept[0] != '\0' && command[0] != '\0') {
+        tell("\nwavycon: interrupted: ");
+        tell(kept);
+        tell("; go on with\n   ");
+        tell(command);
+        tell("\n");
+    }
     signal(number, SIG_DFL);
     raise(number);
 }
 
-/* Sets that file, or none (""), with signals blocked. */
-static void note_unfinished(const char *path)
+/* Sets a text that the handler of signals reads, with signals blocked; none if it is too long. */
+static void note(char *text, size_t size, const char *words)
 {
     sigset_t all, before;
     sigfillset(&all);
     sigprocmask(SIG_BLOCK, &all, &before);
-    unfinished[0] = '\0';
-    if (strlen(path) < sizeof unfinished)
-        strcpy(unfinished, path);
+    text[0] = '\0';
+    if (strlen(words) < size)
+        strcpy(text, words);
     sigprocmask(SIG_SETMASK, &before, NULL);
+}
+
+void wavycon_note_kept(const char *words)
+{
+    note(kept, sizeof kept, words);
+}
+
+void wavycon_note_command(const char *words)
+{
+    note(command, sizeof command, words);
 }
 
 /* Removes a file if the program is interrupted before it is renamed or removed; only the file of the last call. Signals
@@ -68,7 +94,7 @@ static void note_unfinished(const char *path)
 void wavycon_remove_when_interrupted(const char *path)
 {
     static const int numbers[] = {SIGHUP, SIGINT, SIGTERM};
-    note_unfinished(path);
+    note(unfinished, sizeof unfinished, path);
     for (size_t i = 0; i < sizeof numbers/sizeof numbers[0]; i++) {
         struct sigaction action;
         if (sigaction(numbers[i], NULL, &action) != 0 || action.sa_handler != SIG_DFL)
@@ -83,7 +109,7 @@ int wavycon_rename(const char *from, const char *to)
     if (rename(from, to) != 0)
         return errno;
     if (strcmp(from, unfinished) == 0)
-        note_unfinished("");
+        note(unfinished, sizeof unfinished, "");
     return 0;
 }
 
@@ -92,7 +118,7 @@ int wavycon_remove(const char *path)
     if (unlink(path) != 0)
         return errno;
     if (strcmp(path, unfinished) == 0)
-        note_unfinished("");
+        note(unfinished, sizeof unfinished, "");
     return 0;
 }
 
@@ -107,9 +133,14 @@ int wavycon_process_id(void)
     return (int)getpid();
 }
 
-bool wavycon_stdout_is_terminal(void)
+/* The width of the terminal that standard output is; 0 if it is none, or not the one of a user who looks at it: that of
+   another process (mpirun makes one and may write to a file), or a program in the background. */
+int wavycon_terminal_columns(void)
 {
-    return isatty(STDOUT_FILENO) != 0;
+    struct winsize size;
+    if (!isatty(STDOUT_FILENO) || tcgetpgrp(STDOUT_FILENO) != getpgrp())
+        return 0;
+    return ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
 }
 
 /* The message for an errno, cut to fit. */

@@ -1,6 +1,6 @@
 !> Files, memory, signals and the terminal: interfaces of the C functions in system.c.
 module wavycon_system
-   use, intrinsic :: iso_c_binding, only: c_bool, c_char, c_double, c_int, c_int64_t, c_long_long, c_null_char, c_size_t
+   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int, c_int64_t, c_long_long, c_null_char, c_size_t
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_kinds, only: dp
    implicit none (type, external)
@@ -8,7 +8,7 @@ module wavycon_system
 
    public :: available_memory, has_memory_for, memory_of_group
    public :: file_size, full_path, path_kind, make_directories, rename_file, remove_file, remove_when_interrupted
-   public :: outlive_file_size_limit, parse_number, process_id, stdout_is_terminal
+   public :: note_command, note_kept, outlive_file_size_limit, parse_number, process_id, terminal_columns
 
    !> Values of `path_kind`.
    integer, parameter, public :: path_absent = 0, path_directory = 1, path_file = 2, path_device = 3, &
@@ -54,10 +54,22 @@ module wavycon_system
          import :: c_int
       end function process_id
 
-      !> Whether standard output is a terminal.
-      logical(c_bool) function stdout_is_terminal() bind(c, name='wavycon_stdout_is_terminal')
-         import :: c_bool
-      end function stdout_is_terminal
+      !> The width of the terminal that standard output is; 0 if it is none, or not the one of this program.
+      integer(c_int) function terminal_columns() bind(c, name='wavycon_terminal_columns')
+         import :: c_int
+      end function terminal_columns
+
+      !> What is told if the program is interrupted: what of the run is kept, '' for nothing; and the command that goes
+      !> on, without which nothing is told. Both end in a null character.
+      subroutine note_kept(words) bind(c, name='wavycon_note_kept')
+         import :: c_char
+         character(kind=c_char), intent(in) :: words(*)
+      end subroutine note_kept
+
+      subroutine note_command(words) bind(c, name='wavycon_note_command')
+         import :: c_char
+         character(kind=c_char), intent(in) :: words(*)
+      end subroutine note_command
 
       !> Memory that this process may still allocate and use without swapping [byte]: memory of the machine that is free
       !> or can be freed, but at most what is left by the limits of a container or a batch job (control groups of Linux)

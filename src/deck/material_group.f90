@@ -34,7 +34,8 @@ contains
          real_key('nu2', '', '-', "Poisson's ratio of the second body.", above=-1.0_dp, most=0.5_dp, way=2), &
          real_key('hardness', '', 'unit of e_star', &
             'Largest contact pressure: where it is reached the softer body flows, and an indentation is left. '// &
-            'Without it the bodies stay elastic. Mean pressures must be lower.', above=0.0_dp)])
+            'Without it the bodies stay elastic. Mean pressures must be lower. Within a factor of 1e6 of p*.', &
+            above=0.0_dp)])
    end function material_table
 
    !> Reports moduli without their Poisson's ratios, and moduli beside e_star. Leaves e_star out of the resolved deck

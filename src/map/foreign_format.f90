@@ -25,6 +25,8 @@ contains
       character(*), parameter :: instruments(*) = [character(18) :: 'GWYP', 'Gwyddion XYZ Field', 'AliconaImaging', &
          'DIGITAL SURF', 'DSCOMPRESSED', 'aISO-1.0', 'bISO-1.0', 'aBCR-', 'bBCR-', 'VK4_', 'VK6', '\*File list', &
          char(208)//char(207)//char(17)//char(224)]
+      !> Bytes that no text has.
+      character(*), parameter :: no_text = char(0)//char(1)//char(2)//char(3)//char(4)//char(5)//char(6)//char(127)
       integer :: i
 
       words = ''
@@ -45,6 +47,8 @@ contains
          if (words == '') words = 'this is an archive: '//by_gwyddion
       else if (any([(begins(trim(instruments(i))), i=1, size(instruments))])) then
          words = 'this is a file of an instrument or of Gwyddion: '//by_gwyddion
+      else if (scan(head, no_text) > 0) then
+         words = 'this is no text, and no binary format that is read: '//by_gwyddion
       end if
 
    contains
@@ -66,7 +70,7 @@ contains
       case ('png', 'jpg', 'jpeg', 'tif', 'tiff', 'bmp', 'gif')
          words = 'by its name this is a picture, whose colours are no lengths: '//by_gwyddion
       case ('sdf', 'x3p', 'plux', 'al3d', 'plu', 'opd', 'opdx', 'sur', 'vk4', 'vk6', 'gwy', 'spm', 'ibw', 'nid', 'mi', &
-            'mnt', 'zmg', 'os3d', 'stp', 'xyzgz', 'gxyzf')
+            'mnt', 'zmg', 'os3d', 'stp', 'xyzgz', 'gxyzf', 'nms', 'tmd', 'frt', 'bcrf', 'hfm', 'top')
          words = 'by its name this is a file of an instrument or of Gwyddion: '//by_gwyddion
       case ('mat', 'h5', 'hdf5', 'nc')
          words = 'by its name this is a file of MATLAB, HDF5 or NetCDF: '//by_numpy

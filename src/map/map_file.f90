@@ -4,7 +4,7 @@ module wavycon_map_file
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_binary_file, only: binary_file
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
-   use wavycon_file_head, only: take_text_head
+   use wavycon_file_head, only: entry_of, take_text_head
    use wavycon_foreign_format, only: remedy_of_content, remedy_of_name
    use wavycon_grid_slab, only: grid_slab
    use wavycon_gsf_map, only: is_gsf, read_gsf_map
@@ -14,7 +14,7 @@ module wavycon_map_file
    use wavycon_measured_map, only: measured_map
    use wavycon_npy_map, only: is_npy, read_npy_map
    use wavycon_number_table, only: number_table, read_number_table
-   use wavycon_plain_text, only: escaped, integer_text, lower_case
+   use wavycon_plain_text, only: escaped, integer_text, lower_case, newline
    use wavycon_point_map, only: are_points, take_points
    use wavycon_profile_map, only: resample_profile, take_profile
    use wavycon_ranks, only: share_error
@@ -121,6 +121,7 @@ contains
          if (remedy /= '') error%message = error%message//' ('//remedy//')'
          return
       end if
+      map%head_lines = table%words
       if (table%next_head > 0) then
          call fatal_error(error, exit_bad_input, escaped(file%path)//':'//integer_text(table%next_head)// &
                           ': another map begins here: write each map to a file of its own')
@@ -128,8 +129,11 @@ contains
       end if
       if (map%format == 'auto') then
          map%format = 'matrix'
-         if (are_points(table, 3)) map%format = 'xyz'
-         if (are_points(table, 2)) map%format = 'xz'
+         ! A text of Gwyddion with the sides of a map has rows of heights, however many.
+         if (entry_of(newline//file%head, 'Width', ':') == '') then
+            if (are_points(table, 3)) map%format = 'xyz'
+            if (are_points(table, 2)) map%format = 'xz'
+         end if
       end if
       call check_room(file%path, [size(table%values)/merge(3, 1, map%format == 'xyz'), 1], error)
       if (allocated(error)) return

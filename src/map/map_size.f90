@@ -10,7 +10,8 @@ module wavycon_map_size
    public :: check_map_size, check_room, laid_along_x
 
    !> Fewest and most points along a side.
-   integer, parameter, public :: least_points = 4, most_points = 1048576
+   integer, parameter :: least_points = 3
+   integer, parameter, public :: most_points = 1048576
 
 contains
 

@@ -20,6 +20,7 @@ module wavycon_map_statistics
       !> Root mean square of the steps from the last points to the first, which are their neighbours because the map is
       !> continued periodically [length].
       real(dp) :: border_step(2) = 0.0_dp
+      integer :: spikes = 0                      !! heights far from all around them, if they were looked for
       logical :: lacks_missing_value = .false.   !! whether the deck gives a missing_value that no height has
       character(:), allocatable :: assumed_sides   !! sides that neither deck nor file gives, in words; empty if none
       character(:), allocatable :: length_unit                      !! that the file names, or the deck in its place

@@ -1,6 +1,7 @@
 !> Reads a file of lines of numbers.
 !>
-!> Comments, from '#' to the end of the line, and lines without numbers are ignored. Lines end in LF, CR LF or CR.
+!> Comments, from '#' to the end of the line, and lines without numbers are ignored, and so is a head: lines before the
+!> first number that begin with a word. Lines end in LF, CR LF or CR.
 module wavycon_number_table
    use, intrinsic :: ieee_exceptions, only: ieee_get_status, ieee_overflow, ieee_set_halting_mode, &
       ieee_set_status, ieee_status_type
@@ -8,7 +9,7 @@ module wavycon_number_table
    use wavycon_file_bytes, only: byte_order_mark, read_file
    use wavycon_kinds, only: dp
    use wavycon_number_line, only: read_line
-   use wavycon_plain_text, only: escaped, integer_text
+   use wavycon_plain_text, only: escaped, integer_text, lower_case
    implicit none (type, external)
    private
 
@@ -20,6 +21,7 @@ module wavycon_number_table
       integer, allocatable :: first(:)          !! index of the first value of each row; one more: size(values) + 1
       integer, allocatable :: line(:)           !! line of the file of each row
       logical, allocatable :: ends_open(:)      !! whether the row ends in a separator: a last number may be missing
+      integer :: words = 0                      !! lines of the head that begin with a word
       integer :: next_head = 0                  !! line behind the first row with the head of another map; 0: none
    contains
       procedure :: rows
@@ -71,6 +73,7 @@ contains
       call read_file(path, most_bytes, content, error)
       if (allocated(error)) return
       table%path = path
+      call write_decimal_points(content)
       ! The first pass counts, the second keeps.
       allocate (table%values(0), table%first(0), table%line(0), table%ends_open(0))
       call take_numbers(content, table, numbers, rows, error)
@@ -102,6 +105,7 @@ contains
       rows = 0
       used = 0
       line = 0
+      table%words = 0
       behind = 1
       if (index(content(:min(len(content), len(byte_order_mark))), byte_order_mark) == 1) &
          behind = len(byte_order_mark) + 1
@@ -109,6 +113,10 @@ contains
          line = line + 1
          call next_line(content, behind, first, last)
          used_before = used
+         if (used == 0 .and. is_remark(content(first:last))) then
+            table%words = table%words + 1
+            cycle
+         end if
          if (used > 0 .and. index(content(last + 1:behind - 1), '# Width:') == 1) table%next_head = line
          call read_line(content(first:last), table%values, used, ends_open, trouble)
          if (allocated(trouble)) then
@@ -128,6 +136,47 @@ contains
       end if
       if (size(table%line) > 0) table%first(rows + 1) = used + 1
    end subroutine take_numbers
+
+   !> Whether a line begins with a word that is no number, and not `nan` or `inf` or their like.
+   pure logical function is_remark(line)
+      character(*), intent(in) :: line
+
+      character(3) :: start
+      integer :: first
+
+      first = verify(line, ' '//tab)
+      is_remark = .false.
+      if (first == 0) return
+      start = lower_case(line(first:))
+      is_remark = verify(start(1:1), '+-.,;0123456789') > 0 .and. start /= 'nan' .and. start /= 'inf'
+   end function is_remark
+
+   !> Replaces decimal commas by points. Commas are decimal if each line that has one separates its numbers by tabs or
+   !> semicolons, and each comma stands between two digits, one in a number.
+   pure subroutine write_decimal_points(content)
+      character(*), intent(inout) :: content
+
+      character(*), parameter :: digits = '0123456789'
+      integer :: behind, first, k, last, next, pass
+
+      if (index(content, ',') == 0) return
+      do pass = 1, 2
+         behind = 1
+         do while (behind <= len(content))
+            call next_line(content, behind, first, last)
+            if (index(content(first:last), ',') == 0 .or. is_remark(content(first:last))) cycle
+            if (scan(content(first:last), tab//';') == 0) return
+            do k = first, last
+               if (content(k:k) /= ',') cycle
+               if (pass == 2) content(k:k) = '.'
+               if (pass == 2) cycle
+               next = k + verify(content(k + 1:last)//' ', digits)
+               if (k == first .or. next == k + 1) return
+               if (verify(content(k - 1:k - 1), digits) > 0 .or. content(next:min(next, last)) == ',') return
+            end do
+         end do
+      end do
+   end subroutine write_decimal_points
 
    !> The next line, without its comment.
    pure subroutine next_line(content, behind, first, last)

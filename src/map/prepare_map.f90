@@ -1,4 +1,4 @@
-!> Makes a measured map a surface that a contact can be solved for: trend, holes, borders, in this order.
+!> Makes a measured map a surface that a contact can be solved for: spikes, trend, holes, borders, in this order.
 module wavycon_prepare_map
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_detrend, only: detrend_map
@@ -9,6 +9,7 @@ module wavycon_prepare_map
    use wavycon_map_tuning, only: usual_window_width
    use wavycon_measured_map, only: measured_map
    use wavycon_plain_text, only: escaped, integer_text, percent, short_number
+   use wavycon_spikes, only: find_spikes
    use wavycon_window, only: taper_borders
    implicit none (type, external)
    private
@@ -26,6 +27,9 @@ module wavycon_prepare_map
       !> 'periodic'; 'mirror': mirror images continue it; 'window': tapered; 'free': nothing continues it.
       character(8) :: edges = 'periodic'
       real(dp) :: window_width = usual_window_width   !! over the side, 0 < window_width <= 1/2
+      logical :: crop_missing = .false.        !! whether rows and columns at the border without any height are cut off
+      logical :: despike = .false.             !! whether spikes (M8) become the median of their neighbours
+      real(dp) :: short_wavelength = 0.0_dp    !! shortest wave that stays [length]; 0: all waves stay
    end type map_preparation
 
    !> What was done to it.
@@ -35,7 +39,12 @@ module wavycon_prepare_map
       character(9) :: detrend = 'none'      !! as of map_preparation
       real(dp) :: rise(2) = 0.0_dp          !! of the linear part that was removed, from border to border [length]
       integer :: points(2) = 0              !! of the map along x and y
+      integer :: head_lines = 0             !! as of measured_map
+      integer :: cropped_from(2) = 0        !! points of the map before it was cropped; 0: it was not
+      integer :: spikes = 0                 !! number of heights that were replaced
       integer :: filled = 0                 !! number of points that were missing
+      real(dp) :: short_wavelength = 0.0_dp !! as of map_preparation
+      real(dp) :: rms_of_short = 0.0_dp     !! of the waves that were left out [length]
       character(8) :: edges = 'periodic'    !! as of map_preparation
       real(dp) :: tapered = 0.0_dp          !! part of the points that the window changed
    end type map_changes
@@ -44,7 +53,7 @@ contains
 
    !> Prepares a map. 'mirror' leaves the heights as they are: the surface adds the mirror images. Errors:
    !> exit_bad_input for holes that are not to be filled, and for heights that do not determine the trend;
-   !> exit_file_trouble without memory. The holes of a distributed map cannot be filled.
+   !> exit_file_trouble without memory. The holes and spikes of a distributed map cannot be treated.
    subroutine prepare_map(source, preparation, length, map, changes, error)
       character(*), intent(in) :: source                !! of the map, for messages
       type(map_preparation), intent(in) :: preparation
@@ -57,17 +66,22 @@ contains
       logical :: is_determined
       integer :: degree
       type(grid_slab) :: slab
-      real(dp) :: extremes(2), largest(1)
+      real(dp) :: extremes(2), largest(1), step(2)
 
       slab = map%columns()
       largest = maxval(abs(map%height))
       call slab%largest(largest)
+      step = length/slab%points
+      if (preparation%crop_missing) call crop(map, changes%cropped_from)
+      slab = map%columns()
       changes%points = slab%points
+      changes%head_lines = map%head_lines
       changes%step = map%step(1)
       changes%uneven_steps = map%uneven_steps
       if (allocated(map%missing)) changes%filled = count(map%missing)
       call check_holes(source, preparation, map, error)
       if (allocated(error)) return
+      if (preparation%despike) call find_spikes(map%height, map%missing, changes%spikes, replace=.true.)
       degree = findloc(trends, preparation%detrend, dim=1) - 1
       if (degree >= 0) then
          call detrend_map(map, degree, changes%rise, is_determined)
@@ -81,7 +95,7 @@ contains
          where (abs(changes%rise) <= rounding*largest(1)) changes%rise = 0.0_dp
       end if
       if (changes%filled > 0) then
-         call fill_holes(source, length/shape(map%height), preparation%edges == 'periodic', map, error)
+         call fill_holes(source, step, preparation%edges == 'periodic', map, error)
          if (allocated(error)) return
       end if
       changes%edges = preparation%edges
@@ -91,6 +105,26 @@ contains
       call slab%largest(extremes)
       if (sum(extremes) <= rounding*largest(1)) map%height = 0.0_dp
    end subroutine prepare_map
+
+   !> Cuts off rows and columns at the border of a map in which all heights are missing.
+   subroutine crop(map, points)
+      type(measured_map), intent(inout) :: map
+      integer, intent(out) :: points(2)   !! that it had; zeros if it stays
+
+      integer :: first(2), last(2)
+
+      points = 0
+      if (.not. allocated(map%missing)) return
+      associate (there => .not. map%missing)
+         first = [findloc(any(there, dim=2), .true.), findloc(any(there, dim=1), .true.)]
+         last = [findloc(any(there, dim=2), .true., back=.true.), findloc(any(there, dim=1), .true., back=.true.)]
+      end associate
+      if (any(first == 0) .or. all(last - first + 1 == shape(map%height))) return
+      points = shape(map%height)
+      map%height = map%height(first(1):last(1), first(2):last(2))
+      map%missing = map%missing(first(1):last(1), first(2):last(2))
+      if (.not. any(map%missing)) deallocate (map%missing)
+   end subroutine crop
 
    !> Errors: exit_bad_input for missing heights that are not to be filled, or cannot be.
    subroutine check_holes(source, preparation, map, error)

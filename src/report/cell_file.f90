@@ -15,7 +15,8 @@ module wavycon_cell_file
 
    public :: cell_file, check_memory, is_text, map_points
 
-   !> A map of more points than the square of this is written in numpy's format, unless the deck says otherwise.
+   !> A map of more points than the square of this, or planes of more points together, are written in numpy's format,
+   !> unless the deck says otherwise.
    integer, parameter, public :: text_side = 257
 
    type :: cell_file
@@ -43,7 +44,9 @@ contains
       character(*), intent(in) :: what          !! before the number of points, for the message on memory
 
       self%points = map_points(results)
-      self%as_text = is_text(results%scene%output%text('map_format'), self%points)
+      ! A table with more than one plane a load counts all of them.
+      self%as_text = is_text(results%scene%output%text('map_format'), &
+                             self%points*[1, merge(product(planes), 1, size(planes) > 1)])
       if (self%as_text) then
          call results%open_table(kind, columns, self%file)
       else

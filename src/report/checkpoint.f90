@@ -11,6 +11,7 @@
 !> columns of the grids. A run that resumes reads the checkpoints of all ranks of the interrupted run, and may have any
 !> number of them itself.
 module wavycon_checkpoint
+   use, intrinsic :: iso_c_binding, only: c_null_char
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_solution, only: contact_solution
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
@@ -18,7 +19,7 @@ module wavycon_checkpoint
    use wavycon_kept_solution, only: is_kept, pack_solution, unpack_solution
    use wavycon_plain_text, only: escaped, excerpt, integer_text, newline, system_words
    use wavycon_results, only: results_type
-   use wavycon_system, only: file_size, path_absent, path_file, path_kind, process_id, remove_file, &
+   use wavycon_system, only: file_size, note_kept, path_absent, path_file, path_kind, process_id, remove_file, &
       remove_when_interrupted, rename_file
    use wavycon_version, only: revision, version
    use wavycon_work_sharing, only: distributed_grids
@@ -38,6 +39,7 @@ module wavycon_checkpoint
       private
       integer :: unit = -1
       logical :: opened = .false.
+      integer :: kept = 0, loads = 0                  !! solutions added; all loads of the run
       integer(int64) :: run(3) = 0                    !! identifies the run
       character(:), allocatable :: name, name_now     !! final name; present name, temporary at first
    contains
@@ -106,6 +108,8 @@ contains
       if (self%opened) write (self%unit, iostat=status) mark
       call put(self, self%run)
       call put(self, words_of(description(results)))
+      self%loads = size(results%loads)
+      call note_kept(kept_words(self)//c_null_char)
       do load = 1, size(results%loads)
          if (known(load)) call self%add(load, results%loads(load))
       end do
@@ -136,10 +140,20 @@ contains
       call pack_solution(solution, words)
       if (allocated(words)) then
          call put(self, [int(load, int64), words])
+         self%kept = self%kept + 1
+         call note_kept(kept_words(self)//c_null_char)
       else
          call close_file(self)
       end if
    end subroutine add
+
+   !> What an interruption leaves, for the user.
+   pure function kept_words(self) result(words)
+      type(checkpoint_file), intent(in) :: self
+      character(:), allocatable :: words
+
+      words = integer_text(self%kept)//' of '//integer_text(self%loads)//' loads are kept in '//self%name
+   end function kept_words
 
    !> Removes the checkpoint after the tables are written, unless another run has replaced it meanwhile.
    subroutine remove(self)
@@ -149,6 +163,7 @@ contains
       integer :: status, unit
       logical :: whole
 
+      call note_kept(c_null_char)
       call close_file(self)
       open (newunit=unit, file=self%name, access='stream', form='unformatted', status='old', action='read', &
             iostat=status)

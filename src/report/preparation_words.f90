@@ -19,9 +19,16 @@ contains
       character(:), allocatable :: trend
 
       words = ''
-      if (changes%uneven_steps(2) > 0.0_dp) words = 'resampled to '//integer_text(changes%points(1))//' points '// &
-         short_number(changes%step)//' apart, which are '//short_number(changes%uneven_steps(1))//' to '// &
-         short_number(changes%uneven_steps(2))//' apart in the file ['//length_unit//']'
+      if (changes%head_lines > 0) words = 'without a head of '//integer_text(changes%head_lines)//' line'// &
+         trim(merge(' ', 's', changes%head_lines == 1))//' in words'
+      if (changes%uneven_steps(2) > 0.0_dp) words = clauses(words, 'resampled to '// &
+         integer_text(changes%points(1))//' points '//short_number(changes%step)//' apart, which are '// &
+         short_number(changes%uneven_steps(1))//' to '//short_number(changes%uneven_steps(2))// &
+         ' apart in the file ['//length_unit//']')
+      if (changes%cropped_from(1) > 0) words = clauses(words, 'cropped from '// &
+         integer_text(changes%cropped_from(1))//' x '//integer_text(changes%cropped_from(2))//' points')
+      if (changes%spikes > 0) words = clauses(words, integer_text(changes%spikes)//' spike'// &
+         trim(merge(' ', 's', changes%spikes == 1))//' replaced by the median of the heights around')
       if (changes%detrend /= 'none') then
          trend = 'mean'
          if (changes%detrend == 'quadratic') trend = 'quadratic trend'
@@ -40,6 +47,9 @@ contains
       if (changes%edges == 'free') words = clauses(words, 'with free edges: nothing continues it')
       if (changes%edges == 'window') words = clauses(words, 'tapered at its borders, which changes '// &
                                                     percent(changes%tapered)//' of its points')
+      if (changes%short_wavelength > 0.0_dp) words = clauses(words, 'without waves shorter than '// &
+         short_number(changes%short_wavelength)//', whose rms was '//short_number(changes%rms_of_short)// &
+         ' ['//length_unit//']')
    end function preparation_words
 
 end module wavycon_preparation_words

@@ -12,22 +12,21 @@ module wavycon_run_log
    use wavycon_scene, only: scene_type, target_words
    use wavycon_surface, only: surface_type
    use wavycon_solver_progress, only: solver_progress
-   use wavycon_system, only: stdout_is_terminal
+   use wavycon_system, only: terminal_columns
    use wavycon_version, only: revision, version
    implicit none (type, external)
    private
 
-   public :: log_progress, run_log
+   public :: duration, log_progress, run_log
 
    !> Seconds between two progress lines on a terminal.
    real(dp), parameter :: progress_interval = 0.2_dp
-   integer, parameter :: progress_columns = 79
 
    type :: run_log
       private
       logical :: quiet = .false.
-      logical :: terminal = .false.
-      logical :: progress_shown = .false.
+      integer :: columns = 0          !! of the terminal; 0: there is none
+      integer :: shown = 0            !! of them by the progress line
       integer(int64) :: started = 0, last_progress = 0, rate = 1
    contains
       procedure :: start
@@ -35,16 +34,21 @@ module wavycon_run_log
       procedure :: say_timed
       procedure :: show_scene
       procedure :: say_progress
+      procedure :: is_due
       procedure :: show_loads
       procedure :: show_stresses
+      procedure :: elapsed
    end type run_log
 
    !> Shows the grids of a load as progress lines.
    type, extends(solver_progress) :: log_progress
       type(run_log), pointer :: log => null()
       integer :: load = 0, loads = 0   !! number of the load being solved; number of all loads
+      integer :: solved = 0            !! loads that were solved
+      real(dp) :: last = 0.0_dp        !! when the last of them was, since the start of the log [s]
    contains
       procedure :: grid_solved
+      procedure :: shall_stop
    end type log_progress
 
 contains
@@ -55,7 +59,7 @@ contains
       logical, intent(in) :: quiet   !! whether to write nothing
 
       self%quiet = quiet
-      self%terminal = stdout_is_terminal()
+      self%columns = terminal_columns()
       call system_clock(self%started, self%rate)
       self%last_progress = self%started
    end subroutine start
@@ -80,7 +84,7 @@ contains
 
       character(24) :: time
 
-      write (time, '(a, f9.3, a)') '[', elapsed(self), ' s] '
+      write (time, '(a, f9.3, a)') '[', self%elapsed(), ' s] '
       call self%say(trim(time)//' '//line)
    end subroutine say_timed
 
@@ -133,6 +137,9 @@ contains
       words = preparation_words(map%changes, scene%length_unit)
       if (words /= '') call self%say('prepared  '//words)
       if (map%lacks_missing_value) call self%say('note: no height of the file has the missing_value of the deck')
+      if (map%spikes > 0) call self%say('note: '//integer_text(map%spikes)//' of the heights are far from all '// &
+         'around them (kurtosis '//short_number(map%kurtosis)//'): spikes of an instrument carry load that the '// &
+         'surface does not. Remedy: despike = .true.')
       call show_broken_borders(self, map, scene%length_unit)
       ! A broken border is a step between two points.
       if (.not. any(map%is_broken_along([1, 2]))) call show_unresolved_slopes(self, scene%roughness)
@@ -246,27 +253,71 @@ contains
       integer, intent(in) :: points(2), iterations
       real(dp), intent(in) :: residual
 
-      call self%log%say_progress('load '//integer_text(self%load)//' of '//integer_text(self%loads)//': '// &
-                                 integer_text(points(1))//' x '//integer_text(points(2))//' points, '// &
-                                 integer_text(iterations)//' iterations, residual '//short_number(residual))
+      if (self%log%is_due()) call self%log%say_progress(words_of_load(self)//': '//integer_text(points(1))//' x '// &
+         integer_text(points(2))//' points, '//integer_text(iterations)//' iterations, residual '// &
+         short_number(residual))
    end subroutine grid_solved
 
-   !> Writes a progress line over the last one, only on a terminal and at most every progress_interval.
+   !> Shows the iteration on a grid; never stops it.
+   logical function shall_stop(self, iterations, residual)
+      class(log_progress), intent(in) :: self
+      integer, intent(in) :: iterations
+      real(dp), intent(in) :: residual
+
+      shall_stop = .false.
+      if (self%log%is_due()) call self%log%say_progress(words_of_load(self)//': iteration '// &
+         integer_text(iterations)//', residual '//short_number(residual))
+   end function shall_stop
+
+   !> The load being solved, the time since the start and, from the second load on, what is left if the others take as
+   !> long as those before.
+   function words_of_load(self) result(words)
+      class(log_progress), intent(in) :: self
+      character(:), allocatable :: words
+
+      real(dp) :: now
+
+      now = self%log%elapsed()
+      words = 'load '//integer_text(self%load)//' of '//integer_text(self%loads)//', '//duration(now)
+      if (self%solved == 0) return
+      words = words//', some '//duration(max(0.0_dp, self%last/self%solved*(self%loads - self%load + 1) &
+                                             - (now - self%last)))//' left'
+   end function words_of_load
+
+   !> A time in words, in seconds or minutes.
+   pure function duration(seconds) result(words)
+      real(dp), intent(in) :: seconds
+      character(:), allocatable :: words
+
+      words = integer_text(nint(seconds))//' s'
+      if (seconds >= 100) words = integer_text(nint(seconds/60))//' min'
+   end function duration
+
+   !> Whether a progress line would be shown: only on a terminal and at most every progress_interval.
+   logical function is_due(self)
+      class(run_log), intent(in) :: self
+
+      integer(int64) :: now
+
+      is_due = .false.
+      if (self%quiet .or. self%columns == 0) return
+      call system_clock(now)
+      is_due = now - self%last_progress >= progress_interval*self%rate
+   end function is_due
+
+   !> Writes a progress line over the last one if it is due, cut to the width of the terminal.
    subroutine say_progress(self, words)
       class(run_log), intent(inout) :: self
       character(*), intent(in) :: words
 
-      integer(int64) :: now
-      character(progress_columns) :: line
+      integer :: width
 
-      if (self%quiet .or. .not. self%terminal) return
-      call system_clock(now)
-      if (now - self%last_progress < progress_interval*self%rate) return
-      self%last_progress = now
-      line = words
-      write (output_unit, '(2a)', advance='no') achar(13), line
+      if (.not. self%is_due()) return
+      call system_clock(self%last_progress)
+      width = min(len(words), self%columns - 1)
+      write (output_unit, '(3a)', advance='no') achar(13), words(:width), repeat(' ', max(0, self%shown - width))
       flush (output_unit)
-      self%progress_shown = .true.
+      self%shown = width
    end subroutine say_progress
 
    !> Writes a table with a line for each load.
@@ -307,9 +358,9 @@ contains
    subroutine clear_progress(self)
       class(run_log), intent(inout) :: self
 
-      if (.not. self%progress_shown) return
-      write (output_unit, '(3a)', advance='no') achar(13), repeat(' ', progress_columns), achar(13)
-      self%progress_shown = .false.
+      if (self%shown == 0) return
+      write (output_unit, '(3a)', advance='no') achar(13), repeat(' ', self%shown), achar(13)
+      self%shown = 0
    end subroutine clear_progress
 
    !> Time since the start [s].

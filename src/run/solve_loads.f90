@@ -4,7 +4,6 @@ module wavycon_solve_loads
    use wavycon_checkpoint, only: checkpoint_file
    use wavycon_gsl, only: gsl_sort_index
    use wavycon_kinds, only: dp
-   use wavycon_plain_text, only: integer_text
    use wavycon_results, only: results_type
    use wavycon_run_log, only: log_progress, run_log
    use wavycon_scene, only: by_mean_gap
@@ -69,8 +68,9 @@ contains
                call solve_target(solver, loads_by, target(load), results%loads(load), &
                                  results%scene%stress_setting)
                call checkpoint%add(load, results%loads(load))
+               progress%solved = progress%solved + 1
+               progress%last = log%elapsed()
             end if
-            call log%say_progress('solved '//integer_text(i)//' of '//integer_text(size(order)))
          end do
          solver%progress => null()
       end associate

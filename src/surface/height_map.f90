@@ -5,10 +5,13 @@ module wavycon_height_map
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp
+   use wavycon_low_pass, only: leave_out_short_waves
    use wavycon_map_statistics, only: map_statistics, statistics_of
+   use wavycon_map_tuning, only: spiky_kurtosis
    use wavycon_measured_map, only: measured_map
    use wavycon_plain_text, only: escaped, short_number
    use wavycon_prepare_map, only: map_changes, map_preparation, prepare_map
+   use wavycon_spikes, only: find_spikes
    use wavycon_surface, only: surface_of_points, surface_type
    implicit none (type, external)
    private
@@ -33,8 +36,9 @@ contains
 
       type(grid_slab) :: slab
       type(map_changes) :: changes
-      real(dp) :: largest(1)
+      real(dp) :: largest(1), length(2)
 
+      length = sides/map%points()
       slab = map%columns()
       if (.not. all(ieee_is_finite(map%height))) &
          call fatal_error(error, exit_bad_input, escaped(source)//': not all heights are finite numbers')
@@ -48,15 +52,25 @@ contains
          call slab%share_error(error)
          if (allocated(error)) return
       end if
+      ! Steps stay if the map is cropped.
+      length = length*map%points()
       call map%keep_own_columns()
       slab = map%columns()
+      if (preparation%short_wavelength > 0.0_dp .and. largest(1) <= largest_number) then
+         call leave_out_short_waves(map%points(), length, preparation%edges == 'mirror', preparation%short_wavelength, &
+                                    map%height, changes%rms_of_short)
+         changes%short_wavelength = preparation%short_wavelength
+      end if
       call scale_heights(source, scale, slab, map%height, error)
       if (allocated(error)) return
       changes%rise = scale*changes%rise
+      changes%rms_of_short = scale*changes%rms_of_short
       statistics = statistics_of(map%height, map%format, '', map%points())
-      surface = surface_of_points(sides, map%height, changes%edges == 'mirror', map%points(), changes%edges == 'free', &
+      surface = surface_of_points(length, map%height, changes%edges == 'mirror', map%points(), changes%edges == 'free', &
                                   radii)
       statistics%changes = changes
+      if (statistics%kurtosis > spiky_kurtosis .and. .not. slab%is_distributed .and. .not. preparation%despike) &
+         call find_spikes(map%height, map%missing, statistics%spikes, replace=.false.)
    end subroutine surface_of_map
 
    !> Subtracts the mean of the heights and converts them to lengths. Errors: exit_bad_input if they are out of range.

@@ -24,6 +24,8 @@ module wavycon_self_affine_heights
       real(dp) :: shortest = 1.0_dp           !! shortest wave [length], > 0, <= rolloff
       real(dp) :: rms = 1.0_dp                !! root mean square of the height [length] or of the slope, > 0
       logical :: by_slope = .false.           !! whether it is that of the slope
+      !> C of waves longer than the roll-off, (M26) or (M28) of src/map/README.md [length^4, length^3]; 0: rms decides.
+      real(dp) :: density = 0.0_dp
       logical :: random_amplitudes = .false.  !! whether amplitudes are those of a Gaussian process, or of the spectrum
       integer :: seed = 1                     !! >= 1
    end type self_affine_spectrum
@@ -148,7 +150,9 @@ contains
       rows = wave_slab(waves)
       moment = rows%column_totals(moments)
       call transform%sample(waves, height)
-      height = spectrum%rms/sqrt(moment(1))*height
+      ! Of the mean square of a wave each of its two wave vectors has half.
+      if (spectrum%density > 0.0_dp) moment = product(spectrum%length(:spectrum%dimension))/(2*spectrum%density)
+      height = merge(spectrum%rms, 1.0_dp, spectrum%density <= 0.0_dp)/sqrt(moment(1))*height
 
    contains
 

@@ -27,6 +27,7 @@ import variables  # noqa: E402
 from axes import Scale, axis, chosen, marked_up  # noqa: E402
 from table import NotATable, Table  # noqa: E402
 
+OUTLINE = "rgb( 48,  51,  56)"   # `outline` of figure_style.gp
 SOUND_START = {"png": b"\x89PNG", "svg": b"<?xml", "pdf": b"%PDF"}
 WAVE = """\
 &surface kind = 'wave_2d' /
@@ -144,11 +145,14 @@ class Plot(ProgramTest):
 
     def test_units(self):
         words = self.drawn("si.summary.dat", name="si.summary.svg")
-        self.assertIn("(GPa)", words)
-        self.assertIn("(nm)", words)
-        words = self.drawn("si.map.dat")
-        self.assertIn("(µm)", words)
-        self.assertIn("(mm)", words)
+        self.assertIn("(MPa)", words)
+        self.assertIn("mean gap ḡ (µm)", words)
+        self.assertIn("x (µm)", self.drawn("si.map.dat"))
+        # One unit a run: loads, pressures and stresses; places and depths; gaps.
+        for case in ("si", "bodies"):
+            for path in sorted(self.folder.glob(f"{case}.*.svg")):
+                if not re.search("compare|theory.svg", path.name):
+                    self.assertNotRegex(path.read_text(encoding="utf-8"), r"GPa|kPa|\(mm|nm\b")
         self.assertIn("mean pressure p̄ (MPa)", self.drawn("si.spots.dat"))
         self.assertIn("mean pressure p̄/p*", self.drawn("auto.spots.dat"))
         # Lengths without a label are those of the deck.
@@ -161,11 +165,27 @@ class Plot(ProgramTest):
 
     def test_spectra_have_the_units_of_their_axes(self):
         words = self.drawn("rough.spectrum.dat")
-        for label in ("q (rad/µm)", "C (µm4)", "C1 (µm3)", "along x", "along y"):
+        for label in ("wave number q (rad/µm)", "spectrum C (µm4)", "spectrum C1 (µm3)", "along x", "along y"):
             self.assertIn(label, words)
         words = self.drawn("profile.spectrum.dat")
         self.assertNotIn("along", words)
         self.assertNotIn("(", words)
+
+    def test_maps_of_small_spots(self):
+        """Contact has panels of its own and no outlines that would hide it; colours end below a single peak."""
+        self.run_deck("small", "&surface kind = 'self_affine', rms_slope = 0.1, short_wavelength = 0.016,\npoints = 256 /\n"
+                      "&load contact_area_fraction = 0.1, 0.45 /\n&output map = t, contours = t, spots = t /\n")
+        for picture, contact, outlined in (("small.map", True, False), ("auto.map", True, True)):
+            shown = self.drawn(f"{picture}.dat")
+            text = (self.folder/f"{picture}.svg").read_text(encoding="utf-8")
+            self.assertEqual(contact, "contact" in shown)
+            self.assertEqual(outlined, f"stroke='{OUTLINE}'" in text)
+        self.assertRegex(self.drawn("small.map.dat"), "pressure p/p[*] largest [0-9.]+")
+        self.assertNotIn("largest", self.drawn("auto.map.dat"))
+        # Sizes of spots are lines without points.
+        self.drawn("small.spot_sizes.dat")
+        text = (self.folder/"small.spot_sizes.svg").read_text(encoding="utf-8")
+        self.assertNotIn("translate", re.sub("<g[^>]*>", "", text))
 
     def test_heights(self):
         words = self.drawn("rough.height.npy")
@@ -257,8 +277,8 @@ class Plot(ProgramTest):
         words = self.drawn("--compare", "auto.lines.dat", "paper.lines.dat")
         self.assertIn("p̄/p* = 0.1, p̄/p* = 0.5", words)
         # Units only where they are the same.
-        self.assertNotIn("GPa", self.drawn("--compare", "si.summary.dat", "auto.summary.dat"))
-        self.assertIn("GPa", self.drawn("--compare", "si.summary.dat", "si.summary.dat"))
+        self.assertNotIn("MPa", self.drawn("--compare", "si.summary.dat", "auto.summary.dat"))
+        self.assertIn("MPa", self.drawn("--compare", "si.summary.dat", "si.summary.dat"))
         for others in (("auto.lines.dat", "auto.summary.dat"), ("auto.map.dat", "paper.map.dat")):
             self.assertIn("can be compared", self.plot("--compare", *others, status=3)[1])
         self.assertIn("no load in common", self.plot("--compare", "auto.lines.dat", "si.lines.dat", status=3)[1])
@@ -363,6 +383,13 @@ class Plot(ProgramTest):
             self.assertIn("usage: scripts/plot", self.plot(*words, status=1)[1])
 
 
+def lightness(colour):
+    """CIE's lightness of a colour, 0 to 100; colour: rrggbb."""
+    parts = [int(colour[k:k + 2], 16)/255 for k in (0, 2, 4)]
+    red, green, blue = [part/12.92 if part <= 0.04045 else ((part + 0.055)/1.055)**2.4 for part in parts]
+    return 116*(0.2126*red + 0.7152*green + 0.0722*blue)**(1/3) - 16
+
+
 class Numbers(unittest.TestCase):
     def test_axes_are_those_of_the_data(self):
         for loads in ([1e-4, 2e-4, 3e-4], [50.0, 200.0, 900.0], [0.2], [0.0, 0.0], []):
@@ -374,6 +401,8 @@ class Numbers(unittest.TestCase):
             if max(loads, default=0) > 0:
                 self.assertLess(high, 1.4*max(loads))
         self.assertEqual(1.0, axis([0.01, 0.9], up_to=1.0)[1])
+        # Tics of nearly equal numbers do not read alike, and a single one does not lie at an end.
+        self.assertEqual(0.0, axis([0.99999*0.78, 0.78])[0])
         # Many light loads: logarithmic; loads distributed over the range are not.
         self.assertTrue(axis([1e-6, 1e-5, 1e-4, 1e-3])[-1])
         self.assertFalse(axis([1e-3, 0.2, 0.5, 0.9])[-1])
@@ -388,6 +417,19 @@ class Numbers(unittest.TestCase):
         self.assertEqual("N/mm^{2}", marked_up("N/mm^2"))
         self.assertEqual("p.' = 0.2 GPa'", Scale(2e9, "Pa").value("p", 0.2))
         self.assertEqual("p.' = 10^{−5}'", Scale(1.0).value("p", 1e-5))
+
+    def test_colour_maps_read_in_grey(self):
+        """Equal steps of a number are equal steps of lightness, within a fifth of them."""
+        maps = re.findall(r'set palette defined \((.*?)\)"', (ROOT/"scripts/figure_style.gp").read_text(), re.S)
+        self.assertEqual(5, len(maps))
+        for colours in maps:
+            stops = [(float(number), lightness(colour)) for number, colour in re.findall(r"(-?\d+) '#(\w+)'", colours)]
+            slopes = [(second[1] - first[1])/(second[0] - first[0]) for first, second in zip(stops, stops[1:])]
+            for slope in slopes:
+                self.assertAlmostEqual(1.0, slope/(sum(slopes)/len(slopes)), delta=0.2)
+        for picture in list((ROOT/"scripts").glob("*.sh")) + list((ROOT/"scripts/pictures").glob("*.gp")):
+            if picture.name != "fig09.sh":   # contact and gap alone
+                self.assertNotIn("set palette defined", picture.read_text())
 
     def test_titles_fit(self):
         self.assertEqual(("case", 15.0), variables.fitted("case", "", 430))

@@ -4,7 +4,7 @@ module wavycon_height_map_kind
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_group_values, only: group_values
    use wavycon_height_map, only: surface_of_map
-   use wavycon_key_table, only: choice_key, real_key, text_key
+   use wavycon_key_table, only: choice_key, logical_key, real_key, text_key
    use wavycon_kinds, only: dp
    use wavycon_length_unit, only: convert_lengths
    use wavycon_map_file, only: read_height_map
@@ -47,6 +47,10 @@ contains
             'empty fields between commas, semicolons or tabs.'), &
          real_key('height_scale', '1.0', 'length', "length of one unit of the file's heights; beside a file with "// &
             'units a factor.', above=0.0_dp), &
+         logical_key('crop_missing', '.false.', 'whether rows and columns at the borders in which all heights are '// &
+            'missing are cut off. The sides of the cell are those of the whole file.'), &
+         logical_key('despike', '.false.', 'whether spikes, heights far from all around them, become the median of '// &
+            'their neighbours.'), &
          choice_key('detrend', "'none'", &
             "what is subtracted first, fitted to the heights that are there by least squares: 'mean', 'plane' or "// &
             "'quadratic', a polynomial of the second degree.", &
@@ -60,7 +64,8 @@ contains
             'not at all: it is pressed on a half-space.', [character(8) :: 'periodic', 'mirror', 'window', 'free']), &
          real_key('window_width', short_number(usual_window_width), '-', &
             "with edges = 'window': width of the taper at each border, over the side.", above=0.0_dp, most=0.5_dp), &
-         form_radius_keys('form_radius', "a ball that the map lies on, with edges = 'free'")])
+         real_key('short_wavelength', '', 'length', 'shortest wave that stays in the map; without it all stay.', &
+                  above=0.0_dp)])
       kind%make => make
       kind%check => check
    end function height_map_kind
@@ -153,14 +158,18 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       character(:), allocatable :: assumed_sides
+      type(map_preparation) :: preparation
       real(dp) :: length(2)
 
       if (values%text('edges') /= 'window') call values%leave_out('window_width')
       call take_sides(values, source, heights, length, assumed_sides, error)
-      if (.not. allocated(error)) call surface_of_map(source, &
-         map_preparation(values%text('detrend'), values%text('fill_missing'), values%text('edges'), &
-                         values%real('window_width')), values%real('height_scale'), length, heights, surface, map, &
-                         error, radii_of(values, 'form_radius'))
+      if (allocated(error)) return
+      preparation = map_preparation(values%text('detrend'), values%text('fill_missing'), values%text('edges'), &
+                                    values%real('window_width'), values%logical('crop_missing'), &
+                                    values%logical('despike'))
+      if (values%has('short_wavelength')) preparation%short_wavelength = values%real('short_wavelength')
+      call surface_of_map(source, preparation, values%real('height_scale'), length, heights, surface, map, error, &
+                          radii_of(values, 'form_radius'))
       if (.not. allocated(error)) map%assumed_sides = assumed_sides
    end subroutine make_of
 
@@ -175,9 +184,10 @@ contains
       real(dp), allocatable :: missing_value   ! not allocated: the argument is absent
 
       if (values%has('missing_value')) missing_value = values%real('missing_value')
-      ! The equations of holes need the whole map.
+      ! Holes, their frame and spikes are found in the whole map.
       call read_height_map(path, values%text('file_format'), heights, error, missing_value, &
-                           in_slabs=values%text('fill_missing') == 'none')
+                           in_slabs=values%text('fill_missing') == 'none' .and. .not. &
+                                    (values%logical('crop_missing') .or. values%logical('despike')))
       if (allocated(error)) return
       unit = ''
       if (allocated(values%length_unit)) unit = values%length_unit

@@ -4,7 +4,7 @@ module wavycon_self_affine_kind
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: choice_key, integer_key, real_key
    use wavycon_kinds, only: dp
-   use wavycon_map_size, only: least_points, most_points
+   use wavycon_map_size, only: most_points
    use wavycon_map_statistics, only: map_statistics
    use wavycon_plain_text, only: escaped, integer_text, short_number
    use wavycon_problems, only: problem_list_type
@@ -19,6 +19,7 @@ module wavycon_self_affine_kind
 
    !> Most points along a side that a deck without `points` gets.
    integer, parameter :: most_default_points = 8192
+   integer, parameter :: least_points = 4
 
 contains
 
@@ -32,13 +33,16 @@ contains
                   above=0.0_dp, way=1), &
          real_key('rms_slope', '', '-', 'root mean square of the slope, the size of the gradient; or give '// &
                   'rms_height.', above=0.0_dp, way=2), &
+         real_key('spectral_density', '', 'length^4', 'in place of rms_height or rms_slope: the spectral density '// &
+                  'of waves longer than rolloff_wavelength, as &output spectrum has it; of a profile in length^3.', &
+                  above=0.0_dp, way=3), &
          real_key('long_wavelength', 'the longer side of the cell', 'length', 'longest wave, the long cut-off.', &
                   above=0.0_dp), &
          real_key('rolloff_wavelength', 'long_wavelength', 'length', &
                   'the spectrum of the heights is flat for longer waves and self-affine for shorter ones.', &
                   above=0.0_dp), &
-         real_key('short_wavelength', 'rolloff_wavelength/64', 'length', 'shortest wave, the short cut-off.', &
-                  above=0.0_dp), &
+         real_key('short_wavelength', '', 'length', 'shortest wave, the short cut-off; without it '// &
+                  'rolloff_wavelength/64.', above=0.0_dp), &
          choice_key('spectrum', "'ideal'", &
             "amplitudes of the waves: 'ideal', those of the spectrum; 'random', those of a Gaussian process with "// &
             'this spectrum. Phases are random.', [character(6) :: 'ideal', 'random']), &
@@ -97,9 +101,11 @@ contains
       type(self_affine_spectrum) :: spectrum
       integer :: before
 
-      if (.not. values%has('rms_height') .and. .not. values%has('rms_slope')) &
-         call values%complain(problems, 'kind', "kind = 'self_affine' needs rms_height or rms_slope")
+      if (.not. any([values%has('rms_height'), values%has('rms_slope'), values%has('spectral_density')])) &
+         call values%complain(problems, 'kind', "kind = 'self_affine' needs rms_height, rms_slope or spectral_density")
       call values%forbid(problems, 'rms_height', 'rms_slope', 'give one of them')
+      call values%forbid(problems, 'rms_height', 'spectral_density', 'give one of them')
+      call values%forbid(problems, 'rms_slope', 'spectral_density', 'give one of them')
       if (all(values%text('edges') /= ['periodic', 'free    '])) call values%complain(problems, 'edges', &
          "a random surface is made periodic: edges must be 'periodic' or 'free'")
       call check_form(values, problems)
@@ -180,6 +186,7 @@ contains
       spectrum%shortest = values%real('short_wavelength')
       spectrum%by_slope = values%has('rms_slope')
       spectrum%rms = merge(values%real('rms_slope'), values%real('rms_height'), spectrum%by_slope)
+      if (values%has('spectral_density')) spectrum%density = values%real('spectral_density')
       spectrum%random_amplitudes = values%text('spectrum') == 'random'
       spectrum%seed = values%integer('seed')
    end function spectrum_of

@@ -59,7 +59,7 @@ contains
       call check_waves(values, values%integers('waves_x'), values%integers('waves_y'), problems)
    end subroutine check
 
-   !> Reports a wave without wave numbers, which is a constant height, and a profile along y.
+   !> Reports a wave without wave numbers, which is a constant height.
    subroutine check_waves(values, m, n, problems)
       type(group_values), intent(in) :: values
       integer, intent(in) :: m(:), n(:)   !! waves_x and waves_y
@@ -74,8 +74,6 @@ contains
             ' has waves_x = 0 and waves_y = 0: it is a height and no wave; leave it out')
          return
       end do
-      if (all(m == 0)) call values%complain(problems, 'waves_x', &
-         'all waves_x are 0: turn the profile, so that it runs along x')
    end subroutine check_waves
 
    !> Reports a list whose number of values differs from that of the amplitudes.
