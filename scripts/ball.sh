@@ -32,7 +32,7 @@ set xtics 20
 set ytics 20
 set xlabel '{/:Italic x} [µm]' offset 0, 0.3
 set ylabel '{/:Italic y} [µm]' offset 1, 0
-set palette defined (0 '#a9cbe6', 0.5 '#2f6fb0', 1 '#08204a')
+eval of_contact
 set cbrange [0:8]
 set cbtics 2 offset -0.6, 0
 set colorbox user origin 0.422, 0.16 size 0.012, 0.757

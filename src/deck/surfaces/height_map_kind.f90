@@ -65,7 +65,8 @@ contains
          real_key('window_width', short_number(usual_window_width), '-', &
             "with edges = 'window': width of the taper at each border, over the side.", above=0.0_dp, most=0.5_dp), &
          real_key('short_wavelength', '', 'length', 'shortest wave that stays in the map; without it all stay.', &
-                  above=0.0_dp)])
+                  above=0.0_dp), &
+         form_radius_keys('form_radius', "a ball that the map lies on, with edges = 'free'")])
       kind%make => make
       kind%check => check
    end function height_map_kind
