@@ -39,7 +39,6 @@ def open_file(file, channel):
     as keys, None where the file lacks them, and the unit (None: unknown). Errors: ValueError for what is no such file."""
     try:
         from SurfaceTopography import open_topography
-        from SurfaceTopography.Exceptions import UnknownFileFormat
     except ImportError as error:
         raise ImportError("files of instruments need SurfaceTopography: pip install 'wavycon[files]'") from error
     if not os.path.isfile(file):
@@ -52,8 +51,10 @@ def open_file(file, channel):
             z = np.ma.filled(np.ma.asarray(topography.heights(), dtype=float), np.nan).T
             x = None if topography.is_uniform else np.asarray(topography.positions())
             sides = topography.physical_sizes if known else (None,)*info.dim
-    except UnknownFileFormat as error:
-        raise ValueError(f"{file}: SurfaceTopography knows no such format") from error
+    except Exception as error:
+        # Its readers raise whatever their formats bring about.
+        reason = str(error).strip().splitlines()[:1]
+        raise ValueError(f"{file}: SurfaceTopography cannot read it: {type(error).__name__} {''.join(reason)}") from error
     return x, z, dict(zip(("length_x", "length_y"), sides)), topography.unit
 
 
