@@ -98,7 +98,7 @@ def unknown(what, name, names):
 
 
 def deck_text(groups: Mapping) -> str:
-    """The text of a deck."""
+    """The text of a deck. Keys that are None are left out."""
     return "".join(f"&{group}\n" + "".join(f"  {key} = {value_text(value)}\n" for key, value in given.items()
                                            if value is not None) + "/\n" for group, given in groups.items())
 

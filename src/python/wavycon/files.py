@@ -9,18 +9,19 @@ from pathlib import Path
 
 import numpy as np
 
-from .deck import Surface, heights
+from .deck import Surface, deck_text, heights
 
 
-def read(file, channel: str | int | None = None, **keys_of_maps) -> Surface:
-    """A surface from a file of any format that SurfaceTopography opens; its sides and its unit of length are the file's.
+def read(file, channel: str | int | None = None, *, length_unit: str | None = None, **keys_of_maps) -> Surface:
+    """A surface from a file of any format that SurfaceTopography opens, with the sides and the unit of the file.
 
-    channel: name or number, from 0, of one of several in the file. keys_of_maps: those of a map, such as detrend,
-    fill_missing and edges ('periodic' unless given), and length_x, length_y [length] if the file does not have the sides;
-    help(wavycon.file) has them all. A profile of unequal steps is resampled to equal ones, with a warning. Formats that
-    the program reads itself need no SurfaceTopography: wavycon.file(file="map.gsf").
+    channel: name or number, from 0, of one of several in the file. length_unit: to which the file's lengths are converted,
+    or, if it names none, what theirs is called. keys_of_maps: those of a map, such as detrend, fill_missing and edges, and
+    length_x, length_y [length] if the file does not have the sides; help(wavycon.file) has them all. A profile of unequal
+    steps is resampled to equal ones, with a warning. Formats that the program reads itself need no SurfaceTopography:
+    wavycon.file(file="map.gsf").
     """
-    x, z, sides, unit = open_file(file, channel)
+    x, z, sides, unit = open_file(file, channel, length_unit)
     for key, side in sides.items():
         if side is not None and keys_of_maps.get(key) is not None:
             raise ValueError(f"{file}: leave out {key}: the file has {side:g} {unit or ''}".rstrip())
@@ -34,9 +35,10 @@ def read(file, channel: str | int | None = None, **keys_of_maps) -> Surface:
     return dataclasses.replace(Surface({"kind": "file", "file": str(profile), **keys_of_maps}, None, unit), folder=folder)
 
 
-def open_file(file, channel):
-    """The places of unequal steps (None: equal steps), the heights (y, x) or (x,), NaN where they are missing, the sides
-    as keys, None where the file lacks them, and the unit (None: unknown). Errors: ValueError for what is no such file."""
+def open_file(file, channel, unit=None):
+    """What a file holds, in a unit of length if one is given: the places of unequal steps (None: equal steps), the heights
+    (y, x) or (x,), NaN where they are missing, the sides as keys, None where the file lacks them, and the unit (None:
+    unknown). Errors: ValueError for what SurfaceTopography cannot read."""
     try:
         from SurfaceTopography import open_topography
     except ImportError as error:
@@ -45,29 +47,30 @@ def open_file(file, channel):
         raise FileNotFoundError(f"{file}: there is no such file")
     try:
         with open_topography(os.fspath(file)) as reader:
-            info = choose(reader, channel, file)
+            info = choose([one for one in reader.channels if one.is_height_channel], channel)
             known = info.physical_sizes is not None
             topography = info.topography(**({} if known else {"physical_sizes": (1.0,)*info.dim}))
+            if unit and topography.unit:
+                topography = topography.to_unit(unit)
             z = np.ma.filled(np.ma.asarray(topography.heights(), dtype=float), np.nan).T
             x = None if topography.is_uniform else np.asarray(topography.positions())
-            sides = topography.physical_sizes if known else (None,)*info.dim
+            sides = map(float, topography.physical_sizes) if known else (None,)*info.dim
     except Exception as error:
         # Its readers raise whatever their formats bring about.
-        reason = str(error).strip().splitlines()[:1]
-        raise ValueError(f"{file}: SurfaceTopography cannot read it: {type(error).__name__} {''.join(reason)}") from error
-    return x, z, dict(zip(("length_x", "length_y"), sides)), topography.unit
+        raise ValueError(f"{file}: SurfaceTopography cannot read it: {type(error).__name__}: "
+                         f"{''.join(str(error).strip().splitlines()[:1])}") from error
+    return x, z, dict(zip(("length_x", "length_y"), sides)), unit or topography.unit
 
 
-def choose(reader, channel, file):
-    channels = reader.height_channels if hasattr(reader, "height_channels") else reader.channels
+def choose(channels, channel):
     names = [one.name for one in channels]
     if channel is None:
-        return reader.default_channel
+        channel = 0
     if isinstance(channel, str) and channel in names:
         return channels[names.index(channel)]
     if isinstance(channel, int) and 0 <= channel < len(channels):
         return channels[channel]
-    raise ValueError(f"{file}: there is no channel {channel!r}; there are {', '.join(map(repr, names))}")
+    raise ValueError(f"there is no channel {channel!r}; there are {', '.join(map(repr, names))}")
 
 
 def write_profile(path, x, z):
@@ -91,10 +94,11 @@ def convert(arguments=None) -> None:
     parser.add_argument("file", help="of any format that SurfaceTopography opens")
     parser.add_argument("map", help="to be written: .gsf with sides and units, .npy with all digits, .txt for profiles")
     parser.add_argument("--channel", help="name or number of one of several channels")
+    parser.add_argument("--unit", help="of length, to which the file's lengths are converted, such as um")
     given = parser.parse_args(arguments)
     channel = int(given.channel) if given.channel and given.channel.isdecimal() else given.channel
     try:
-        x, z, sides, unit = open_file(given.file, channel)
+        x, z, sides, unit = open_file(given.file, channel, given.unit)
         kind, rows = Path(given.map).suffix, np.atleast_2d(z)
         if kind == ".txt" and len(rows) == 1:
             step = (sides["length_x"] or 1)/z.size
@@ -109,7 +113,5 @@ def convert(arguments=None) -> None:
             raise ValueError(f"{given.map}: the name must end in .gsf or .npy, of a profile also in .txt")
     except (ImportError, OSError, ValueError) as error:
         sys.exit(f"wavycon-convert: {error}")
-    keys = "" if kind == ".gsf" or x is not None else "".join(
-        f", {key} = {side!r}" for key, side in sides.items() if side is not None)
-    label = f"&scene length_unit = '{unit}' /\n" if unit and kind != ".gsf" else ""
-    print(f"{label}&surface kind = 'file', file = '{given.map}'{keys} /")
+    print(deck_text({"scene": {"length_unit": unit}, "surface": {
+        "kind": "file", "file": given.map, **(sides if kind == ".npy" else {})}}), end="")
