@@ -35,10 +35,10 @@ def heights(h, *, length_unit: str | None = None, **keys_of_maps) -> Surface:
     heights. length_unit: the unit of all lengths, a label. keys_of_maps: those of a map, such as length_x, length_y
     [length], height_scale, detrend, fill_missing and edges; help(wavycon.file) has them all.
     """
-    h = np.array(reals(h), ndmin=2)
-    if h.ndim != 2 or h.size == 0:
-        raise ValueError(f"heights must have the shape (y, x) or (x,), got {np.shape(h)}")
-    return Surface({"kind": "file", "file": "heights", **keys_of_maps}, h, length_unit)
+    h = reals(h)
+    if h.ndim not in (1, 2) or h.size == 0:
+        raise ValueError(f"heights must have the shape (y, x) or (x,), got {h.shape}")
+    return Surface({"kind": "file", "file": "heights", **keys_of_maps}, np.atleast_2d(h), length_unit)
 
 
 def maker_of_kind(name):
@@ -98,23 +98,29 @@ def unknown(what, name, names):
 
 
 def deck_text(groups: Mapping) -> str:
-    """The text of a deck. Keys that are None are left out."""
-    return "".join(f"&{group}\n" + "".join(f"  {key} = {value_text(value)}\n" for key, value in given.items()
-                                           if value is not None) + "/\n" for group, given in groups.items())
+    """The text of a deck. Keys that are None are left out, and groups of nothing else."""
+    lines = []
+    for group, given in groups.items():
+        values = [f"  {key} = {value_text(value)}" for key, value in given.items() if value is not None]
+        if values or not given:
+            lines += [f"&{group}", *values, "/"]
+    return "\n".join(lines) + "\n"
 
 
-def value_text(value) -> str:
+def value_text(value, in_list=False) -> str:
     """A value as a deck has it."""
-    if isinstance(value, (str, np.str_)):
+    if isinstance(value, (np.ndarray, np.generic)):
+        value = value.tolist()
+    if isinstance(value, str):
         if not value.isprintable():
             raise ValueError(f"a text must not have control characters, got {value!r}")
         return "'" + value.replace("'", "''") + "'"
-    if isinstance(value, (bool, np.bool_)):
+    if isinstance(value, bool):
         return f".{value}.".lower()
     if isinstance(value, Integral):
         return str(int(value))
     if isinstance(value, Real):
         return repr(float(value))
-    if isinstance(value, Iterable) and not isinstance(value, (bytes, Mapping)) and np.ndim(value) == 1:
-        return ", ".join(value_text(one) for one in value)
+    if isinstance(value, Iterable) and not isinstance(value, (bytes, Mapping)) and not in_list:
+        return ", ".join(value_text(one, in_list=True) for one in value)
     raise ValueError(f"a value must be a number, a text, a truth value or a list of these, got {value!r}")

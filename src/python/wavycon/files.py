@@ -47,7 +47,7 @@ def open_file(file, channel, unit=None):
         raise FileNotFoundError(f"{file}: there is no such file")
     try:
         with open_topography(os.fspath(file)) as reader:
-            info = choose([one for one in reader.channels if one.is_height_channel], channel)
+            info = choose([one for one in reader.channels if one.unit is None or isinstance(one.unit, str)], channel)
             known = info.physical_sizes is not None
             topography = info.topography(**({} if known else {"physical_sizes": (1.0,)*info.dim}))
             if unit and topography.unit:
@@ -107,6 +107,8 @@ def convert(arguments=None) -> None:
             raise ValueError(f"{given.file}: a profile of unequal steps needs a file .txt")
         elif kind == ".npy":
             np.save(given.map, z)
+        elif kind == ".gsf" and sides["length_x"] is None:
+            raise ValueError(f"{given.file} does not have the sides, which a file .gsf needs: write a file .npy")
         elif kind == ".gsf":
             write_gsf(given.map, rows, sides, unit)
         else:

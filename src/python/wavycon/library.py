@@ -36,9 +36,9 @@ lib.wavycon_new_error.restype = POINTER
 lib.wavycon_get_code.argtypes = lib.wavycon_delete.argtypes = [POINTER]
 lib.wavycon_get_message.argtypes = [POINTER, POINTER, c_size_t]
 lib.wavycon_get_message.restype = c_size_t
+functions = {name: getattr(lib, "wavycon_" + name) for name in FUNCTIONS}
 for _name, (_result, _arguments) in FUNCTIONS.items():
-    _function = getattr(lib, "wavycon_" + _name)
-    _function.restype, _function.argtypes = _result, [POINTER, *_arguments]
+    functions[_name].restype, functions[_name].argtypes = _result, [POINTER, *_arguments]
 # A child of this process must not find the library locked by a thread that it does not have.
 os.register_at_fork(before=lib.wavycon_lock, after_in_parent=lib.wavycon_unlock, after_in_child=lib.wavycon_unlock)
 
@@ -65,7 +65,7 @@ _own = _ThreadErrors()
 
 def call(name, *arguments):
     """Calls a function by its name without 'wavycon_', without its first argument."""
-    answer = getattr(lib, "wavycon_" + name)(_own.error, *arguments)
+    answer = functions[name](_own.error, *arguments)
     code = lib.wavycon_get_code(_own.error)
     if code:
         message = create_string_buffer(lib.wavycon_get_message(_own.error, None, 0))
@@ -105,11 +105,13 @@ def reals(array, *, shape=None):
     array = np.ma.asanyarray(array)
     if array.dtype.kind not in "biuf":
         raise ValueError(f"an array of real numbers is needed, got numbers of the type {array.dtype}")
-    return np.ascontiguousarray(np.broadcast_to(np.ma.filled(array.astype(float), np.nan), shape or array.shape))
+    array = np.ma.filled(array.astype(float), np.nan)   # a copy
+    return np.asarray(array if shape is None else np.broadcast_to(array, shape), order="C")
 
 
 def address(array):
-    return array.ctypes.data_as(POINTER)
+    """Where the numbers of an array are; the array must outlive it."""
+    return array.ctypes.data
 
 
 @functools.cache

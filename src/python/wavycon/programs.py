@@ -50,8 +50,8 @@ def sweep(deck, values: Mapping[str, Iterable], jobs: int | None = None, directo
                 message = process.communicate()[1].strip()
             running.discard(process)
             if table.exists():
-                rows = pandas.read_csv(table, sep=r"\s+", comment="#", float_precision="round_trip")
-                rows = rows.loc[:, "load":]
+                names, *lines = [line.split() for line in table.read_text().splitlines() if not line.startswith("#")]
+                rows = pandas.DataFrame([map(number_or_word, line) for line in lines], columns=names).loc[:, "load":]
             else:
                 rows = pandas.DataFrame({"status": ["failed"]})
                 message = message or f"the program ended with the status {process.returncode}"
@@ -70,6 +70,15 @@ def sweep(deck, values: Mapping[str, Iterable], jobs: int | None = None, directo
     if not frames:
         raise ValueError("there are no values, so there is no run")
     return pandas.concat(frames, ignore_index=True)[max((frame.columns for frame in frames), key=len)]
+
+
+def number_or_word(word):
+    for kind in int, float:
+        try:
+            return kind(word)
+        except ValueError:
+            pass
+    return word
 
 
 def progress(steps, number):

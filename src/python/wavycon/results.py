@@ -55,10 +55,11 @@ class Result:
     @cached_property
     def _fields(self):
         solution = self._live("fields")
-        points, offset = [[library.number(solution, f"map_{kind}_{axis}") for axis in "xy"] for kind in ("points", "offset")]
+        points, offset = (np.array([library.number(solution, f"map_{kind}_{axis}") for axis in "xy"])
+                          for kind in ("points", "offset"))
         columns, rows = map(int, points)
         fields = [np.empty((rows, columns)) for _ in FIELDS[2:]]
-        call("get_grid", solution, columns, rows, address(np.array(offset)), *map(address, fields))
+        call("get_grid", solution, columns, rows, address(offset), *map(address, fields))
         sides = self._facts["length_x"], self._facts["length_y"]
         places = [side*(np.arange(number) + first)/number for side, number, first in zip(sides, points, offset)]
         return dict(zip(FIELDS, [*places, *fields]))
