@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """The Python package: the examples of its page, digits, files, pictures, misuse, memory, threads, processes, Ctrl-C.
 
-usage: test_package.py --program WAVYCON --package FOLDER --page PAGE --environment FOLDER
+usage: test_package.py --program WAVYCON --package FOLDER --needs PACKAGES --environment FOLDER
 
-Where this Python lacks numpy, pandas or matplotlib, they are installed into a virtual environment in FOLDER, once. Exit
-status: 77 if they cannot be. What needs SurfaceTopography is skipped without it.
+PACKAGES, separated by commas, are numpy, pandas and matplotlib, and perhaps SurfaceTopography and ContactMechanics,
+without which the tests of files and of the example are skipped. Where this Python lacks them they are installed into a
+virtual environment in FOLDER, once. Exit status: 77 if they cannot be.
 """
 import concurrent.futures
 import contextlib
@@ -15,6 +16,7 @@ import io
 import os
 import pathlib
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -54,6 +56,17 @@ print("usable")
 """
 
 
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+def read_page(name):
+    return (ROOT/"src"/"python"/name).read_text(encoding="utf-8")
+
+
+def python_blocks(name):
+    return re.findall(r"```python\n(.*?)```", read_page(name), re.DOTALL)
+
+
 def solve_small():
     return wc.solve(wc.wave_1d(), pbar_over_pstar=0.5)
 
@@ -87,7 +100,7 @@ class PackageTest(ProgramTest):
 
 class Examples(PackageTest):
     def test_the_page(self):
-        examples = re.findall(r"```python\n(.*?)```", PAGE, re.DOTALL)
+        examples = python_blocks("README.md")
         self.assertGreater(len(examples), 5)
         names, printed = {}, io.StringIO()
         with contextlib.redirect_stdout(printed):
@@ -95,6 +108,21 @@ class Examples(PackageTest):
                 exec(example, names)
         for words in "did you mean 'amplitude'", "status='converged'", r"\(256, 256\)", "load.mean_pressure":
             self.assertRegex(printed.getvalue(), words)
+
+    @unittest.skipUnless(importlib.util.find_spec("ContactMechanics"), "needs ContactMechanics")
+    def test_the_example(self):
+        (self.folder/"inputs").mkdir()
+        shutil.copy(ROOT/"inputs"/"measured_surface.dat", "inputs")
+        names, printed = {}, io.StringIO()
+        with contextlib.redirect_stdout(printed), warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            for example in python_blocks("example.md"):
+                exec(example, names)
+        shown = "".join(re.findall(r"^```\n\n```\n(.*?)```", read_page("example.md"), re.DOTALL | re.MULTILINE))
+        # The last digits of two iterations differ from machine to machine.
+        rounding = r"pressures to \de-\d\d"
+        self.assertEqual(*(re.sub(rounding, "", text) for text in (shown, printed.getvalue())))
+        self.assertLess(max(map(float, re.findall(r"pressures to (\S+)", printed.getvalue()))), 1e-6)
 
     def test_help(self):
         for name in wc.__all__ + ["self_affine", "wave_sum"]:
@@ -383,9 +411,9 @@ class Files(PackageTest):
 if __name__ == "__main__":
     if sys.version_info < (3, 10):
         skip("the package needs Python 3.10")
-    go_on_with("numpy", "pandas", "matplotlib")
-    given = take_options("package", "page")
-    PAGE = pathlib.Path(given.page).read_text(encoding="utf-8")
+    # Kept on the command line: another Python may be started with it.
+    go_on_with(*sys.argv[sys.argv.index("--needs") + 1].split(","))
+    given = take_options("package", "needs")
     sys.path.insert(0, os.path.abspath(given.package))
     import matplotlib
     matplotlib.use("agg")

@@ -5,7 +5,7 @@ import numpy as np
 def axes(ax):
     if ax is None:
         import matplotlib.pyplot
-        ax = matplotlib.pyplot.subplots()[1]
+        ax = matplotlib.pyplot.subplots(layout="constrained")[1]
     return ax
 
 
@@ -35,6 +35,8 @@ def plot_map(result, field, ax, **style):
         ax.plot(x, values[0], **style)
         ax.set(xlabel=f"x {length}", ylabel=f"{field} [{unit}]")
         return ax
+    if field == "pressure":
+        values = np.ma.masked_equal(values, 0)   # no contact is no colour
     return mesh(ax, x, result.y, values, f"{field} [{unit}]", xlabel=f"x {length}", ylabel=f"y {length}", aspect="equal",
                 style=style)
 
