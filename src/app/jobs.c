@@ -1,5 +1,5 @@
-/* The processes of --jobs. Each is a copy of this one that runs a deck; what it prints, and the numbers that it sends, go
-   to files without names, so that nothing is left if all are interrupted. */
+/* The processes of --jobs. Each is a copy of this one that runs a deck; what it prints, and the numbers that it sends,
+   go to files without names, so that nothing is left if all are interrupted. */
 #define _XOPEN_SOURCE 700
 #include <errno.h>
 #include <stdio.h>
@@ -63,7 +63,7 @@ void wavycon_await_job(void)
         }
 }
 
-/* Prints what the process of a job that has ended has printed. Returns its status. What it has sent can then be taken. */
+/* Prints what the process of a job that has ended has printed. Returns its status. What it has sent can be taken. */
 int wavycon_show_job(int number)
 {
     FILE *const to[] = {stdout, stderr};

@@ -214,8 +214,8 @@ contains
          end if
       end subroutine count_run
 
-      !> Runs the scenes in processes of their own. Their outcomes are taken in the order of the scenes, so that all that
-      !> is printed and written is as if they were run one after the other.
+      !> Runs the scenes in processes of their own. Their outcomes are taken in the order of the scenes: all that is
+      !> printed and written is as if they were run one after the other.
       subroutine run_jobs()
          !> Scenes that may be begun beyond the first one that has not ended: each has open files.
          integer, parameter :: most_waiting = 100

@@ -3,9 +3,9 @@
 
 usage: formats.py FILE... , in a Python that has wavycon, SurfaceTopography and ContactMechanics
 
-Prints for each map of 32 or more points a side: format, points, unit, missing heights; the rms height that is
-solved over that of the heights in the file, less 1; points in contact, by both programs, of the first part of 128 x 128 points without missing
-heights, at 0.05 p*; and the time of each solve [s].
+Prints for each map of 32 or more points a side: format, points, unit, missing heights; the rms height that is solved
+over that of the heights in the file, less 1; points in contact, by both programs, of the first part of 128 x 128 points
+without missing heights, at 0.05 p*; and the time of each solve [s].
 """
 import sys
 import time
@@ -59,5 +59,5 @@ for file in map(Path, sys.argv[1:]):
         continue
     ratio = rms_height(wc.heights(h, fill_missing="harmonic"))/np.nanstd(h) - 1
     part = whole_part(h)
-    print(f"{file.name:28} {name:9} {h.shape[1]} x {h.shape[0]} {surface.length_unit} {np.isnan(h).sum()}  {ratio:.0e}  ",
-          "" if part is None else compare(part), flush=True)
+    print(f"{file.name:28} {name:9} {h.shape[1]} x {h.shape[0]} {surface.length_unit} {np.isnan(h).sum()}",
+          f" {ratio:.0e}  ", "" if part is None else compare(part), flush=True)

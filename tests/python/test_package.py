@@ -239,8 +239,10 @@ class Misuse(PackageTest):
             self.refuse("shape", wc.heights, bad)
         ragged = [[1, 2], [3]]
         self.refuse("", wc.heights, ragged)
-        for words, surface in {"4 to 1048576": wc.heights(numpy.zeros((2, 2))), "missing": wc.heights([[1.0, numpy.nan]*4]*4),
-                               "not all heights are finite": wc.heights([[1.0, numpy.inf]*4]*4), "there is no key": wc.wave_2d(amplitud=1),
+        for words, surface in {"4 to 1048576": wc.heights(numpy.zeros((2, 2))),
+                               "missing": wc.heights([[1.0, numpy.nan]*4]*4),
+                               "not all heights are finite": wc.heights([[1.0, numpy.inf]*4]*4),
+                               "there is no key": wc.wave_2d(amplitud=1),
                                "must be": wc.wave_2d(amplitude="x"), "length_x": wc.heights(numpy.eye(8), length_x=-1),
                                "there is no such file": wc.file(file="none.txt"), "kind": wc.Surface({})}.items():
             self.refuse(words, wc.solve, surface, pbar_over_pstar=0.1, error=(ValueError, OSError))
@@ -380,7 +382,7 @@ class Files(PackageTest):
         surface = wc.read("scan.txt", length_x=4, length_unit="um")
         self.assertTrue(numpy.array_equal(h, surface.heights))
         self.assertEqual("um", wc.solve(surface, pbar_over_pstar=0.2).length_unit)
-        (self.folder/"scan.txt").write_text("# Width: 4 m\n# Height: 3 m\n# Value units: m\n" + (self.folder/"scan.txt").read_text())
+        numpy.savetxt("scan.txt", h, header="Width: 4 m\nHeight: 3 m\nValue units: m")
         for name in "scan.npy", "scan.gsf":
             with contextlib.redirect_stdout(io.StringIO()) as printed:
                 convert(["scan.txt", name])
@@ -403,7 +405,8 @@ class Files(PackageTest):
         self.refuse("there is no such file", wc.read, "none.opd", error=OSError)
         numpy.savetxt("scan.txt", numpy.eye(8))
         self.refuse("no channel", wc.read, "scan.txt", channel="Phase")
-        for words in ["none.opd", "map.gsf"], ["words.txt", "map.gsf"], ["scan.txt", "map.tif"], ["scan.txt", "no/map.gsf"]:
+        for words in (["none.opd", "map.gsf"], ["words.txt", "map.gsf"], ["scan.txt", "map.tif"],
+                      ["scan.txt", "no/map.gsf"]):
             with self.assertRaisesRegex(SystemExit, "wavycon-convert: "):
                 convert(words)
 

@@ -31,9 +31,9 @@ class Surface:
 def heights(h, *, length_unit: str | None = None, **keys_of_maps) -> Surface:
     """A surface of heights in memory.
 
-    h: heights [length] upwards to the other body, shape (y, x) or, of a profile, (x,). NaN and masked values are missing
-    heights. length_unit: the unit of all lengths, a label. keys_of_maps: those of a map, such as length_x, length_y
-    [length], height_scale, detrend, fill_missing and edges; help(wavycon.file) has them all.
+    h: heights [length] upwards to the other body, shape (y, x) or, of a profile, (x,). NaN and masked values are
+    missing heights. length_unit: the unit of all lengths, a label. keys_of_maps: those of a map, such as length_x,
+    length_y [length], height_scale, detrend, fill_missing and edges; help(wavycon.file) has them all.
     """
     h = reals(h)
     if h.ndim not in (1, 2) or h.size == 0:
@@ -76,7 +76,7 @@ def describe(key):
 
 
 def sort_keys(given: Mapping) -> dict:
-    """Keys by groups: a mapping under the name of a group has keys of it; others belong to the group that knows them."""
+    """Keys by groups: a mapping under the name of a group has keys of it; others belong to the group that has them."""
     groups: dict = {}
     others = {group: known for group, known in keys().items() if group != "surface"}
     for name, value in given.items():

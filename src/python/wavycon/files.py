@@ -1,6 +1,5 @@
 """Files of instruments, read by SurfaceTopography."""
 import argparse
-import dataclasses
 import os
 import sys
 import tempfile
@@ -15,11 +14,11 @@ from .deck import Surface, deck_text, heights
 def read(file, channel: str | int | None = None, *, length_unit: str | None = None, **keys_of_maps) -> Surface:
     """A surface from a file of any format that SurfaceTopography opens, with the sides and the unit of the file.
 
-    channel: name or number, from 0, of one of several in the file. length_unit: to which the file's lengths are converted,
-    or, if it names none, what theirs is called. keys_of_maps: those of a map, such as detrend, fill_missing and edges, and
-    length_x, length_y [length] if the file does not have the sides; help(wavycon.file) has them all. A profile of unequal
-    steps is resampled to equal ones, with a warning. Formats that the program reads itself need no SurfaceTopography:
-    wavycon.file(file="map.gsf").
+    channel: name or number, from 0, of one of several in the file. length_unit: to which the file's lengths are
+    converted, or, if it names none, what theirs is called. keys_of_maps: those of a map, such as detrend, fill_missing
+    and edges, and length_x, length_y [length] if the file does not have the sides; help(wavycon.file) has them all. A
+    profile of unequal steps is resampled to equal ones, with a warning. Formats that the program reads itself need no
+    SurfaceTopography: wavycon.file(file="map.gsf").
     """
     x, z, sides, unit = open_file(file, channel, length_unit)
     for key, side in sides.items():
@@ -32,13 +31,13 @@ def read(file, channel: str | int | None = None, *, length_unit: str | None = No
     folder = tempfile.TemporaryDirectory(prefix="wavycon-")
     profile = Path(folder.name, "profile.txt")
     write_profile(profile, x, z)
-    return dataclasses.replace(Surface({"kind": "file", "file": str(profile), **keys_of_maps}, None, unit), folder=folder)
+    return Surface({"kind": "file", "file": str(profile), **keys_of_maps}, None, unit, folder)
 
 
 def open_file(file, channel, unit=None):
-    """What a file holds, in a unit of length if one is given: the places of unequal steps (None: equal steps), the heights
-    (y, x) or (x,), NaN where they are missing, the sides as keys, None where the file lacks them, and the unit (None:
-    unknown). Errors: ValueError for what SurfaceTopography cannot read."""
+    """What a file holds, in a unit of length if one is given: the places of unequal steps (None: equal steps), the
+    heights (y, x) or (x,), NaN where they are missing, the sides as keys, None where the file lacks them, and the unit
+    (None: unknown). Errors: ValueError for what SurfaceTopography cannot read."""
     try:
         from SurfaceTopography import open_topography
     except ImportError as error:

@@ -1,4 +1,4 @@
-"""The functions of the shared library by ctypes, which lets other threads run while they work. wavycon.h documents them.
+"""The functions of the shared library, by ctypes, which lets other threads run meanwhile. wavycon.h documents them.
 
 Errors are exceptions: ValueError for what is wrong in a call, OSError for files and memory, with the library's message.
 """
@@ -31,7 +31,8 @@ FUNCTIONS = {
     "get_invariants": (c_int, [c_int] + [POINTER]*4),
 }
 
-lib = CDLL(str(next(path for folder in sys.modules[__package__].__path__ for path in Path(folder).glob("libwavycon.*"))))
+folders = map(Path, sys.modules[__package__].__path__)
+lib = CDLL(str(next(path for folder in folders for path in folder.glob("libwavycon.*"))))
 lib.wavycon_new_error.restype = POINTER
 lib.wavycon_get_code.argtypes = lib.wavycon_delete.argtypes = [POINTER]
 lib.wavycon_get_message.argtypes = [POINTER, POINTER, c_size_t]
@@ -91,8 +92,8 @@ def table(solution, name, load):
     handle = call("new_table", solution, name.encode())
     words = np.array(text(handle, "words").splitlines() or [""])
     units = dict(column.rstrip("]").split("[") for column in text(handle, "columns").splitlines())
-    rows = np.empty(int(number(handle, "rows")), [(column, words.dtype if unit == "word" else int if column == "load" else
-                                                   float) for column, unit in units.items()])
+    kinds = [words.dtype if unit == "word" else int if column == "load" else float for column, unit in units.items()]
+    rows = np.empty(int(number(handle, "rows")), list(zip(units, kinds)))
     values = np.empty(len(rows))
     for column, unit in units.items():
         call("get_column", handle, column.encode(), len(rows), address(values))

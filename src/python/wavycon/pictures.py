@@ -37,8 +37,8 @@ def plot_map(result, field, ax, **style):
         return ax
     if field == "pressure":
         values = np.ma.masked_equal(values, 0)   # no contact is no colour
-    return mesh(ax, x, result.y, values, f"{field} [{unit}]", xlabel=f"x {length}", ylabel=f"y {length}", aspect="equal",
-                style=style)
+    return mesh(ax, x, result.y, values, f"{field} [{unit}]", xlabel=f"x {length}", ylabel=f"y {length}",
+                aspect="equal", style=style)
 
 
 def plot_stress_section(result, column, ax, **style):

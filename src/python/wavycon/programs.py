@@ -18,8 +18,8 @@ def program() -> str:
         files = importlib.metadata.files("wavycon") or []
     except importlib.metadata.PackageNotFoundError:
         files = []
-    path = next((str(file.locate()) for file in files if file.name == "wavycon" and file.parent.name in ("bin", "Scripts")),
-                None) or shutil.which("wavycon")
+    own = [file for file in files if file.name == "wavycon" and file.parent.name in ("bin", "Scripts")]
+    path = str(own[0].locate()) if own else shutil.which("wavycon")
     if not path:
         raise OSError("the program wavycon is neither installed with this package nor in PATH")
     return path
@@ -28,12 +28,12 @@ def program() -> str:
 def sweep(deck, values: Mapping[str, Iterable], jobs: int | None = None, directory=None):
     """Runs a deck once for each combination of values of its keys, several runs at a time, each a process.
 
-    values: such as {"surface.seed": range(50), "load.mean_pressure": [1e6, 1e7]}; each value, a number, a text or a list,
-    is set as by the program's --set. jobs: processes at a time; as many as there are processors unless given. directory:
-    where the runs write their tables, which are lost without it. Shows a bar where tqdm is installed.
+    values: such as {"surface.seed": range(50), "load.mean_pressure": [1e6, 1e7]}; each value, a number, a text or a
+    list, is set as by the program's --set. jobs: processes at a time; as many as there are processors unless given.
+    directory: where the runs write their tables, which are lost without it. Shows a bar where tqdm is installed.
 
-    Returns a frame of pandas: a row for each run and load, with the values, the columns of the summary, and message. A run
-    that failed is a row with the status 'failed' and the message of the program.
+    Returns a frame of pandas: a row for each run and load, with the values, the columns of the summary, and message. A
+    run that failed is a row with the status 'failed' and the message of the program.
     """
     import pandas
     combinations = [dict(zip(values, one)) for one in itertools.product(*values.values())]
@@ -44,8 +44,9 @@ def sweep(deck, values: Mapping[str, Iterable], jobs: int | None = None, directo
             settings, table = combinations[number], Path(own, f"{number}.dat")
             sets = [f"--set={key}={value_text(value)}" for key, value in settings.items()]
             output = Path(directory or own, "" if directory else str(number))
-            with subprocess.Popen([*command, *sets, f"--output={output}", f"--table={table}"], text=True, errors="replace",
-                                  stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE) as process:
+            with subprocess.Popen([*command, *sets, f"--output={output}", f"--table={table}"], text=True,
+                                  errors="replace", stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                                  stderr=subprocess.PIPE) as process:
                 running.add(process)
                 message = process.communicate()[1].strip()
             running.discard(process)

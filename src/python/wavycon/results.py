@@ -76,8 +76,8 @@ class Result:
 
     @property
     def pressure(self) -> np.ndarray:
-        """Contact pressure [pressure], shape (y, x), at the points of the program's map: those of a grid that was given,
-        of a height map its own, otherwise 128 or output={"map_points": ...}; 0 where there is no contact."""
+        """Contact pressure [pressure], shape (y, x), 0 where there is no contact, at the points of the program's map:
+        those of a grid that was given, of a height map its own, otherwise as output={"map_points": ...} says."""
         return self._fields["pressure"]
 
     @property
@@ -100,15 +100,16 @@ class Result:
     def stresses_at(self, x, y, depth, nu: float, lateral: str | None = None) -> dict[str, np.ndarray]:
         """Stresses [pressure] at points x, y, depth [length], arrays of one shape, in a body with Poisson's ratio nu.
 
-        Depths are 0 or more and point into the body, tension is positive. lateral: as the key of &stress. The answer has
-        stress, with six components xx, yy, zz, xy, xz, yz along a last axis, stress_error, the estimate of its largest
-        error, von_mises, largest_shear, and principal, three along a last axis, the largest first."""
+        Depths are 0 or more and point into the body, tension is positive. lateral: as the key of &stress. The answer
+        has stress, with six components xx, yy, zz, xy, xz, yz along a last axis, stress_error, the estimate of its
+        largest error, von_mises, largest_shear, and principal, three along a last axis, the largest first."""
         solution, (x, y, depth) = self._live("stresses"), same_shape(x, y, depth)
         lateral = keys()["stress"]["lateral"]["default"].strip("'") if lateral is None else lateral
         components = {"stress": (6,), "stress_error": (), "von_mises": (), "largest_shear": (), "principal": (3,)}
         parts = {name: np.empty(x.shape + axis) for name, axis in components.items()}
         stress, error, *invariants = map(address, parts.values())
-        call("get_stresses", solution, x.size, address(x), address(y), address(depth), nu, lateral.encode(), stress, error)
+        places = map(address, (x, y, depth))
+        call("get_stresses", solution, x.size, *places, nu, lateral.encode(), stress, error)
         call("get_invariants", x.size, stress, *invariants)
         return parts
 
@@ -165,8 +166,8 @@ class Results(Sequence):
         return frame
 
     def plot(self, y="contact_area_fraction", x="mean_pressure", ax=None, **style):
-        """Draws a column of the summary over another, with its error estimates, on matplotlib's Axes, made if not given,
-        and returns these. Loads that were not solved as requested are open symbols. style: options of errorbar."""
+        """Draws a column of the summary over another, with its error estimates, on matplotlib's Axes, made if not
+        given, and returns these. Loads that were not solved as requested are open symbols. style: as of errorbar."""
         from .pictures import plot
         return plot(self, y, x, ax, **style)
 
@@ -198,21 +199,23 @@ def solve(surface: Surface, *, keep_fields: bool = True, **options) -> Results:
 
     options: keys of decks without their groups, such as e_star, e1, nu1 [pressure], accuracy, length_unit; the loads, a
     number or a list, are one of pbar_over_pstar, mean_pressure [pressure], mean_gap [length], contact_area_fraction and
-    so on; groups as dictionaries, such as stress={"nu": 0.3}. wavycon.keys() has all. The solver is 'auto' unless one is
-    given. keep_fields: False for results without fields, contours and stresses, which are smaller.
+    so on; groups as dictionaries, such as stress={"nu": 0.3}. wavycon.keys() has all. The solver is 'auto' unless one
+    is given. keep_fields: False for results without fields, contours and stresses, which are smaller.
 
-    A load that cannot be solved as requested has a status. What is wrong in the options is a ValueError. Ctrl-C ends it.
+    A load that cannot be solved as requested has a status. What is wrong in the options is a ValueError. Ctrl-C ends a
+    solve in the main thread.
     """
     if not isinstance(surface, Surface):
-        raise ValueError(f"the first argument must be a surface, such as wavycon.heights(h), got {type(surface).__name__}")
-    groups = {"scene": {"length_unit": surface.length_unit}, "surface": surface.keys, "method": {}, **sort_keys(options)}
+        raise ValueError(f"the first argument must be a surface, such as heights(h), got {type(surface).__name__}")
+    groups = {"scene": {}, "surface": surface.keys, "method": {}, **sort_keys(options)}
     groups["scene"] = {"length_unit": surface.length_unit, **groups["scene"]}
     groups["method"] = {"solver": "auto", **groups["method"]}
     if not groups.get("load"):
         raise ValueError(f"there is no load: give one of {', '.join(keys()['load'])}")
     rows, columns = (0, 0) if surface.heights is None else surface.heights.shape
     heights = None if surface.heights is None else address(surface.heights)
-    return _solve_all(call("new_scene", deck_text(groups).encode(), b"wavycon.solve", keep_fields, columns, rows, heights))
+    deck = deck_text(groups).encode()
+    return _solve_all(call("new_scene", deck, b"wavycon.solve", keep_fields, columns, rows, heights))
 
 
 def run(deck, set: Mapping = MappingProxyType({}), *, keep_fields: bool = True) -> Results:
@@ -238,8 +241,8 @@ def _solve_all(scene):
 
 @contextlib.contextmanager
 def _stopped_by_ctrl_c(scene):
-    """Meanwhile Ctrl-C ends the load that is being solved; KeyboardInterrupt follows at the end. An exception cannot leave
-    a callback, so the signal must not raise one there. Signals come to the main thread alone."""
+    """Meanwhile Ctrl-C ends the load that is being solved; KeyboardInterrupt follows at the end. An exception cannot
+    leave a callback, so the signal must not raise one there. Signals come to the main thread alone."""
     stopped: list = []
     if threading.current_thread() is not threading.main_thread() or not callable(signal.getsignal(signal.SIGINT)):
         yield stopped
