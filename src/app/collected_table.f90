@@ -1,5 +1,7 @@
 !> The table of --table: a row for each load of each deck, with the columns of the summary.
 module wavycon_collected_table
+   use, intrinsic :: iso_fortran_env, only: int8
+   use wavycon_deck_jobs, only: send_bytes, take_bytes
    use wavycon_deck_keys, only: deck_key
    use wavycon_error, only: error_type, exit_file_trouble, fatal_error
    use wavycon_memory_table, only: column_name, column_unit, memory_table
@@ -33,6 +35,8 @@ module wavycon_collected_table
    contains
       procedure :: start
       procedure :: add
+      procedure :: send
+      procedure :: take
       procedure :: note_failure
       procedure :: write => write_table
    end type collected_table
@@ -83,6 +87,63 @@ contains
          call put_summary_row(results, i, file)
       end do
    end subroutine add
+
+   !> Sends the rows of the last deck, in the process of a job.
+   subroutine send(self)
+      class(collected_table), intent(in) :: self
+
+      integer(int8), parameter :: byte(1) = 0_int8
+
+      associate (rows => self%decks(self%number), summary => self%decks(self%number)%summary)
+         call send_bytes(transfer([len(rows%deck), len(rows%case), summary%rows, size(summary%words)], byte))
+         call send_bytes(transfer(rows%deck//rows%case, byte))
+         call send_bytes(transfer(rows%units, byte))
+         call send_bytes(transfer(summary%kinds, byte))
+         call send_bytes(transfer(summary%values(:, :summary%rows), byte))
+         call send_bytes(transfer(summary%words, byte))
+      end associate
+   end subroutine send
+
+   !> Takes the rows that a job has sent. Errors: exit_file_trouble if they are not all there.
+   subroutine take(self, job, keys, error)
+      class(collected_table), intent(inout), target :: self
+      integer, intent(in) :: job
+      type(deck_key), intent(in) :: keys(:)       !! of its deck
+      type(error_type), allocatable, intent(out) :: error
+
+      character(:), allocatable :: names
+      integer :: numbers(4)
+      integer(int8), allocatable :: bytes(:)
+      type(output_file) :: file
+
+      call take_bytes(job, storage_size(numbers)*4/8, bytes)
+      if (size(bytes) == 0) then
+         call fatal_error(error, exit_file_trouble, 'the rows of a deck for the table are not there')
+         return
+      end if
+      numbers = transfer(bytes, numbers)
+      self%number = self%number + 1
+      call file%open_in_memory(self%decks(self%number)%summary)
+      call file%put_columns(column_name(summary_columns), column_unit(summary_columns))
+      associate (rows => self%decks(self%number), summary => self%decks(self%number)%summary)
+         rows%keys = keys
+         call take_bytes(job, numbers(1) + numbers(2), bytes)
+         names = transfer(bytes, repeat(' ', size(bytes)))
+         rows%deck = names(:numbers(1))
+         rows%case = names(numbers(1) + 1:)
+         call take_bytes(job, longest_unit*size(rows%units), bytes)
+         rows%units = transfer(bytes, rows%units)
+         call take_bytes(job, storage_size(summary%kinds)/8*size(summary%kinds), bytes)
+         summary%kinds = transfer(bytes, summary%kinds)
+         summary%rows = numbers(3)
+         deallocate (summary%values, summary%words)
+         allocate (summary%values(size(summary%kinds), numbers(3)), summary%words(numbers(4)))
+         call take_bytes(job, storage_size(summary%values)/8*size(summary%values), bytes)
+         summary%values = reshape(transfer(bytes, summary%values), shape(summary%values))
+         call take_bytes(job, len(summary%words)*size(summary%words), bytes)
+         summary%words = transfer(bytes, summary%words)
+      end associate
+   end subroutine take
 
    !> Notes a deck that was not run to its end, for the head of the table.
    pure subroutine note_failure(self, deck)

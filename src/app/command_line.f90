@@ -11,16 +11,22 @@ module wavycon_command_line
 
    public :: command_line_type, command_to_resume, read_command_line, help_text, usage
 
-   !> The path of a deck.
-   type :: path_type
+   !> A deck, with keys set in place of its own.
+   type :: run_type
       character(:), allocatable :: path
-   end type path_type
+      type(setting_type), allocatable :: settings(:)
+   end type run_type
+
+   !> The values of an option --sweep.
+   type :: sweep_type
+      type(setting_type), allocatable :: values(:)
+   end type sweep_type
 
    type :: command_line_type
-      type(path_type), allocatable :: decks(:)
-      type(setting_type), allocatable :: settings(:)   !! keys in place of those of the decks
+      type(run_type), allocatable :: runs(:)   !! the decks, each with all combinations of the values of --sweep
       character(:), allocatable :: output   !! directory in place of that of the decks; not allocated if not given
       character(:), allocatable :: table    !! file for one table of all decks; not allocated if not given
+      integer :: jobs = 1                   !! processes at a time, >= 1
       integer :: threads = 1                !! >= 1
       logical :: check = .false.
       logical :: keep_going = .false.
@@ -30,12 +36,15 @@ module wavycon_command_line
       logical :: help = .false.
    end type command_line_type
 
-   character(*), parameter :: options(*) = [character(12) :: '--check', '--set', '--output', '--table', &
-      '--keep-going', '--resume', '--threads', '--quiet', '--version', '--help']
-   character(*), parameter :: options_with_values(*) = [character(9) :: '--set', '--output', '--table', '--threads']
+   character(*), parameter :: options(*) = [character(12) :: '--check', '--set', '--sweep', '--output', &
+      '--table', '--keep-going', '--resume', '--jobs', '--threads', '--quiet', '--version', '--help']
+   character(*), parameter :: options_with_values(*) = [character(9) :: '--set', '--sweep', '--output', '--table', &
+      '--jobs', '--threads']
    character(*), parameter :: arguments = &
-      ' DECK... [--check] [--set GROUP.KEY=VALUE]... [--output DIR] [--table FILE]'//new_line('a')// &
-      '               [--keep-going] [--resume] [--threads N] [--quiet] [--version] [--help]'
+      ' DECK... [--check] [--set GROUP.KEY=VALUE]... [--sweep GROUP.KEY=VALUE,...]...'//new_line('a')// &
+      '               [--output DIR] [--table FILE] [--keep-going] [--resume] [--jobs N] [--threads N]'// &
+      new_line('a')//'               [--quiet] [--version] [--help]'
+   integer, parameter :: most_runs = 100000
 
 contains
 
@@ -45,13 +54,15 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       character(:), allocatable :: given, trouble, value, word
-      type(path_type) :: deck(command_argument_count())
+      type(run_type) :: deck(command_argument_count())
       type(setting_type) :: setting(size(deck))
-      integer :: decks, equals, i, near, settings
+      type(sweep_type) :: sweep(size(deck))
+      integer :: decks, equals, i, near, settings, sweeps
       logical :: options_over
 
       decks = 0
       settings = 0
+      sweeps = 0
       options_over = .false.
       i = 0
       do while (i < command_argument_count())
@@ -91,6 +102,10 @@ contains
             settings = settings + 1
             call read_setting(value, setting(settings), trouble)
             if (allocated(trouble)) call fatal_error(error, exit_bad_input, trouble)
+         case ('--sweep')
+            call take_value(value)
+            sweeps = sweeps + 1
+            call read_sweep(value, sweep(sweeps)%values, error)
          case ('--output')
             call take_value(command_line%output)
             call check_path(word, 'a directory', command_line%output, error)
@@ -99,7 +114,10 @@ contains
             call check_path(word, 'a file', command_line%table, error)
          case ('--threads')
             call take_value(value)
-            call read_threads(value, command_line%threads, error)
+            call read_number('--threads', value, command_line%threads, error)
+         case ('--jobs')
+            call take_value(value)
+            call read_number('--jobs', value, command_line%jobs, error)
          case default
             near = nearest_name(word, options)
             if (near > 0) then
@@ -111,10 +129,11 @@ contains
          end select
          if (allocated(error)) return
       end do
-      allocate (command_line%decks, source=deck(:decks))
-      allocate (command_line%settings, source=setting(:settings))
-      if (decks == 0 .and. .not. (command_line%version .or. command_line%help)) &
+      if (decks == 0 .and. .not. (command_line%version .or. command_line%help)) then
          call fatal_error(error, exit_bad_input, 'no deck is given')
+      else
+         call make_runs(deck(:decks), setting(:settings), sweep(:sweeps), command_line%runs, error)
+      end if
 
    contains
 
@@ -133,23 +152,100 @@ contains
 
    end subroutine read_command_line
 
-   !> Reads the value of --threads. Errors: exit_bad_input if it is not an integer from 1 to most_threads.
-   subroutine read_threads(text, threads, error)
-      character(*), intent(in) :: text
-      integer, intent(out) :: threads
+   !> Reads the value of --threads or --jobs. Errors: exit_bad_input if it is not an integer from 1 to `most`.
+   subroutine read_number(option, text, number, error)
+      character(*), intent(in) :: option, text
+      integer, intent(out) :: number
       type(error_type), allocatable, intent(out) :: error
 
-      integer, parameter :: most_threads = 1024, longest = 4
+      integer, parameter :: most = 1024, longest = 4
       integer :: status
 
-      threads = 0
+      number = 0
       status = 1
       if (text /= '' .and. len(text) <= longest .and. verify(text, '0123456789') == 0) &
-         read (text, *, iostat=status) threads
-      if (status /= 0 .or. threads < 1 .or. threads > most_threads) &
-         call fatal_error(error, exit_bad_input, "--threads needs a number from 1 to "// &
-                          integer_text(most_threads)//", got '"//escaped(text)//"'")
-   end subroutine read_threads
+         read (text, *, iostat=status) number
+      if (status /= 0 .or. number < 1 .or. number > most) &
+         call fatal_error(error, exit_bad_input, option//' needs a number from 1 to '//integer_text(most)// &
+                          ", got '"//escaped(text)//"'")
+   end subroutine read_number
+
+   !> Reads the value of --sweep: a setting for each of its values, which commas outside of quotes separate. Errors:
+   !> exit_bad_input.
+   subroutine read_sweep(word, values, error)
+      character(*), intent(in) :: word   !! group.key=value,value,...
+      type(setting_type), allocatable, intent(out) :: values(:)
+      type(error_type), allocatable, intent(out) :: error
+
+      character :: quote
+      character(:), allocatable :: trouble
+      integer :: first, i, number, pass
+      type(setting_type) :: setting
+
+      call read_setting(word, setting, trouble)
+      if (allocated(trouble)) then
+         call fatal_error(error, exit_bad_input, '--sweep needs group.key=value,value,..., such as '// &
+                          "surface.amplitude=1e-6,2e-6, got '"//escaped(word)//"'")
+         return
+      end if
+      do pass = 1, 2
+         number = 0
+         first = 1
+         quote = ' '
+         do i = 1, len(setting%value) + 1
+            if (i <= len(setting%value)) then
+               if (setting%value(i:i) == quote) then
+                  quote = ' '
+               else if (quote == ' ' .and. scan(setting%value(i:i), '''"') == 1) then
+                  quote = setting%value(i:i)
+               end if
+               if (quote /= ' ' .or. setting%value(i:i) /= ',') cycle
+            end if
+            number = number + 1
+            if (pass == 2) then
+               values(number)%group = setting%group
+               values(number)%key = setting%key
+               values(number)%value = trim(adjustl(setting%value(first:i - 1)))
+            end if
+            first = i + 1
+         end do
+         if (pass == 1) allocate (values(number))
+      end do
+   end subroutine read_sweep
+
+   !> Each deck with all combinations of the values of all sweeps; the values of the last sweep change fastest. Errors:
+   !> exit_bad_input if these are too many.
+   subroutine make_runs(decks, settings, sweeps, runs, error)
+      type(run_type), intent(in) :: decks(:)           !! without settings
+      type(setting_type), intent(in) :: settings(:)    !! of all runs
+      type(sweep_type), intent(in) :: sweeps(:)
+      type(run_type), allocatable, intent(out) :: runs(:)
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: i, number, r, rest
+
+      number = size(decks)
+      do i = 1, size(sweeps)
+         if (number <= most_runs) number = number*size(sweeps(i)%values)
+      end do
+      if (number > most_runs) then
+         call fatal_error(error, exit_bad_input, '--sweep: more than '//integer_text(most_runs)//' runs')
+         return
+      end if
+      allocate (runs(number))
+      do r = 1, number
+         allocate (runs(r)%settings(size(settings) + size(sweeps)))
+         do i = 1, size(settings)
+            runs(r)%settings(i) = settings(i)
+         end do
+         rest = r - 1
+         do i = size(sweeps), 1, -1
+            runs(r)%settings(size(settings) + i) = sweeps(i)%values(mod(rest, size(sweeps(i)%values)) + 1)
+            rest = rest/size(sweeps(i)%values)
+         end do
+         runs(r)%path = decks(rest + 1)%path
+      end do
+   end subroutine make_runs
 
    !> Checks a path given to an option as the key `directory` of a deck is checked. Errors: exit_bad_input.
    subroutine check_path(option, what, path, error)
@@ -193,6 +289,9 @@ contains
              '                  contradict it are left out: other ways to give the loads or the stiffness,'//newline// &
              '                  accuracy or grid_points, keys of another kind of surface or solver. The'//newline// &
              '                  name of the case gets key and value, unless scene.case is set too'//newline// &
+             '   --sweep GROUP.KEY=VALUE,VALUE...'//newline// &
+             '                  run each deck once for each value, as with --set; several sweeps: for all'//newline// &
+             '                  combinations'//newline// &
              '   --output DIR   write the results to DIR, not to the directory of &output'//newline// &
              '   --table FILE   write one table of all decks: a row for each deck and load, with the'//newline// &
              '                  values of the keys that are set or differ, and the columns of the summary'//newline// &
@@ -200,6 +299,7 @@ contains
              '   --resume       continue an interrupted run, to the same tables. Loads that were solved'//newline// &
              '                  on grids are read from <case>.checkpoint; loads of the other solvers are'//newline// &
              '                  fast and are solved again'//newline// &
+             '   --jobs N       run N decks at a time, each in a process of its own; 1 if not given'//newline// &
              '   --threads N    work on large grids with N threads; 1 if not given'//newline// &
              '   --quiet        write nothing but errors'//newline// &
              '   --version      show the version and stop'//newline// &

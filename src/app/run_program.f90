@@ -8,8 +8,9 @@ module wavycon_run_program
    use wavycon_collected_table, only: collected_table
    use wavycon_command_line, only: command_line_type, command_to_resume, help_text, read_command_line, usage
    use wavycon_deck, only: deck_type
+   use wavycon_deck_jobs, only: await_job, begin_job, close_job, job_has_ended, show_job, signal_status, start_jobs
    use wavycon_deck_keys, only: deck_key, list_keys
-   use wavycon_error, only: error_type, exit_bad_input, exit_fine, fatal_error
+   use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, exit_fine, exit_not_converged, fatal_error
    use wavycon_make_scene, only: make_scene
    use wavycon_output_group, only: plain_directory
    use wavycon_plain_text, only: escaped, integer_text
@@ -53,6 +54,8 @@ contains
       call outlive_file_size_limit()
       library = rank_library()
       call read_command_line(command_line, error)
+      if (library /= '' .and. command_line%jobs > 1 .and. .not. allocated(error)) &
+         call fatal_error(error, exit_bad_input, '--jobs is an option of wavycon: mpirun starts the processes here')
       if (allocated(error)) error%message = error%message//new_line('a')//usage(library /= '')
       call share_error(error)
       call stop_on(error)
@@ -93,10 +96,10 @@ contains
       type(error_type), allocatable :: error
       integer :: i
 
-      allocate (scenes(size(command_line%decks)))
+      allocate (scenes(size(command_line%runs)))
       worst = exit_fine
       do i = 1, size(scenes)
-         call read_deck(command_line%decks(i)%path, deck, error, command_line%settings)
+         call read_deck(command_line%runs(i)%path, deck, error, command_line%runs(i)%settings)
          if (.not. allocated(error)) then
             if (allocated(command_line%output)) &
                call deck%output%set('directory', plain_directory(command_line%output))
@@ -149,7 +152,6 @@ contains
 
       type(collected_table) :: collected
       type(error_type), allocatable :: error
-      type(results_type) :: results
       integer :: failed, i, not_solved, status
       logical :: with_table
 
@@ -161,25 +163,18 @@ contains
       call stop_on(error)
       failed = 0
       not_solved = 0
-      do i = 1, size(scenes)
-         if (allocated(scenes(i)%scene)) then
-            call separate(i, command_line%quiet)
-            call run_scene(scenes(i)%scene, command_line%quiet, command_line%resume, results, status, error)
+      if (command_line%jobs > 1) then
+         call run_jobs()
+      else
+         do i = 1, size(scenes)
+            call run_one(i, status, error)
             if (.not. command_line%keep_going) call stop_on(error)
-            worst = max(worst, status)
-            if (status /= exit_fine) not_solved = not_solved + 1
-            if (.not. allocated(error)) then
-               if (with_table) call collected%add(results, scenes(i)%keys)
-               cycle
-            end if
             call show(error)
-            worst = max(worst, error%status)
-         end if
-         failed = failed + 1
-         if (with_table) call collected%note_failure(command_line%decks(i)%path)
-      end do
+            call count_run(i, status)
+         end do
+      end if
       if (allocated(error)) deallocate (error)
-      if (with_table) call collected%write(command_line%table, command_line%settings, error)
+      if (with_table) call collected%write(command_line%table, command_line%runs(1)%settings, error)
       call share_error(error)
       if (allocated(error)) worst = max(worst, error%status)
       call show(error)
@@ -188,6 +183,113 @@ contains
       write (output_unit, '(a)') integer_text(size(scenes))//' decks: '// &
          integer_text(size(scenes) - failed - not_solved)//' solved, '//integer_text(not_solved)// &
          ' with loads NOT solved as requested, '//integer_text(failed)//' failed'
+
+   contains
+
+      !> Runs a scene. Errors: those of run_scene.
+      subroutine run_one(i, status, error)
+         integer, intent(in) :: i
+         integer, intent(out) :: status   !! exit_fine, exit_not_converged, or else it has failed
+         type(error_type), allocatable, intent(out) :: error
+
+         type(results_type) :: results
+
+         status = exit_bad_input
+         if (.not. allocated(scenes(i)%scene)) return
+         call separate(i, command_line%quiet)
+         call run_scene(scenes(i)%scene, command_line%quiet, command_line%resume, results, status, error)
+         if (allocated(error)) then
+            status = error%status
+         else if (with_table) then
+            call collected%add(results, scenes(i)%keys)
+         end if
+      end subroutine run_one
+
+      !> Counts the outcome of a run.
+      subroutine count_run(i, status)
+         integer, intent(in) :: i, status
+
+         worst = max(worst, status)
+         if (status == exit_not_converged) then
+            not_solved = not_solved + 1
+         else if (status /= exit_fine) then
+            failed = failed + 1
+            if (with_table) call collected%note_failure(command_line%runs(i)%path)
+         end if
+      end subroutine count_run
+
+      !> Runs the scenes in processes of their own. Their outcomes are taken in the order of the scenes: all that is
+      !> printed and written is as if they were run one after the other.
+      subroutine run_jobs()
+         !> Scenes that may be begun beyond the first one that has not ended: each has open files.
+         integer, parameter :: most_waiting = 100
+         integer :: i, next, running, status
+         logical :: begun(size(scenes)), is_here
+
+         call start_jobs(size(scenes), error)
+         call stop_on(error)
+         begun = [(allocated(scenes(i)%scene), i=1, size(scenes))]
+         running = 0
+         next = 1
+         do i = 1, size(scenes)
+            if (begun(i)) then
+               do while (running >= command_line%jobs)
+                  call await_job()
+                  running = running - 1
+               end do
+               call begin_job(i, is_here, error)
+               call stop_on(error)
+               if (is_here) then
+                  call run_one(i, status, error)
+                  call show(error)
+                  if (with_table .and. .not. allocated(error)) call collected%send()
+                  call finish(status)
+               end if
+               running = running + 1
+               deallocate (scenes(i)%scene)
+            end if
+            if (i - next >= most_waiting) then
+               call take_jobs(next, begun, .true., next, running)
+            else
+               call take_jobs(i, begun, .false., next, running)
+            end if
+         end do
+         call take_jobs(size(scenes), begun, .true., next, running)
+      end subroutine run_jobs
+
+      !> Takes the outcomes of the next scenes, up to the first one that has not ended.
+      subroutine take_jobs(last, begun, wait, next, running)
+         integer, value :: last                     !! the last one to be taken
+         logical, intent(in) :: begun(:)
+         logical, intent(in) :: wait                !! whether to wait until they have ended
+         integer, intent(inout) :: next, running
+
+         integer :: status
+
+         do next = next, last
+            status = exit_bad_input
+            if (begun(next)) then
+               do while (.not. job_has_ended(next))
+                  if (.not. wait) return
+                  call await_job()
+                  running = running - 1
+               end do
+               call show_job(next, status)
+               if (status >= signal_status) then
+                  call fatal_error(error, exit_file_trouble, escaped(command_line%runs(next)%path)// &
+                                   ': its process was ended by signal '//integer_text(status - signal_status))
+               else if (with_table .and. any(status == [exit_fine, exit_not_converged])) then
+                  call collected%take(next, scenes(next)%keys, error)
+               end if
+               call close_job(next)
+               call show(error)
+               if (allocated(error)) status = error%status
+               if (allocated(error)) deallocate (error)
+            end if
+            call count_run(next, status)
+         end do
+      end subroutine take_jobs
+
    end subroutine run_scenes
 
    !> Writes a text.

@@ -1,12 +1,13 @@
 !> All groups and keys of a deck as JSON, from the tables that decks are checked against: a list of groups, each with
 !> name, meaning, required and keys; a key has name, type, unit, default, required, least and most (null: no bound),
-!> above and below (whether the bounds themselves are excluded), most_values, longest (bytes of a text), choices and
-!> meaning. A default is written as in a deck.
+!> above and below (whether the bounds themselves are excluded), most_values, longest (bytes of a text), choices,
+!> read_by (for which values of the key that selects a kind or a solver it is read) and meaning. A default is written
+!> as in a deck.
 module wavycon_key_json
    use wavycon_constants, only: largest_number
    use wavycon_deck, only: deck_tables
-   use wavycon_key_table, only: choice_value, integer_value, key_group_type, key_type, logical_value, real_value, &
-      text_value
+   use wavycon_key_table, only: choice_value, integer_value, key_group_type, key_index, key_type, logical_value, &
+      real_value, text_value
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: exact_number, integer_text, newline
    implicit none (type, external)
@@ -30,18 +31,19 @@ contains
                 ', "required": '//truth(tables(i)%required)//', "keys": ['
          do k = 1, size(tables(i)%keys)
             if (k > 1) json = json//','
-            json = json//newline//' '//key_object(tables(i)%keys(k))
+            json = json//newline//' '//key_object(tables(i), tables(i)%keys(k))
          end do
          json = json//']}'
       end do
       json = json//newline//']'
    end function key_json
 
-   function key_object(key) result(json)
-      type(key_type), intent(in) :: key
+   function key_object(table, key) result(json)
+      type(key_group_type), intent(in) :: table
+      type(key_type), intent(in) :: key   !! of the table
       character(:), allocatable :: json
 
-      integer :: i
+      logical, allocatable :: all_of_them(:)
 
       json = '{"name": '//text(key%name)//', "type": '//text(type_name(key%kind))//', "unit": '//text(key%unit)// &
              ', "default": '//text(key%default)//', "required": '//truth(key%required)
@@ -49,16 +51,29 @@ contains
          ', "above": '//truth(key%above)//', "most": '//bound(key%most)//', "below": '//truth(key%below)// &
          ', "most_values": '//integer_text(key%most_values)
       if (key%kind == text_value) json = json//', "longest": '//integer_text(key%longest)
-      if (key%kind == choice_value) then
-         json = json//', "choices": ['
-         do i = 1, key%number_of_choices
-            if (i > 1) json = json//', '
-            json = json//text(key%choices(i))
-         end do
-         json = json//']'
-      end if
+      allocate (all_of_them(size(key%read_by)), source=.true.)
+      if (key%kind == choice_value) json = json//', "choices": '//list(key, all_of_them)
+      if (any(key%read_by)) &
+         json = json//', "read_by": '//list(table%keys(key_index(table%keys, table%selector)), key%read_by)
       json = json//', "meaning": '//text(key%meaning)//'}'
    end function key_object
+
+   !> Some of the choices of a key.
+   pure function list(key, chosen) result(json)
+      type(key_type), intent(in) :: key
+      logical, intent(in) :: chosen(:)
+      character(:), allocatable :: json
+
+      integer :: i
+
+      json = '['
+      do i = 1, key%number_of_choices
+         if (.not. chosen(i)) cycle
+         if (len(json) > 1) json = json//', '
+         json = json//text(key%choices(i))
+      end do
+      json = json//']'
+   end function list
 
    pure function type_name(kind) result(name)
       integer, intent(in) :: kind

@@ -8,7 +8,7 @@ module wavycon_c_scenes
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_key_json, only: key_json
    use wavycon_kinds, only: dp
-   use wavycon_session_fields, only: own_points
+   use wavycon_session_fields, only: map_grid, own_points
    use wavycon_solver_progress, only: solver_progress
    use wavycon_version, only: version
    implicit none (type, external)
@@ -42,6 +42,23 @@ contains
       if (.not. allocated(trouble)) call made%scene%open(deck_text, name, keep_fields /= 0, trouble, height)
       handle = close_new(error, made, trouble)
    end function new_scene
+
+   type(c_ptr) function read_scene(error, path, settings, keep_fields) result(handle) bind(c, name='wavycon_read_scene')
+      type(c_ptr), value :: error, path, settings
+      integer(c_int), value :: keep_fields
+
+      character(:), allocatable :: lines, name
+      type(error_type), allocatable :: trouble
+      type(handle_type), pointer :: made
+
+      call begin_call()
+      allocate (made)
+      allocate (made%scene)
+      call text_at(path, name, trouble)
+      call text_at(settings, lines, trouble)
+      if (.not. allocated(trouble)) call made%scene%open_file(name, lines, keep_fields /= 0, trouble)
+      handle = close_new(error, made, trouble)
+   end function read_scene
 
    integer(c_int) function set_progress(error, scene, callback, data) bind(c, name='wavycon_set_progress')
       type(c_ptr), value :: error, scene, data
@@ -130,10 +147,14 @@ contains
          case ('scene')
             call contents%scene%number(its_name, answer, trouble)
          case ('solution')
-            if (index(its_name, 'own_') == 1) then
-               call own_points(contents%owner%scene, contents%solution, points, offset, trouble)
-               call pick([character(12) :: 'own_points_x', 'own_points_y', 'own_offset_x', 'own_offset_y'], &
-                         [real(points, dp), offset], its_name, answer, trouble)
+            if (index(its_name, 'own_') == 1 .or. index(its_name, 'map_') == 1) then
+               if (index(its_name, 'own_') == 1) then
+                  call own_points(contents%owner%scene, contents%solution, points, offset, trouble)
+               else
+                  call map_grid(contents%owner%scene, contents%solution, points, offset, trouble)
+               end if
+               call pick([character(8) :: 'points_x', 'points_y', 'offset_x', 'offset_y'], [real(points, dp), offset], &
+                         its_name(len('own_') + 1:), answer, trouble)
             else
                call contents%owner%scene%number(its_name, answer, trouble, contents%solution)
             end if

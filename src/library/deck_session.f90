@@ -7,7 +7,7 @@ module wavycon_deck_session
    use wavycon_contact_solution, only: contact_solution
    use wavycon_deck, only: deck_type
    use wavycon_deck_groups, only: read_group_text
-   use wavycon_deck_text, only: deck_text_type
+   use wavycon_deck_text, only: deck_text_type, read_deck_text
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_find_stresses, only: find_stresses
    use wavycon_group_values, only: group_values
@@ -23,6 +23,8 @@ module wavycon_deck_session
    use wavycon_run_log, only: run_log
    use wavycon_run_scene, only: start_results
    use wavycon_scene, only: by_yield, scene_type
+   use wavycon_settings, only: read_setting, setting_type
+   use wavycon_solve_loads, only: order_loads
    use wavycon_solve_target, only: solve_target
    use wavycon_solver_progress, only: solver_progress
    use wavycon_stress_fields, only: stress_fields
@@ -57,6 +59,7 @@ module wavycon_deck_session
       integer(c_int), private :: is_solving = 0           !! 1: a thread of a C program solves a load
    contains
       procedure :: open => open_session
+      procedure :: open_file
       procedure :: number_of_loads
       procedure :: show_progress
       procedure :: solve
@@ -81,7 +84,7 @@ contains
 
    !> Reads a deck and starts its solver. A group &load may be left out. Errors: those of the program for a bad deck or
    !> height map.
-   subroutine open_session(self, text, path, keep_fields, error, heights)
+   subroutine open_session(self, text, path, keep_fields, error, heights, settings)
       class(deck_session), intent(out) :: self
       character(*), intent(in) :: text      !! of the deck
       character(*), intent(in) :: path      !! of the deck for messages; files that it names are looked for beside it
@@ -90,12 +93,13 @@ contains
       !> In place of those of the file of kind = 'file': upwards to the other body, NaN where they are missing, x first,
       !> one column for a profile.
       real(dp), intent(in), optional :: heights(:, :)
+      type(setting_type), intent(in), optional :: settings(:)   !! keys set in place of those of the deck
 
       type(deck_type) :: deck
       type(scene_type), allocatable :: scene
       type(table_type), allocatable :: tables(:)
 
-      call parse_deck(deck_text_type(path, text), deck, error, heights=heights, in_memory=.true.)
+      call parse_deck(deck_text_type(path, text), deck, error, settings, heights, in_memory=.true.)
       if (allocated(error)) return
       allocate (scene)
       call make_scene(deck, scene)
@@ -108,7 +112,33 @@ contains
          allocate (scene%mean_pressure(1), self%results%loads(1))
          self%scale = scale_of(self%results%solver%surface, scene%e_star)
       end associate
+      call order_loads(self%results)
    end subroutine open_session
+
+   !> Reads a deck from its file, with keys set in place of its own. Errors: those of the program.
+   subroutine open_file(self, path, settings, keep_fields, error)
+      class(deck_session), intent(out) :: self
+      character(*), intent(in) :: path
+      character(*), intent(in) :: settings   !! as values of the option --set, a line for each; empty: none
+      logical, intent(in) :: keep_fields     !! as of open
+      type(error_type), allocatable, intent(out) :: error
+
+      character(:), allocatable :: trouble
+      type(deck_text_type) :: lines, text
+      type(setting_type), allocatable :: setting(:)
+      integer :: first, i, last
+
+      lines = deck_text_type(path, settings)
+      allocate (setting(merge(size(lines%line_start), 0, settings /= '')))
+      do i = 1, size(setting)
+         call lines%line_bounds(i, first, last)
+         call read_setting(lines%content(first:last), setting(i), trouble)
+         if (allocated(trouble)) call fatal_error(error, exit_bad_input, trouble)
+         if (allocated(error)) return
+      end do
+      call read_deck_text(path, text, error)
+      if (.not. allocated(error)) call self%open(text%content, path, keep_fields, error, settings=setting)
+   end subroutine open_file
 
    !> The number of loads that the deck gives.
    pure integer function number_of_loads(self)
@@ -333,6 +363,12 @@ contains
             words = self%results%scene%length_unit
          case ('resolved_deck')
             words = self%results%scene%resolved_deck
+         case ('order')
+            words = ''
+            do i = 1, self%number_of_loads()
+               if (i > 1) words = words//' '
+               words = words//integer_text(self%results%order(i))
+            end do
          end select
       end if
       if (.not. allocated(words)) call fatal_error(error, exit_bad_input, "there is no text '"//name//"'")

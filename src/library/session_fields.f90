@@ -6,6 +6,7 @@
 module wavycon_session_fields
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_fortran_env, only: int64
+   use wavycon_cell_file, only: map_offset, map_points
    use wavycon_deck_groups, only: read_group_text
    use wavycon_deck_session, only: deck_session, number_words, solved_load
    use wavycon_deck_text, only: deck_text_type
@@ -23,7 +24,7 @@ module wavycon_session_fields
    implicit none (type, external)
    private
 
-   public :: fields_at, fields_on_grid, own_points, stresses_at, stresses_on_plane
+   public :: fields_at, fields_on_grid, map_grid, own_points, stresses_at, stresses_on_plane
 
    !> Most points of a grid or plane.
    integer(int64), parameter, public :: most_points = 8192_int64**2
@@ -105,6 +106,23 @@ contains
       points = solved%fields%own_points
       offset = solved%fields%own_offset
    end subroutine own_points
+
+   !> The grid of the table of the map, as arguments of fields_on_grid.
+   subroutine map_grid(session, solved, points, offset, error)
+      type(deck_session), intent(inout) :: session
+      type(solved_load), intent(inout) :: solved
+      integer, intent(out) :: points(2)
+      real(dp), intent(out) :: offset(2)
+      type(error_type), allocatable, intent(out) :: error
+
+      call prepare_fields(session, solved, error)
+      points = map_points(session%results)
+      offset = 0.0_dp
+      if (allocated(error) .or. .not. session%scale%p_star > 0.0_dp) return
+      call solved%solution%move_to(session%results%loads(1))
+      offset = map_offset(session%results, points)
+      call session%results%loads(1)%move_to(solved%solution)
+   end subroutine map_grid
 
    !> The stresses at n points in a body, z into it, tension positive. Many points at one depth are found faster by
    !> stresses_on_plane.

@@ -66,6 +66,10 @@ int wavycon_set_threads(wavycon_error error, int number);
 wavycon_scene wavycon_new_scene(wavycon_error error, const char *deck, const char *path, int keep_fields, int points_x,
                                 int points_y, const double *heights);
 
+/* The same of a deck in a file. settings: keys that are set in place of those of the deck, as by the program's --set, a
+   line group.key=value for each; "": none. */
+wavycon_scene wavycon_read_scene(wavycon_error error, const char *path, const char *settings, int keep_fields);
+
 /* Called before each load that a solver solves, also those of a search, with 0 iterations, and in each iteration on a
    grid. residual: root mean square of the violated conditions over the mean gap before load. To return nonzero ends the
    load, whose status is then "interrupted"; the scene can solve the next one. The function may call the library, but not
@@ -87,14 +91,16 @@ wavycon_solution wavycon_solve_load(wavycon_error error, wavycon_scene scene, in
    Of a scene: "e_star", "p_star" (0 for a flat surface), "amplitude" (the mean gap before load), "length_x", "length_y",
    "points_x", "points_y" (of a height map, otherwise 0), "dimension" (1 for a profile), "loads" (of the deck).
    Of a solution: the columns of numbers of the summary table, such as "mean_gap", and "own_points_x", "own_points_y",
-   "own_offset_x", "own_offset_y", the grid that it was computed on, for wavycon_get_grid; zeros if there is none.
+   "own_offset_x", "own_offset_y", the grid that it was computed on, for wavycon_get_grid; zeros if there is none; and
+   with map_ in place of own_ the grid of the table "map".
    Of a table: "rows", "columns". */
 int wavycon_get(wavycon_error error, const void *object, const char *name, double *value);
 
 /* Copies a text by its name, cut to the size of the buffer. Returns the bytes that the whole text needs, with its null
    character.
    Of a scene: "solver", "method" (solver and discretisation in words), "why_chosen" (of solver 'auto'), "pressure_unit",
-   "length_unit", "resolved_deck". Of a solution: "status", "solver" (of this load, "none" if none was needed).
+   "length_unit", "resolved_deck", "order", the numbers, from 1, of the deck's loads in the order in which the program
+   solves them. Of a solution: "status", "solver" (of this load, "none" if none was needed).
    Of a table: "columns", a line name[unit] for each, the unit of a column of words being "word"; "words", a line for each.
    Of NULL: "version"; "keys", all groups and keys of decks with type, unit, default, bounds and meaning as JSON. */
 size_t wavycon_get_text(wavycon_error error, const void *object, const char *name, char *buffer, size_t bytes);

@@ -63,6 +63,8 @@ contains
          case ('gsf')
             call read_gsf_map(file, map, error)
          case default
+            ! It is opened again, which gfortran refuses in a process whose main program is in C or Python.
+            call file%close()
             call read_text(file, map, error)
          end select
       end if

@@ -13,7 +13,7 @@ module wavycon_cell_file
    implicit none (type, external)
    private
 
-   public :: cell_file, check_memory, is_text, map_points
+   public :: cell_file, check_memory, is_text, map_offset, map_points
 
    !> A map of more points than the square of this, or planes of more points together, are written in numpy's format,
    !> unless the deck says otherwise.

@@ -77,9 +77,20 @@ static void decks(void)
     /* A file for the directory. */
     REFUSED(wavycon_run_deck(error, "misuse.nml", "misuse.nml", 1, &status));
     remove("misuse.resolved.nml");
+    wavycon_scene scene = wavycon_read_scene(error, "misuse.nml", "load.mean_gap=0.5\nsurface.amplitude=2", 0);
+    check(number(scene, "loads") == 1 && number(scene, "amplitude") == 2, "keys that are set", __LINE__);
+    wavycon_delete(&scene);
+    const char *const bad_settings[] = {NULL, "\n", "amplitude=2", "surface.amplitude=", "surface.height=2"};
+    for (size_t i = 0; i < COUNT(bad_settings); i++)
+        NOTHING(wavycon_read_scene(error, "misuse.nml", bad_settings[i], 0));
+    NOTHING(wavycon_read_scene(error, NULL, "", 0));
+    NOTHING(wavycon_read_scene(error, "there is no such deck.nml", "", 0));
     remove("misuse.nml");
-    wavycon_scene scene = scene_of(loads);
+    scene = scene_of(loads);
+    char order[8];
     check(number(scene, "loads") == 2, "the deck has two loads", __LINE__);
+    check(wavycon_get_text(error, scene, "order", order, sizeof order) == 4 && strcmp(order, "2 1") == 0,
+          "the order of the loads", __LINE__);
     const int bad_loads[] = {-2147483647 - 1, -1, 2, 2147483647};
     for (size_t i = 0; i < COUNT(bad_loads); i++)
         NOTHING(wavycon_solve_load(error, scene, bad_loads[i]));
@@ -169,6 +180,7 @@ static void names(wavycon_scene scene, wavycon_solution solution, wavycon_table 
     } bad[] = {{NULL, "rows", "solver"},  {error, "rows", "solver"},           {scene, NULL, NULL},
                {scene, "", ""},           {scene, "mean_gap", "status"},       {solution, NULL, NULL},
                {solution, "", ""},        {solution, "status", "mean_gap"},    {solution, "own_points_z", "method"},
+               {solution, "map_", "orde"},
                {solution, "p_star", ""},  {table, "row", "column"},            {table, NULL, NULL},
                {table, "", ""},           {scene, "version", "version"},       {solution, "\x01\xff'", "\x01\xff'"}};
     const char *const tables[] = {NULL, "", "contour", "coefficients", "details", "load", "stress", "\x01\xff'"};
@@ -193,7 +205,7 @@ static void names(wavycon_scene scene, wavycon_solution solution, wavycon_table 
     FINE(wavycon_get_column(error, table, "load", 1, column));
     check(column[0] == 1 && number(table, "rows") == 1, "the table", __LINE__);
     check(number(solution, "pbar_over_pstar") == 0.2 && number(solution, "iterations") > 0 &&
-          number(solution, "status_code") == WAVYCON_CONVERGED && number(solution, "own_points_x") == 0,
+          number(solution, "status_code") == WAVYCON_CONVERGED && number(solution, "own_points_x") == 0 && number(solution, "map_points_x") == 128,
           "numbers of a solution", __LINE__);
     check(number(scene, "e_star") == 1 && number(scene, "dimension") == 2 && number(scene, "loads") == 0,
           "numbers of a scene", __LINE__);

@@ -260,6 +260,8 @@ class Consumers(unittest.TestCase):
             "least", "above", "most", "unit", "required")))
         self.assertIn("self_affine", keys["surface"]["kind"]["choices"])
         self.assertTrue(keys["surface"]["kind"]["required"])
+        self.assertEqual(["wave_1d", "wave_2d", "hexagonal"], keys["surface"]["amplitude"]["read_by"])
+        self.assertNotIn("read_by", keys["material"]["e_star"])
 
     @loads_the_library
     def test_tables(self):

@@ -1,0 +1,118 @@
+"""Files of instruments, read by SurfaceTopography."""
+import argparse
+import os
+import sys
+import tempfile
+import warnings
+from pathlib import Path
+
+import numpy as np
+
+from .deck import Surface, deck_text, heights
+
+
+def read(file, channel: str | int | None = None, *, length_unit: str | None = None, **keys_of_maps) -> Surface:
+    """A surface from a file of any format that SurfaceTopography opens, with the sides and the unit of the file.
+
+    channel: name or number, from 0, of one of several in the file. length_unit: to which the file's lengths are
+    converted, or, if it names none, what theirs is called. keys_of_maps: those of a map, such as detrend, fill_missing
+    and edges, and length_x, length_y [length] if the file does not have the sides; help(wavycon.file) has them all. A
+    profile of unequal steps is resampled to equal ones, with a warning. Formats that the program reads itself need no
+    SurfaceTopography: wavycon.file(file="map.gsf").
+    """
+    x, z, sides, unit = open_file(file, channel, length_unit)
+    for key, side in sides.items():
+        if side is not None and keys_of_maps.get(key) is not None:
+            raise ValueError(f"{file}: leave out {key}: the file has {side:g} {unit or ''}".rstrip())
+    if x is None:
+        given = {key: side for key, side in sides.items() if side is not None}
+        return heights(z, length_unit=unit, **given, **keys_of_maps)
+    warnings.warn(f"{file}: this profile has unequal steps and is resampled to equal ones", stacklevel=2)
+    folder = tempfile.TemporaryDirectory(prefix="wavycon-")
+    profile = Path(folder.name, "profile.txt")
+    write_profile(profile, x, z)
+    return Surface({"kind": "file", "file": str(profile), **keys_of_maps}, None, unit, folder)
+
+
+def open_file(file, channel, unit=None):
+    """What a file holds, in a unit of length if one is given: the places of unequal steps (None: equal steps), the
+    heights (y, x) or (x,), NaN where they are missing, the sides as keys, None where the file lacks them, and the unit
+    (None: unknown). Errors: ValueError for what SurfaceTopography cannot read."""
+    try:
+        from SurfaceTopography import open_topography
+    except ImportError as error:
+        raise ImportError("files of instruments need SurfaceTopography: pip install 'wavycon[files]'") from error
+    if not os.path.isfile(file):
+        raise FileNotFoundError(f"{file}: there is no such file")
+    try:
+        with open_topography(os.fspath(file)) as reader:
+            info = choose([one for one in reader.channels if one.unit is None or isinstance(one.unit, str)], channel)
+            known = info.physical_sizes is not None
+            topography = info.topography(**({} if known else {"physical_sizes": (1.0,)*info.dim}))
+            if unit and topography.unit:
+                topography = topography.to_unit(unit)
+            z = np.ma.filled(np.ma.asarray(topography.heights(), dtype=float), np.nan).T
+            x = None if topography.is_uniform else np.asarray(topography.positions())
+            sides = map(float, topography.physical_sizes) if known else (None,)*info.dim
+    except Exception as error:
+        # Its readers raise whatever their formats bring about.
+        raise ValueError(f"{file}: SurfaceTopography cannot read it: {type(error).__name__}: "
+                         f"{''.join(str(error).strip().splitlines()[:1])}") from error
+    return x, z, dict(zip(("length_x", "length_y"), sides)), unit or topography.unit
+
+
+def choose(channels, channel):
+    names = [one.name for one in channels]
+    if channel is None:
+        channel = 0
+    if isinstance(channel, str) and channel in names:
+        return channels[names.index(channel)]
+    if isinstance(channel, int) and 0 <= channel < len(channels):
+        return channels[channel]
+    raise ValueError(f"there is no channel {channel!r}; there are {', '.join(map(repr, names))}")
+
+
+def write_profile(path, x, z):
+    np.savetxt(path, np.column_stack([x, z]), fmt="%.17g")
+
+
+def write_gsf(path, z, sides, unit):
+    """Gwyddion's simple field: a head, filled with 1 to 4 null characters to a multiple of 4 bytes, and float32."""
+    head = "Gwyddion Simple Field 1.0\n"
+    lines = {"XRes": z.shape[1], "YRes": z.shape[0], "XReal": sides.get("length_x"), "YReal": sides.get("length_y"),
+             "XYUnits": unit, "ZUnits": unit}
+    head += "".join(f"{name} = {value}\n" for name, value in lines.items() if value is not None)
+    head = head.encode()
+    Path(path).write_bytes(head + bytes(4 - len(head) % 4) + z.astype("<f4").tobytes())
+
+
+def convert(arguments=None) -> None:
+    """The command wavycon-convert."""
+    parser = argparse.ArgumentParser(prog="wavycon-convert", description="Converts a file of an instrument to one that "
+                                     "decks of wavycon read.")
+    parser.add_argument("file", help="of any format that SurfaceTopography opens")
+    parser.add_argument("map", help="to be written: .gsf with sides and units, .npy with all digits, .txt for profiles")
+    parser.add_argument("--channel", help="name or number of one of several channels")
+    parser.add_argument("--unit", help="of length, to which the file's lengths are converted, such as um")
+    given = parser.parse_args(arguments)
+    channel = int(given.channel) if given.channel and given.channel.isdecimal() else given.channel
+    try:
+        x, z, sides, unit = open_file(given.file, channel, given.unit)
+        kind, rows = Path(given.map).suffix, np.atleast_2d(z)
+        if kind == ".txt" and len(rows) == 1:
+            step = (sides["length_x"] or 1)/z.size
+            write_profile(given.map, np.arange(z.size)*step if x is None else x, z)
+        elif x is not None:
+            raise ValueError(f"{given.file}: a profile of unequal steps needs a file .txt")
+        elif kind == ".npy":
+            np.save(given.map, z)
+        elif kind == ".gsf" and sides["length_x"] is None:
+            raise ValueError(f"{given.file} does not have the sides, which a file .gsf needs: write a file .npy")
+        elif kind == ".gsf":
+            write_gsf(given.map, rows, sides, unit)
+        else:
+            raise ValueError(f"{given.map}: the name must end in .gsf or .npy, of a profile also in .txt")
+    except (ImportError, OSError, ValueError) as error:
+        sys.exit(f"wavycon-convert: {error}")
+    print(deck_text({"scene": {"length_unit": unit}, "surface": {
+        "kind": "file", "file": given.map, **(sides if kind == ".npy" else {})}}), end="")

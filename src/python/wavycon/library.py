@@ -1,0 +1,121 @@
+"""The functions of the shared library, by ctypes, which lets other threads run meanwhile. wavycon.h documents them.
+
+Errors are exceptions: ValueError for what is wrong in a call, OSError for files and memory, with the library's message.
+"""
+import functools
+import json
+import os
+import sys
+import threading
+from ctypes import CDLL, CFUNCTYPE, byref, c_char_p, c_double, c_int, c_size_t, c_void_p, create_string_buffer
+from pathlib import Path
+
+import numpy as np
+
+TEXT, POINTER = c_char_p, c_void_p
+PROGRESS = CFUNCTYPE(c_int, POINTER, c_int, c_double)
+# Result and arguments of each function behind the error object. Functions that return pointers make objects.
+FUNCTIONS = {
+    "new_scene": (POINTER, [TEXT, TEXT, c_int, c_int, c_int, POINTER]),
+    "read_scene": (POINTER, [TEXT, TEXT, c_int]),
+    "set_progress": (c_int, [POINTER, PROGRESS, POINTER]),
+    "set_threads": (c_int, [c_int]),
+    "solve_load": (POINTER, [POINTER, c_int]),
+    "get": (c_int, [POINTER, TEXT, POINTER]),
+    "get_text": (c_size_t, [POINTER, TEXT, POINTER, c_size_t]),
+    "new_table": (POINTER, [POINTER, TEXT]),
+    "get_column": (c_int, [POINTER, TEXT, c_int, POINTER]),
+    "get_fields": (c_int, [POINTER, c_int] + [POINTER]*5),
+    "get_grid": (c_int, [POINTER, c_int, c_int] + [POINTER]*4),
+    "get_stresses": (c_int, [POINTER, c_int] + [POINTER]*3 + [c_double, TEXT] + [POINTER]*2),
+    "get_invariants": (c_int, [c_int] + [POINTER]*4),
+}
+
+folders = map(Path, sys.modules[__package__].__path__)
+lib = CDLL(str(next(path for folder in folders for path in folder.glob("libwavycon.*"))))
+lib.wavycon_new_error.restype = POINTER
+lib.wavycon_get_code.argtypes = lib.wavycon_delete.argtypes = [POINTER]
+lib.wavycon_get_message.argtypes = [POINTER, POINTER, c_size_t]
+lib.wavycon_get_message.restype = c_size_t
+functions = {name: getattr(lib, "wavycon_" + name) for name in FUNCTIONS}
+for _name, (_result, _arguments) in FUNCTIONS.items():
+    functions[_name].restype, functions[_name].argtypes = _result, [POINTER, *_arguments]
+# A child of this process must not find the library locked by a thread that it does not have.
+os.register_at_fork(before=lib.wavycon_lock, after_in_parent=lib.wavycon_unlock, after_in_child=lib.wavycon_unlock)
+
+
+class Handle:
+    """An object of the library, which ends with this one."""
+
+    def __init__(self, pointer):
+        self._as_parameter_ = POINTER(pointer)
+
+    def __del__(self, delete=lib.wavycon_delete):
+        delete(byref(self._as_parameter_))
+
+
+class _ThreadErrors(threading.local):
+    """Each thread has an error object of its own."""
+
+    def __init__(self):
+        self.error = Handle(lib.wavycon_new_error())
+
+
+_own = _ThreadErrors()
+
+
+def call(name, *arguments):
+    """Calls a function by its name without 'wavycon_', without its first argument."""
+    answer = functions[name](_own.error, *arguments)
+    code = lib.wavycon_get_code(_own.error)
+    if code:
+        message = create_string_buffer(lib.wavycon_get_message(_own.error, None, 0))
+        lib.wavycon_get_message(_own.error, message, len(message))
+        raise (ValueError if code == 1 else OSError)(message.value.decode())
+    return Handle(answer) if FUNCTIONS[name][0] is POINTER else answer
+
+
+def number(thing, name):
+    value = c_double()
+    call("get", thing, name.encode(), byref(value))
+    return value.value
+
+
+def text(thing, name):
+    buffer = create_string_buffer(call("get_text", thing, name.encode(), None, 0))
+    call("get_text", thing, name.encode(), buffer, len(buffer))
+    return buffer.value.decode()
+
+
+def table(solution, name, load):
+    """A table of a solution, the load of this number, as a structured array, and the units of its columns."""
+    handle = call("new_table", solution, name.encode())
+    words = np.array(text(handle, "words").splitlines() or [""])
+    units = dict(column.rstrip("]").split("[") for column in text(handle, "columns").splitlines())
+    kinds = [words.dtype if unit == "word" else int if column == "load" else float for column, unit in units.items()]
+    rows = np.empty(int(number(handle, "rows")), list(zip(units, kinds)))
+    values = np.empty(len(rows))
+    for column, unit in units.items():
+        call("get_column", handle, column.encode(), len(rows), address(values))
+        rows[column] = words[values.astype(int) - 1] if unit == "word" else load if column == "load" else values
+    return rows, units
+
+
+def reals(array, *, shape=None):
+    """An array of real numbers, contiguous doubles, masked ones NaN. Errors: ValueError for anything else."""
+    array = np.ma.asanyarray(array)
+    if array.dtype.kind not in "biuf":
+        raise ValueError(f"an array of real numbers is needed, got numbers of the type {array.dtype}")
+    array = np.ma.filled(array.astype(float), np.nan)   # a copy
+    return np.asarray(array if shape is None else np.broadcast_to(array, shape), order="C")
+
+
+def address(array):
+    """Where the numbers of an array are; the array must outlive it."""
+    return array.ctypes.data
+
+
+@functools.cache
+def keys() -> dict:
+    """All keys of decks: keys()[group][key] has type, unit, default, bounds, choices and meaning."""
+    return {group["name"]: {key["name"]: key for key in group["keys"]} for group in json.loads(text(None, "keys"))}

@@ -1,0 +1,91 @@
+"""Runs of the program, many at a time."""
+import importlib.metadata
+import itertools
+import os
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Iterable, Mapping
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+from .deck import value_text
+
+
+def program() -> str:
+    """The path of the program that was installed with this package, otherwise of that in PATH."""
+    try:
+        files = importlib.metadata.files("wavycon") or []
+    except importlib.metadata.PackageNotFoundError:
+        files = []
+    own = [file for file in files if file.name == "wavycon" and file.parent.name in ("bin", "Scripts")]
+    path = str(own[0].locate()) if own else shutil.which("wavycon")
+    if not path:
+        raise OSError("the program wavycon is neither installed with this package nor in PATH")
+    return path
+
+
+def sweep(deck, values: Mapping[str, Iterable], jobs: int | None = None, directory=None):
+    """Runs a deck once for each combination of values of its keys, several runs at a time, each a process.
+
+    values: such as {"surface.seed": range(50), "load.mean_pressure": [1e6, 1e7]}; each value, a number, a text or a
+    list, is set as by the program's --set. jobs: processes at a time; as many as there are processors unless given.
+    directory: where the runs write their tables, which are lost without it. Shows a bar where tqdm is installed.
+
+    Returns a frame of pandas: a row for each run and load, with the values, the columns of the summary, and message. A
+    run that failed is a row with the status 'failed' and the message of the program.
+    """
+    import pandas
+    combinations = [dict(zip(values, one)) for one in itertools.product(*values.values())]
+    command = [program(), os.fspath(deck), "--quiet"]
+    running: set = set()
+    with tempfile.TemporaryDirectory() as own:
+        def run(number):
+            settings, table = combinations[number], Path(own, f"{number}.dat")
+            sets = [f"--set={key}={value_text(value)}" for key, value in settings.items()]
+            output = Path(directory or own, "" if directory else str(number))
+            with subprocess.Popen([*command, *sets, f"--output={output}", f"--table={table}"], text=True,
+                                  errors="replace", stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                                  stderr=subprocess.PIPE) as process:
+                running.add(process)
+                message = process.communicate()[1].strip()
+            running.discard(process)
+            if table.exists():
+                names, *lines = [line.split() for line in table.read_text().splitlines() if not line.startswith("#")]
+                rows = pandas.DataFrame([map(number_or_word, line) for line in lines], columns=names).loc[:, "load":]
+            else:
+                rows = pandas.DataFrame({"status": ["failed"]})
+                message = message or f"the program ended with the status {process.returncode}"
+            for place, (key, value) in enumerate(settings.items()):
+                rows.insert(place, key, [value]*len(rows))
+            return rows.assign(message=message)
+
+        with ThreadPoolExecutor(jobs or os.cpu_count()) as pool:
+            try:
+                frames = list(progress(pool.map(run, range(len(combinations))), len(combinations)))
+            except BaseException:
+                pool.shutdown(wait=False, cancel_futures=True)
+                for process in list(running):
+                    process.terminate()
+                raise
+    if not frames:
+        raise ValueError("there are no values, so there is no run")
+    return pandas.concat(frames, ignore_index=True)[max((frame.columns for frame in frames), key=len)]
+
+
+def number_or_word(word):
+    for kind in int, float:
+        try:
+            return kind(word)
+        except ValueError:
+            pass
+    return word
+
+
+def progress(steps, number):
+    """The steps, with a bar where tqdm is installed."""
+    try:
+        from tqdm.auto import tqdm
+    except ImportError:
+        return steps
+    return tqdm(steps, total=number, unit="run")

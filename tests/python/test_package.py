@@ -1,0 +1,427 @@
+#!/usr/bin/env python3
+"""The Python package: the examples of its page, digits, files, pictures, misuse, memory, threads, processes, Ctrl-C.
+
+usage: test_package.py --program WAVYCON --package FOLDER --needs PACKAGES --environment FOLDER
+
+PACKAGES, separated by commas, are numpy, pandas and matplotlib, and perhaps SurfaceTopography and ContactMechanics,
+without which the tests of files and of the example are skipped. Where this Python lacks them they are installed into a
+virtual environment in FOLDER, once. Exit status: 77 if they cannot be.
+"""
+import concurrent.futures
+import contextlib
+import gc
+import importlib.util
+import inspect
+import io
+import os
+import pathlib
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import time
+import tracemalloc
+import unittest
+import warnings
+
+from program import ProgramTest, main, skip, take_options
+from tables import Table
+from virtual_environment import go_on_with
+
+# Half a unit of the last of the 16 digits that tables have.
+DIGITS = 1e-15
+# Bytes that Python may hold more after many solves than after a few: caches of the interpreter.
+LEAK = 60_000
+SOLVES = 150
+# Seconds within which Ctrl-C ends a solve.
+PATIENCE = 1.0
+
+ROUGH = """&surface kind = 'self_affine', rms_slope = 0.1, points = 64, short_wavelength = 0.125, seed = 3 /
+&material e_star = 2 /
+&load pbar_over_pstar = 0.05, 0.3, 0.1 /
+&stress nu = 0.3, line = t /
+&output map = t, spots = t /
+"""
+LONG = """
+import wavycon as wc
+surface = wc.self_affine(points=[512, 512], hurst=0.8, rms_height=1e-6, length_x=1e-3)
+print("started", flush=True)
+try:
+    wc.solve(surface, pbar_over_pstar=[0.1]*50, solver="grid", residual=1e-13)
+except KeyboardInterrupt:
+    print("stopped")
+assert wc.solve(wc.wave_2d(), pbar_over_pstar=0.5)[0].status == "converged"
+print("usable")
+"""
+
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+def read_page(name):
+    return (ROOT/"src"/"python"/name).read_text(encoding="utf-8")
+
+
+def python_blocks(name):
+    return re.findall(r"```python\n(.*?)```", read_page(name), re.DOTALL)
+
+
+def solve_small():
+    return wc.solve(wc.wave_1d(), pbar_over_pstar=0.5)
+
+
+class PackageTest(ProgramTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.addClassCleanup(os.chdir, os.getcwd())
+        os.chdir(cls.folder)
+        os.environ["PATH"] = os.path.dirname(cls.program) + os.pathsep + os.environ["PATH"]
+        (cls.folder/"rough.nml").write_text(ROUGH)
+
+    def assert_same_rows(self, path, rows):
+        """The columns of a table of the program and of a structured array."""
+        table = Table(path)
+        self.assertEqual(table.columns, list(rows.dtype.names))
+        self.assertEqual(len(table.records()), len(rows))
+        for column in table.columns:
+            for record, value in zip(table.records(), rows[column].tolist()):
+                with self.subTest(table=str(path), column=column):
+                    if isinstance(value, str):
+                        self.assertEqual(record[column], value)
+                    elif value == value or float(record[column]) == float(record[column]):
+                        self.assertLessEqual(abs(float(record[column]) - value), DIGITS*abs(value))
+
+    def refuse(self, words, function, *arguments, error=ValueError, **options):
+        with self.subTest(words=words), self.assertRaisesRegex(error, words):
+            function(*arguments, **options)
+
+
+class Examples(PackageTest):
+    def test_the_page(self):
+        examples = python_blocks("README.md")
+        self.assertGreater(len(examples), 5)
+        names, printed = {}, io.StringIO()
+        with contextlib.redirect_stdout(printed):
+            for example in examples:
+                exec(example, names)
+        for words in "did you mean 'amplitude'", "status='converged'", r"\(256, 256\)", "load.mean_pressure":
+            self.assertRegex(printed.getvalue(), words)
+
+    @unittest.skipUnless(importlib.util.find_spec("ContactMechanics"), "needs ContactMechanics")
+    def test_the_example(self):
+        (self.folder/"inputs").mkdir()
+        shutil.copy(ROOT/"inputs"/"measured_surface.dat", "inputs")
+        names, printed = {}, io.StringIO()
+        with contextlib.redirect_stdout(printed), warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            for example in python_blocks("example.md"):
+                exec(example, names)
+        shown = "".join(re.findall(r"^```\n\n```\n(.*?)```", read_page("example.md"), re.DOTALL | re.MULTILINE))
+        # The last digits of two iterations differ from machine to machine.
+        rounding = r"pressures to \de-\d\d"
+        self.assertEqual(*(re.sub(rounding, "", text) for text in (shown, printed.getvalue())))
+        self.assertLess(max(map(float, re.findall(r"pressures to (\S+)", printed.getvalue()))), 1e-6)
+
+    def test_help(self):
+        for name in wc.__all__ + ["self_affine", "wave_sum"]:
+            self.assertTrue(getattr(wc, name).__doc__, name)
+        self.assertIn("rms_slope", str(inspect.signature(wc.self_affine)))
+        self.assertIn("wave_2d", dir(wc))
+        self.assertIn("contact_area_fraction_error", dir(solve_small()[0]))
+
+
+class Digits(PackageTest):
+    def test_tables_are_those_of_the_program(self):
+        self.run_deck("rough")
+        for results in wc.run("rough.nml"), self.solve_rough():
+            for name in "summary", "map", "spots", "spot_sizes", "stress_line", "stress_largest":
+                self.assert_same_rows(f"rough.{name}.dat", results.table(name))
+
+    def solve_rough(self):
+        surface = wc.self_affine(rms_slope=0.1, points=64, short_wavelength=0.125, seed=3)
+        return wc.solve(surface, e_star=2, pbar_over_pstar=[0.05, 0.3, 0.1], stress={"nu": 0.3})
+
+    def test_fields_are_those_of_the_map(self):
+        results = self.solve_rough()
+        for one in results:
+            rows = one.table("map").reshape(one.pressure.shape)
+            for field in "pressure", "gap", "displacement":
+                self.assertTrue(numpy.array_equal(rows[field], getattr(one, field)))
+                # At points they are sums of the same terms in another order.
+                at = one.fields_at(*numpy.meshgrid(one.x, one.y))[field]
+                self.assertLess(abs(at - rows[field]).max(), 1e-12*abs(rows[field]).max())
+            self.assertLess(abs(rows["x"] - one.x).max(), DIGITS)
+            self.assertLess(abs(rows["y"] - one.y[:, None]).max(), DIGITS)
+        self.assertEqual((), results[1].fields_at(0, 0)["gap"].shape)
+        line = results[1].table("stress_planes")[::97]
+        stresses = results[1].stresses_at(line["x"], line["y"], line["depth"], 0.3)
+        for column, values in zip(("stress_xx", "von_mises", "largest_shear"),
+                                  (stresses["stress"][:, 0], stresses["von_mises"], stresses["largest_shear"])):
+            self.assertLess(abs(values - line[column]).max(), 1e-10*abs(line[column]).max())
+
+    def test_keys_that_are_set(self):
+        self.run_deck("rough", None, "--set=surface.seed=5", "--set=load.mean_gap=1e-3,2e-3", "--set=scene.case=set")
+        results = wc.run("rough.nml", {"surface.seed": 5, "load.mean_gap": [1e-3, 2e-3]})
+        self.assert_same_rows("set.summary.dat", results.table())
+        self.assertEqual([1, 2], results.load.tolist())
+
+    def test_heights_are_those_of_the_file(self):
+        rng = numpy.random.default_rng(1)
+        for shape in (24, 32), (40,):
+            h = rng.normal(size=shape)
+            h[..., 3] = numpy.nan
+            numpy.save("h.npy", h)
+            self.run_deck("h", "&surface kind = 'file', file = 'h.npy', length_x = 2, length_y = 1, fill_missing = "
+                          "'harmonic', edges = 'mirror' /\n&load mean_pressure = 0.1 /\n")
+            options = {"length_x": 2, "length_y": 1, "fill_missing": "harmonic", "edges": "mirror"}
+            for same in h, numpy.asfortranarray(h), numpy.ma.masked_invalid(h), numpy.repeat(h, 2, -1)[..., ::2], \
+                    h[..., ::-1][..., ::-1]:
+                results = wc.solve(wc.heights(same, **options), mean_pressure=0.1, keep_fields=False)
+                self.assert_same_rows("h.summary.dat", results.table())
+            self.assertEqual(h.shape if h.ndim == 2 else (1, 40), wc.solve(wc.heights(h, **options),
+                                                                           mean_pressure=0.1)[0].gap.shape)
+        # Single precision and integers are numbers too.
+        whole = rng.integers(-9, 9, size=(16, 16))
+        areas = {wc.solve(wc.heights(whole.astype(kind)), pbar_over_pstar=0.2)[0].contact_area
+                 for kind in (float, "f4", ">f8", "i2", int)}
+        self.assertEqual(1, len(areas))
+
+    def test_saved_results(self):
+        results = self.solve_rough()
+        results.table("spots")
+        results.save("rough.npz")
+        again = wc.load("rough.npz")
+        self.assertEqual(repr(results), repr(again))
+        self.assertTrue(numpy.array_equal(results.table("spots"), again.table("spots")))
+        self.assertTrue(numpy.array_equal(results[2].gap, again[2].gap))
+        self.assertEqual(results.deck, again.deck)
+        self.refuse("was not saved", again.table, "contours")
+        self.refuse("was not saved", again[0].fields_at, 0, 0)
+
+    def test_frames_and_pictures(self):
+        results = self.solve_rough()
+        frame = results.to_dataframe()
+        self.assertEqual("pressure", frame.attrs["units"]["mean_pressure"])
+        self.assertEqual([1, 2, 3], frame.load.tolist())
+        given = matplotlib.pyplot.subplots()[1]
+        self.assertIs(given, results.plot(ax=given))
+        self.assertEqual("mean pressure [pressure]", given.get_xlabel())
+        self.assertEqual("y [length]", results[1].plot_map("gap").get_ylabel())
+        self.assertEqual("depth [length]", results[1].plot_stress_section().get_ylabel())
+        self.assertEqual(1, len(solve_small()[0].plot_map().lines))
+        matplotlib.pyplot.close("all")
+
+
+class Sweeps(PackageTest):
+    def test_a_sweep(self):
+        frame = wc.sweep("rough.nml", {"surface.seed": range(1, 4), "load.pbar_over_pstar": [0.1, [0.2, 0.3], -1]}, 2,
+                         "tables")
+        self.assertEqual(3*(1 + 2 + 1), len(frame))
+        failed = frame[frame.status == "failed"]
+        self.assertEqual([1, 2, 3], failed["surface.seed"].tolist())
+        self.assertTrue(failed.message.str.contains("must be a number >= 0").all())
+        one = wc.run("rough.nml", {"surface.seed": 2, "load.pbar_over_pstar": [0.2, 0.3]})
+        rows = frame[(frame["surface.seed"] == 2) & (frame["load.pbar_over_pstar"].map(str) == "[0.2, 0.3]")]
+        for column in "mean_gap", "contact_area", "peak_pressure":
+            self.assertLess(abs(rows[column].to_numpy()/getattr(one, column) - 1).max(), DIGITS)
+        self.assertEqual(6, len(list(pathlib.Path("tables").glob("*.summary.dat"))))
+        self.refuse("no run", wc.sweep, "rough.nml", {"surface.seed": []})
+        self.assertIn("there is no such file", wc.sweep("none.nml", {}).message[0])
+
+
+class Misuse(PackageTest):
+    def test_surfaces(self):
+        for bad in [["a", "b"]], [[1j]], object(), [None], numpy.array(["2020"], dtype="M8"):
+            self.refuse("real numbers", wc.heights, bad)
+        for bad in 1.0, [], numpy.zeros((2, 3, 4)), numpy.zeros((0, 3)):
+            self.refuse("shape", wc.heights, bad)
+        ragged = [[1, 2], [3]]
+        self.refuse("", wc.heights, ragged)
+        for words, surface in {"4 to 1048576": wc.heights(numpy.zeros((2, 2))),
+                               "missing": wc.heights([[1.0, numpy.nan]*4]*4),
+                               "not all heights are finite": wc.heights([[1.0, numpy.inf]*4]*4),
+                               "there is no key": wc.wave_2d(amplitud=1),
+                               "must be": wc.wave_2d(amplitude="x"), "length_x": wc.heights(numpy.eye(8), length_x=-1),
+                               "there is no such file": wc.file(file="none.txt"), "kind": wc.Surface({})}.items():
+            self.refuse(words, wc.solve, surface, pbar_over_pstar=0.1, error=(ValueError, OSError))
+        with self.assertRaises(AttributeError):
+            wc.wave_3d
+        locked = numpy.eye(8)
+        locked.flags.writeable = False
+        self.assertEqual("no_load", wc.solve(wc.heights(locked), pbar_over_pstar=0)[0].status)
+        h = numpy.random.default_rng(1).normal(size=(16, 16))
+        surface = wc.heights(h)
+        first = wc.solve(surface, pbar_over_pstar=0.2)[0].contact_area
+        h[:] = 0   # the surface has a copy
+        self.assertEqual(first, wc.solve(surface, pbar_over_pstar=0.2)[0].contact_area)
+
+    def test_solve(self):
+        wave = wc.wave_2d()
+        self.refuse("must be a surface", wc.solve, numpy.eye(8), pbar_over_pstar=0.1)
+        self.refuse("there is no load", wc.solve, wave)
+        self.refuse("did you mean 'mean_pressure'", wc.solve, wave, mean_presure=1)
+        self.refuse("did you mean", wc.solve, wave, pbar_over_pstar=0.1, method={"solvr": "grid"})
+        self.refuse("one of|only one|several|and", wc.solve, wave, pbar_over_pstar=0.1, mean_gap=0.1)
+        for bad in -1, numpy.nan, numpy.inf, "a", [], [[1]], {}, 1j, b"1", [0.1, None], True:
+            self.refuse("", wc.solve, wave, pbar_over_pstar=bad)
+        self.refuse("control characters", wc.solve, wave, pbar_over_pstar=0.1, title="a\n/ &load mean_gap = 1 /")
+        self.refuse("control characters", wc.solve, wave, pbar_over_pstar=0.1, title="a\0b")
+        self.assertIn("it''s 'µ'".replace("''", "'"), wc.solve(wave, pbar_over_pstar=0.1, title="it's 'µ'").deck
+                      .replace("''", "'"))
+        for number in numpy.float32(0.25), numpy.int64(0), 1, range(2), (0.1, numpy.float64(0.2)), numpy.array(0.25), \
+                numpy.array([0.5, 0.25])[::-1]:
+            self.assertLess(max(wc.solve(wave, pbar_over_pstar=number).status_code), 10)
+        self.assertEqual("above_hardness", wc.solve(wave, mean_pressure=2, hardness=1)[0].status)
+
+    def test_results(self):
+        results = solve_small()
+        one = results[0]
+        for thing in one, results:
+            with self.assertRaises(AttributeError):
+                thing.contact_aera
+        with self.assertRaises(IndexError):
+            results[1]
+        self.refuse("there is no table 'maps'", one.table, "maps")
+        self.refuse("needs a group &stress", one.table, "stress_line")
+        self.refuse("needs a group &stress", one.plot_stress_section)
+        self.refuse("finite", one.fields_at, numpy.nan, 0)
+        self.refuse("real numbers", one.fields_at, "a", 0)
+        self.refuse("shape", one.fields_at, [1, 2], [1, 2, 3])
+        self.refuse("0 or more", one.stresses_at, 0, 0, -1, 0.3)
+        self.refuse("nu", one.stresses_at, 0, 0, 0, 0.7)
+        self.refuse("lateral", one.stresses_at, 0, 0, 0, 0.3, "tight")
+        self.assertEqual((2, 3, 6), one.stresses_at(numpy.zeros((2, 1)), 0, [0, 1, 2], 0.3)["stress"].shape)
+        self.refuse("points must be", one.fields_at, [], [])
+        without = wc.solve(wc.wave_1d(), pbar_over_pstar=0.5, keep_fields=False)[0]
+        self.refuse("without", lambda: without.pressure)
+        self.refuse("without", without.table, "contours")
+
+    def test_decks(self):
+        self.refuse("there is no such file", wc.run, "none.nml", error=OSError)
+        self.refuse("there is no key 'sed'", wc.run, "rough.nml", {"surface.sed": 1})
+        self.refuse("group.key=value", wc.run, "rough.nml", {"seed": 1})
+        self.refuse("number", wc.set_threads, 0)
+        self.refuse("", wc.load, "rough.nml")
+        self.refuse("", wc.load, "none.npz", error=OSError)
+
+    def test_memory(self):
+        """Neither Python's memory nor the process grows with the number of solves."""
+        def solve_some(number):
+            for _ in range(number):
+                one = wc.solve(wc.wave_2d(), pbar_over_pstar=0.5, keep_fields=False)[0]
+                one.contact_area_fraction
+        solve_some(20)
+        gc.collect()
+        tracemalloc.start()
+        before, resident = tracemalloc.get_traced_memory()[0], pages()
+        solve_some(SOLVES)
+        gc.collect()
+        self.assertLess(tracemalloc.get_traced_memory()[0] - before, LEAK)
+        tracemalloc.stop()
+        # A scene takes some 100 kB: none may stay.
+        self.assertLess(pages() - resident, 2e6)
+
+
+def pages():
+    """Bytes of the process that are in memory; 0 where the system does not tell."""
+    try:
+        return int(pathlib.Path("/proc/self/statm").read_text().split()[1])*os.sysconf("SC_PAGESIZE")
+    except OSError:
+        return 0
+
+
+class Processes(PackageTest):
+    def test_threads(self):
+        """Threads solve at the same time, to the digits of one, and share results."""
+        surface = wc.self_affine(rms_height=1, points=128, short_wavelength=0.05)
+        loads = [0.02*k for k in range(1, 9)]
+        serial = [wc.solve(surface, pbar_over_pstar=load)[0] for load in loads]
+        shared = wc.solve(surface, pbar_over_pstar=loads)
+        with concurrent.futures.ThreadPoolExecutor(4) as pool:
+            solved = list(pool.map(lambda load: wc.solve(surface, pbar_over_pstar=load)[0].contact_area, loads))
+            peaks = list(pool.map(lambda one: one.pressure.max(), shared))
+        self.assertEqual([one.contact_area for one in serial], solved)
+        self.assertEqual([one.pressure.max() for one in shared], peaks)
+
+    @unittest.skipUnless(hasattr(os, "fork"), "needs fork")
+    def test_fork(self):
+        """Objects made before a fork work in the child, also if another thread was in the library."""
+        results = solve_small()
+        with concurrent.futures.ThreadPoolExecutor(1) as pool, warnings.catch_warnings():
+            warnings.simplefilter("ignore")   # Python 3.12 warns of forks beside threads
+            busy = pool.submit(lambda: [solve_small() for _ in range(100)])
+            for _ in range(3):
+                child = os.fork()
+                if child == 0:
+                    fine = results[0].pressure.max() > 0 and solve_small()[0].status_code == 1
+                    os._exit(0 if fine else 1)
+                self.assertEqual(0, os.waitpid(child, 0)[1])
+            self.assertEqual(100, len(busy.result()))
+
+    def test_ctrl_c(self):
+        """Ctrl-C ends a solve within a second, and the interpreter goes on."""
+        child = subprocess.Popen([sys.executable, "-c", LONG], stdout=subprocess.PIPE, text=True,
+                                 env=dict(os.environ, PYTHONPATH=os.pathsep.join(sys.path)))
+        self.assertEqual("started\n", child.stdout.readline())
+        time.sleep(0.5)
+        child.send_signal(signal.SIGINT)
+        sent = time.monotonic()
+        self.assertEqual("stopped\n", child.stdout.readline())
+        self.assertLess(time.monotonic() - sent, PATIENCE)
+        self.assertEqual("usable\n", child.communicate()[0])
+        self.assertEqual(0, child.returncode)
+
+
+@unittest.skipUnless(importlib.util.find_spec("SurfaceTopography"), "needs SurfaceTopography")
+class Files(PackageTest):
+    def test_reading_and_converting(self):
+        h = numpy.random.default_rng(1).normal(size=(12, 16))
+        numpy.savetxt("scan.txt", h)
+        surface = wc.read("scan.txt", length_x=4, length_unit="um")
+        self.assertTrue(numpy.array_equal(h, surface.heights))
+        self.assertEqual("um", wc.solve(surface, pbar_over_pstar=0.2).length_unit)
+        numpy.savetxt("scan.txt", h, header="Width: 4 m\nHeight: 3 m\nValue units: m")
+        for name in "scan.npy", "scan.gsf":
+            with contextlib.redirect_stdout(io.StringIO()) as printed:
+                convert(["scan.txt", name])
+            (self.folder/"converted.nml").write_text(printed.getvalue() + "&load pbar_over_pstar = 0.2 /")
+            found = wc.run("converted.nml")[0].contact_area_fraction
+            # gsf has single precision.
+            self.assertAlmostEqual(wc.solve(wc.heights(h), pbar_over_pstar=0.2)[0].contact_area_fraction, found,
+                                   delta=0 if name == "scan.npy" else 1e-6)
+
+    def test_unequal_steps(self):
+        x = numpy.sort(numpy.random.default_rng(1).uniform(0, 1, 60))
+        numpy.savetxt("profile.txt", numpy.c_[x, numpy.cos(9*x)])
+        with self.assertWarnsRegex(UserWarning, "unequal steps"):
+            surface = wc.read("profile.txt", edges="mirror")
+        self.assertEqual(1, wc.solve(surface, pbar_over_pstar=0.2).dimension)
+
+    def test_misuse(self):
+        (self.folder/"words.txt").write_text("no heights")
+        self.refuse("cannot read it", wc.read, "words.txt")
+        self.refuse("there is no such file", wc.read, "none.opd", error=OSError)
+        numpy.savetxt("scan.txt", numpy.eye(8))
+        self.refuse("no channel", wc.read, "scan.txt", channel="Phase")
+        for words in (["none.opd", "map.gsf"], ["words.txt", "map.gsf"], ["scan.txt", "map.tif"],
+                      ["scan.txt", "no/map.gsf"]):
+            with self.assertRaisesRegex(SystemExit, "wavycon-convert: "):
+                convert(words)
+
+
+if __name__ == "__main__":
+    if sys.version_info < (3, 10):
+        skip("the package needs Python 3.10")
+    # Kept on the command line: another Python may be started with it.
+    go_on_with(*sys.argv[sys.argv.index("--needs") + 1].split(","))
+    given = take_options("package", "needs")
+    sys.path.insert(0, os.path.abspath(given.package))
+    import matplotlib
+    matplotlib.use("agg")
+    import matplotlib.pyplot
+    import numpy
+    import wavycon as wc
+    from wavycon.files import convert
+    main()
