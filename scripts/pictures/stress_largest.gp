@@ -44,8 +44,8 @@ do for [n = 1:panels] {
            using (x(r)):(y(n, r) - error(n, r)):(0):(2*error(n, r)) with vectors ls style(r, b) dt solid nohead, \
         for [r = 1:runs] for [b = first_body:last_body] run(r) every bodies_of[r]::b - 1 using (x(r)):(y(n, r)) \
            with points ls style(r, b), \
-        for [r = 1:runs == 1] for [b = first_body:last_body] run(r) every bodies_of[r]::b - 1 using (x(r)):(open(n, r)) \
-           with points lc rgb '#ffffff' pt 7 ps 0.35*mark, \
+        for [r = 1:runs == 1] for [b = first_body:last_body] run(r) every bodies_of[r]::b - 1 \
+           using (x(r)):(open(n, r)) with points lc rgb '#ffffff' pt 7 ps 0.35*mark, \
         for [k = 1:n == 3 && runs == 1] for [b = first_body:last_body] run(1) every bodies_of[1]::b - 1 \
            using (x(1)):(factor(n, 1)*column('shear_depth')) with points ls 11 ps 1.3*mark, \
         for [r = 1:runs] for [b = first_body:last_body] run(r) every bodies_of[r]::b - 1 \
