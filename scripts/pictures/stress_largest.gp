@@ -12,6 +12,9 @@ error_on_axis(n, r) = (n == 4 ? 1 : factor(n, r)*p_star_of[r])*column(error_of[n
 y(n, r) = factor(n, r)*column(quantity[n])
 # As in the summary an error that is as large as the value has no bar.
 error(n, r) = error_on_axis(n, r) < y(n, r) ? error_on_axis(n, r) : NaN
+# Its point is open, and so is that of an unknown one, NaN, but for the paper's series, which knows none.
+known(n, r) = stringcolumn(error_of[n]) eq 'NaN' ? 0 : error_on_axis(n, r) < y(n, r)
+open(n, r) = !estimated || n == 3 || column('status_code') >= 10 || known(n, r) ? NaN : y(n, r)
 
 set xlabel load_label
 set xrange [load_low:load_high]
@@ -41,6 +44,8 @@ do for [n = 1:panels] {
            using (x(r)):(y(n, r) - error(n, r)):(0):(2*error(n, r)) with vectors ls style(r, b) dt solid nohead, \
         for [r = 1:runs] for [b = first_body:last_body] run(r) every bodies_of[r]::b - 1 using (x(r)):(y(n, r)) \
            with points ls style(r, b), \
+        for [r = 1:runs == 1] for [b = first_body:last_body] run(r) every bodies_of[r]::b - 1 \
+           using (x(r)):(open(n, r)) with points lc rgb '#ffffff' pt 7 ps 0.35*mark, \
         for [k = 1:n == 3 && runs == 1] for [b = first_body:last_body] run(1) every bodies_of[1]::b - 1 \
            using (x(1)):(factor(n, 1)*column('shear_depth')) with points ls 11 ps 1.3*mark, \
         for [r = 1:runs] for [b = first_body:last_body] run(r) every bodies_of[r]::b - 1 \

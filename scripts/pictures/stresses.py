@@ -21,6 +21,7 @@ SYMBOLS = {"von_mises": ("'{/:Italic σ}_{vM}'", "von Mises stress"),
 BELOW_CREST = ("stress_xx", "stress_yy", "stress_zz", "von_mises", "stress_xy", "stress_xz", "stress_yz",
                "largest_shear")
 VANISHING = 1e-6   # of the largest stress
+SHEAR = "largest_shear_over_pstar"
 LEAST_ROWS = 161   # of the picture of a section
 
 
@@ -223,6 +224,11 @@ def largest(tables, beside, choice, folder):
         entries += [(f"linespoints ls {30 + r}", name) for r, name in enumerate(names_of(tables), 1)]
     elif most > least:
         entries += [("linespoints ls 31", "first body"), ("linespoints ls 32", "second body")]
+    estimated = len(tables) == 1 and tables[0].method != "beale"
+    facts.append(f"estimated = {int(estimated)}")
+    if estimated and any(not error < value for block in tables[0].blocks for value, error, code in zip(
+            *(block.columns[name] for name in (SHEAR, SHEAR + "_error", "status_code"))) if 0 < value and code < 10):
+        entries.append(("points lc rgb blue pt 6 ps 0.7*mark", "error unknown or as large as the value"))
     if any(code >= 10 for table in tables for code in table.column("status_code")):
         entries.append(("points ls 42", "not accurate or not solved"))
     key = "".join(f", keyentry with {style} title key_title[{k}] noenhanced" for k, (style, _) in enumerate(entries, 1))

@@ -256,6 +256,11 @@ class Plot(ProgramTest):
         # Unknown errors of a grid are NaN, but so are those of the paper's series, which is not marked.
         self.assertIn("error unknown or as large as the value", self.drawn("map.summary.dat"))
         self.assertNotIn("error unknown", self.drawn("paper.summary.dat"))
+        lines = (self.folder/"stress.stress_largest.dat").read_text().splitlines()
+        words = lines[-1].split()
+        words[Table(self.folder/"stress.stress_largest.dat").names.index("largest_shear_over_pstar_error")] = "NaN"
+        (self.folder/"open.stress_largest.dat").write_text("\n".join(lines[:-1] + [" ".join(words)]) + "\n")
+        self.assertIn("error unknown or as large as the value", self.drawn("open.stress_largest.dat"))
 
     def test_the_linear_law_beside_the_areas_of_a_map(self):
         self.assertIn("the rms slope", self.drawn("map.summary.dat"))

@@ -58,7 +58,8 @@ class Terminal(ProgramTest):
 
     def test_progress_fits_the_terminal_and_tells_the_time_left(self):
         for columns in (40, 100):
-            lines = [part for line in self.on_terminal(columns, True).split("\n") for part in line.split("\r")[1:] if part]
+            lines = [part for line in self.on_terminal(columns, True).split("\n")
+                     for part in line.split("\r")[1:] if part]
             self.assertGreater(len(lines), 2)
             for line in lines:
                 if re.match("load|iter|stress| *$", line):
@@ -83,8 +84,8 @@ class Terminal(ProgramTest):
         process.send_signal(signal.SIGINT)
         _, said = process.communicate(timeout=PATIENCE)
         self.assertEqual(-signal.SIGINT, process.returncode)
-        found = re.fullmatch(r"\nwavycon: interrupted: ([1-4]) of 4 loads are kept in kept/deck.checkpoint; go on with\n"
-                             r"   (.*)\n", said)
+        found = re.fullmatch(r"\nwavycon: interrupted: ([1-4]) of 4 loads are kept in kept/deck.checkpoint; "
+                             r"go on with\n   (.*)\n", said)
         self.assertIsNotNone(found, said)
         self.assertIn(" --resume 'a place/deck.nml' --set 'scene.title=it'\\''s' --output kept", found[2])
         done = subprocess.run(found[2], shell=True, cwd=self.folder, capture_output=True, text=True, check=True)
