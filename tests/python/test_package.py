@@ -30,7 +30,7 @@ from tables import Table
 from virtual_environment import go_on_with
 
 # Half a unit of the last of the 16 digits that tables have.
-DIGITS = 1e-15
+DIGITS, STRESS_DIGITS = 1e-15, 1e-11
 # Bytes that Python may hold more after many solves than after a few: caches of the interpreter.
 LEAK = 60_000
 SOLVES = 150
@@ -86,12 +86,16 @@ class PackageTest(ProgramTest):
         self.assertEqual(table.columns, list(rows.dtype.names))
         self.assertEqual(len(table.records()), len(rows))
         for column in table.columns:
+            # Small components of stresses have the rounding of the large ones, by the LAPACK of program and library, and
+            # their largest values that of a search.
+            numbers = rows[column] if rows[column].dtype.kind == "f" else numpy.zeros(1)
+            rounding = (STRESS_DIGITS if "stress" in str(path) else DIGITS)*numpy.nanmax(abs(numbers), initial=0.0)
             for record, value in zip(table.records(), rows[column].tolist()):
                 with self.subTest(table=str(path), column=column):
                     if isinstance(value, str):
                         self.assertEqual(record[column], value)
                     elif value == value or float(record[column]) == float(record[column]):
-                        self.assertLessEqual(abs(float(record[column]) - value), DIGITS*abs(value))
+                        self.assertLessEqual(abs(float(record[column]) - value), max(rounding, DIGITS*abs(value)))
 
     def refuse(self, words, function, *arguments, error=ValueError, **options):
         with self.subTest(words=words), self.assertRaisesRegex(error, words):
@@ -239,7 +243,7 @@ class Misuse(PackageTest):
             self.refuse("shape", wc.heights, bad)
         ragged = [[1, 2], [3]]
         self.refuse("", wc.heights, ragged)
-        for words, surface in {"4 to 1048576": wc.heights(numpy.zeros((2, 2))),
+        for words, surface in {"3 to 1048576": wc.heights(numpy.zeros((2, 2))),
                                "missing": wc.heights([[1.0, numpy.nan]*4]*4),
                                "not all heights are finite": wc.heights([[1.0, numpy.inf]*4]*4),
                                "there is no key": wc.wave_2d(amplitud=1),
