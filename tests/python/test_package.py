@@ -86,7 +86,7 @@ class PackageTest(ProgramTest):
         self.assertEqual(table.columns, list(rows.dtype.names))
         self.assertEqual(len(table.records()), len(rows))
         for column in table.columns:
-            # Small components of stresses have the rounding of the large ones, by the LAPACK of program and library, and
+            # Small components of stresses have the rounding of large ones, by the LAPACK of program and library, and
             # their largest values that of a search.
             numbers = rows[column] if rows[column].dtype.kind == "f" else numpy.zeros(1)
             rounding = (STRESS_DIGITS if "stress" in str(path) else DIGITS)*numpy.nanmax(abs(numbers), initial=0.0)
