@@ -180,7 +180,9 @@ contains
       real(dp), intent(in) :: pbar_over_pstar
       type(sequence_answer), intent(out) :: answer
 
-      associate (accuracy => self%options%accuracy*10.0_dp**self%level, points => self%options%points/2**self%level, &
+      ! In 1-D the second number of points stays 1.
+      associate (accuracy => self%options%accuracy*10.0_dp**self%level, &
+                 points => max(self%options%points/2**self%level, min(self%options%points, 1)), &
                  residual => self%options%residual)
          if (associated(self%progress)) then
             call solve_by_sequence(surface, pbar_over_pstar, accuracy, points, answer, self%progress, residual)

@@ -1,4 +1,4 @@
-!> Interpolates a pressure to a grid of half the step, linearly between the points of the coarser grid.
+!> Interpolates a pressure to a finer grid, linearly between the points of the coarser grid.
 module wavycon_grid_refinement
    use wavycon_grid_points, only: image_of_point
    use wavycon_grid_slab, only: grid_slab
@@ -10,80 +10,73 @@ module wavycon_grid_refinement
 
 contains
 
-   !> The points are those of wavycon_grid_points. The mean of the pressure does not change.
+   !> The points are those of wavycon_grid_points. Where their number doubles the mean of the pressure does not change.
    subroutine refine_pressure(coarse, coarse_slab, even, fine_slab, fine)
       real(dp), intent(in), contiguous :: coarse(:, :)   !! own columns, shape (M, coarse_slab%columns())
       type(grid_slab), intent(in) :: coarse_slab         !! of M x N points; N = 1 in 1-D
       logical, intent(in) :: even                        !! whether the points are those of a quarter of the cell
-      type(grid_slab), intent(in) :: fine_slab           !! of 2M x 2N or 2M x 1 points; distributed if coarse_slab is
-      real(dp), allocatable, intent(out) :: fine(:, :)   !! own columns, shape (2M, fine_slab%columns())
+      type(grid_slab), intent(in) :: fine_slab           !! of more points; distributed if coarse_slab is
+      real(dp), allocatable, intent(out) :: fine(:, :)   !! own columns, shape (M', fine_slab%columns())
 
       real(dp), allocatable :: needed(:, :)
-      integer :: first, last, side
+      integer :: before(fine_slab%points(1)), column, first, j, last
+      real(dp) :: line(size(coarse, 1)), rest, rests(fine_slab%points(1))
 
       allocate (fine(fine_slab%points(1), fine_slab%columns()))
+      do j = 1, fine_slab%points(1)
+         call find_place(j, fine_slab%points(1), coarse_slab%points(1), even, before(j), rests(j))
+      end do
       if (fine_slab%points(2) == 1) then
-         call refine_line(coarse(:, 1), even, fine(:, 1))
+         call refine_line(coarse(:, 1), even, before, rests, fine(:, 1))
          return
       end if
-      ! The coarse columns of the own fine ones, and one more on each side: the next column or its image.
-      side = merge(1, 0, fine_slab%columns() > 0)
-      first = (fine_slab%first + 1)/2 - side
-      last = fine_slab%last/2 + side
-      allocate (needed(coarse_slab%points(1), first:last))
+      ! The coarse columns about the own fine ones, or their images.
+      call find_place(fine_slab%first, fine_slab%points(2), coarse_slab%points(2), even, first, rest)
+      call find_place(fine_slab%last, fine_slab%points(2), coarse_slab%points(2), even, last, rest)
+      if (fine_slab%columns() == 0) last = first - 2
+      allocate (needed(coarse_slab%points(1), first:last + 1))
       call coarse_slab%fetch(coarse, even, first, needed)
-      call refine_columns(needed, first, even, fine_slab, fine)
+      do j = fine_slab%first, fine_slab%last
+         call find_place(j, fine_slab%points(2), coarse_slab%points(2), even, column, rest)
+         line = (1.0_dp - rest)*needed(:, column)
+         if (rest > 0.0_dp) line = line + rest*needed(:, column + 1)
+         call refine_line(line, even, before, rests, fine(:, j - fine_slab%first + 1))
+      end do
    end subroutine refine_pressure
 
-   !> The own fine columns from the coarse columns that they need.
-   pure subroutine refine_columns(coarse, start, even, fine_slab, fine)
-      integer, intent(in) :: start                  !! the first of the coarse columns; 0: an image
-      real(dp), intent(in) :: coarse(:, start:)
+   !> The coarse point before a fine one, and the rest of the way in coarse steps. Points of a quarter lie midway between
+   !> the lines of the grid.
+   pure subroutine find_place(point, fine_points, coarse_points, even, before, rest)
+      integer, intent(in) :: point, fine_points, coarse_points
       logical, intent(in) :: even
-      type(grid_slab), intent(in) :: fine_slab
-      real(dp), intent(inout) :: fine(:, :)
+      integer, intent(out) :: before   !! 0 .. coarse_points
+      real(dp), intent(out) :: rest    !! 0 <= rest < 1
 
-      integer :: j, near, other
-      real(dp) :: part
+      real(dp) :: middle, place
 
-      do j = fine_slab%first, fine_slab%last
-         near = (j + 1)/2
-         other = near + merge(1, -1, mod(j, 2) == 0)
-         part = parts(2 - mod(j, 2), even)
-         call refine_line(part*coarse(:, near) + (1.0_dp - part)*coarse(:, other), even, &
-                          fine(:, j - fine_slab%first + 1))
-      end do
-   end subroutine refine_columns
+      middle = merge(0.5_dp, 0.0_dp, even)
+      place = (point - 1 + middle)*coarse_points/fine_points + 1.0_dp - middle
+      before = floor(place)
+      rest = place - before
+   end subroutine find_place
 
-   !> Twice as many points along a line.
-   pure subroutine refine_line(coarse, even, fine)
+   !> The points along a line.
+   pure subroutine refine_line(coarse, even, before, rests, fine)
       real(dp), intent(in) :: coarse(:)    !! shape (M)
       logical, intent(in) :: even
-      real(dp), intent(out) :: fine(:)     !! shape (2M)
+      integer, intent(in) :: before(:)     !! of `find_place`, shape (M')
+      real(dp), intent(in) :: rests(:)
+      real(dp), intent(out) :: fine(:)     !! shape (M')
 
-      integer :: m
+      real(dp) :: extended(0:size(coarse) + 1)
 
-      m = size(coarse)
-      if (.not. any(coarse > 0.0_dp)) then
-         fine = 0.0_dp
-         return
-      end if
-      fine(1::2) = parts(1, even)*coarse
-      fine(3::2) = fine(3::2) + (1.0_dp - parts(1, even))*coarse(:m - 1)
-      fine(1) = fine(1) + (1.0_dp - parts(1, even))*coarse(image_of_point(0, m, even))
-      fine(2::2) = parts(2, even)*coarse
-      fine(2:2*m - 2:2) = fine(2:2*m - 2:2) + (1.0_dp - parts(2, even))*coarse(2:)
-      fine(2*m) = fine(2*m) + (1.0_dp - parts(2, even))*coarse(image_of_point(m + 1, m, even))
+      fine = 0.0_dp
+      if (.not. any(coarse > 0.0_dp)) return
+      associate (m => size(coarse))
+         extended(1:m) = coarse
+         extended([0, m + 1]) = coarse(image_of_point([0, m + 1], m, even))
+      end associate
+      fine = (1.0_dp - rests)*extended(before) + rests*extended(before + 1)
    end subroutine refine_line
-
-   !> The weight of the nearest coarse point in the first or second of its two fine points: on a quarter of the cell it
-   !> lies midway between both, on a whole cell at the first.
-   pure real(dp) function parts(k, even)
-      integer, intent(in) :: k
-      logical, intent(in) :: even
-
-      parts = 0.75_dp
-      if (.not. even) parts = merge(1.0_dp, 0.5_dp, k == 1)
-   end function parts
 
 end module wavycon_grid_refinement

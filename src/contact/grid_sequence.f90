@@ -12,7 +12,7 @@ module wavycon_grid_sequence
    use wavycon_grid_edge, only: grid_edge, joined, make_grid_edge, pressure_per_gap, start_grid_edge
    use wavycon_grid_error, only: change_history, estimate_errors, unresolved_errors
    use wavycon_grid_peak, only: grid_peak_pressure
-   use wavycon_grid_plan, only: finer_grid, fits_memory, grid_plan, plan_grids
+   use wavycon_grid_plan, only: fits_memory, grid_plan, plan_grids
    use wavycon_grid_refinement, only: refine_pressure
    use wavycon_grid_slab, only: grid_slab
    use wavycon_grid_solver, only: grid_state, solve_on_grid
@@ -101,7 +101,7 @@ contains
                                       answer%state%iterations, answer%state%residual)
          ! No finer grid starts from a solution that has not converged.
          if (answer%accurate .or. last .or. .not. answer%state%converged) exit
-         grid = finer_grid(grid)
+         grid = plan%next(grid)
          if (.not. fits_memory(grid)) then
             answer%out_of_memory = .true.
             exit

@@ -158,7 +158,7 @@ contains
       end do
       loads = ' of '//integer_text(size(results%loads))//' loads'
       if (unknown > 0) call log%say('note: the errors of '//integer_text(unknown)//loads//' are unknown: a grid has'// &
-         ' error estimates if its points are multiples of 4, from 64 a side. Give such grid_points, or an accuracy')
+         ' error estimates from 64 points a side on. Give more grid_points, or an accuracy')
       if (all(coarse == 0)) return
       do i = 1, size(values)
          values(i) = trim(values(i))//' at '//integer_text(coarse(i))

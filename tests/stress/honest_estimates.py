@@ -66,7 +66,7 @@ def free_case(stream):
         loads = [force*10.0**stream.uniform(0.0, 0.5) for force in (1e-6, 1e-5, 1e-4)]
         methods = [f"accuracy = {each!r}" for each in (accuracy, accuracy/FINER)]
     else:
-        points = stream.choice((64, 128, 256))
+        points = stream.choice((64, 99, 128, 255))
         surface = (f"kind = 'self_affine', edges = 'free', points = {points}, rms_slope = {10.0**stream.uniform(-3, -1)!r},\n"
                    f"   form_radius = {radius!r}, hurst = {stream.choice((0.3, 0.8, 1.0))!r},\n"
                    f"   long_wavelength = {stream.choice((0.25, 1.0))!r},\n"

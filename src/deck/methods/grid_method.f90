@@ -60,8 +60,8 @@ contains
       keys(1) = accuracy_key()
       keys(2) = integer_key('grid_points', '', &
          'in place of accuracy: points of the cell along x and y of the one grid to solve; one number for both. '// &
-         'Even numbers. For height maps, read or made, the default is their own grid. Errors are estimated for '// &
-         'multiples of 4 from 64 points a side; those of others are unknown.', 8, 1048576, most_values=2, way=2)
+         'Even numbers. For height maps, read or made, the default is their own grid. Errors are estimated '// &
+         'from 64 points a side on; those of coarser grids are unknown.', 8, 1048576, most_values=2, way=2)
       keys(3) = real_key('residual', '', '-', &
          'with grid_points or a height map on its own points: largest root mean square over the grid of gaps in '// &
          'contact and of overlaps, over the mean gap, for comparisons with other programs. The default keeps the '// &
