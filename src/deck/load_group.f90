@@ -131,10 +131,13 @@ contains
       if (p_star <= 0.0_dp) then
          if (loads_by /= by_pressure) call values%complain(problems, given, &
             'the surface is flat: give its loads by pressure, not by gap, area or yield')
-      else if (any(key == ['mean_pressure', 'force        ']) .and. .not. surface%has_free_edges .and. &
+      else if (any(key == ['mean_pressure', 'force        ']) .and. &
                maxval(pressures_of_loads(key, loads, surface, p_star)) > largest_pbar_over_pstar*p_star) then
+         given = ' times p* = '//short_number(p_star)
+         ! There p* is a modulus times a slope.
+         if (surface%has_free_edges) given = ' times what presses the map flat'
          call values%complain(problems, key, key//' = '//short_number(worst)//' is more than '// &
-            short_number(largest_pbar_over_pstar)//' times p* = '//short_number(p_star)// &
+            short_number(largest_pbar_over_pstar)//given// &
             '. Do its unit and that of e_star agree, and those of the lengths?')
       else if (key == 'mean_gap' .and. worst > surface%amplitude) then
          call values%complain(problems, key, 'mean_gap = '//short_number(worst)// &

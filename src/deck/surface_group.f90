@@ -1,6 +1,7 @@
 !> The &surface group: the gap between the bodies. Its keys are those of the kinds of surface.
 module wavycon_surface_group
-   use wavycon_error, only: error_type
+   use wavycon_constants, only: largest_number, smallest_number
+   use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_group_values, only: group_values
    use wavycon_height_map_kind, only: surface_of_heights
    use wavycon_key_alternatives, only: alternative_group, alternative_type, check_alternatives
@@ -97,6 +98,13 @@ contains
          call surface_of_heights(values, heights, surface, map, error)
       else
          call kind%make(values, surface, map, error)
+      end if
+      if (.not. allocated(error)) then
+         if (surface%has_free_edges .and. surface%amplitude > 0.0_dp .and. &
+             (surface%amplitude < smallest_number .or. surface%amplitude > largest_number)) &
+            call fatal_error(error, exit_bad_input, escaped(values%deck_path)//': the mean gap before load is '// &
+                             short_number(surface%amplitude)//' [length]: lengths may be from '// &
+                             short_number(smallest_number)//' to '//short_number(largest_number))
       end if
       if (allocated(error)) deallocate (surface)
    end subroutine make_surface

@@ -29,7 +29,7 @@ contains
 
    !> The contact under a force.
    pure type(hertz_ball) function hertz_of_force(radii, e_star, force) result(contact)
-      real(dp), intent(in) :: radii(2)   !! along x and y [length], > 0
+      real(dp), intent(in) :: radii(2)   !! along x and y [length], > 0; up to 1e8 times one another
       real(dp), intent(in) :: e_star     !! [pressure], > 0
       real(dp), intent(in) :: force      !! >= 0
 
@@ -131,6 +131,8 @@ contains
          real(dp) :: modulus
 
          modulus = sqrt((1.0_dp - ratio)*(1.0_dp + ratio))
+         ! The integrals of modulus 1 are infinite.
+         modulus = min(modulus, 1.0_dp - epsilon(modulus))
          first_kind = gsl_sf_ellint_Kcomp(modulus, all_digits)
          d = gsl_sf_ellint_Dcomp(modulus, all_digits)
       end subroutine integrals

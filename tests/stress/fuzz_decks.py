@@ -38,6 +38,10 @@ LARGE = SMALL + [
     "&surface kind = 'self_affine', length_x = 1, length_y = 2, hurst = 0.5, rms_slope = 0.1, long_wavelength = 1.5,\n"
     "   rolloff_wavelength = 0.5, short_wavelength = 0.2, spectrum = 'random', seed = 3, points = 12, 24 /\n"
     "&load pbar_over_pstar = 0.1 /\n&method grid_points = 16, 32 /\n",
+    "&surface kind = 'ball', radius_x = 1, radius_y = 2 /\n&load force = 0.001, 0.1 /\n&method accuracy = 0.1 /\n",
+    "&surface kind = 'ball', radius = 1, length_x = 0.5, points = 16 /\n&load approach = 0.01 /\n&material hardness = 0.1 /\n",
+    "&surface kind = 'self_affine', rms_slope = 0.1, points = 16, short_wavelength = 0.3, edges = 'free',\n"
+    "   form_radius = 3 /\n&load contact_area = 0.1 /\n&stress nu = 0.3, section = 'x' /\n",
 ]
 HEIGHTS = "".join(" ".join(str((3*i*i + 5*j + i*j) % 7) for i in range(8)) + "\n" for j in range(8))
 

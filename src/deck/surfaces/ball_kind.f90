@@ -10,7 +10,7 @@ module wavycon_ball_kind
    use wavycon_map_statistics, only: map_statistics
    use wavycon_problems, only: problem_list_type
    use wavycon_surface, only: surface_of_ball, surface_type
-   use wavycon_surface_kind, only: form_radius_keys, length_x_key, length_y_key, radii_of, surface_kind
+   use wavycon_surface_kind, only: check_radii, form_radius_keys, length_x_key, length_y_key, radii_of, surface_kind
    implicit none (type, external)
    private
 
@@ -44,10 +44,7 @@ contains
 
       if (.not. (values%has('radius') .or. values%has('radius_x') .or. values%has('radius_y'))) &
          call values%complain(problems, 'kind', "kind = 'ball' needs radius, or radius_x and radius_y")
-      call values%forbid(problems, 'radius', 'radius_x', 'give radius, or radius_x and radius_y')
-      call values%forbid(problems, 'radius', 'radius_y', 'give radius, or radius_x and radius_y')
-      call values%require(problems, 'radius_x', 'radius_y')
-      call values%require(problems, 'radius_y', 'radius_x')
+      call check_radii(values, problems, 'radius')
       call values%require(problems, 'length_y', 'length_x')
    end subroutine check
 

@@ -201,7 +201,7 @@ contains
       call self_affine_surface(escaped(values%deck_path)//": kind = 'self_affine'", spectrum_of(values), &
                                values%integers('points'), surface, map, error, values%text('edges') == 'free', &
                                radii_of(values, 'form_radius'))
-      map%changes%edges = values%text('edges')
+      if (.not. allocated(error)) map%changes%edges = values%text('edges')
    end subroutine make
 
 end module wavycon_self_affine_kind

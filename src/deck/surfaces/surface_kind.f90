@@ -7,12 +7,13 @@ module wavycon_surface_kind
    use wavycon_key_table, only: key_type, real_key
    use wavycon_kinds, only: dp
    use wavycon_map_statistics, only: map_statistics
+   use wavycon_plain_text, only: short_number
    use wavycon_problems, only: problem_list_type
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
 
-   public :: check_form, form_radius_keys, length_x_key, length_y_key, radii_of, surface_kind
+   public :: check_form, check_radii, form_radius_keys, length_x_key, length_y_key, radii_of, surface_kind
 
    !> A value of the key `kind`. A key that two kinds read must have the same type, unit and bounds in both; its meaning
    !> may differ.
@@ -99,9 +100,27 @@ contains
          if (values%has(trim(keys(k))) .and. values%text('edges') /= 'free') call values%complain(problems, &
             trim(keys(k)), trim(keys(k))//" is for edges = 'free': a ball is not periodic")
       end do
-      call values%require(problems, 'form_radius_x', 'form_radius_y')
-      call values%require(problems, 'form_radius_y', 'form_radius_x')
+      call check_radii(values, problems, 'form_radius')
    end subroutine check_form
+
+   !> Reports one of two radii without the other, radii beside one for both, and radii too unlike each other.
+   subroutine check_radii(values, problems, name)
+      type(group_values), intent(in) :: values
+      type(problem_list_type), intent(inout) :: problems
+      character(*), intent(in) :: name   !! as of form_radius_keys
+
+      real(dp), parameter :: largest_ratio = 1e4_dp
+      real(dp) :: radii(2)
+
+      call values%forbid(problems, name, name//'_x', 'give '//name//', or '//name//'_x and '//name//'_y')
+      call values%forbid(problems, name, name//'_y', 'give '//name//', or '//name//'_x and '//name//'_y')
+      call values%require(problems, name//'_x', name//'_y')
+      call values%require(problems, name//'_y', name//'_x')
+      if (values%any_bad() .or. .not. (values%has(name//'_x') .and. values%has(name//'_y'))) return
+      radii = radii_of(values, name)
+      if (maxval(radii) > largest_ratio*minval(radii)) call values%complain(problems, name//'_x', name//'_x and '// &
+         name//'_y must be within a factor of '//short_number(largest_ratio)//'; for a roller give a profile')
+   end subroutine check_radii
 
    !> The radii along x and y that these keys give [length]; huge where they give none.
    pure function radii_of(values, name) result(radii)
