@@ -9,8 +9,33 @@ static _Thread_local int has_lock = 0;
 /* Solves that this thread is in: a callback may call the library, which solves another load. */
 static _Thread_local int solves = 0;
 
+/* A process that forks waits until no other thread is in the library, so that all is whole in the child, whose lock is
+   free. Python deletes objects of other threads in the child before its own hooks run. */
+static void before_fork(void)
+{
+    pthread_mutex_lock(&lock);
+}
+
+static void in_parent(void)
+{
+    pthread_mutex_unlock(&lock);
+}
+
+static void in_child(void)
+{
+    pthread_mutex_init(&lock, NULL);
+    pthread_cond_init(&load_solved, NULL);
+}
+
+static void note_forks(void)
+{
+    pthread_atfork(before_fork, in_parent, in_child);
+}
+
 void wavycon_lock(void)
 {
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    pthread_once(&once, note_forks);
     pthread_mutex_lock(&lock);
     has_lock = 1;
 }

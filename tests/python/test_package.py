@@ -355,14 +355,17 @@ class Processes(PackageTest):
         results = solve_small()
         with concurrent.futures.ThreadPoolExecutor(1) as pool, warnings.catch_warnings():
             warnings.simplefilter("ignore")   # Python 3.12 warns of forks beside threads
-            busy = pool.submit(lambda: [solve_small() for _ in range(100)])
-            for _ in range(3):
+            busy = pool.submit(lambda: [solve_small() for _ in range(200)])
+            while not busy.running():
+                time.sleep(0.001)
+            for _ in range(10):
                 child = os.fork()
                 if child == 0:
+                    signal.alarm(10)   # ends a child that waits for ever
                     fine = results[0].pressure.max() > 0 and solve_small()[0].status_code == 1
                     os._exit(0 if fine else 1)
                 self.assertEqual(0, os.waitpid(child, 0)[1])
-            self.assertEqual(100, len(busy.result()))
+            self.assertEqual(200, len(busy.result()))
 
     def test_ctrl_c(self):
         """Ctrl-C ends a solve within a second, and the interpreter goes on."""

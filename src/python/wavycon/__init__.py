@@ -30,4 +30,4 @@ def __getattr__(name):
 
 
 def __dir__():
-    return [*globals(), *_KINDS_BY_NAME, *keys()["surface"]["kind"]["choices"]]
+    return [*__all__, "__version__", *_KINDS_BY_NAME, *keys()["surface"]["kind"]["choices"]]

@@ -4,7 +4,6 @@ Errors are exceptions: ValueError for what is wrong in a call, OSError for files
 """
 import functools
 import json
-import os
 import sys
 import threading
 from ctypes import CDLL, CFUNCTYPE, byref, c_char_p, c_double, c_int, c_size_t, c_void_p, create_string_buffer
@@ -40,8 +39,6 @@ lib.wavycon_get_message.restype = c_size_t
 functions = {name: getattr(lib, "wavycon_" + name) for name in FUNCTIONS}
 for _name, (_result, _arguments) in FUNCTIONS.items():
     functions[_name].restype, functions[_name].argtypes = _result, [POINTER, *_arguments]
-# A child of this process must not find the library locked by a thread that it does not have.
-os.register_at_fork(before=lib.wavycon_lock, after_in_parent=lib.wavycon_unlock, after_in_child=lib.wavycon_unlock)
 
 
 class Handle:
