@@ -48,6 +48,7 @@ def options():
     parser.add_argument('--residual', type=float, default=1e-8, help='wanted of all (1e-8)')
     parser.add_argument('--limit', type=float, default=120.0, help='processor time of a solution [s] (120)')
     parser.add_argument('--repeats', type=int, default=3, help='solutions behind a time (3)')
+    parser.add_argument('--seed', type=int, default=rough_surface.SEED, help=f'of the phases ({rough_surface.SEED})')
     parser.add_argument('--table', help='file to which the rows are added')
     parser.add_argument('--head', default='', help='lines for the head of the table, of the machine')
     parser.add_argument('--missing', action='store_true', help='leave out what the table already has')
@@ -172,6 +173,7 @@ class Measurement:
 
 def main():
     given = options()
+    rough_surface.SEED = given.seed
     directory = given.peers or os.path.join(given.build, 'peers')
     pythons, notes = {}, []
     for code in given.codes:
@@ -185,7 +187,7 @@ def main():
                 notes.append(f'# {code}: SKIPPED, it could not be installed')
     head = ['# Rough surfaces: times of solutions to a residual of '
             f'{given.residual:g}, one thread each; limit {given.limit:g} s.',
-            '# load: fraction of points in contact (A) or P, the mean pressure over p*.',
+            f'# load: fraction of points in contact (A) or P, the mean pressure over p*. Seed of the phases: {given.seed}.',
             *given.head.splitlines(), *notes]
     rows = read_table(given.table)
     print('\n'.join(head) + '\n' + titles(), flush=True)
