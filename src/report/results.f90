@@ -73,13 +73,21 @@ contains
          call file%put('# surface: '//self%scene%surface_kind// &
                        ', Delta['//length//'] = '//exact_number(surface%amplitude)//cell_sides())
          if (allocated(self%scene%map)) call put_statistics(self%scene, file)
-         call file%put('# material: e_star['//pressure//'] = '//exact_number(self%scene%e_star)// &
-                       ', p*['//pressure//'] = '//exact_number(self%in_p_star(self%scene%p_star)))
+         call file%put('# material: e_star['//pressure//'] = '//exact_number(self%scene%e_star)//closing_pressure())
          call file%put('# method: '//self%method)
       end associate
       call file%put_columns(column_name(columns), units)
 
    contains
+
+      !> p*, which surfaces with free edges do not have.
+      function closing_pressure() result(words)
+         character(:), allocatable :: words
+
+         words = ''
+         if (.not. self%solver%surface%has_free_edges) &
+            words = ', p*['//self%scene%pressure_unit//'] = '//exact_number(self%scene%p_star)
+      end function closing_pressure
 
       function cell_sides() result(words)
          character(:), allocatable :: words
