@@ -48,7 +48,8 @@ contains
       else if (any([(begins(trim(instruments(i))), i=1, size(instruments))])) then
          words = 'this is a file of an instrument or of Gwyddion: '//by_gwyddion
       else if (scan(head, no_text) > 0) then
-         words = 'this is no text, and no binary format that is read: '//by_gwyddion
+         words = remedy_of_name(path)
+         if (words == '') words = 'this is no text, and no binary format that is read: '//by_gwyddion
       end if
 
    contains
