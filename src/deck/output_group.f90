@@ -55,7 +55,7 @@ contains
          integer_key('map_points', "128, or the grid's", &
             'points of the map along x and y; one number for both. The default is that of the grid, if it is '// &
             'given, or of the file. Where they are those of the grid that was solved the map shows its points, '// &
-            'otherwise what lies between them.', 4, most_points, most_values=2), &
+            'otherwise what lies between them.', 3, most_points, most_values=2), &
          choice_key('map_format', "'auto'", &
             "'text'; 'npy', a file of numpy, short and fast to read; 'auto', text up to "//integer_text(text_side)// &
             ' x '//integer_text(text_side)//' points, npy beyond.', [character(4) :: 'auto', 'text', 'npy']), &

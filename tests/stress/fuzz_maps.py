@@ -488,7 +488,7 @@ def fuzz_monsters(program, seed, size, work, failures):
                   [(resource.RLIMIT_AS, bound*MEGABYTE)])
     with open(work/"heights.dat", "wb") as file:
         file.truncate(3000*MEGABYTE)
-    check("a file of 3 GB", 3, SECONDS, limits)
+    check("a file of 3 GB", 1, SECONDS, limits)
     part.worst = f"{slowest[1]:.2f} s ({slowest[0]})"
     return part
 
@@ -530,15 +530,15 @@ def odd_files(program, work, failures):
     attempt("one row", "1 2 1 0\n", 0, "map       4 x 1 points")
     attempt("one row of points", "0 0 1\n1 0 2\n2 0 1\n3 0 0\n", 0, "map       4 x 1 points (xyz)")
     attempt("1048577 columns", "1 "*1048577 + "\n", 1, "a map of 1048577 x 1 points")
-    attempt("text", "The quick brown fox\n", 1, "heights.dat:1: 'The' is no number")
+    attempt("text", "The quick brown fox\n", 1, "heights.dat: there are no numbers in this file")
     attempt("two bytes a character", good.encode("utf-16"), 1, "heights.dat: this is a text of two bytes a character")
-    attempt("two bytes, no mark", good.encode("utf-16-le"), 1, "heights.dat:1: '")
+    attempt("two bytes, no mark", good.encode("utf-16-le"), 1, "heights.dat: this is no text")
     attempt("a mark before", b"\xef\xbb\xbf" + good.encode(), 0, "map       8 x 8 points")
     attempt("no last line end", good.rstrip("\n"), 0, "map       8 x 8 points")
     attempt("CR LF", good.replace("\n", "\r\n"), 0, "map       8 x 8 points")
     attempt("CR", good.replace("\n", "\r"), 0, "map       8 x 8 points")
-    attempt("the deck itself", None, 1, "deck.nml:1: '&surface' is no number", "deck.nml", lambda path: None)
-    attempt("a program", open(sys.executable, "rb").read(100000), 1, "heights.dat:1: '\\x7FELF")
+    attempt("the deck itself", None, 1, "deck.nml: there are no numbers in this file", "deck.nml", lambda path: None)
+    attempt("a program", open(sys.executable, "rb").read(100000), 1, "heights.dat: this is no text")
     attempt("ragged", "1 2 3 4\n1 2 3 4\n1 2 3\n1 2 3 4\n", 1, "heights.dat:3: this row has 3 heights, the first has 4")
     attempt("a decimal comma", "1,5 2,5\n"*4, 1, "heights.dat:1: is '1,5' a number with a decimal comma?")
     attempt("a hole", "1 2 3 4\n1 nan 3 4\n" + square, 1, "heights.dat: 1 of 24 heights are missing")
