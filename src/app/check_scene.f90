@@ -34,11 +34,12 @@ contains
       call start_results(scene, results, tables)
       call log%show_scene(results)
       if (reason(results) /= '') call log%say('because   '//reason(results))
-      if (all(results%traits%finest_grid > 0)) &
+      if (all(results%traits%finest_grid > 0)) then
          call log%say('memory    '//memory(results, keep_fields(results%scene, tables)))
-      if (all(results%traits%finest_grid > 0)) call log%say('time      some '// &
-         duration(max(1.0_dp, seconds_of_load(results%traits%finest_grid)*size(results%scene%target)))// &
-         ' if all loads need that grid, by its transforms as measured now')
+         call log%say('time      some '// &
+            duration(max(1.0_dp, seconds_of_load(results%traits%finest_grid)*size(results%scene%target)))// &
+            ' if all loads need that grid, by its transforms as measured now')
+      end if
       call log%say('tables    '//names_of(tables)//' in '//escaped(results%scene%directory))
       call log%say(escaped(results%scene%deck_path)//': the deck is fine')
    end subroutine check_scene

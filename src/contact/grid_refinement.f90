@@ -44,8 +44,8 @@ contains
       end do
    end subroutine refine_pressure
 
-   !> The coarse point before a fine one, and the rest of the way in coarse steps. Points of a quarter lie midway between
-   !> the lines of the grid.
+   !> The coarse point before a fine one, and the rest of the way in coarse steps. Points of a quarter lie midway
+   !> between the lines of the grid.
    pure subroutine find_place(point, fine_points, coarse_points, even, before, rest)
       integer, intent(in) :: point, fine_points, coarse_points
       logical, intent(in) :: even

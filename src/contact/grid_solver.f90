@@ -85,7 +85,8 @@ contains
                            (state%residual <= most_rounding .and. 2*state%residual > last_residual)
          last_residual = state%residual
          if (state%converged .or. state%iterations >= most_iterations) exit
-         call correct_pressure(half_space, box, stencil, max(correction_part, correction_margin*allowed/state%residual), &
+         call correct_pressure(half_space, box, stencil, &
+                               max(correction_part, correction_margin*allowed/state%residual), &
                                min(correction_limit, most_iterations - state%iterations), state, progress)
          if (state%interrupted) return
       end do
@@ -94,8 +95,8 @@ contains
 
    !> Corrects the pressure until the residual has fallen to a given part.
    !>
-   !> With free edges the correction takes place on the smallest rectangle about its points, whose convolutions are those
-   !> of the whole grid.
+   !> With free edges the correction takes place on the smallest rectangle about its points, whose convolutions are
+   !> those of the whole grid.
    subroutine correct_pressure(half_space, box, stencil, part, most_iterations, state, progress)
       type(compliance_operator), intent(inout) :: half_space
       type(compliance_operator), intent(inout) :: box   !! of the last rectangle

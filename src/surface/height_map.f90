@@ -57,8 +57,9 @@ contains
       call map%keep_own_columns()
       slab = map%columns()
       if (preparation%short_wavelength > 0.0_dp .and. largest(1) <= largest_number) then
-         call leave_out_short_waves(map%points(), length, preparation%edges == 'mirror', preparation%short_wavelength, &
-                                    map%height, changes%rms_of_short)
+         ! The points of a map with free edges are those of a mirrored one: its opposite borders are no neighbours.
+         call leave_out_short_waves(map%points(), length, any(preparation%edges == ['mirror', 'free  ']), &
+                                    preparation%short_wavelength, map%height, changes%rms_of_short)
          changes%short_wavelength = preparation%short_wavelength
       end if
       call scale_heights(source, scale, slab, map%height, error)

@@ -34,8 +34,8 @@ module wavycon_surface
       !> which also interpolates its heights. p* is only a unit then, that of `stiffness` = the square root of its area,
       !> in 1-D its length: there is no full contact.
       logical :: has_free_edges = .false.
-      !> With free edges: half the curvatures along x and y of a paraboloid that is added to h, about the map's centre,
-      !> times Delta over the square of an angle.
+      !> With free edges: h/Delta contains the paraboloid form(1) (X - pi/2)^2 + form(2) (Y - pi/2)^2 about the map's
+      !> centre, less its mean.
       real(dp) :: form(2) = 0.0_dp
       real(dp) :: crest(2) = 0.0_dp             !! X, Y of a peak of the shape [rad]
       real(dp) :: stiffness = 1.0_dp            !! pressure [p*] over displacement [Delta] of a wave, times wavelength
@@ -132,8 +132,8 @@ contains
       call transform%series(height, surface%shape)
       if (lbound(surface%shape%c, 1) == 0) surface%shape%c(0, 0) = 0.0_dp
       mean = transform%slab%column_totals(reshape(sum(height, dim=1), [1, size(height, 2)]))/product(real(grid, dp))
-      if (present(radii)) then
-         surface%form = half_curvatures(surface, radii)
+      if (present(radii)) surface%form = half_curvatures(surface, radii)
+      if (any(surface%form > 0.0_dp)) then
          values = height
          call surface%subtract_form(values, [transform%x_angle(1), transform%y_angle(transform%slab%first)], &
                                     2*pi/surface%points)
