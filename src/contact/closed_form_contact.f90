@@ -10,6 +10,7 @@ module wavycon_closed_form_contact
    use wavycon_contact_contours, only: contact_contour, strip_ends
    use wavycon_field_source, only: field_source
    use wavycon_kinds, only: dp
+   use wavycon_load_derivatives, only: load_derivatives
    use wavycon_kuznetsov, only: kuznetsov_mean_gap_over_amplitude
    use wavycon_solution_record, only: by_closed_form, solution_record
    use wavycon_stress_fields, only: stress_fields
@@ -34,6 +35,7 @@ module wavycon_closed_form_contact
       procedure :: fields
       procedure :: contact_contours
       procedure :: stresses
+      procedure :: derivatives
    end type closed_form_source
 
    type, extends(contact_fields) :: closed_form_fields
@@ -150,5 +152,20 @@ contains
       answer%pbar_over_pstar = record%pbar_over_pstar
       answer%dimension = 1
    end subroutine stresses
+
+   !> Of (20) and of A = 2 psi/pi, P = sin^2 psi (7). Both ends of a strip are alike.
+   subroutine derivatives(self, record, surface, answer)
+      class(closed_form_source), intent(in) :: self
+      type(solution_record), intent(in) :: record
+      type(surface_type), intent(in) :: surface
+      type(load_derivatives), intent(out) :: answer
+
+      associate (unused => self, unused_too => surface, p => record%pbar_over_pstar)
+         answer = load_derivatives(gap_slope=log(p), gap_slope_error=0.0_dp, &
+                                   area_slope=1.0_dp/(pi*sqrt(p*(1.0_dp - p))), area_slope_error=0.0_dp, &
+                                   gap_curvature=1.0_dp/p, gap_curvature_error=0.0_dp, &
+                                   intensity_range=1.0_dp)
+      end associate
+   end subroutine derivatives
 
 end module wavycon_closed_form_contact

@@ -13,6 +13,7 @@ module wavycon_contact_solution
    use wavycon_field_source, only: field_source
    use wavycon_fourier_series, only: fourier_series
    use wavycon_kinds, only: dp
+   use wavycon_load_derivatives, only: load_derivatives
    use wavycon_series_stress, only: series_stress, start_series_stress
    use wavycon_solution_record, only: solution_record
    use wavycon_stress_fields, only: stress_fields
@@ -40,6 +41,7 @@ module wavycon_contact_solution
       procedure :: spots
       procedure :: coefficients
       procedure :: details
+      procedure :: derivatives
       procedure :: distributed_points
       procedure :: collect_fields
    end type contact_solution
@@ -176,6 +178,20 @@ contains
       found = allocated(self%source)
       if (found) call self%source%details(answer, found)
    end subroutine details
+
+   !> How the solution changes with the load. In full contact the gap stays closed; without load and for a partial
+   !> contact without a source nothing is known.
+   subroutine derivatives(self, surface, answer)
+      class(contact_solution), intent(in) :: self
+      type(surface_type), intent(in) :: surface      !! that was solved
+      type(load_derivatives), intent(out) :: answer
+
+      if (allocated(self%source)) then
+         call self%source%derivatives(self%solution_record, surface, answer)
+      else if (self%status == full_contact) then
+         answer = load_derivatives(gap_slope=0.0_dp, gap_slope_error=0.0_dp, area_slope=0.0_dp, area_slope_error=0.0_dp)
+      end if
+   end subroutine derivatives
 
    !> The points of the grid if its columns are distributed over the ranks, otherwise 0.
    pure integer(int64) function distributed_points(self)

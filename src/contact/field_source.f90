@@ -9,6 +9,7 @@ module wavycon_field_source
    use wavycon_contact_contours, only: contact_contour
    use wavycon_fourier_series, only: fourier_series
    use wavycon_kinds, only: dp
+   use wavycon_load_derivatives, only: load_derivatives
    use wavycon_solution_record, only: solution_record
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type
@@ -28,6 +29,7 @@ module wavycon_field_source
       procedure(stresses_of_source), deferred :: stresses
       procedure :: coefficients
       procedure :: details
+      procedure :: derivatives
       procedure :: collect
    end type field_source
 
@@ -82,6 +84,16 @@ contains
       associate (unused => self, none => answer); end associate
       found = .false.
    end subroutine details
+
+   !> How the solution changes with the load. Here nothing is known.
+   subroutine derivatives(self, record, surface, answer)
+      class(field_source), intent(in) :: self
+      type(solution_record), intent(in) :: record    !! of the solution
+      type(surface_type), intent(in) :: surface      !! that was solved
+      type(load_derivatives), intent(out) :: answer
+
+      associate (unused => self, unused_too => record, unused_three => surface, none => answer); end associate
+   end subroutine derivatives
 
    !> Brings what is distributed over the ranks to the first rank. All ranks call it. Here nothing is distributed.
    subroutine collect(self, is_here)
