@@ -12,6 +12,8 @@ module wavycon_fitted_source
    use wavycon_fitted_frame, only: fitted_frame
    use wavycon_fitted_stress_fields, only: fitted_stress_fields, start_fitted_stress_fields
    use wavycon_kinds, only: dp
+   use wavycon_load_derivatives, only: load_derivatives
+   use wavycon_load_slopes, only: find_load_slopes
    use wavycon_solution_record, only: solution_record
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type
@@ -31,6 +33,7 @@ module wavycon_fitted_source
       procedure :: contact_contours
       procedure :: stresses
       procedure :: details
+      procedure :: derivatives
    end type fitted_source
 
    type, extends(contact_fields) :: fitted_contact_fields
@@ -216,5 +219,27 @@ contains
                perimeter=self%answer%perimeter*self%frame%side, &
                perimeter_error=self%answer%perimeter_error*self%frame%side, degree=self%answer%degree)
    end subroutine details
+
+   !> From one more linear system of Newton's method, in units of p*.
+   subroutine derivatives(self, record, surface, answer)
+      class(fitted_source), intent(in) :: self
+      type(solution_record), intent(in) :: record
+      type(surface_type), intent(in) :: surface
+      type(load_derivatives), intent(out) :: answer
+
+      logical :: found
+      real(dp) :: errors(3), range(2), slopes(3)
+
+      associate (unused => record, unused_too => surface); end associate
+      call find_load_slopes(self%lattice, self%answer, slopes, errors, range, found)
+      if (.not. found) return
+      associate (units => self%frame%pressure_unit**[1, 1, 2])
+         slopes = slopes/units
+         errors = errors/units
+      end associate
+      answer = load_derivatives(gap_slope=slopes(1), gap_slope_error=errors(1), &
+                                area_slope=slopes(2), area_slope_error=errors(2), &
+                                gap_curvature=slopes(3), gap_curvature_error=errors(3), intensity_range=range)
+   end subroutine derivatives
 
 end module wavycon_fitted_source

@@ -37,12 +37,13 @@ module wavycon_contact_equations
       real(dp), allocatable :: values(:, :)      !! of the basis at the rule's points, shape (n, N)
       real(dp), allocatable :: matrix(:, :)      !! derivatives of the left sides, shape (m, unknowns)
       real(dp), allocatable :: residual(:)       !! right sides less left sides, shape (m) [Delta], a pool's [p*]
-      real(dp), allocatable :: load_row(:)       !! derivatives of the load that a spot bears, shape (unknowns)
+      !> derivatives of the integral of p or g: of the load that a spot bears, shape (unknowns)
+      real(dp), allocatable :: load_row(:)
       type(lattice_images) :: images
    contains
       procedure :: linearise
       procedure, private :: linearise_known_side
-      procedure, private :: linearise_load
+      procedure :: linearise_load
       procedure :: integral
    end type contact_equations
 
@@ -181,7 +182,7 @@ contains
       end do
    end subroutine linearise_known_side
 
-   !> Derivatives of the load that a spot bears, the left side of README.md (F9).
+   !> Derivatives of the integral of p over a spot, the left side of README.md (F9), or of g over a pool.
    subroutine linearise_load(self, now)
       class(contact_equations), intent(inout) :: self
       type(expansion), intent(in) :: now
@@ -190,8 +191,8 @@ contains
       real(dp) :: weighted(size(self%rule%point), now%basis%terms)
 
       call linearise_sources(now%shape, self%rule, self%values, now%c, weighted, strength_slope, moment_x, moment_y)
+      self%load_row = 0.0_dp
       self%load_row(:now%basis%terms) = sum(weighted, 1)
-      self%load_row(now%basis%terms + 1) = 0.0_dp
       self%load_row(self%before_shape + 1:) = sum(strength_slope, 1)
    end subroutine linearise_load
 

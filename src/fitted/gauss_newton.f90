@@ -10,7 +10,7 @@ module wavycon_gauss_newton
    implicit none (type, external)
    private
 
-   public :: gauss_newton_step, solve_equations
+   public :: change_with_load, gauss_newton_step, solve_equations
 
    !> Change of a step over the square of the one before, while convergence is quadratic.
    real(dp), parameter, public :: change_per_square = 10.0_dp
@@ -100,6 +100,26 @@ contains
       valid = now%shape%b(0) > 0.0_dp &
          .and. now%shape%jacobian((0.0_dp, 0.0_dp)) > least_centre_jacobian*now%shape%b(0)**2
    end subroutine gauss_newton_step
+
+   !> How the unknowns change with the load, at a solution: the derivative of the equations in place of their residual.
+   subroutine change_with_load(equations, lattice, load, now, change, finite)
+      type(contact_equations), intent(inout) :: equations  !! started for expansions like `now`
+      type(wave_lattice), intent(in) :: lattice
+      real(dp), intent(in) :: load                         !! P
+      type(expansion), intent(in) :: now                   !! the solution
+      real(dp), allocatable, intent(out) :: change(:)      !! per P, shape (unknowns), as the columns of the matrix
+      logical, intent(out) :: finite                       !! otherwise the change is of no use
+
+      real(dp) :: misfit
+
+      allocate (change(equations%unknowns), source=0.0_dp)
+      call equations%linearise(lattice, load, now)
+      if (now%pool) call equations%linearise_load(now)
+      finite = all(ieee_is_finite(equations%matrix))
+      if (.not. finite) return
+      equations%residual = merge(1.0_dp, 0.0_dp, now%pool)
+      call least_squares_step(equations, .not. now%pool, lattice%area, change, misfit, finite)
+   end subroutine change_with_load
 
    !> Solves the linear least-squares problem by LAPACK; overwrites the equations' matrix and residual.
    subroutine least_squares_step(equations, with_load, missing_load, step, misfit, finite)

@@ -1,0 +1,117 @@
+!> How an expansion changes with the load: the derivatives of mean gap and contact area, and the stress intensity of the
+!> change along the edge. Equations (I..) are those of src/interface/README.md.
+module wavycon_load_slopes
+   use wavycon_constants, only: pi
+   use wavycon_contact_equations, only: contact_equations, start_equations
+   use wavycon_error_estimate, only: at_point, error_estimate
+   use wavycon_expansion, only: expansion
+   use wavycon_fitted_answer, only: fitted_answer, most_previous
+   use wavycon_fitted_tuning, only: series_growth
+   use wavycon_gauss_newton, only: change_with_load
+   use wavycon_kinds, only: dp
+   use wavycon_lattice_images, only: lattice_images
+   use wavycon_merging_ratio, only: merging_ratio
+   use wavycon_wave_lattice, only: wave_lattice
+   implicit none (type, external)
+   private
+
+   public :: find_load_slopes
+
+   !> Numbers in an array of slopes: G', A' of the contact area fraction, G''.
+   integer, parameter :: number_of_slopes = 3
+   !> Points of half a sector of the edge, beyond the degree: the integrals along it converge exponentially.
+   integer, parameter :: least_edge_points = 32, edge_points_per_degree = 4
+
+contains
+
+   !> The derivatives of a solution, with errors estimated from those of the lower degrees.
+   subroutine find_load_slopes(lattice, answer, slopes, errors, intensity_range, found)
+      type(wave_lattice), intent(in) :: lattice    !! the answer's
+      type(fitted_answer), intent(in) :: answer    !! with a solution, status <= fitted_less_exact
+      real(dp), intent(out) :: slopes(number_of_slopes)
+         !! G', A', G'' [Delta, 1, Delta over the pressure, for G'' its square; pressures in pi E* Delta/s]
+      real(dp), intent(out) :: errors(number_of_slopes)   !! estimates of their errors
+      real(dp), intent(out) :: intensity_range(2)         !! as of `load_derivatives`
+      logical, intent(out) :: found                       !! otherwise the equations have no finite solution
+
+      real(dp) :: at(number_of_slopes, 0:most_previous), range(2)
+      real(dp), dimension(number_of_slopes) :: difference, previous_difference
+      logical :: found_too
+      integer :: k
+
+      call slopes_of(lattice, answer%pbar_over_pstar, answer%solution, slopes, intensity_range, found)
+      at(:, 0) = slopes
+      do k = 1, min(2, size(answer%previous))
+         call slopes_of(lattice, answer%pbar_over_pstar, answer%previous(k), at(:, k), range, found_too)
+         found = found .and. found_too
+      end do
+      if (.not. found) return
+      errors = abs(slopes)
+      if (size(answer%previous) == 0) return
+      difference = abs(at(:, 0) - at(:, 1))
+      previous_difference = huge(1.0_dp)
+      if (size(answer%previous) > 1) previous_difference = abs(at(:, 1) - at(:, 2))
+      ! The edge's velocity is no integral over the spot.
+      call error_estimate(difference, previous_difference, at_point(answer%misfit_decay), abs(slopes), errors)
+   end subroutine find_load_slopes
+
+   !> The derivatives of one expansion.
+   subroutine slopes_of(lattice, load, now, slopes, intensity_range, found)
+      type(wave_lattice), intent(in) :: lattice
+      real(dp), intent(in) :: load            !! P
+      type(expansion), intent(in) :: now
+      real(dp), intent(out) :: slopes(number_of_slopes), intensity_range(2)
+      logical, intent(out) :: found
+
+      type(contact_equations) :: equations
+      type(lattice_images) :: images
+      real(dp), allocatable :: change(:)
+
+      call images%prepare(lattice, now, series_growth, epsilon(1.0_dp))
+      call start_equations(equations, now, merging_ratio(lattice, now), images)
+      call change_with_load(equations, lattice, load, now, change, found)
+      if (.not. found) return
+      if (now%pool) then
+         slopes(1) = lattice%troughs*dot_product(equations%load_row, change)/lattice%area
+      else
+         slopes(1) = -change(now%basis%terms + 1)
+      end if
+      call follow_edge(lattice, now, change(equations%before_shape + 1:), slopes(2:), intensity_range)
+   end subroutine slopes_of
+
+   !> A' and G'' (I4), (I5), as integrals along the edge of its velocity and of the stress intensity (I6), (I7).
+   subroutine follow_edge(lattice, now, shape_change, slopes, intensity_range)
+      type(wave_lattice), intent(in) :: lattice
+      type(expansion), intent(in) :: now
+      real(dp), intent(in) :: shape_change(0:)   !! db_k/dP
+      real(dp), intent(out) :: slopes(2), intensity_range(2)
+
+      complex(dp), allocatable :: w(:)
+      complex(dp) :: normal, place_change(0:ubound(shape_change, 1))
+      real(dp), allocatable :: intensity(:), values(:, :), velocity(:)   ! k^2; that of contact, times ds/dphi
+      real(dp) :: root, size_of_normal
+      integer :: i, n
+
+      n = least_edge_points + edge_points_per_degree*now%basis%degree
+      w = exp(cmplx(0.0_dp, [(pi*(i - 0.5_dp)/(now%basis%fold*n), i=1, n)], dp))
+      allocate (intensity(n), values(n, now%basis%terms), velocity(n))
+      call now%basis%evaluate(n, w, values)
+      do i = 1, n
+         normal = now%shape%tangent(w(i))
+         size_of_normal = abs(normal)
+         call now%shape%linearise_place(w(i), place_change)
+         velocity(i) = real(conjg(normal)*dot_product(shape_change, place_change), dp)
+         ! 1 - |w|^2 = root^2 times the distance from the edge, next to it.
+         root = sqrt(2*size_of_normal/now%shape%jacobian(w(i)))
+         intensity(i) = dot_product(values(i, :), now%c)*root*velocity(i)/(2*size_of_normal)
+         if (now%pool) intensity(i) = 3/(4*pi)*intensity(i)*root**2
+      end do
+      intensity = intensity**2
+      if (now%pool) velocity = -lattice%troughs*velocity
+      associate (area => sum(velocity)*2*pi/n, weighted => sum(intensity*velocity)*2*pi/n)
+         slopes = [area, 2*pi**2*weighted]/lattice%area
+         intensity_range = [minval(intensity), maxval(intensity)]*area/weighted
+      end associate
+   end subroutine follow_edge
+
+end module wavycon_load_slopes
