@@ -2,6 +2,7 @@
 module wavycon_deck
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: key_group_type
+   use wavycon_interface_group, only: interface_table
    use wavycon_kinds, only: dp
    use wavycon_load_group, only: load_table
    use wavycon_map_statistics, only: map_statistics
@@ -19,11 +20,11 @@ module wavycon_deck
 
    !> The groups of a deck, in the order in which they are documented and written.
    integer, parameter, public :: scene_number = 1, material_number = 2, surface_number = 3, load_number = 4, &
-      stress_number = 5, method_number = 6, output_number = 7, number_of_groups = 7
+      stress_number = 5, interface_number = 6, method_number = 7, output_number = 8, number_of_groups = 8
 
    type :: deck_type
       character(:), allocatable :: path            !! the deck's file, as the caller named it
-      type(group_values) :: scene, material, surface_values, load, stress, method, output
+      type(group_values) :: scene, material, surface_values, load, stress, interface, method, output
       real(dp) :: e_star = 0.0_dp, p_star = 0.0_dp !! E*, p* [pressure]
       type(surface_type), allocatable :: surface   !! `make_scene` moves it into the scene
       type(map_statistics), allocatable :: map     !! allocated for a height map; `make_scene` moves it too
@@ -40,6 +41,7 @@ contains
       tables(surface_number) = surface_table()
       tables(load_number) = load_table()
       tables(stress_number) = stress_table()
+      tables(interface_number) = interface_table()
       tables(method_number) = method_table()
       tables(output_number) = output_table()
    end function deck_tables

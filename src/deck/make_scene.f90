@@ -3,6 +3,7 @@ module wavycon_make_scene
    use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_value
    use wavycon_deck, only: deck_type
    use wavycon_group_values, only: group_values
+   use wavycon_interface_group, only: make_interface_setting
    use wavycon_kinds, only: dp
    use wavycon_load_group, only: given_loads, pressures_of_loads
    use wavycon_plain_text, only: newline
@@ -38,7 +39,9 @@ contains
          allocate (scene%target(0), scene%mean_pressure(0))
       end if
       call make_stress_setting(deck%stress, deck%material, scene%p_star, scene%stress_setting)
+      call make_interface_setting(deck%interface, deck%material, scene%surface, scene%p_star, scene%interface_setting)
       scene%stress = deck%stress
+      scene%interface = deck%interface
       scene%deck_path = deck%path
       scene%title = deck%scene%text('title')
       scene%case = deck%scene%text('case')

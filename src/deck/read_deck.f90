@@ -4,13 +4,14 @@
 !> group as the end of the file, and does not report a repeated key or an empty value at all. The syntax is that of
 !> NAMELIST.
 module wavycon_read_deck
-   use wavycon_deck, only: deck_tables, deck_type, load_number, material_number, method_number, &
+   use wavycon_deck, only: deck_tables, deck_type, interface_number, load_number, material_number, method_number, &
       number_of_groups, output_number, scene_number, stress_number, surface_number
    use wavycon_deck_groups, only: take_groups
    use wavycon_deck_scanner, only: scan_deck, scan_type
    use wavycon_deck_text, only: deck_text_type, read_deck_text
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_group_values, only: group_values
+   use wavycon_interface_group, only: check_interface_group
    use wavycon_key_table, only: key_group_type
    use wavycon_kinds, only: dp
    use wavycon_load_group, only: check_load_group, check_loads_of_surface, given_loads
@@ -88,6 +89,7 @@ contains
       deck%surface_values = groups(surface_number)
       deck%load = groups(load_number)
       deck%stress = groups(stress_number)
+      deck%interface = groups(interface_number)
       deck%method = groups(method_number)
       deck%output = groups(output_number)
 
@@ -101,6 +103,7 @@ contains
       call check_material_and_loads(deck, problems)
       call check_stress_group(deck%stress, deck%material, deck%load, problems, deck%surface)
       call check_method_group(deck%method, deck%surface_values%text('kind'), deck%surface, problems)
+      call check_interface_group(deck%interface, deck%material, deck%method, problems, deck%surface)
       call check_output_group(deck%output, deck%scene%text('case'), deck%method, deck%surface, problems)
       ! Problems of the deck are reported rather than an error of its height map: the path of the map may be one of
       ! them.

@@ -20,8 +20,9 @@ contains
       text = '! '//escaped(deck%path)//' with the value in effect of every key that applies.'
       text = text//group_text(deck%scene)//group_text(deck%material)//group_text(deck%surface_values)
       if (deck%load%place > 0) text = text//group_text(deck%load)
-      ! The group itself asks for stresses.
+      ! The groups themselves ask for stresses and for what the interface does.
       if (deck%stress%place > 0) text = text//group_text(deck%stress)
+      if (deck%interface%place > 0) text = text//group_text(deck%interface)
       text = text//group_text(deck%method)//group_text(deck%output)
    end function resolved_deck_text
 

@@ -1,6 +1,7 @@
 !> The data that the tables of one scene are written from, and the header lines that all tables have.
 module wavycon_results
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use wavycon_adhesive_curve, only: adhesive_curve
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_measures, only: or_nan
    use wavycon_contact_solver, only: contact_solver, solver_traits
@@ -9,6 +10,7 @@ module wavycon_results
    use wavycon_largest_stress, only: largest_stress
    use wavycon_memory_table, only: column_name, column_unit, memory_table
    use wavycon_output_file, only: output_file
+   use wavycon_partial_slip, only: partial_slip
    use wavycon_plain_text, only: escaped, exact_number, integer_text
    use wavycon_preparation_words, only: preparation_words
    use wavycon_scene, only: scene_type
@@ -30,6 +32,9 @@ module wavycon_results
       type(contact_solution), allocatable :: loads(:)        !! in the deck's order; loads of other ranks: the measures
       !> The largest von Mises and shear stresses, shape (bodies, loads); not allocated unless the deck asks for them.
       type(largest_stress), allocatable :: von_mises(:, :), shear(:, :)
+      !> Partial slip, shape (tangential loads, loads), and adhesion; not allocated unless the deck asks for them.
+      type(partial_slip), allocatable :: slip(:, :)
+      type(adhesive_curve), allocatable :: adhesion
       type(work_sharing) :: sharing                          !! how the ranks share the work
       integer, allocatable :: order(:)                       !! the loads in the order in which they are solved
       type(memory_table), pointer :: memory => null()        !! tables are written to it in place of files
@@ -140,30 +145,36 @@ contains
       words = ', '//name//'['//unit//'] = '//exact_number(number)
    end function number_of
 
-   !> The label of a unit: 'length', powers of it, 'pressure' and 'area', which in 1-D is a length, as the deck names
-   !> them, and '1/' before one of these; others as they are.
-   pure recursive function unit_in_words(self, unit) result(words)
+   !> The label of a unit: in it 'length', 'pressure', 'area', which in 1-D is a length, and 'force', as the deck names
+   !> them; others as they are.
+   pure function unit_in_words(self, unit) result(words)
       class(results_type), intent(in) :: self
       character(*), intent(in) :: unit
       character(longest_unit) :: words
 
-      associate (length => self%scene%length_unit)
-         select case (unit)
-         case ('length')
-            words = length
-         case ('area')
-            words = length//merge('^2', '  ', self%solver%surface%dimension == 2)
-         case ('force')
-            words = trim(self%scene%pressure_unit)//'*'//length//merge('^2', '  ', self%solver%surface%dimension == 2)
-         case ('length^3', 'length^4', 'rad/length')
-            words = unit(:index(unit, 'length') - 1)//length//unit(index(unit, 'length') + len('length'):)
-         case ('pressure')
-            words = self%scene%pressure_unit
-         case default
-            words = unit
-            if (index(unit, '1/') == 1) words = '1/'//trim(self%unit_in_words(unit(3:)))
-         end select
-      end associate
+      character(8), parameter :: names(*) = [character(8) :: 'length', 'pressure', 'area', 'force']
+      character(:), allocatable :: label, answer
+      integer :: first, k
+
+      answer = ''
+      first = 1
+      do while (first <= len(unit))
+         do k = 1, size(names)
+            if (index(unit(first:), trim(names(k))) == 1) exit
+         end do
+         if (k > size(names)) then
+            answer = answer//unit(first:first)
+            first = first + 1
+            cycle
+         end if
+         label = self%scene%length_unit
+         if (names(k) == 'pressure') label = self%scene%pressure_unit
+         if (k > 2 .and. self%solver%surface%dimension == 2) label = label//'^2'
+         if (names(k) == 'force') label = self%scene%pressure_unit//'*'//label
+         answer = answer//label
+         first = first + len_trim(names(k))
+      end do
+      words = answer
    end function unit_in_words
 
    !> Begins the block of a load with a comment and the names of the columns.

@@ -18,13 +18,13 @@ module wavycon_table
    type :: table_type
       character(16) :: file = ''          !! the table is <case>.<file>.dat
       character(16) :: key = ''           !! the logical key that requests it; empty: it has none of its own
-      character(8) :: group = 'output'    !! of the key: 'output' or 'stress'
+      character(9) :: group = 'output'    !! of the key: 'output', 'stress' or 'interface'
       character(:), allocatable :: meaning      !! one sentence for the key reference
       character(longest_column), allocatable :: columns(:)
       logical :: needs_fields = .false.   !! whether it is made from fields, edges or details of the solutions
       logical :: needs_surface = .true.   !! whether it is made from the whole surface
       logical :: is_for_flat_surfaces = .false.   !! whether it is written where p* and Delta are zero
-      !> Null: it is written if its key is .true. and, without a key, always; never without its group &stress.
+      !> Null: it is written if its key is .true. and, without a key, always; never without its group &stress or &interface.
       procedure(request_interface), pointer, nopass :: requested => null()
       procedure(refusal_interface), pointer, nopass :: refuse => null()        !! null: it can always be written
       procedure(by_all_interface), pointer, nopass :: written_by_all => null() !! null: rank 0 writes it
@@ -104,12 +104,15 @@ contains
       class(table_type), intent(in) :: self
       type(scene_type), intent(in) :: scene
 
-      is_requested = self%group /= 'stress' .or. allocated(scene%stress_setting)
+      is_requested = self%group == 'output' .or. (self%group == 'stress' .and. allocated(scene%stress_setting)) &
+         .or. (self%group == 'interface' .and. allocated(scene%interface_setting))
       if (.not. is_requested) return
       if (associated(self%requested)) then
          is_requested = self%requested(scene)
       else if (self%group == 'stress') then
          is_requested = scene%stress%logical(trim(self%key))
+      else if (self%group == 'interface' .and. self%key /= '') then
+         is_requested = scene%interface%logical(trim(self%key))
       else if (self%key /= '') then
          is_requested = scene%output%logical(trim(self%key))
       end if

@@ -1,14 +1,18 @@
 !> The list of all tables. A new table adds its line to `all_tables`.
 module wavycon_tables
+   use wavycon_adhesion_table, only: adhesion_table
    use wavycon_coefficients_table, only: coefficients_table
    use wavycon_contour_table, only: contour_table
    use wavycon_details_table, only: details_table
    use wavycon_height_table, only: height_table
    use wavycon_histogram_table, only: histogram_table
+   use wavycon_interface_table, only: interface_table
    use wavycon_largest_stress_table, only: largest_stress_table
    use wavycon_lines_table, only: lines_table
    use wavycon_map_table, only: map_table
+   use wavycon_partial_slip_table, only: partial_slip_table, slip_loop_table
    use wavycon_plain_text, only: listed
+   use wavycon_slip_map_table, only: slip_map_table
    use wavycon_spectrum_table, only: spectrum_table
    use wavycon_spot_sizes_table, only: spot_sizes_table
    use wavycon_spots_table, only: spots_table
@@ -48,6 +52,11 @@ contains
       call add_table(tables, stress_line_table())
       call add_table(tables, stress_section_table())
       call add_table(tables, stress_planes_table())
+      call add_table(tables, interface_table())
+      call add_table(tables, partial_slip_table())
+      call add_table(tables, slip_loop_table())
+      call add_table(tables, slip_map_table())
+      call add_table(tables, adhesion_table())
    end subroutine all_tables
 
    !> The table of a name; not allocated if there is none.

@@ -4,6 +4,7 @@ module wavycon_run_scene
    use wavycon_checkpoint, only: checkpoint_file, checkpoint_name, read_checkpoints
    use wavycon_closing_notes, only: sum_up
    use wavycon_error, only: error_type, exit_file_trouble, exit_fine, fatal_error
+   use wavycon_find_interface, only: find_interface
    use wavycon_find_stresses, only: find_stresses
    use wavycon_kinds, only: dp
    use wavycon_method_list, only: start_solver
@@ -142,6 +143,7 @@ contains
             call log%say_timed('largest stresses found')
             call log%show_stresses(results)
          end if
+         if (allocated(results%scene%interface_setting)) call find_interface(results, log)
       end if
       if (results%sharing%is_first()) call write_tables(results, tables, .not. by_all, error)
       if (by_first) call results%sharing%work_alone(.false.)
@@ -175,7 +177,7 @@ contains
          results%method = scene%method%text('solver')//', '//description
          results%traits = results%solver%traits()
          results%sharing = choose_sharing(results%traits, size(scene%target), any(tables%needs_fields), &
-                                          scene%loads_by == by_yield)
+                                          scene%loads_by == by_yield .or. allocated(scene%interface_setting))
       end associate
       deallocate (results%scene%surface)
       if (results%sharing%kind /= distributed_grids) &

@@ -1,6 +1,7 @@
 !> A scene: all that a deck describes, with loads in the program's normalisation (pressures in p*, gaps in Delta).
 module wavycon_scene
    use wavycon_group_values, only: group_values
+   use wavycon_interface_setting, only: interface_setting
    use wavycon_kinds, only: dp
    use wavycon_map_statistics, only: map_statistics
    use wavycon_roughness, only: roughness_type
@@ -36,8 +37,9 @@ module wavycon_scene
       !> stress, in the deck's order.
       real(dp), allocatable :: target(:)
       real(dp), allocatable :: mean_pressure(:)     !! [pressure]; allocated where loads are given by pressure
-      type(group_values) :: stress, method, output  !! the groups &stress, &method and &output
+      type(group_values) :: stress, interface, method, output   !! the groups of these names
       type(stress_setting), allocatable :: stress_setting   !! allocated if the deck has &stress
+      type(interface_setting), allocatable :: interface_setting   !! allocated if the deck has &interface
    end type scene_type
 
 contains

@@ -52,7 +52,7 @@ contains
       type(solver_traits), intent(in) :: traits     !! of the started solver
       integer, intent(in) :: loads                  !! their number
       logical, intent(in) :: need_fields            !! whether tables need fields, edges or details of all loads
-      logical, intent(in) :: need_stresses          !! whether a load is found by its stresses
+      logical, intent(in) :: need_stresses          !! whether loads are found by stresses, or the interface is computed
 
       logical :: can_distribute_loads, is_large
       type(grid_slab) :: slab

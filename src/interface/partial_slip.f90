@@ -1,0 +1,94 @@
+!> Partial slip under a fixed normal load, by Ciavarella's and Jaeger's superposition: the tangential tractions are
+!> friction times the difference of two normal contacts. Equations (I..) are those of README.md in this directory.
+module wavycon_partial_slip
+   use wavycon_contact_solution, only: contact_solution
+   use wavycon_contact_solver, only: contact_solver
+   use wavycon_interface_setting, only: interface_setting
+   use wavycon_kinds, only: dp
+   use wavycon_solution_record, only: no_solution
+   implicit none (type, external)
+   private
+
+   public :: partial_slip, solve_partial_slip, relative_displacement, slip_loop
+
+   !> Loads of the loading curve, from no tangential load to the whole.
+   integer, parameter :: curve_points = 33
+
+   type :: partial_slip
+      real(dp) :: tangential = 0.0_dp   !! Q [p*]
+      !> The contact at P* = P - Q/f (I9), whose area sticks. Without a solution where Q > f P.
+      type(contact_solution) :: stick
+      !> The approach less that at P* [Delta] at equal steps of the tangential load; empty unless asked for.
+      real(dp), allocatable :: approach_change(:)
+   end type partial_slip
+
+contains
+
+   !> Solves one tangential load.
+   subroutine solve_partial_slip(solver, setting, solution, tangential, with_curve, slip)
+      class(contact_solver), intent(inout) :: solver
+      type(interface_setting), intent(in) :: setting        !! with friction
+      type(contact_solution), intent(in) :: solution        !! of the normal load
+      real(dp), intent(in) :: tangential                    !! Q >= 0 [p*]
+      logical, intent(in) :: with_curve
+      type(partial_slip), intent(inout) :: slip
+
+      !> Q = f P up to rounding is full slip.
+      real(dp), parameter :: rounding = 4*epsilon(1.0_dp)
+      type(contact_solution) :: on_the_way
+      real(dp) :: rest
+      integer :: i
+
+      slip%tangential = tangential
+      rest = solution%pbar_over_pstar - tangential/setting%friction
+      if (abs(rest) <= rounding*solution%pbar_over_pstar) rest = 0.0_dp
+      if (rest < 0.0_dp .or. .not. solution%is_good()) then
+         slip%stick%solution_record = no_solution(rest, solution%solver, solution%status)
+         return
+      end if
+      call solver%solve(rest, slip%stick)
+      if (.not. with_curve) return
+      allocate (slip%approach_change(curve_points), source=0.0_dp)
+      do i = 2, curve_points
+         associate (part => real(i - 1, dp)/(curve_points - 1))
+            if (i < curve_points) then
+               call solver%solve(solution%pbar_over_pstar - part*tangential/setting%friction, on_the_way)
+            else
+               on_the_way%solution_record = slip%stick%solution_record
+            end if
+         end associate
+         slip%approach_change(i) = solution%measures%approach_over_amplitude &
+                                   - on_the_way%measures%approach_over_amplitude
+      end do
+   end subroutine solve_partial_slip
+
+   !> The relative tangential displacement of the bodies over kappa f [Delta] (I11), and its error estimate.
+   pure function relative_displacement(solution, stick) result(answer)
+      type(contact_solution), intent(in) :: solution   !! at P
+      type(contact_solution), intent(in) :: stick      !! at P*
+      real(dp) :: answer(2)
+
+      answer(1) = solution%measures%approach_over_amplitude - stick%measures%approach_over_amplitude
+      answer(2) = solution%measures%mean_gap_error + stick%measures%mean_gap_error
+   end function relative_displacement
+
+   !> The curve of tangential load [p*] and displacement over kappa f [Delta]: branch 1, loading; 2, from Q to -Q; 3, back
+   !> to Q, both by Masing's rule (I12). Empty without a solution.
+   pure subroutine slip_loop(slip, branch, tangential, displacement)
+      type(partial_slip), intent(in) :: slip
+      integer, allocatable, intent(out) :: branch(:)
+      real(dp), allocatable, intent(out) :: tangential(:), displacement(:)
+
+      integer :: i, n
+
+      allocate (branch(0), tangential(0), displacement(0))
+      if (.not. allocated(slip%approach_change)) return
+      associate (u => slip%approach_change, q => [(slip%tangential*i/(curve_points - 1), i=0, curve_points - 1)])
+         n = size(u)
+         branch = [spread(1, 1, n), spread(2, 1, n), spread(3, 1, n)]
+         tangential = [q, q(n) - 2*q, 2*q - q(n)]
+         displacement = [u, u(n) - 2*u, 2*u - u(n)]
+      end associate
+   end subroutine slip_loop
+
+end module wavycon_partial_slip
