@@ -53,6 +53,8 @@ contains
       if (size(answer%previous) > 1) previous_difference = abs(at(:, 1) - at(:, 2))
       ! The edge's velocity is no integral over the spot.
       call error_estimate(difference, previous_difference, at_point(answer%misfit_decay), abs(slopes), errors)
+      ! It has the third power of the velocity.
+      errors(3) = max(errors(3), 3*abs(slopes(3)/slopes(2))*errors(2))
    end subroutine find_load_slopes
 
    !> The derivatives of one expansion.
@@ -93,8 +95,8 @@ contains
       integer :: i, n
 
       n = least_edge_points + edge_points_per_degree*now%basis%degree
+      allocate (intensity(n), values(n, now%basis%terms), velocity(n), w(n))
       w = exp(cmplx(0.0_dp, [(pi*(i - 0.5_dp)/(now%basis%fold*n), i=1, n)], dp))
-      allocate (intensity(n), values(n, now%basis%terms), velocity(n))
       call now%basis%evaluate(n, w, values)
       do i = 1, n
          normal = now%shape%tangent(w(i))

@@ -20,9 +20,13 @@ module wavycon_adhesive_curve
 
    !> What a point is.
    integer, parameter, public :: unstable_point = 0, stable_point = 1, pull_off_point = 2, jump_point = 3, &
-      separated = 4, closed = 5
-   character(20), parameter, public :: point_names(0:5) = [character(20) :: 'unstable', 'stable', 'pull_off', &
-                                                           'jump_to_full_contact', 'separated', 'full_contact']
+      separated = 4, closed = 5, not_reliable = 6
+   character(20), parameter, public :: point_names(0:6) = [character(20) :: 'unstable', 'stable', 'pull_off', &
+      'jump_to_full_contact', 'separated', 'full_contact', 'not_reliable']
+   !> Extremes this number of points from one whose energy release rate exceeds this part of w are artefacts: there spots
+   !> are about to merge, and the superposition fails.
+   integer, parameter :: near = 3
+   real(dp), parameter :: most_release = 1.5_dp
 
    type :: adhesive_point
       logical :: exists = .false.             !! otherwise there is no solution at P1 with its derivatives
@@ -74,6 +78,8 @@ contains
             if ((here%load - before%load)*(after%load - here%load) > 0.0_dp) cycle
             point = here
             call find_extreme(curve, solver, work, place(i), point)
+            if (any(curve%points(max(1, i - near):min(i + near, curve_points))%release_range(2) > most_release)) &
+               point%kind = not_reliable
             curve%critical = [curve%critical, point]
          end associate
       end do

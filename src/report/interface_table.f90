@@ -54,7 +54,7 @@ contains
             associate (length => 0.5_dp*scene%e_star/scene%p_star*surface%amplitude)
                if (scene%interface_setting%resistivity > 0.0_dp .and. is_known(slopes%gap_slope)) &
                   resistance = scene%interface_setting%resistivity*length &
-                               *[-slopes%gap_slope, or_nan(slopes%gap_slope_error)]
+                               *[abs(slopes%gap_slope), or_nan(slopes%gap_slope_error)]
             end associate
          end if
          call file%add(load)

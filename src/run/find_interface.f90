@@ -1,6 +1,6 @@
 !> Solves what a scene asks of the interface beyond its loads: partial slip and adhesion.
 module wavycon_find_interface
-   use wavycon_adhesive_curve, only: add_load, follow_curve, point_names
+   use wavycon_adhesive_curve, only: add_load, adhesive_point, follow_curve, point_names
    use wavycon_kinds, only: dp
    use wavycon_partial_slip, only: solve_partial_slip
    use wavycon_plain_text, only: integer_text, short_number
@@ -66,7 +66,7 @@ contains
 
       allocate (results%adhesion)
       associate (work => results%scene%interface_setting%work, curve => results%adhesion, &
-                 loads => results%loads%pbar_over_pstar, p_star => results%scene%p_star)
+                 loads => results%loads%pbar_over_pstar)
          call follow_curve(results%solver, work, maxval(loads), curve)
          do i = 1, size(loads)
             call add_load(curve, results%solver, work, loads(i), i)
@@ -75,11 +75,27 @@ contains
             integer_text(count(.not. curve%points%exists))//' of '//integer_text(size(curve%points))// &
             ' points of the curve have no solution')
          do i = 1, size(curve%critical)
-            call log%say('adhesion  '//trim(point_names(curve%critical(i)%kind))//' at pbar = '// &
-                         short_number(p_star*curve%critical(i)%load)//' ['//results%scene%pressure_unit// &
-                         '], area/A0 = '//short_number(curve%critical(i)%area))
+            call log%say('adhesion  '//trim(point_names(curve%critical(i)%kind))//words_of_point(curve%critical(i)))
          end do
       end associate
+   contains
+
+      !> The load, with free edges as a force, and the area.
+      function words_of_point(point) result(words)
+         type(adhesive_point), intent(in) :: point
+         character(:), allocatable :: words
+
+         associate (surface => results%solver%surface, mean_pressure => results%scene%p_star*point%load)
+            if (surface%has_free_edges) then
+               words = ', force = '//short_number(mean_pressure*surface%nominal_area())//', area = '// &
+                       short_number(surface%nominal_area()*point%area)
+            else
+               words = ', pbar/p* = '//short_number(point%load)//', pbar = '//short_number(mean_pressure)// &
+                       ' ['//results%scene%pressure_unit//'], area/A0 = '//short_number(point%area)
+            end if
+         end associate
+      end function words_of_point
+
    end subroutine find_adhesion
 
 end module wavycon_find_interface
