@@ -71,6 +71,8 @@ contains
       self%is_started = surface%is_paper_wave()
       self%by_beale = options%by_beale
       self%series%edge_level = options%edge_level
+      self%series%constraint_points = options%constraint_points
+      self%series%symmetry = options%symmetry
       self%series%rotated = surface%paper_wave() == rotated_paper_wave
       self%series%terms = choose_terms(surface%dimension, options%harmonics, options%symmetry)
       self%problem = energy_problem(self%series%terms, options%constraint_points, options%symmetry, &

@@ -11,11 +11,13 @@ module wavycon_grid_source
    use wavycon_fourier_series, only: fourier_series
    use wavycon_free_stress, only: free_stress, start_free_stress
    use wavycon_grid_area, only: grid_strip_edges
+   use wavycon_grid_derivatives, only: differentiate_on_grid
    use wavycon_grid_edge, only: grid_edge, make_grid_edge
    use wavycon_grid_fields, only: grid_fields, start_grid_fields
    use wavycon_grid_slab, only: grid_slab
    use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
+   use wavycon_load_derivatives, only: load_derivatives
    use wavycon_region_numbers, only: region_numbers
    use wavycon_rotated_series, only: to_difference_angles
    use wavycon_series_stress, only: series_stress, start_series_stress
@@ -37,6 +39,7 @@ module wavycon_grid_source
       procedure :: fields
       procedure :: contact_contours
       procedure :: stresses
+      procedure :: derivatives
       procedure :: collect
       procedure :: pack => pack_source
       procedure :: unpack => unpack_source
@@ -203,6 +206,21 @@ contains
                              or_nan(record%measures%peak_pressure_error))
       call move_alloc(own, answer)
    end subroutine stresses_with_free_edges
+
+   !> From solutions of the same grid at loads near by. Unknown with a hardness, and of a distributed grid.
+   subroutine derivatives(self, record, surface, answer)
+      class(grid_source), intent(in) :: self
+      type(solution_record), intent(in) :: record
+      type(surface_type), intent(in) :: surface
+      type(load_derivatives), intent(out) :: answer
+
+      if (self%distributed_points > 0 .or. surface%has_hardness()) return
+      if (self%rotated) then
+         call differentiate_on_grid(surface%smaller_cell(), self%edge%period, record, answer)
+      else
+         call differentiate_on_grid(surface, self%edge%period, record, answer)
+      end if
+   end subroutine derivatives
 
    !> What a checkpoint keeps: the residual indentation, the stiffness of `edge`, the points along x and y, the first of
    !> the own columns, whether the cell is rotated, whether the grid covers a quarter of it, whether its pressures are

@@ -1,6 +1,7 @@
 !> The source of fields, edge and stresses of a pressure that is a truncated Fourier series.
 module wavycon_series_source
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use wavycon_complementary_energy, only: energy_problem
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_measures, only: measuring_intervals
    use wavycon_contact_contours, only: contact_contour, strip_ends, trace_edges, rotate_contours
@@ -9,7 +10,10 @@ module wavycon_series_source
    use wavycon_fourier_terms, only: fourier_terms
    use wavycon_isobar_grid, only: isobar_grid, start_isobar_grid
    use wavycon_kinds, only: dp
+   use wavycon_lapack, only: dgglse
    use wavycon_line_zeros, only: line_zeros
+   use wavycon_load_derivatives, only: load_derivatives
+   use wavycon_qp_problem, only: qp_problem
    use wavycon_series_fields, only: series_fields
    use wavycon_series_stress, only: series_stress, start_series_stress
    use wavycon_solution_record, only: solution_record
@@ -25,6 +29,8 @@ module wavycon_series_source
       type(fourier_terms) :: terms
       logical :: rotated = .false.          !! phi and theta are the cell's angles rotated by 45 degrees
       real(dp) :: edge_level = 0.0_dp      !! isobar taken as the edge of contact [p*]
+      integer :: constraint_points = 2     !! on [0, pi] in each direction
+      integer :: symmetry = 0              !! of the terms
       real(dp), allocatable :: x(:)        !! amplitudes of the terms of (p - pbar)/p*
    contains
       procedure :: pressure
@@ -33,6 +39,7 @@ module wavycon_series_source
       procedure :: contact_contours
       procedure :: stresses
       procedure :: coefficients
+      procedure :: derivatives
    end type series_source
 
 contains
@@ -129,5 +136,42 @@ contains
          allocate (loads(0))
       end associate
    end subroutine contact_contours
+
+   !> The slope of the mean gap at fixed active constraints, from the least energy of pressures of mean 1 that vanish at
+   !> these: (C30) of README.md in this directory. Unknown with a hardness, or if the constraints depend on each other.
+   subroutine derivatives(self, record, surface, answer)
+      class(series_source), intent(in) :: self
+      type(solution_record), intent(in) :: record
+      type(surface_type), intent(in) :: surface
+      type(load_derivatives), intent(out) :: answer
+
+      !> Pressures below this part of the peak pressure are rounding: the constraint is active.
+      real(dp), parameter :: active = 1e-9_dp
+      !> Columns that LAPACK treats at once.
+      integer, parameter :: block = 64
+      type(qp_problem) :: problem
+      integer :: i, info, m, n
+      real(dp), allocatable :: constraints(:, :), energy(:), minus_one(:), root(:, :), work(:), x(:), zero(:)
+
+      if (surface%has_hardness()) return
+      problem = energy_problem(self%terms, self%constraint_points, self%symmetry)
+      associate (pressure => record%pbar_over_pstar + matmul(self%x, problem%normals), &
+                 least => active*record%measures%peak_pressure_over_pstar)
+         constraints = transpose(problem%normals(:, pack([(i, i=1, size(pressure))], pressure < least)))
+      end associate
+      n = size(self%x)
+      m = size(constraints, 1)
+      if (m > n) return
+      energy = [(problem%hessian(i, i), i=1, n)]
+      allocate (root(n, n), zero(n), source=0.0_dp)
+      do i = 1, n
+         root(i, i) = sqrt(energy(i))
+      end do
+      allocate (minus_one(m), source=-1.0_dp)
+      allocate (x(n), work(block*(2*n + m)))
+      call dgglse(n, n, m, root, n, constraints, max(1, m), zero, minus_one, x, work, size(work), info)
+      ! The energy is in units of the mean square of the surface's own wave.
+      if (info == 0) answer%gap_slope = -sum(energy*x**2)/2**surface%dimension
+   end subroutine derivatives
 
 end module wavycon_series_source

@@ -145,6 +145,10 @@ module wavycon_contact_tuning
    !> constraints hardly change, so that the pass takes few steps.
    real(dp), parameter, public :: lightest_start = 1e-6_dp
 
+   !> Difference of the loads that derivatives are from, over P or 1 - P (C29). At .05 the points that enter the contact
+   !> one after another show more, at .2 the differences' own error.
+   real(dp), parameter, public :: load_difference = 0.1_dp
+
    ! Expansions fitted to the edge.
 
    !> Largest ratio of the sides of a cell: longer spots need polynomials of higher degree.
