@@ -10,7 +10,7 @@ module wavycon_gauss_newton
    implicit none (type, external)
    private
 
-   public :: change_with_load, gauss_newton_step, solve_equations
+   public :: changes_with_load, gauss_newton_step, solve_equations
 
    !> Change of a step over the square of the one before, while convergence is quadratic.
    real(dp), parameter, public :: change_per_square = 10.0_dp
@@ -90,36 +90,83 @@ contains
       if (.not. now%pool) missing_load = load*lattice%area - equations%integral(now)
       call least_squares_step(equations, .not. now%pool, missing_load, step, misfit, finite)
       if (.not. finite) return
-      associate (terms => now%basis%terms, before_shape => equations%before_shape)
+      associate (before_shape => equations%before_shape)
          change = maxval(abs(step(before_shape + 1:)))/now%shape%b(0)
          part = min(1.0_dp, longest_shape_change/max(change, tiny(change)))
-         now%c = now%c + part*step(:terms)
-         if (.not. now%pool) now%approach = now%approach + part*step(terms + 1)
-         now%shape%b = now%shape%b + part*step(before_shape + 1:)
+         call add_step(now, part*step, equations)
       end associate
       valid = now%shape%b(0) > 0.0_dp &
          .and. now%shape%jacobian((0.0_dp, 0.0_dp)) > least_centre_jacobian*now%shape%b(0)**2
    end subroutine gauss_newton_step
 
-   !> How the unknowns change with the load, at a solution: the derivative of the equations in place of their residual.
-   subroutine change_with_load(equations, lattice, load, now, change, finite)
+   !> The first and second derivatives of the unknowns with respect to the load, at a solution: README.md (F41a), (F41b).
+   subroutine changes_with_load(equations, lattice, load, now, change, change_of_change, load_change, finite)
       type(contact_equations), intent(inout) :: equations  !! started for expansions like `now`
       type(wave_lattice), intent(in) :: lattice
       real(dp), intent(in) :: load                         !! P
       type(expansion), intent(in) :: now                   !! the solution
-      real(dp), allocatable, intent(out) :: change(:)      !! per P, shape (unknowns), as the columns of the matrix
-      logical, intent(out) :: finite                       !! otherwise the change is of no use
+      real(dp), intent(out) :: change(:), change_of_change(:)   !! per P and P^2, shape (unknowns)
+      real(dp), intent(out) :: load_change(2)   !! of the integral of p or g, per P and P^2
+      logical, intent(out) :: finite            !! otherwise the changes are of no use
 
-      real(dp) :: misfit
+      !> Step of P over its distance from 0 and from the closing pressure. The error is of second order.
+      real(dp), parameter :: part = 1e-4_dp
+      real(dp) :: load_row(size(change)), matrix(size(equations%matrix, 1), size(equations%matrix, 2)), misfit, &
+         right(size(equations%residual)), row_change, step
+      integer :: side
 
-      allocate (change(equations%unknowns), source=0.0_dp)
-      call equations%linearise(lattice, load, now)
-      if (now%pool) call equations%linearise_load(now)
-      finite = all(ieee_is_finite(equations%matrix))
+      call linearise_at(0)
+      matrix = equations%matrix
+      load_row = equations%load_row
+      finite = all(ieee_is_finite(matrix))
       if (.not. finite) return
       equations%residual = merge(1.0_dp, 0.0_dp, now%pool)
       call least_squares_step(equations, .not. now%pool, lattice%area, change, misfit, finite)
-   end subroutine change_with_load
+      if (.not. finite) return
+      step = part*min(load, lattice%closing_pressure - load)
+      right = 0.0_dp
+      row_change = 0.0_dp
+      do side = -1, 1, 2
+         call linearise_at(side)
+         right = right - side*matmul(equations%matrix, change)/(2*step)
+         row_change = row_change + side*dot_product(equations%load_row, change)/(2*step)
+      end do
+      finite = all(ieee_is_finite(right))
+      if (.not. finite) return
+      equations%matrix = matrix
+      equations%residual = right
+      equations%load_row = load_row
+      call least_squares_step(equations, .not. now%pool, -row_change, change_of_change, misfit, finite)
+      load_change = [dot_product(load_row, change), dot_product(load_row, change_of_change) + row_change]
+
+   contains
+
+      !> Linearises at the solution, or at the one that a change of the load by a step makes of it.
+      subroutine linearise_at(side)
+         integer, intent(in) :: side   !! 0, -1 or 1
+
+         type(expansion) :: other
+
+         other = now
+         if (side /= 0) call add_step(other, side*step*change, equations)
+         call equations%linearise(lattice, load, other)
+         if (now%pool) call equations%linearise_load(other)
+      end subroutine linearise_at
+
+   end subroutine changes_with_load
+
+   !> Adds a step to coefficients, approach and shape.
+   subroutine add_step(now, step, equations)
+      type(expansion), intent(inout) :: now
+      real(dp), intent(in) :: step(:)                      !! shape (unknowns)
+      type(contact_equations), intent(in) :: equations     !! started for expansions like `now`
+
+      associate (terms => now%basis%terms)
+         now%c = now%c + step(:terms)
+         if (.not. now%pool) now%approach = now%approach + step(terms + 1)
+         now%shape%b = now%shape%b + step(equations%before_shape + 1:)
+      end associate
+   end subroutine add_step
 
    !> Solves the linear least-squares problem by LAPACK; overwrites the equations' matrix and residual.
    subroutine least_squares_step(equations, with_load, missing_load, step, misfit, finite)

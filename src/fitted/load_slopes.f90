@@ -3,11 +3,11 @@
 module wavycon_load_slopes
    use wavycon_constants, only: pi
    use wavycon_contact_equations, only: contact_equations, start_equations
-   use wavycon_error_estimate, only: at_point, error_estimate
+   use wavycon_error_estimate, only: error_estimate
    use wavycon_expansion, only: expansion
    use wavycon_fitted_answer, only: fitted_answer, most_previous
    use wavycon_fitted_tuning, only: series_growth
-   use wavycon_gauss_newton, only: change_with_load
+   use wavycon_gauss_newton, only: changes_with_load
    use wavycon_kinds, only: dp
    use wavycon_lattice_images, only: lattice_images
    use wavycon_merging_ratio, only: merging_ratio
@@ -51,10 +51,7 @@ contains
       difference = abs(at(:, 0) - at(:, 1))
       previous_difference = huge(1.0_dp)
       if (size(answer%previous) > 1) previous_difference = abs(at(:, 1) - at(:, 2))
-      ! The edge's velocity is no integral over the spot.
-      call error_estimate(difference, previous_difference, at_point(answer%misfit_decay), abs(slopes), errors)
-      ! It has the third power of the velocity.
-      errors(3) = max(errors(3), 3*abs(slopes(3)/slopes(2))*errors(2))
+      call error_estimate(difference, previous_difference, answer%misfit_decay, abs(slopes), errors)
    end subroutine find_load_slopes
 
    !> The derivatives of one expansion.
@@ -67,31 +64,35 @@ contains
 
       type(contact_equations) :: equations
       type(lattice_images) :: images
-      real(dp), allocatable :: change(:)
+      real(dp), allocatable :: change(:), change_of_change(:)
+      real(dp) :: load_change(2)
 
       call images%prepare(lattice, now, series_growth, epsilon(1.0_dp))
       call start_equations(equations, now, merging_ratio(lattice, now), images)
-      call change_with_load(equations, lattice, load, now, change, found)
+      allocate (change(equations%unknowns), change_of_change(equations%unknowns))
+      call changes_with_load(equations, lattice, load, now, change, change_of_change, load_change, found)
       if (.not. found) return
       if (now%pool) then
-         slopes(1) = lattice%troughs*dot_product(equations%load_row, change)/lattice%area
+         slopes([1, 3]) = lattice%troughs*load_change/lattice%area
       else
-         slopes(1) = -change(now%basis%terms + 1)
+         slopes([1, 3]) = -[change(now%basis%terms + 1), change_of_change(now%basis%terms + 1)]
       end if
-      call follow_edge(lattice, now, change(equations%before_shape + 1:), slopes(2:), intensity_range)
+      call follow_edge(lattice, now, change(equations%before_shape + 1:), slopes(2), intensity_range)
+      ! (I5) is its mean.
+      intensity_range = intensity_range*2*pi**2*slopes(2)/slopes(3)
    end subroutine slopes_of
 
-   !> A' and G'' (I4), (I5), as integrals along the edge of its velocity and of the stress intensity (I6), (I7).
-   subroutine follow_edge(lattice, now, shape_change, slopes, intensity_range)
+   !> A' (I4), and the least and the largest k^2 along the edge (I6), (I7).
+   subroutine follow_edge(lattice, now, shape_change, area_slope, intensity_range)
       type(wave_lattice), intent(in) :: lattice
       type(expansion), intent(in) :: now
       real(dp), intent(in) :: shape_change(0:)   !! db_k/dP
-      real(dp), intent(out) :: slopes(2), intensity_range(2)
+      real(dp), intent(out) :: area_slope, intensity_range(2)
 
       complex(dp), allocatable :: w(:)
       complex(dp) :: normal, place_change(0:ubound(shape_change, 1))
-      real(dp), allocatable :: intensity(:), values(:, :), velocity(:)   ! k^2; that of contact, times ds/dphi
-      real(dp) :: root, size_of_normal
+      real(dp), allocatable :: intensity(:), values(:, :), velocity(:)   ! k, and the edge's velocity times ds/dphi
+      real(dp) :: root
       integer :: i, n
 
       n = least_edge_points + edge_points_per_degree*now%basis%degree
@@ -100,20 +101,16 @@ contains
       call now%basis%evaluate(n, w, values)
       do i = 1, n
          normal = now%shape%tangent(w(i))
-         size_of_normal = abs(normal)
          call now%shape%linearise_place(w(i), place_change)
          velocity(i) = real(conjg(normal)*dot_product(shape_change, place_change), dp)
          ! 1 - |w|^2 = root^2 times the distance from the edge, next to it.
-         root = sqrt(2*size_of_normal/now%shape%jacobian(w(i)))
-         intensity(i) = dot_product(values(i, :), now%c)*root*velocity(i)/(2*size_of_normal)
+         root = sqrt(2*abs(normal)/now%shape%jacobian(w(i)))
+         intensity(i) = dot_product(values(i, :), now%c)*root*velocity(i)/(2*abs(normal))
          if (now%pool) intensity(i) = 3/(4*pi)*intensity(i)*root**2
       end do
-      intensity = intensity**2
-      if (now%pool) velocity = -lattice%troughs*velocity
-      associate (area => sum(velocity)*2*pi/n, weighted => sum(intensity*velocity)*2*pi/n)
-         slopes = [area, 2*pi**2*weighted]/lattice%area
-         intensity_range = [minval(intensity), maxval(intensity)]*area/weighted
-      end associate
+      area_slope = 2*pi/n*sum(velocity)/lattice%area
+      if (now%pool) area_slope = -lattice%troughs*area_slope
+      intensity_range = [minval(intensity**2), maxval(intensity**2)]
    end subroutine follow_edge
 
 end module wavycon_load_slopes

@@ -3,7 +3,6 @@
 !>
 !> The curve is followed by P1, through its turning points. Equations (I..) are those of README.md in this directory.
 module wavycon_adhesive_curve
-   use wavycon_constants, only: pi
    use wavycon_contact_measures, only: contact_measures, is_known
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver
@@ -44,7 +43,8 @@ module wavycon_adhesive_curve
       type(adhesive_point), allocatable :: points(:)     !! by rising P1
       type(adhesive_point), allocatable :: critical(:)   !! extremes of P: pull-off and jumps into full contact
       type(adhesive_point), allocatable :: at_loads(:)   !! the stable and the unstable points of loads asked for
-      real(dp), private :: most = 1.0_dp                 !! P1 at its end [p*]
+      !> P1 at its ends: of a wave `least` from 0 and from 1, of a ball from `least` to `most` [p*].
+      real(dp), private :: least = 0.0_dp, most = 1.0_dp
    end type adhesive_curve
 
 contains
@@ -60,10 +60,13 @@ contains
       type(adhesive_point) :: point
       integer :: i
 
+      ! Pull-off lies at P1 = (3/(4 pi)) w' or above (I18).
+      curve%least = min(2e-3_dp*work, 1e-4_dp)
       if (solver%surface%is_ball()) then
-         ! P = P1 - 2 sqrt(pull P1) by (I20): up to some times the largest load or the pull-off.
+         ! P = P1 - 2 sqrt(pull P1) by (I20), which is least at P1 = pull.
          call solve_point(solver, work, 1.0_dp, point)
          pull = (0.5_dp*(1.0_dp - point%load))**2
+         curve%least = 1e-3_dp*pull
          curve%most = (sqrt(pull) + sqrt(pull + max(1.01_dp*largest_load, 4*pull)))**2
       end if
       allocate (curve%points(curve_points))
@@ -131,16 +134,16 @@ contains
       place = real(i, dp)/(curve_points + 1)
    end function place
 
-   !> P1 [p*] of a parameter t: dense at both ends of a wave's curve, and at light loads of a ball's.
+   !> P1 [p*] of a parameter t: in equal steps of ln(P1/(1 - P1)), of a ball of ln P1.
    pure real(dp) function load_at(curve, solver, t) result(p1)
       type(adhesive_curve), intent(in) :: curve
       class(contact_solver), intent(in) :: solver
       real(dp), intent(in) :: t
 
       if (solver%surface%is_ball()) then
-         p1 = curve%most*t**2
+         p1 = curve%least*(curve%most/curve%least)**t
       else
-         p1 = sin(0.5_dp*pi*t)**2
+         p1 = 1.0_dp/(1.0_dp + (1.0_dp/curve%least - 1.0_dp)**(1.0_dp - 2*t))
       end if
    end function load_at
 

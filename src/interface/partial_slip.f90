@@ -3,6 +3,7 @@
 module wavycon_partial_slip
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver
+   use wavycon_contact_status, only: not_found
    use wavycon_interface_setting, only: interface_setting
    use wavycon_kinds, only: dp
    use wavycon_solution_record, only: no_solution
@@ -43,7 +44,7 @@ contains
       rest = solution%pbar_over_pstar - tangential/setting%friction
       if (abs(rest) <= rounding*solution%pbar_over_pstar) rest = 0.0_dp
       if (rest < 0.0_dp .or. .not. solution%is_good()) then
-         slip%stick%solution_record = no_solution(rest, solution%solver, solution%status)
+         slip%stick%solution_record = no_solution(rest, solution%solver, not_found)
          return
       end if
       call solver%solve(rest, slip%stick)
