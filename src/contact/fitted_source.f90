@@ -3,6 +3,7 @@ module wavycon_fitted_source
    use wavycon_constants, only: pi
    use wavycon_contact_details, only: contact_details
    use wavycon_contact_fields, only: contact_fields
+   use wavycon_contact_measures, only: unknown
    use wavycon_contact_contours, only: contact_contour
    use wavycon_equivalent_points, only: equivalent_points, point_image
    use wavycon_field_source, only: field_source
@@ -237,6 +238,11 @@ contains
          slopes = slopes/units
          errors = errors/units
       end associate
+      ! Where spots merge the slopes grow without bound.
+      where (errors >= abs(slopes))
+         slopes = unknown
+         errors = unknown
+      end where
       answer = load_derivatives(gap_slope=slopes(1), gap_slope_error=errors(1), &
                                 area_slope=slopes(2), area_slope_error=errors(2), &
                                 gap_curvature=slopes(3), gap_curvature_error=errors(3), intensity_range=range)

@@ -99,7 +99,8 @@ contains
          .and. now%shape%jacobian((0.0_dp, 0.0_dp)) > least_centre_jacobian*now%shape%b(0)**2
    end subroutine gauss_newton_step
 
-   !> The first and second derivatives of the unknowns with respect to the load, at a solution: README.md (F41a), (F41b).
+   !> The first and second derivatives of the unknowns with respect to the load, at a solution: (I7a), (I7b) of
+   !> src/interface/README.md.
    subroutine changes_with_load(equations, lattice, load, now, change, change_of_change, load_change, finite)
       type(contact_equations), intent(inout) :: equations  !! started for expansions like `now`
       type(wave_lattice), intent(in) :: lattice
@@ -109,11 +110,14 @@ contains
       real(dp), intent(out) :: load_change(2)   !! of the integral of p or g, per P and P^2
       logical, intent(out) :: finite            !! otherwise the changes are of no use
 
-      !> Step of P over its distance from 0 and from the closing pressure. The error is of second order.
-      real(dp), parameter :: part = 1e-4_dp
+      !> Step of P over its distance from 0 and from the closing pressure: the differences' error of fourth order and the
+      !> rounding are some 1e-11.
+      real(dp), parameter :: part = 1e-3_dp
+      !> Weights of the solutions at one and two steps.
+      real(dp), parameter :: weight(2) = [2.0_dp/3, -1.0_dp/12]
       real(dp) :: load_row(size(change)), matrix(size(equations%matrix, 1), size(equations%matrix, 2)), misfit, &
          right(size(equations%residual)), row_change, step
-      integer :: side
+      integer :: i
 
       call linearise_at(0)
       matrix = equations%matrix
@@ -126,10 +130,13 @@ contains
       step = part*min(load, lattice%closing_pressure - load)
       right = 0.0_dp
       row_change = 0.0_dp
-      do side = -1, 1, 2
-         call linearise_at(side)
-         right = right - side*matmul(equations%matrix, change)/(2*step)
-         row_change = row_change + side*dot_product(equations%load_row, change)/(2*step)
+      do i = -2, 2
+         if (i == 0) cycle
+         call linearise_at(i)
+         associate (factor => sign(weight(abs(i)), weight(abs(i))*i)/step)
+            right = right - factor*matmul(equations%matrix, change)
+            row_change = row_change + factor*dot_product(equations%load_row, change)
+         end associate
       end do
       finite = all(ieee_is_finite(right))
       if (.not. finite) return
@@ -141,14 +148,14 @@ contains
 
    contains
 
-      !> Linearises at the solution, or at the one that a change of the load by a step makes of it.
-      subroutine linearise_at(side)
-         integer, intent(in) :: side   !! 0, -1 or 1
+      !> Linearises at the solution, or at the one that a change of the load by some steps makes of it.
+      subroutine linearise_at(steps)
+         integer, intent(in) :: steps
 
          type(expansion) :: other
 
          other = now
-         if (side /= 0) call add_step(other, side*step*change, equations)
+         if (steps /= 0) call add_step(other, steps*step*change, equations)
          call equations%linearise(lattice, load, other)
          if (now%pool) call equations%linearise_load(other)
       end subroutine linearise_at

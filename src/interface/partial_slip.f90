@@ -74,7 +74,7 @@ contains
    end function relative_displacement
 
    !> The curve of tangential load [p*] and displacement over kappa f [Delta]: branch 1, loading; 2, from Q to -Q; 3, back
-   !> to Q, both by Masing's rule (I12). Empty without a solution.
+   !> to Q, both by Masing's rule. Empty without a solution.
    pure subroutine slip_loop(slip, branch, tangential, displacement)
       type(partial_slip), intent(in) :: slip
       integer, allocatable, intent(out) :: branch(:)
