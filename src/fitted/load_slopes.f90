@@ -34,6 +34,8 @@ contains
       real(dp), intent(out) :: intensity_range(2)         !! as of `load_derivatives`
       logical, intent(out) :: found                       !! otherwise the equations have no finite solution
 
+      !> Relative error of the differences of Newton's matrix.
+      real(dp), parameter :: of_differences = 1e-10_dp
       real(dp) :: at(number_of_slopes, 0:most_previous), range(2)
       real(dp), dimension(number_of_slopes) :: difference, previous_difference
       logical :: found_too
@@ -52,6 +54,7 @@ contains
       previous_difference = huge(1.0_dp)
       if (size(answer%previous) > 1) previous_difference = abs(at(:, 1) - at(:, 2))
       call error_estimate(difference, previous_difference, answer%misfit_decay, abs(slopes), errors)
+      errors(3) = max(errors(3), of_differences*abs(slopes(3)))
    end subroutine find_load_slopes
 
    !> The derivatives of one expansion.

@@ -80,9 +80,9 @@ contains
             if (after%load > before%load) curve%points(i)%kind = stable_point
             if ((here%load - before%load)*(after%load - here%load) > 0.0_dp) cycle
             point = here
-            call find_extreme(curve, solver, work, place(i), point)
-            if (any(curve%points(max(1, i - near):min(i + near, curve_points))%release_range(2) > most_release)) &
-               point%kind = not_reliable
+            point%kind = not_reliable
+            if (all(curve%points(max(1, i - near):min(i + near, curve_points))%release_range(2) <= most_release)) &
+               call find_extreme(curve, solver, work, place(i), point)
             curve%critical = [curve%critical, point]
          end associate
       end do
@@ -92,8 +92,8 @@ contains
       end associate
    end subroutine follow_curve
 
-   !> Adds the points of the curve at a load, by rising P1. Beyond pull-off and jump none of them is stable: the bodies
-   !> are separated, or in full contact.
+   !> Adds the points of the curve at a load, by rising P1; where it is not reliable, a point near by. Beyond pull-off and
+   !> jump none of them is stable: the bodies are separated, or in full contact.
    subroutine add_load(curve, solver, work, load, number)
       type(adhesive_curve), intent(inout) :: curve
       class(contact_solver), intent(inout) :: solver
@@ -109,10 +109,15 @@ contains
          associate (here => curve%points(i), after => curve%points(i + 1))
             if (.not. (here%exists .and. after%exists)) cycle
             if ((here%load - load)*(after%load - load) > 0.0_dp) cycle
-            call find_crossing(curve, solver, work, load, i, point)
-            point%kind = merge(stable_point, unstable_point, after%load > here%load)
+            has_stable = has_stable .or. after%load > here%load
+            if (max(here%release_range(2), after%release_range(2)) > most_release) then
+               point = here
+               point%kind = not_reliable
+            else
+               call find_crossing(curve, solver, work, load, i, point)
+               point%kind = merge(stable_point, unstable_point, after%load > here%load)
+            end if
          end associate
-         has_stable = has_stable .or. point%kind == stable_point
          point%number = number
          curve%at_loads = [curve%at_loads, point]
       end do

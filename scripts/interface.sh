@@ -1,0 +1,103 @@
+#!/bin/sh
+# What the interface does: contact stiffness and resistance, partial slip and adhesion of the two-dimensional wave.
+set -eu
+# shellcheck source=scripts/figure_common.sh
+. "$(dirname "$0")/figure_common.sh"
+start_figure interface 'stiffness, resistance, partial slip and adhesion of the two-dimensional wave' "$@"
+run_decks contact_resistance slip_loop pull_off
+draw_figure 640 520 "p_star_loop = $(header_value slip_loop summary 'p*[MPa]')" <<'EOF'
+set datafile columnheaders
+set multiplot
+set border 3 lw 0.7
+set tics out nomirror
+
+# Above left: stiffness and resistance.
+set lmargin at screen 0.095
+set rmargin at screen 0.43
+set bmargin at screen 0.605
+set tmargin at screen 0.945
+set border 11
+set xlabel load offset 0, 0.3
+set xrange [0:1]
+set xtics 0.2 format '%.1f'
+set logscale y
+set yrange [0.02:200]
+set ytics 10 format '10^{%T}'
+set ylabel "contact stiffness ".'[{/:Italic p}*/{/:Italic Δ}]' offset 0.5, 0
+set logscale y2
+set y2range [1e-9:1e-5]
+set y2tics 10 format '10^{%T}'
+set y2label 'resistance [Ω mm²]' offset -0.8, 0
+set key top center samplen 2.2 font ',12'
+set title 'stiffness and resistance' offset 0, -0.5
+all = table('contact_resistance', 'interface')
+plot all using 'pbar_over_pstar':'contact_stiffness_normalised' with lines ls 31 title 'stiffness', \
+     all using 'pbar_over_pstar':'contact_resistance' axes x1y2 with lines ls 32 title 'resistance'
+unset logscale
+unset y2tics
+unset y2label
+set border 3
+
+# Above right: loops.
+set lmargin at screen 0.645
+set rmargin at screen 0.965
+set title 'loops of tangential load' offset 0, -0.5
+set xlabel 'displacement [nm]' offset 0, 0.3
+set ylabel '{/:Italic Q} / ({/:Italic f p̄})' offset 0.8, 0
+set autoscale x
+set xrange [-400:400]
+set xtics 200 format '%g'
+set yrange [-1:1]
+set ytics 0.5 format '%.1f'
+unset key
+loops = table('slip_loop', 'slip_loop')
+limit = 0.5*0.4*p_star_loop
+plot for [i = 1:3] loops index i - 1 using (1e6*column('displacement')):(column('tangential_load')/limit) \
+        with lines ls 30 + i dt solid
+
+# Below left: where the contact sticks and slips under the middle load.
+set lmargin at screen 0.095
+set rmargin at screen 0.36
+set bmargin at screen 0.1
+set tmargin at screen 0.44
+set border 15
+set size ratio -1
+set xrange [0:1]
+set yrange [0:1]
+set xtics 0.5 format '%g'
+set ytics 0.5 format '%g'
+set xlabel '{/:Italic x} [mm]' offset 0, 0.3
+set ylabel '{/:Italic y} [mm]' offset 0.6, 0
+set title '{/:Italic Q} = 0.7 {/:Italic f p̄}: stick, slip, open' offset 0, -0.5
+set palette defined (0 '#ffffff', 1 '#a9d0ee', 2 '#2f6191')
+set cbrange [0:2]
+unset colorbox
+plot table('slip_loop', 'slip_map') index 1 using 'x':'y':'slip_state' with image
+
+# Below right: adhesion.
+set size noratio
+set border 3
+set lmargin at screen 0.48
+set rmargin at screen 0.965
+set xlabel load offset 0, 0.3
+set ylabel '{/:Italic A} / {/:Italic A}_0' offset 0.6, 0
+set xrange [-0.2:0.6]
+set yrange [0:1]
+set xtics 0.2 format '%.1f'
+set ytics 0.2 format '%.1f'
+set title 'area with adhesion' offset 0, -0.5
+set key bottom right samplen 2.2 font ',12'
+curve = table('pull_off', 'adhesion')
+is(kind) = strcol('point') eq kind
+sure(kind) = is(kind) && column('most_release_over_w') < 1.3
+P = 'pbar_over_pstar'
+A = 'contact_area_fraction'
+plot curve index 0 using P:A with lines ls 4 title 'not reliable', \
+     curve index 0 using (column(P)):(sure('stable') ? column(A) : NaN) with lines ls 31 title 'stable', \
+     curve index 0 using (column(P)):(sure('unstable') ? column(A) : NaN) with lines ls 32 title 'unstable', \
+     curve index 0 using 'pbar1_over_pstar':A with lines ls 5 dt (3, 3) title 'without adhesion', \
+     curve index 1 using (is('pull_off') ? column(P) : NaN):A with points ls 11 title 'pull-off', \
+     curve index 1 using (is('jump_to_full_contact') ? column(P) : NaN):A with points ls 12 \
+        title 'jump to full contact'
+unset multiplot
+EOF
