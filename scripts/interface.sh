@@ -69,10 +69,10 @@ set ytics 0.5 format '%g'
 set xlabel '{/:Italic x} [mm]' offset 0, 0.3
 set ylabel '{/:Italic y} [mm]' offset 0.6, 0
 set title '{/:Italic Q} = 0.7 {/:Italic f p̄}: stick, slip, open' offset 0, -0.5
-set palette defined (0 '#ffffff', 1 '#a9d0ee', 2 '#2f6191')
-set cbrange [0:2]
+eval of_contact
+set cbrange [1:2.7]
 unset colorbox
-plot table('slip_loop', 'slip_map') index 1 using 'x':'y':'slip_state' with image
+plot table('slip_loop', 'slip_map') index 1 using 'x':'y':(column('slip_state') > 0 ? column('slip_state') : NaN) with image
 
 # Below right: adhesion.
 set size noratio

@@ -55,8 +55,7 @@ contains
       type(surface_type), intent(in), optional :: surface   !! absent if it is not known, or its keys are bad
 
       integer :: i
-      character(*), parameter :: of_friction(*) = [character(22) :: 'tangential_load', 'tangential_over_normal', &
-                                                   'shear_direction', 'nu', 'slip_loop', 'slip_map']
+      character(*), parameter :: of_friction(*) = [character(22) :: 'tangential_load', 'tangential_over_normal', 'nu']
 
       if (values%place == 0) return
       call values%require(problems, 'resistivity1', 'resistivity2')
@@ -68,6 +67,8 @@ contains
       if (values%has('friction')) then
          call check_friction(values, material, problems)
       else
+         if (values%logical('slip_loop')) call values%require(problems, 'slip_loop', 'friction')
+         if (values%logical('slip_map')) call values%require(problems, 'slip_map', 'friction')
          call values%leave_out('shear_direction')
          call values%leave_out('slip_loop')
          call values%leave_out('slip_map')
@@ -80,7 +81,7 @@ contains
       if (surface%has_free_edges .and. surface%dimension == 1) call problems%add(values%place, &
          'the approach of a profile with free edges is not defined, and so is what &interface computes: leave it out')
       if (surface%dimension == 2) then
-         if (values%has('shear_direction')) call values%complain(problems, 'shear_direction', &
+         if (values%text('shear_direction') == 'y') call values%complain(problems, 'shear_direction', &
             'shear_direction is for surfaces that do not change along y: leave it out')
          call values%leave_out('shear_direction')
       end if

@@ -248,7 +248,7 @@ class Consumers(unittest.TestCase):
     @loads_the_library
     def test_keys(self):
         groups = {group["name"]: group for group in json.loads(Library(self.library).text(None, "keys"))}
-        self.assertEqual(["scene", "material", "surface", "load", "stress", "method", "output"], list(groups))
+        self.assertEqual(["scene", "material", "surface", "load", "stress", "interface", "method", "output"], list(groups))
         keys = {name: {key["name"]: key for key in group["keys"]} for name, group in groups.items()}
         # The program's --help is made from the same tables.
         reference = run(self.prefix / "bin" / "wavycon", "--help")

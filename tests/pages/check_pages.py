@@ -20,7 +20,9 @@ SECTIONS = {"summary": "The summary", "lines": "Lines", "theory_lines": "Closed 
             "contour": "Contours", "spots": "Spots", "spot_sizes": "Spot sizes", "histogram": "Histograms",
             "coefficients": "Coefficients", "theory": "Theory", "details": "Details", "spectrum": "Power spectrum",
             "stress_largest": "Largest stresses", "stress_line": "Stresses below the crest",
-            "stress_section": "Stresses on a section", "stress_planes": "Stresses on planes"}
+            "stress_section": "Stresses on a section", "stress_planes": "Stresses on planes",
+            "interface": "The interface", "partial_slip": "Partial slip", "slip_loop": "Loops", "slip_map": "Slip map",
+            "adhesion": "Adhesion"}
 # Decks that together write every table, in both dimensions.
 ALL_TABLES = ("lines = t, map = t, contours = t, spots = t, histograms = t, coefficients = t, theory = t, "
               "spectrum = t, line_points = 8, map_points = 8")
@@ -30,7 +32,11 @@ TABLE_DECKS = {
     "expansion": "&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0.5 /\n"
                  "&method solver = 'fitted' /\n&output details = t /\n",
     "stresses": "&surface kind = 'wave_1d' /\n&load pbar_over_pstar = 0.5 /\n&method solver = 'auto' /\n"
-                "&stress nu = 0.3, line = t, section = 'x', planes = t, depths = 0, 0.1 /\n&output map_points = 8 /\n"}
+                "&stress nu = 0.3, line = t, section = 'x', planes = t, depths = 0, 0.1 /\n&output map_points = 8 /\n",
+    **{f"interface_{dimension}": f"&surface kind = 'wave_{dimension}' /\n&load pbar_over_pstar = 0.5 /\n"
+       "&method solver = 'auto', accuracy = 1e-2 /\n&output map_points = 8 /\n"
+       "&interface friction = 1, tangential_load = 0.1, nu = 0.3, slip_loop = t, slip_map = t, work_of_adhesion = 0.1 /\n"
+       for dimension in ("1d", "2d")}}
 # Columns of the log that rounding may change.
 ROUNDED = ("error",)
 
