@@ -9,6 +9,7 @@ module wavycon_deck_session
    use wavycon_deck_groups, only: read_group_text
    use wavycon_deck_text, only: deck_text_type, read_deck_text
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
+   use wavycon_find_interface, only: find_interface
    use wavycon_find_stresses, only: find_stresses
    use wavycon_group_values, only: group_values
    use wavycon_kinds, only: dp
@@ -231,8 +232,8 @@ contains
    end subroutine solve_one
 
    !> Makes a table of a solved load, by its name: that of its key in &output or, behind 'stress_', in &stress; also
-   !> 'summary', 'spot_sizes' and 'theory_lines'. Errors: exit_bad_input for a table that does not exist, or that needs
-   !> what the session does not have; exit_file_trouble without memory.
+   !> 'summary', 'spot_sizes', 'theory_lines', and those of &interface. Errors: exit_bad_input for a table that does not
+   !> exist, or that needs what the session does not have; exit_file_trouble without memory.
    subroutine make_table(self, name, solved, table, error)
       class(deck_session), intent(inout) :: self
       character(*), intent(in) :: name
@@ -253,6 +254,14 @@ contains
             call no_log%start(quiet=.true.)
             call find_stresses(results, no_log)
          end if
+         if (writer%group == 'interface') then
+            if (allocated(results%slip)) deallocate (results%slip)
+            if (allocated(results%adhesion)) deallocate (results%adhesion)
+            call no_log%start(quiet=.true.)
+            call begin_solve(self%is_solving)
+            call find_interface(results, no_log, name)
+            call end_solve(self%is_solving)
+         end if
          results%memory => table
          call writer%write(results, error)
          nullify (results%memory)
@@ -269,7 +278,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       character(:), allocatable :: names, trouble
-      logical :: of_stresses
+      logical :: is_requested, of_stresses
 
       call check_ready(self, error, solved)
       if (allocated(error)) return
@@ -279,9 +288,12 @@ contains
          return
       end if
       of_stresses = writer%group == 'stress'
+      is_requested = writer%is_requested(self%results%scene)
       trouble = ''
       if (of_stresses .and. .not. allocated(self%results%scene%stress_setting)) then
          trouble = 'it needs a group &stress in the deck'
+      else if (writer%group == 'interface' .and. .not. is_requested) then
+         trouble = 'the deck has no group &interface that asks for it'
       else if ((of_stresses .or. writer%needs_fields) .and. .not. self%keeps_fields) then
          trouble = 'the session was opened without fields'
       else if (self%scale%p_star <= 0.0_dp .and. .not. writer%is_for_flat_surfaces) then

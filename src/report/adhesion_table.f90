@@ -26,6 +26,7 @@ contains
       table%group = 'interface'
       table%meaning = 'The contact with adhesion: its curve, pull-off and jump, and the loads.'
       call table%set_columns(columns)
+      table%needs_fields = .true.
       table%requested => requested
       table%write_all => write_adhesion
    end function adhesion_table

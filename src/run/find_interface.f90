@@ -14,16 +14,25 @@ module wavycon_find_interface
 contains
 
    !> Solves partial slip of all loads and tangential loads, and the curve of the contact with adhesion.
-   subroutine find_interface(results, log)
+   subroutine find_interface(results, log, table)
       type(results_type), intent(inout) :: results   !! with a group &interface and all loads solved with their fields
       type(run_log), intent(inout) :: log            !! shows the progress
+      character(*), intent(in), optional :: table    !! the one table that it is for
 
+      logical :: of_adhesion, of_slip
+
+      of_slip = .true.
+      of_adhesion = .true.
+      if (present(table)) then
+         of_slip = index(table, 'slip') > 0
+         of_adhesion = table == 'adhesion'
+      end if
       associate (setting => results%scene%interface_setting)
-         if (setting%friction > 0.0_dp) then
+         if (of_slip .and. setting%friction > 0.0_dp) then
             call find_slip(results, log)
             call log%say_timed('partial slip solved')
          end if
-         if (setting%work > 0.0_dp) then
+         if (of_adhesion .and. setting%work > 0.0_dp) then
             call find_adhesion(results, log)
             call log%say_timed('adhesion solved')
          end if

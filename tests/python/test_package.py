@@ -164,6 +164,17 @@ class Digits(PackageTest):
         surface = wc.self_affine(rms_slope=0.1, points=64, short_wavelength=0.125, seed=3)
         return wc.solve(surface, e_star=2, pbar_over_pstar=[0.05, 0.3, 0.1], stress={"nu": 0.3})
 
+    def test_tables_of_the_interface(self):
+        self.run_deck("line", "&surface kind = 'wave_1d' /\n&load pbar_over_pstar = 0.1, 0.6 /\n&method solver = 'auto' /\n"
+                      "&interface friction = 0.5, tangential_over_normal = 0.1, 0.4, nu = 0.3, work_of_adhesion = 0.2 /\n")
+        interface = {"friction": 0.5, "tangential_over_normal": [0.1, 0.4], "nu": 0.3, "work_of_adhesion": 0.2}
+        results = wc.solve(wc.wave_1d(), pbar_over_pstar=[0.1, 0.6], interface=interface)
+        for name in "interface", "partial_slip":
+            self.assert_same_rows(f"line.{name}.dat", results.table(name))
+        self.assertEqual(["stable", "unstable"], results[0].table("adhesion")["point"][-2:].tolist())
+        with self.assertRaisesRegex(ValueError, "no group &interface that asks for it"):
+            results.table("slip_loop")
+
     def test_fields_are_those_of_the_map(self):
         results = self.solve_rough()
         for one in results:
