@@ -6,6 +6,7 @@ returns the name of the file of gnuplot commands, the size of the picture in poi
 set the variables. It raises CannotBeDrawn if there is nothing to be shown.
 """
 from fields import edges, lines, maps, series
+from interfaces import adhesion, interface, partial_slip, slip_loops, slip_maps
 from loading import details, summary, theory
 from spots import histogram, spot_sizes, spots
 from stresses import below_crest, largest, planes, section
@@ -15,4 +16,6 @@ COMPANIONS = {"lines": ("theory_lines",), "map": ("contour",), "theory": ("summa
 FACTS = {"summary": summary, "lines": lines, "map": maps, "theory_lines": lines, "contour": edges,
          "coefficients": series, "theory": theory, "details": details, "spectrum": spectra, "height": heights,
          "spots": spots, "spot_sizes": spot_sizes, "histogram": histogram,
-         "stress_largest": largest, "stress_line": below_crest, "stress_section": section, "stress_planes": planes}
+         "stress_largest": largest, "stress_line": below_crest, "stress_section": section, "stress_planes": planes,
+         "interface": interface, "partial_slip": partial_slip, "slip_loop": slip_loops, "slip_map": slip_maps,
+         "adhesion": adhesion}

@@ -23,7 +23,12 @@ MARKS = {"summary": ("pbar_over_pstar", "active_constraints", "mean_pressure", "
          "stress_largest": ("pbar_over_pstar", "largest_von_mises_over_pstar", "von_mises_depth"),
          "stress_line": ("depth_over_cell_x", "stress_xx", "von_mises"),
          "stress_section": ("distance", "depth", "stress_xx", "von_mises"),
-         "stress_planes": ("x", "y", "depth", "stress_xx", "von_mises")}
+         "stress_planes": ("x", "y", "depth", "stress_xx", "von_mises"),
+         "interface": ("contact_stiffness", "contact_area_slope"),
+         "partial_slip": ("tangential_over_limit", "stick_area_fraction"),
+         "slip_loop": ("branch", "tangential_load", "displacement"),
+         "slip_map": ("x", "y", "traction", "slip_state"),
+         "adhesion": ("pbar1_over_pstar", "point")}
 # The labels of units if the deck gives none.
 UNLABELLED = {"pressure", "length"}
 HEAD_NUMBER = re.compile(r"(Delta|p\*|cell_x|cell_y|edge_level)\[([^]]*)\] = ([^ ,]+)")

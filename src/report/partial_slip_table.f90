@@ -60,7 +60,7 @@ contains
 
       type(load_derivatives) :: slopes
       integer :: i
-      real(dp) :: displacement(2), stiffness
+      real(dp) :: displacement(2), of_stick(3), stiffness
 
       associate (solution => results%loads(load), setting => results%scene%interface_setting, &
                  p_star => results%scene%p_star, amplitude => results%solver%surface%amplitude)
@@ -68,7 +68,10 @@ contains
             associate (slip => results%slip(i, load), stick => results%slip(i, load)%stick)
                stiffness = not_a_number()
                displacement = not_a_number()
+               of_stick = not_a_number()
                if (stick%is_good()) then
+                  of_stick = [results%in_p_star(stick%pbar_over_pstar), stick%measures%contact_area_fraction, &
+                              or_nan(stick%measures%contact_area_error)]
                   displacement = setting%friction*amplitude*relative_displacement(solution, stick)
                   call stick%derivatives(results%solver%surface, slopes)
                   if (slopes%gap_slope < 0.0_dp) stiffness = -p_star/(setting%kappa(1)*amplitude*slopes%gap_slope)
@@ -76,8 +79,7 @@ contains
                call file%add([load, i])
                call file%add([results%mean_pressure(load), p_star*slip%tangential, &
                               slip%tangential/(setting%friction*solution%pbar_over_pstar), &
-                              results%in_p_star(stick%pbar_over_pstar), solution%measures%contact_area_fraction, &
-                              or_nan(stick%measures%contact_area_fraction), or_nan(stick%measures%contact_area_error), &
+                              of_stick(1), solution%measures%contact_area_fraction, of_stick(2:), &
                               setting%kappa(1)*displacement, setting%kappa(2:)*displacement(1), stiffness])
                call file%add(status_code(stick%status))
                call file%add(trim(status_name(stick%status)))

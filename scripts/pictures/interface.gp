@@ -1,0 +1,23 @@
+# The picture of the contact stiffness and, if it is there, of the constriction resistance.
+set tmargin at screen 0.9
+set xlabel load_label
+set xrange [load_low:load_high]
+set xtics load_step
+if (load_wide) { set logscale x }
+set format x (format_of(load_wide))
+set logscale y
+set format y '10^{%T}'
+set ylabel stiffness_label
+set key top center
+stiffness = "run(1) using (load_factor[1]*column('mean_pressure')):'contact_stiffness' with linespoints ls 31"
+resistance = "run(1) using (load_factor[1]*column('mean_pressure')):'contact_resistance' axes x1y2 with linespoints ls 32"
+if (with_resistance) {
+   set border 11
+   set logscale y2
+   set format y2 '10^{%T}'
+   set y2tics
+   set y2label 'resistance'
+   eval 'plot '.stiffness." title 'stiffness', ".resistance." title 'resistance'"
+} else {
+   eval 'plot '.stiffness
+}
