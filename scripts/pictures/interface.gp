@@ -8,6 +8,7 @@ set format x (format_of(load_wide))
 set logscale y
 set format y '10^{%T}'
 set ylabel stiffness_label
+set yrange [stiffness_low:stiffness_high]
 set key top center
 stiffness = "run(1) using (load_factor[1]*column('mean_pressure')):'contact_stiffness' with linespoints ls 31"
 resistance = "run(1) using (load_factor[1]*column('mean_pressure')):'contact_resistance' axes x1y2 with linespoints ls 32"
@@ -16,6 +17,7 @@ if (with_resistance) {
    set logscale y2
    set format y2 '10^{%T}'
    set y2tics
+   set y2range [resistance_low:resistance_high]
    set y2label 'resistance'
    eval 'plot '.stiffness." title 'stiffness', ".resistance." title 'resistance'"
 } else {

@@ -20,6 +20,9 @@ def interface(tables, beside, choice, folder):
     facts, _ = mean_pressure_axis(tables)
     facts += [f"stiffness_label = 'contact stiffness'.{quoted(' ({}/{})'.format(*units) if all(units) else '')}"]
     facts += [f"with_resistance = {int(bool(table.column('contact_resistance')))}"]
+    for name in "stiffness", "resistance":
+        numbers = [number for number in table.column(f"contact_{name}") if number > 0] or [1.0]
+        facts += [f"{name}_low = {min(numbers)/1.6!r}", f"{name}_high = {max(numbers)*1.6!r}"]
     return "interface", (480, 300), facts
 
 

@@ -62,6 +62,10 @@ DECKS = {
                "&output spectrum = t, height = t, map_points = 16 /",
     "unsolved": "&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0.1, 0.22861 /\n"
                 "&method solver = 'fitted', accuracy = 1e-6 /",
+    "slip": WAVE + "&interface friction = 0.5, tangential_over_normal = 0.1, 0.3, nu = 0.3, slip_loop = t, slip_map = t,\n"
+            "work_of_adhesion = 0.05, resistivity1 = 1, resistivity2 = 1 /\n&method solver = 'auto', accuracy = 1e-2 /\n"
+            "&output map_points = 16 /",
+    "pull": "&surface kind = 'ball', radius = 1 /\n&load force = 1e-4 /\n&interface work_of_adhesion = 1e-5 /",
     "map": "&surface kind = 'file', file = 'heights.txt' /\n&load pbar_over_pstar = 0.1, 0.5 /",
 }
 # Too few points for error estimates.
@@ -319,6 +323,16 @@ class Plot(ProgramTest):
                                  (("--body", "2", "stress.stress_largest.dat"), "no stresses of body 2")):
             self.assertIn(complaint, self.plot(*words, status=3)[1])
         self.assertIn("--body needs", self.plot("--body", "3", "stress.stress_line.dat", status=1)[1])
+
+    def test_the_interface(self):
+        for table, words in (("interface", ("contact stiffness", "resistance")),
+                             ("partial_slip", ("stick area", "displacement", "load 2", "load 3")),
+                             ("slip_loop", ("tangential load", "displacement")), ("slip_map", ("1", "0.5")),
+                             ("adhesion", ("pull-off", "jump into full contact", "unstable"))):
+            shown = self.drawn(f"slip.{table}.dat")
+            for word in words:
+                self.assertIn(word, shown, table)
+        self.assertIn("force", self.drawn("pull.adhesion.dat"))
 
     def test_stresses_of_two_bodies(self):
         shown = self.drawn("bodies.stress_largest.dat")
