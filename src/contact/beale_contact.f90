@@ -115,6 +115,10 @@ contains
       ! Without residual indentation no point is at H, although a peak between the points may come close.
       call measure_series(source%pressure(pbar_over_pstar), source%displacement(), self%series%edge_level, &
                           solution%measures, merge(self%surface%hardness, huge(1.0_dp), residual_indentation > 0.0_dp))
+      associate (x => source%x, n => self%surface%dimension)
+         ! The mean square of the surface's own wave is 2^-n.
+         solution%measures%elastic_energy = 0.5_dp*dot_product(x, matmul(self%problem%hessian, x))/2**n
+      end associate
       ! The crest, from which the approach follows otherwise, is then not in elastic contact.
       if (residual_indentation > 0.0_dp) then
          solution%measures%mean_gap_over_amplitude = open_gap

@@ -85,9 +85,17 @@ contains
                              mean_gap_over_amplitude=gap, approach_over_amplitude=1.0_dp - gap, &
                              contact_area_fraction=westergaard_contact_area_fraction(pbar_over_pstar), &
                              peak_pressure_over_pstar=westergaard_peak_pressure_over_pstar(pbar_over_pstar), &
-                             min_pressure_over_pstar=0.0_dp)
+                             min_pressure_over_pstar=0.0_dp, elastic_energy=energy(pbar_over_pstar), &
+                             elastic_energy_error=0.0_dp)
       end associate
    end subroutine solve_partial_contact
+
+   !> The elastic energy per nominal area [p* Delta]: the integral of P d(approach), -P ln P dP by (20).
+   pure real(dp) function energy(pbar_over_pstar)
+      real(dp), intent(in) :: pbar_over_pstar   !! P, in (0, 1)
+
+      energy = pbar_over_pstar**2*(0.25_dp - 0.5_dp*log(pbar_over_pstar))
+   end function energy
 
    subroutine fields(self, record, surface, answer)
       class(closed_form_source), intent(in) :: self

@@ -120,12 +120,16 @@ contains
          record%status = not_finite
       else if (pbar_over_pstar <= 0.0_dp) then
          record%status = no_load
+         record%measures%elastic_energy = 0.0_dp
+         record%measures%elastic_energy_error = 0.0_dp
       else if (surface%has_hardness() .and. pbar_over_pstar >= surface%hardness) then
          record = no_solution(pbar_over_pstar, no_solver, above_hardness)
       else if (pbar_over_pstar >= 1.0_dp .and. .not. surface%has_free_edges .and. &
                (.not. surface%has_hardness() .or. pbar_over_pstar + surface%full_contact_peak <= surface%hardness)) then
          record%status = full_contact
          record%measures = full_contact_measures(pbar_over_pstar, surface%full_contact_peak)
+         record%measures%elastic_energy = surface%full_contact_energy()
+         record%measures%elastic_energy_error = 0.0_dp
       else
          is_trivial = .false.
       end if

@@ -63,7 +63,7 @@ contains
       real(dp), intent(in) :: pbar_over_pstar
       type(contact_solution), intent(out) :: solution
 
-      real(dp) :: errors(3)
+      real(dp) :: energy_unit, errors(3)
       type(fitted_answer) :: answer
       type(fitted_source), allocatable :: source
 
@@ -81,6 +81,7 @@ contains
       self%last = answer
       errors = known_errors([answer%mean_gap_error, answer%area_error, answer%peak_error*self%frame%pressure_unit], &
                             self%surface%full_contact_peak)
+      energy_unit = self%frame%pressure_unit/self%lattice%area
       solution%pbar_over_pstar = pbar_over_pstar
       solution%solver = by_expansions
       solution%measures = contact_measures( &
@@ -89,7 +90,9 @@ contains
                           contact_area_fraction=answer%area_fraction, &
                           peak_pressure_over_pstar=answer%peak_pressure*self%frame%pressure_unit, &
                           min_pressure_over_pstar=0.0_dp, &
-                          mean_gap_error=errors(1), contact_area_error=errors(2), peak_pressure_error=errors(3))
+                          mean_gap_error=errors(1), contact_area_error=errors(2), peak_pressure_error=errors(3), &
+                          elastic_energy=answer%energy*energy_unit, &
+                          elastic_energy_error=answer%energy_error*energy_unit)
       solution%iterations = answer%iterations
       solution%residual = answer%residual
       solution%status = not_accurate

@@ -137,6 +137,8 @@ contains
                           peak_pressure_error=answer%errors(3), &
                           area_at_hardness_fraction=answer%area_at_hardness, &
                           area_at_hardness_error=answer%area_at_hardness_error, &
+                          elastic_energy=answer%elastic_energy, &
+                          elastic_energy_error=2*pbar_over_pstar*answer%errors(1), &
                           contact_area_counted_fraction=answer%counted_area, &
                           contact_area_corrected_fraction=answer%corrected_area)
       if (self%surface%has_hardness()) then

@@ -1,5 +1,5 @@
-!> How a solution on a grid changes with the load, from solutions of the same grid at loads near by: (C29) of README.md in
-!> this directory.
+!> How a solution on a grid changes with the load, from solutions of the same grid at loads near by: (C29) of README.md
+!> in this directory.
 module wavycon_grid_derivatives
    use wavycon_contact_measures, only: is_known, unknown
    use wavycon_contact_tuning, only: load_difference

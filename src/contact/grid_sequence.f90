@@ -42,6 +42,8 @@ module wavycon_grid_sequence
       logical :: out_of_memory = .false.   !! whether a grid was needed that does not fit into memory
       integer :: grids = 0
       integer :: iterations = 0            !! on all grids
+      !> Elastic energy per nominal area, the mean of p u/2 [p* Delta].
+      real(dp) :: elastic_energy = unknown
       real(dp) :: transform_pairs = 0.0_dp !! in both precisions, in units of one on the finest grid
    end type sequence_answer
 
@@ -144,11 +146,27 @@ contains
       end associate
       call solve_on_grid(half_space, stencil, h, residual, most_iterations(surface, answer%state%slab%points), &
                          answer%state, progress)
+      if (.not. answer%state%interrupted) answer%elastic_energy = energy_of(answer%state, h)
       answer%grids = answer%grids + 1
       answer%iterations = answer%iterations + answer%state%iterations
       answer%transform_pairs = answer%transform_pairs/2**surface%dimension &
                                + half_space%transform_pairs + half_space%single_pairs
    end subroutine solve_level
+
+   !> The mean of p u/2, u = gap - h + approach.
+   real(dp) function energy_of(state, undeformed_gap)
+      type(grid_state), intent(in) :: state   !! solved, with the gap
+      real(dp), intent(in) :: undeformed_gap(:, :)
+
+      integer :: j
+      real(dp) :: parts(1, size(undeformed_gap, 2)), total(1)
+
+      do j = 1, size(undeformed_gap, 2)
+         parts(1, j) = dot_product(state%pressure(:, j), state%gap(:, j) - undeformed_gap(:, j) + state%approach)
+      end do
+      total = state%slab%column_totals(parts)
+      energy_of = 0.5_dp*total(1)/product(real(state%slab%points, dp))
+   end function energy_of
 
    !> The iterations that a grid may take.
    pure integer function most_iterations(surface, points)

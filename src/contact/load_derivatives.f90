@@ -8,8 +8,8 @@ module wavycon_load_derivatives
 
    public :: load_derivatives
 
-   !> At fixed contact a change of load is that of a rigid punch of the contact's shape, whose pressure is k/sqrt(rho) at
-   !> a distance rho from the edge. What is `unknown`, huge, does not exist or is not computed.
+   !> At fixed contact a change of load is that of a rigid punch of the contact's shape, whose pressure is k/sqrt(rho)
+   !> at a distance rho from the edge. What is `unknown`, huge, does not exist or is not computed.
    type :: load_derivatives
       real(dp) :: gap_slope = unknown, gap_slope_error = unknown            !! G'(P) <= 0 [Delta/p*]
       real(dp) :: area_slope = unknown, area_slope_error = unknown          !! A'(P) of the area fraction [1/p*]

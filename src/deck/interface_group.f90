@@ -22,8 +22,9 @@ contains
       type(key_group_type) :: table
 
       table = key_group('interface', 'stiffness and resistance of the contact, partial slip, adhesion', [ &
-         real_key('resistivity1', '', '-', 'Electric or thermal resistivity of the first body, in any unit: adds the '// &
-            'constriction resistance to the table; needs resistivity2.', least=0.0_dp), &
+         real_key('resistivity1', '', '-', &
+            'Electric or thermal resistivity of the first body, in any unit: adds the constriction resistance to the '// &
+            'table; needs resistivity2.', least=0.0_dp), &
          real_key('resistivity2', '', '-', 'That of the second body, in the same unit.', least=0.0_dp), &
          real_key('friction', '', '-', 'Coefficient of friction: each load also bears the tangential loads, under '// &
             'which a part of the contact slips.', above=0.0_dp), &
@@ -43,7 +44,7 @@ contains
             'points and in the format of maps.'), &
          real_key('work_of_adhesion', '', 'unit of e_star times length', &
             'Work of adhesion w: adds the contact with adhesion in the limit of Johnson, Kendall & Roberts, of '// &
-            'waves and round balls. The loads are then its mean pressures; tensions are on its curve.', above=0.0_dp)])
+            'waves and round balls. The loads are then its mean pressures, and tensions if < 0.', above=0.0_dp)])
    end function interface_table
 
    !> Reports what is missing, contradicts, or does not exist on the surface.

@@ -40,10 +40,11 @@ contains
 
       table = key_group('load', 'the loads to solve for: a list of one kind, or a sweep', [ &
          real_key('pbar_over_pstar', '', '-', &
-            'Mean pressures over p*, the mean pressure that just closes the gap everywhere.', &
-            least=0.0_dp, most=largest_pbar_over_pstar, most_values=most_loads, way=1), &
+            'Mean pressures over p*, the mean pressure that just closes the gap everywhere. Tensions, < 0, need '// &
+            'work_of_adhesion of &interface, as do those of mean_pressure and force.', &
+            most=largest_pbar_over_pstar, most_values=most_loads, way=1), &
          real_key('mean_pressure', '', 'unit of e_star', 'Mean pressures, over the nominal area.', &
-            least=0.0_dp, most_values=most_loads, way=2), &
+            most_values=most_loads, way=2), &
          real_key('mean_gap_over_amplitude', '', '-', &
             'Mean gaps over the mean gap before load, which is the amplitude of a wave; the program finds their '// &
             'loads.', least=0.0_dp, most=1.0_dp, most_values=most_loads, way=3), &
@@ -56,7 +57,7 @@ contains
             'Largest equivalent stresses in the bodies over the yield stress of &stress; the program finds the '// &
             'least loads that reach them. 1 is first yield.', above=0.0_dp, most_values=most_loads, way=6), &
          real_key('force', '', 'unit of e_star times length^2', 'Forces on the nominal area; of a profile per '// &
-            'depth.', least=0.0_dp, most_values=most_loads, way=7), &
+            'depth.', most_values=most_loads, way=7), &
          real_key('approach', '', 'length', 'Approaches of the bodies from first touch; the program finds their '// &
             'loads.', least=0.0_dp, most_values=most_loads, way=8), &
          real_key('contact_area', '', 'length^2', 'Areas in contact, of a profile lengths; the program finds their '// &
@@ -70,20 +71,31 @@ contains
             1, most_loads, way=by_sweep)], required=.true.)
    end function load_table
 
-   !> Reports loads that are not given, given in more than one way, or given by an incomplete sweep.
-   subroutine check_load_group(values, problems)
+   !> Reports loads that are not given, given in more than one way, or given by an incomplete sweep, and tensions without
+   !> adhesion.
+   subroutine check_load_group(values, with_adhesion, problems)
       type(group_values), intent(in) :: values
+      logical, intent(in) :: with_adhesion   !! whether loads may be tensions
       type(problem_list_type), intent(inout) :: problems
 
+      character(:), allocatable :: key
       logical :: has(size(sweep_keys))
-      integer :: k, ways
+      integer :: k, loads_by, ways
+      real(dp), allocatable :: loads(:)
 
       if (values%place == 0) return
       has = [(values%has(trim(sweep_keys(k))), k=1, size(sweep_keys))]
       ways = count([any(has), (values%has(trim(lists(k))), k=1, size(lists))])
       if (ways == 0) call problems%add(values%place, '&load needs '//forms)
       if (ways > 1) call problems%add(values%place, 'loads are given in more than one way: give '//forms)
-      if (ways /= 1 .or. .not. any(has)) return
+      if (ways /= 1) return
+      if (.not. any(has)) then
+         if (with_adhesion .or. values%any_bad()) return
+         call given_loads(values, key, loads_by, loads)
+         if (minval(loads) < 0.0_dp) call values%complain(problems, key, key//' = '//short_number(minval(loads))// &
+            ' is a tension: without work_of_adhesion of &interface loads are >= 0')
+         return
+      end if
       do k = 1, size(sweep_keys)
          if (.not. has(k)) call values%complain(problems, trim(sweep_keys(findloc(has, .true., dim=1))), &
             'a sweep needs '//trim(sweep_keys(k))//' too')

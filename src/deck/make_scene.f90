@@ -91,7 +91,7 @@ contains
    !> A mean pressure over p*. On a flat surface p* = 0 and contact is full at every load: the result is 1 without
    !> load and infinity otherwise.
    elemental real(dp) function in_p_star(mean_pressure, p_star)
-      real(dp), intent(in) :: mean_pressure, p_star   !! both >= 0
+      real(dp), intent(in) :: mean_pressure, p_star   !! p* >= 0
 
       if (p_star > 0.0_dp) then
          in_p_star = mean_pressure/p_star

@@ -164,7 +164,7 @@ contains
       ! A ball yields first at a peak pressure of 1.4 to 1.9 times its yield stress.
       if (key == 'yield' .and. .not. deck%stress%any_bad()) &
          loads = 2*loads*max(0.0_dp, deck%stress%real('yield_stress'))
-      call kind%set_sides(deck%surface_values, plane_strain_modulus(deck%material), hardness, key, maxval(loads))
+      call kind%set_sides(deck%surface_values, plane_strain_modulus(deck%material), hardness, key, maxval(abs(loads)))
    end subroutine set_sides_of_loads
 
    !> Checks &material, which gives p* and the hardness of the surface, and &load and, where these and the surface have
@@ -177,7 +177,7 @@ contains
 
       before = problems%number
       call check_material_group(deck%material, deck%surface, deck%e_star, deck%p_star, problems)
-      call check_load_group(deck%load, problems)
+      call check_load_group(deck%load, deck%interface%has('work_of_adhesion'), problems)
       if (problems%number > before .or. deck%material%any_bad() .or. deck%load%any_bad()) return
       if (deck%load%place == 0 .or. .not. allocated(deck%surface)) return
       call check_loads_of_surface(deck%load, deck%surface, deck%p_star, problems, &

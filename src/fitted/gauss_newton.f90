@@ -110,8 +110,8 @@ contains
       real(dp), intent(out) :: load_change(2)   !! of the integral of p or g, per P and P^2
       logical, intent(out) :: finite            !! otherwise the changes are of no use
 
-      !> Step of P over its distance from 0 and from the closing pressure: the differences' error of fourth order and the
-      !> rounding are some 1e-11.
+      !> Step of P over its distance from 0 and from the closing pressure: the differences' error of fourth order and
+      !> the rounding are some 1e-11.
       real(dp), parameter :: part = 1e-3_dp
       !> Weights of the solutions at one and two steps.
       real(dp), parameter :: weight(2) = [2.0_dp/3, -1.0_dp/12]

@@ -1,5 +1,5 @@
-!> The contact with adhesion in the limit of Johnson, Kendall & Roberts, by Ciavarella's superposition: a contact without
-!> adhesion at a mean pressure P1, less the field of a rigid punch of the contact's shape under a tension T.
+!> The contact with adhesion in the limit of Johnson, Kendall & Roberts, by Ciavarella's superposition: a contact
+!> without adhesion at a mean pressure P1, less the field of a rigid punch of the contact's shape under a tension T.
 !>
 !> The curve is followed by P1, through its turning points. Equations (I..) are those of README.md in this directory.
 module wavycon_adhesive_curve
@@ -22,8 +22,8 @@ module wavycon_adhesive_curve
       separated = 4, closed = 5, not_reliable = 6
    character(20), parameter, public :: point_names(0:6) = [character(20) :: 'unstable', 'stable', 'pull_off', &
       'jump_to_full_contact', 'separated', 'full_contact', 'not_reliable']
-   !> Extremes this number of points from one whose energy release rate exceeds this part of w are artefacts: there spots
-   !> are about to merge, and the superposition fails.
+   !> Extremes this number of points from one whose energy release rate exceeds this part of w are artefacts: there
+   !> spots are about to merge, and the superposition fails.
    integer, parameter :: near = 3
    real(dp), parameter :: most_release = 1.5_dp
 
@@ -92,8 +92,8 @@ contains
       end associate
    end subroutine follow_curve
 
-   !> Adds the points of the curve at a load, by rising P1; where it is not reliable, a point near by. Beyond pull-off and
-   !> jump none of them is stable: the bodies are separated, or in full contact.
+   !> Adds the points of the curve at a load, by rising P1; where it is not reliable, a point near by. Beyond pull-off
+   !> and jump none of them is stable: the bodies are separated, or in full contact.
    subroutine add_load(curve, solver, work, load, number)
       type(adhesive_curve), intent(inout) :: curve
       class(contact_solver), intent(inout) :: solver
@@ -122,7 +122,8 @@ contains
          curve%at_loads = [curve%at_loads, point]
       end do
       if (has_stable) return
-      point = adhesive_point(exists=.true., kind=closed, number=number, p1=load, load=load, approach=1.0_dp, area=1.0_dp)
+      point = adhesive_point(exists=.true., kind=closed, number=number, p1=load, load=load, approach=1.0_dp, &
+                             area=1.0_dp)
       associate (of_critical => curve%critical%kind == pull_off_point)
          if (any(of_critical)) then
             if (load < minval(curve%critical%load, of_critical)) &

@@ -10,7 +10,7 @@ module wavycon_partial_slip
    implicit none (type, external)
    private
 
-   public :: partial_slip, solve_partial_slip, relative_displacement, slip_loop
+   public :: partial_slip, solve_partial_slip, cycle_energy, relative_displacement, slip_loop
 
    !> Loads of the loading curve, from no tangential load to the whole.
    integer, parameter :: curve_points = 33
@@ -73,8 +73,22 @@ contains
       answer(2) = solution%measures%mean_gap_error + stick%measures%mean_gap_error
    end function relative_displacement
 
-   !> The curve of tangential load [p*] and displacement over kappa f [Delta]: branch 1, loading; 2, from Q to -Q; 3, back
-   !> to Q, both by Masing's rule. Empty without a solution.
+   !> The energy that a cycle between Q and -Q takes per nominal area, over kappa f^2 [p* Delta] (I14a), and its error
+   !> estimate. The approach stands for -G, which free edges do not have.
+   pure function cycle_energy(solution, stick) result(answer)
+      type(contact_solution), intent(in) :: solution   !! at P
+      type(contact_solution), intent(in) :: stick      !! at P*
+      real(dp) :: answer(2)
+
+      associate (p => solution%pbar_over_pstar + stick%pbar_over_pstar, u => solution%measures, u_stick => stick%measures)
+         answer = p*relative_displacement(solution, stick)
+         answer(1) = 4*(answer(1) - 2*(u%elastic_energy - u_stick%elastic_energy))
+         answer(2) = 4*(answer(2) + 2*(u%elastic_energy_error + u_stick%elastic_energy_error))
+      end associate
+   end function cycle_energy
+
+   !> The curve of tangential load [p*] and displacement over kappa f [Delta]: branch 1, loading; 2, from Q to -Q; 3,
+   !> back to Q, both by Masing's rule. Empty without a solution.
    pure subroutine slip_loop(slip, branch, tangential, displacement)
       type(partial_slip), intent(in) :: slip
       integer, allocatable, intent(out) :: branch(:)

@@ -17,6 +17,8 @@ module wavycon_roughness
       real(dp) :: curvature = 0.0_dp   !! of half the Laplacian, of a profile of h'', eq. (M24) [1/length]
       !> Slope and curvature by differences between neighbouring points, eq. (M25); as above if there are no points.
       real(dp) :: slope_by_differences = 0.0_dp, curvature_by_differences = 0.0_dp
+      !> Sum of the mean squares of all waves, each over its wavelength, eq. (M25a) [length].
+      real(dp) :: frequency_moment = 0.0_dp
    end type roughness_type
 
 contains
@@ -28,26 +30,28 @@ contains
       real(dp), intent(in) :: length(2)            !! L_x, L_y, sides of the periodic cell, > 0 [length]
       integer, intent(in) :: points(2)             !! of the grid that the series interpolates; zeros if there is none
 
-      real(dp) :: sums(5), unit
+      real(dp) :: sums(6), unit
       type(grid_slab) :: rows
 
       ! Wave numbers over 2 pi/unit neither overflow nor make all squares underflow, whatever the unit of length.
       unit = minval(length)
       rows = wave_slab(series)
-      sums = amplitude*sqrt(rows%column_totals(moments_of_rows(series, unit/length, points)))
+      sums = rows%column_totals(moments_of_rows(series, unit/length, points))
+      sums(:5) = amplitude*sqrt(sums(:5))
+      sums(6) = amplitude**2*sums(6)/unit
       sums([2, 4]) = 2*pi/unit*sums([2, 4])
       sums([3, 5]) = (2*pi/unit)**2*sums([3, 5])
       if (ubound(series%c, 2) > 0) sums([3, 5]) = 0.5_dp*sums([3, 5])
-      roughness = roughness_type(sums(1), sums(2), sums(3), sums(4), sums(5))
+      roughness = roughness_type(sums(1), sums(2), sums(3), sums(4), sums(5), sums(6))
    end function roughness_of
 
-   !> The sums of (M22) to (M25) over the waves of each wave number in X, of height, slope, curvature, and slope and
-   !> curvature by differences, in the order of roughness_type; wave numbers are in units of 2 pi/unit.
+   !> The sums of (M22) to (M25a) over the waves of each wave number in X, of height, slope, curvature, slope and
+   !> curvature by differences, and frequency, in the order of roughness_type; wave numbers are in units of 2 pi/unit.
    pure function moments_of_rows(series, over_length, points) result(moments)
       type(fourier_series), intent(in) :: series
       real(dp), intent(in) :: over_length(2)             !! unit/L_x, unit/L_y
       integer, intent(in) :: points(2)                   !! as of roughness_of
-      real(dp), allocatable :: moments(:, :)             !! shape (5, that of the series' first index)
+      real(dp), allocatable :: moments(:, :)             !! shape (6, that of the series' first index)
 
       !> Squared wave numbers, of the surface and of its differences.
       real(dp), dimension(lbound(series%c, 1):ubound(series%c, 1)) :: powers, q_squared, s_squared, x_squared, x_steps
@@ -55,7 +59,7 @@ contains
 
       x_squared = [((k*over_length(1))**2, k=lbound(series%c, 1), ubound(series%c, 1))]
       x_steps = [(step_squared(k, points(1), over_length(1)), k=lbound(series%c, 1), ubound(series%c, 1))]
-      allocate (moments(5, size(powers)), source=0.0_dp)
+      allocate (moments(6, size(powers)), source=0.0_dp)
       do l = 0, ubound(series%c, 2)
          powers = wave_powers(series, points, l)
          q_squared = x_squared + (l*over_length(2))**2
@@ -65,6 +69,7 @@ contains
          moments(3, :) = moments(3, :) + powers*q_squared**2
          moments(4, :) = moments(4, :) + powers*s_squared
          moments(5, :) = moments(5, :) + powers*s_squared**2
+         moments(6, :) = moments(6, :) + powers*sqrt(q_squared)
       end do
    end function moments_of_rows
 

@@ -37,6 +37,8 @@ module wavycon_contact_measures
       !> which is for surfaces alone. Otherwise `unknown`.
       real(dp) :: contact_area_counted_fraction = unknown
       real(dp) :: contact_area_corrected_fraction = unknown
+      !> Elastic energy per nominal area, the mean of p u/2 [p* Delta], and its error estimate, or `unknown`.
+      real(dp) :: elastic_energy = unknown, elastic_energy_error = unknown
       !> That of wavycon_load_concentration, of a light contact on a height map; otherwise 0.
       real(dp) :: load_concentration = 0.0_dp
       !> With free edges the part of the load that lies within `border` sides of the border; otherwise 0.

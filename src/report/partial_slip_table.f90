@@ -1,4 +1,4 @@
-!> <case>.partial_slip.dat: stick area, displacement and energy of each load and tangential load; and
+!> <case>.partial_slip.dat: stick area, displacement and energy a cycle of each load and tangential load; and
 !> <case>.slip_loop.dat: a block of each with the tangential load against the displacement.
 module wavycon_partial_slip_table
    use wavycon_contact_measures, only: or_nan
@@ -6,7 +6,7 @@ module wavycon_partial_slip_table
    use wavycon_kinds, only: dp
    use wavycon_load_derivatives, only: load_derivatives
    use wavycon_output_file, only: output_file
-   use wavycon_partial_slip, only: relative_displacement, slip_loop
+   use wavycon_partial_slip, only: cycle_energy, relative_displacement, slip_loop
    use wavycon_plain_text, only: exact_number, integer_text
    use wavycon_results, only: not_a_number, results_type
    use wavycon_scene, only: scene_type
@@ -21,6 +21,7 @@ module wavycon_partial_slip_table
       'tangential_over_limit[-]', 'stick_pbar_over_pstar[-]', 'contact_area_fraction[-]', &
       'stick_area_fraction[-]', 'stick_area_error[-]', 'displacement[length]', 'displacement_error[length]', &
       'least_displacement[length]', 'most_displacement[length]', 'tangential_stiffness[pressure/length]', &
+      'cycle_energy[pressure*length]', 'cycle_energy_error[pressure*length]', &
       'status_code[-]', 'status[-]']
    character(40), parameter :: loop_columns(*) = [character(40) :: &
       'load[-]', 'tangential[-]', 'branch[-]', 'tangential_load[pressure]', 'displacement[length]']
@@ -60,7 +61,7 @@ contains
 
       type(load_derivatives) :: slopes
       integer :: i
-      real(dp) :: displacement(2), of_stick(3), stiffness
+      real(dp) :: displacement(2), energy(2), of_stick(3), stiffness
 
       associate (solution => results%loads(load), setting => results%scene%interface_setting, &
                  p_star => results%scene%p_star, amplitude => results%solver%surface%amplitude)
@@ -68,11 +69,14 @@ contains
             associate (slip => results%slip(i, load), stick => results%slip(i, load)%stick)
                stiffness = not_a_number()
                displacement = not_a_number()
+               energy = not_a_number()
                of_stick = not_a_number()
                if (stick%is_good()) then
                   of_stick = [results%in_p_star(stick%pbar_over_pstar), stick%measures%contact_area_fraction, &
                               or_nan(stick%measures%contact_area_error)]
-                  displacement = setting%friction*amplitude*relative_displacement(solution, stick)
+                  displacement = setting%friction*amplitude*or_nan(relative_displacement(solution, stick))
+                  energy = setting%kappa(1)*setting%friction**2*p_star*amplitude* &
+                           or_nan(cycle_energy(solution, stick))
                   call stick%derivatives(results%solver%surface, slopes)
                   if (slopes%gap_slope < 0.0_dp) stiffness = -p_star/(setting%kappa(1)*amplitude*slopes%gap_slope)
                end if
@@ -80,7 +84,7 @@ contains
                call file%add([results%mean_pressure(load), p_star*slip%tangential, &
                               slip%tangential/(setting%friction*solution%pbar_over_pstar), &
                               of_stick(1), solution%measures%contact_area_fraction, of_stick(2:), &
-                              setting%kappa(1)*displacement, setting%kappa(2:)*displacement(1), stiffness])
+                              setting%kappa(1)*displacement, setting%kappa(2:)*displacement(1), stiffness, energy])
                call file%add(status_code(stick%status))
                call file%add(trim(status_name(stick%status)))
                call file%end_row()

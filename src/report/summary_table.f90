@@ -24,6 +24,8 @@ module wavycon_summary_table
       'contact_area_counted_fraction[-]', 'contact_area_corrected_fraction[-]', 'linear_area_fraction[-]', &
       'mean_pressure[pressure]', 'force[force]', 'mean_gap[length]', 'approach[length]', 'approach_error[length]', &
       'contact_area[area]', 'contact_area_error[area]', 'peak_pressure[pressure]', 'peak_pressure_error[pressure]', &
+      'elastic_energy_over_pstar_amplitude[-]', 'elastic_energy_over_pstar_amplitude_error[-]', &
+      'elastic_energy[force*length]', 'elastic_energy_error[force*length]', &
       'active_constraints[-]', 'iterations[-]', 'residual[-]', 'solver[-]', &
       'status_code[-]', 'status[-]']
 
@@ -44,12 +46,14 @@ contains
       integer, intent(in) :: load
       type(output_file), intent(inout) :: file   !! with summary_columns
 
-      real(dp) :: approach(2), at_hardness(4), errors(3)
+      real(dp) :: approach(2), at_hardness(4), energy(2), errors(3)
 
       associate (scene => results%scene, surface => results%solver%surface, solution => results%loads(load), &
                  measures => results%loads(load)%measures)
          errors = not_a_number()
          if (results%traits%has_errors) errors = or_nan(measures%errors())
+         energy = or_nan([measures%elastic_energy, measures%elastic_energy_error])
+         if (.not. results%traits%has_errors) energy(2) = not_a_number()
          approach = results%approach_over_amplitude(load)
          at_hardness = not_a_number()
          if (surface%has_hardness()) then
@@ -69,7 +73,8 @@ contains
                         results%mean_pressure(load), surface%nominal_area()*results%mean_pressure(load), &
                         surface%amplitude*[measures%mean_gap_over_amplitude, approach], &
                         surface%nominal_area()*[measures%contact_area_fraction, errors(2)], &
-                        results%peak_pressure(load), scene%p_star*errors(3)])
+                        results%peak_pressure(load), scene%p_star*errors(3), results%in_p_star(energy), &
+                        scene%p_star*surface%amplitude*surface%nominal_area()*energy])
          call file%add(solution%active_constraints)
          call file%add(solution%iterations)
          call file%add(solution%residual)

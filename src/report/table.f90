@@ -24,7 +24,8 @@ module wavycon_table
       logical :: needs_fields = .false.   !! whether it is made from fields, edges or details of the solutions
       logical :: needs_surface = .true.   !! whether it is made from the whole surface
       logical :: is_for_flat_surfaces = .false.   !! whether it is written where p* and Delta are zero
-      !> Null: it is written if its key is .true. and, without a key, always; never without its group &stress or &interface.
+      !> Null: it is written if its key is .true. and, without a key, always; never without its group &stress or
+      !> &interface.
       procedure(request_interface), pointer, nopass :: requested => null()
       procedure(refusal_interface), pointer, nopass :: refuse => null()        !! null: it can always be written
       procedure(by_all_interface), pointer, nopass :: written_by_all => null() !! null: rank 0 writes it

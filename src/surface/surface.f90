@@ -62,6 +62,7 @@ module wavycon_surface
       procedure :: frequency
       procedure :: pressure_of
       procedure :: displacement_of
+      procedure :: full_contact_energy
       procedure :: full_contact_series
       procedure :: paper_wave
       procedure :: is_paper_wave
@@ -392,6 +393,16 @@ contains
 
       displacement = divided(weighted(pressure, self%length, -1), self%stiffness)
    end function displacement_of
+
+   !> The elastic energy per nominal area in full contact, half the mean of p times the shape [p* Delta], by Parseval.
+   real(dp) function full_contact_energy(self)
+      class(surface_type), intent(in) :: self
+
+      type(roughness_type) :: roughness
+
+      roughness = roughness_of(self%shape, 1.0_dp, self%length, self%points)
+      full_contact_energy = 0.5_dp*self%stiffness*roughness%frequency_moment
+   end function full_contact_energy
 
    !> p/p* in full contact, where the displacement is the shape; eq. (22) for the paper's wave.
    type(fourier_series) function full_contact_series(self, pbar_over_pstar) result(pressure)

@@ -80,7 +80,7 @@ class MapFiles(ProgramTest):
             gsffile.write_gsf(f"{name}.gsf", self.single, {"XReal": M*STEP, "YReal": N*STEP, "XYUnits": "m",
                                                            "ZUnits": height_unit})
             found = self.summary(f"{name}.gsf", factor, "&scene length_unit = 'mm' /")
-            for one, other in zip(words_of(expected), words_of(found), strict=True):
+            for one, other in zip(sum(expected, []), sum(found, []), strict=True):
                 # Powers of ten are rounded.
                 self.assertTrue(one == other or abs(float(one) - float(other)) <= 1e-9*abs(float(one)), (one, other))
 
@@ -143,12 +143,9 @@ class MapFiles(ProgramTest):
 
 
 def rows_of(path):
-    return [line for line in pathlib.Path(path).read_text(encoding="utf-8").splitlines()
+    """Fields of the rows: the columns are as wide as their units."""
+    return [line.split() for line in pathlib.Path(path).read_text(encoding="utf-8").splitlines()
             if not line.startswith("#")][1:]
-
-
-def words_of(rows):
-    return " ".join(rows).split()
 
 
 if __name__ == "__main__":
