@@ -20,6 +20,8 @@ module wavycon_map_statistics
       !> Root mean square of the steps from the last points to the first, which are their neighbours because the map is
       !> continued periodically [length].
       real(dp) :: border_step(2) = 0.0_dp
+      !> Of a map that does not repeat: slope and curvature by differences within it, see `differences_within`.
+      real(dp) :: differences(2) = 0.0_dp
       integer :: spikes = 0                      !! heights far from all around them, if they were looked for
       logical :: lacks_missing_value = .false.   !! whether the deck gives a missing_value that no height has
       character(:), allocatable :: assumed_sides   !! sides that neither deck nor file gives, in words; empty if none

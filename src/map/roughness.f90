@@ -9,7 +9,7 @@ module wavycon_roughness
    implicit none (type, external)
    private
 
-   public :: roughness_type, roughness_of, wave_powers, waves_of_number
+   public :: roughness_type, differences_within, roughness_of, wave_powers, waves_of_number
 
    type :: roughness_type
       real(dp) :: height = 0.0_dp      !! of the height over its mean, eq. (M22) [length]
@@ -98,6 +98,53 @@ contains
 
       waves = merge(1, 2, k == 0 .or. 2*k == points)
    end function waves_of_number
+
+   !> Root mean squares of slope and curvature by differences as in `roughness_type`, without those across the borders of
+   !> a map that does not repeat.
+   function differences_within(height, points, length) result(differences)
+      real(dp), intent(in) :: height(:, :)       !! shape (M, N) or (M, columns of the grid's slab) [length]
+      integer, intent(in) :: points(2)           !! M, N
+      real(dp), intent(in) :: length(2)          !! sides of the map, > 0 [length]
+      real(dp) :: differences(2)
+
+      real(dp), dimension(size(height, 1), 1) :: behind, next
+      real(dp) :: over_step(2), parts(3, size(height, 2)), totals(3), unit(1)
+      real(dp), dimension(size(height, 1)) :: bend, here, to_last, to_next
+      integer :: j
+      type(grid_slab) :: slab
+
+      call slab%start(points)
+      unit = maxval(abs(height))
+      call slab%largest(unit)
+      differences = 0.0_dp
+      if (.not. unit(1) > 0.0_dp) return
+      ! Powers of heights over the largest one and of steps over the least do not overflow.
+      over_step = minval(length/points)*points/length
+      call slab%halo(height, .false., behind, next)
+      parts = 0.0_dp
+      associate (m => points(1), n => points(2), columns => size(height, 2))
+         do j = 1, columns
+            here = height(:, j)/unit(1)
+            if (j > 1) behind(:, 1) = height(:, j - 1)
+            to_last = over_step(2)*(here - behind(:, 1)/unit(1))
+            if (j < columns) then
+               to_next = over_step(2)*(height(:, j + 1)/unit(1) - here)
+            else
+               to_next = over_step(2)*(next(:, 1)/unit(1) - here)
+            end if
+            parts(1, j) = sum((over_step(1)*(here(2:) - here(:m - 1)))**2)/(max(m - 1, 1)*n)
+            if (slab%first - 1 + j < n) parts(2, j) = sum(to_next**2)/(m*(n - 1))
+            if (n > 1 .and. any(slab%first - 1 + j == [1, n])) cycle
+            bend(2:m - 1) = over_step(1)**2*(here(3:) - 2*here(2:m - 1) + here(:m - 2))
+            if (n > 1) bend(2:m - 1) = 0.5_dp*(bend(2:m - 1) + over_step(2)*(to_next(2:m - 1) - to_last(2:m - 1)))
+            parts(3, j) = sum(bend(2:m - 1)**2)/(max(m - 2, 1)*max(n - 2, 1))
+         end do
+      end associate
+      totals = slab%column_totals(parts)
+      associate (step => minval(length/points))
+         differences = unit(1)/step*[sqrt(totals(1) + totals(2)), sqrt(totals(3))/step]
+      end associate
+   end function differences_within
 
    !> The square of the wave number that differences between neighbours see, eq. (M25), over 2 pi/unit.
    elemental real(dp) function step_squared(k, points, over_length)

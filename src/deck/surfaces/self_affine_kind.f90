@@ -141,6 +141,9 @@ contains
       type(self_affine_spectrum), intent(in) :: spectrum
       type(problem_list_type), intent(inout) :: problems
 
+      !> Factor for a wave longer than two steps, within the digits of a message.
+      real(dp), parameter :: longer = 1.001_dp
+      character(:), allocatable :: advice
       integer :: least(2), points(2)
 
       points = values%integers('points')
@@ -156,9 +159,11 @@ contains
             short_number(spectrum%shortest)//' needs '//grid_words(least)//' points, and more than '// &
             integer_text(most_points)//' a side are not possible: give a longer one or a smaller cell')
       else
+         advice = ', and accurate contact areas twice as many each way or more'
+         if (all(points >= least - 1)) advice = advice//'. Waves of exactly two steps have no phase on the points: '// &
+            'short_wavelength = '//short_number(longer*spectrum%shortest)//' leaves them out'
          call values%complain(problems, 'points', grid_words(points)//' points are too few for short_wavelength = '// &
-            short_number(spectrum%shortest)//': it needs '//grid_words(least)// &
-            ', and accurate contact areas twice as many each way or more')
+            short_number(spectrum%shortest)//': it needs '//grid_words(least)//advice)
       end if
    end subroutine check_points
 
