@@ -57,14 +57,14 @@ plot kappa with lines ls 5, 2 with lines ls 4, persson(x)/x with lines ls 2, \
 set xlabel pressure offset 0, 0.3
 set yrange [0:3]
 set ytics 0.5 format '%.1f'
-set ylabel 'mean gap (µm)' offset 0.4, 0
+set ylabel 'mean gap [µm]' offset 0.4, 0
 plot for [seed = 1:2] values using of_load:(of_seed(seed, column('mean_gap'))) with linespoints ls (30 + seed), \
      table('challenge', 'summary') using (column('mean_pressure')/E_star):'mean_gap' with points ls 13
 
 set logscale y
 set yrange [1e-3:20]
 set ytics 10 format '10^{%T}'
-set ylabel '−d{/:Italic p̄}/d(mean gap) (MPa/µm)' offset 0.6, 0
+set ylabel '−d{/:Italic p̄}/d(mean gap) [MPa/µm]' offset 0.6, 0
 plot for [seed = 1:2] values using of_load:(of_seed(seed, column('stiffness'))) with linespoints ls (30 + seed)
 unset multiplot
 EOF

@@ -20,7 +20,7 @@ set xrange [-side:side]
 set yrange [-side:side]
 set xtics side/2 nomirror out font ',12'
 set ytics side/2 nomirror out font ',12'
-set xlabel '{/:Italic x} (mm)'
+set xlabel '{/:Italic x} [mm]'
 unset key
 set cbrange [0:1]
 set palette defined (0 dark, 1 light)
@@ -37,7 +37,7 @@ do for [i = 0:loads - 1] {
    mean_pressure = STATS_max
    stats summary using (column("load") == i + 1 ? column("pbar_over_pstar") : NaN) nooutput
    set title sprintf('%s = %.4f N/mm²', p_bar, mean_pressure)."\n".sprintf('%s = %.2f', load, STATS_max)
-   if (i == 0) { set ylabel '{/:Italic y} (mm)' } else { unset ylabel; set format y '' }
+   if (i == 0) { set ylabel '{/:Italic y} [mm]' } else { unset ylabel; set format y '' }
    plot for [k = -1:1] for [l = -1:1] map index i using (k*side + column("x")):(l*side + column("y")): \
            (column("pressure") > edge_level*p_star_here ? 1 : 0) with image, \
         for [k = -2:2] for [l = -2:2] edges index i \

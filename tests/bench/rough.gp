@@ -47,7 +47,7 @@ do for [row = 1:2] {
       set tmargin at screen y + high
       set yrange [0.005:200]
       set format y (panel == 1 ? '%g' : '')
-      set ylabel (panel == 1 ? 'processor time (s)' : '') offset 0.8, 0
+      set ylabel (panel == 1 ? 'processor time [s]' : '') offset 0.8, 0
       set xlabel (row == 2 ? 'points in contact / %' : '') offset 0, 0.3
       set xtics ()
       do for [i = 1:8] { set xtics add ((row == 2 ? label[i] : '') logit(share[i])) }

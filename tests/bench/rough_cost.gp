@@ -27,7 +27,7 @@ do for [j = 1:3] {
 set multiplot layout 1, 2 margins 0.09, 0.98, 0.17, 0.94 spacing 0.12
 set key left center Left reverse samplen 2 font small
 set xlabel 'fraction of the points in contact' offset 0, 0.3
-set ylabel 'processor time (s);  transform pairs' offset 1.2, 0
+set ylabel 'processor time [s];  transform pairs' offset 1.2, 0
 set xrange [5e-5:1.5]
 set format x '10^{%T}'
 set format y '%g'
@@ -37,7 +37,7 @@ plot runs index 'contact' using 3:4 with points ls 31 title sprintf('time, %d^2 
    runs index 'contact' using 3:6 with points ls 32 title 'transform pairs'
 set key left top
 set xlabel 'points along a side' offset 0, 0.3
-set ylabel 'processor time (s)' offset 1.2, 0
+set ylabel 'processor time [s]' offset 1.2, 0
 set xrange [200:5200]
 set xtics (256, 512, 1024, 2048, 4096)
 set format x '%g'
