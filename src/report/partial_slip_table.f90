@@ -75,8 +75,13 @@ contains
                   of_stick = [results%in_p_star(stick%pbar_over_pstar), stick%measures%contact_area_fraction, &
                               or_nan(stick%measures%contact_area_error)]
                   displacement = setting%friction*amplitude*or_nan(relative_displacement(solution, stick))
-                  energy = setting%kappa(1)*setting%friction**2*p_star*amplitude* &
-                           or_nan(cycle_energy(solution, stick))
+                  if (results%traits%has_errors) then
+                     energy = setting%kappa(1)*setting%friction**2*p_star*amplitude* &
+                              or_nan(cycle_energy(solution, stick))
+                  else
+                     of_stick(3) = not_a_number()
+                     displacement(2) = not_a_number()
+                  end if
                   call stick%derivatives(results%solver%surface, slopes)
                   if (slopes%gap_slope < 0.0_dp) stiffness = -p_star/(setting%kappa(1)*amplitude*slopes%gap_slope)
                end if
