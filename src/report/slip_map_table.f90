@@ -6,7 +6,7 @@ module wavycon_slip_map_table
    use wavycon_error, only: error_type
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: exact_number, integer_text
-   use wavycon_results, only: results_type
+   use wavycon_results, only: not_a_number, results_type
    use wavycon_table, only: table_type
    implicit none (type, external)
    private
@@ -57,8 +57,13 @@ contains
                   call fields%on_grid(map%points, map%offset, p_of_stick, u, gap)
                end associate
                do l = 1, map%points(2)
-                  values = transpose(reshape([friction*p_star*max(p(:, l) - p_of_stick(:, l), 0.0_dp), p_star*p(:, l), &
-                                              state(p(:, l), p_of_stick(:, l))], [map%points(1), 3]))
+                  if (results%slip(i, load)%stick%is_good()) then
+                     values = transpose(reshape([friction*p_star*max(p(:, l) - p_of_stick(:, l), 0.0_dp), &
+                                                 p_star*p(:, l), state(p(:, l), p_of_stick(:, l))], &
+                                                [map%points(1), 3]))
+                  else
+                     values = spread([not_a_number(), not_a_number(), not_a_number()], 2, map%points(1))
+                  end if
                   call map%put_row([load, i], l, values)
                end do
             end do

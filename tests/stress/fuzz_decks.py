@@ -23,6 +23,13 @@ SMALL = [
     "&load mean_pressure = 0, 0.5, 3 /\n&material e_star = 2.64 /\n&method solver = 'beale' /\n",
     "&SURFACE KIND = \"wave_2d\" /\n&LOAD PBAR_OVER_PSTAR = 1.0 1.5 0 /\n&Output Contours = F, Theory = .TRUE. /\n",
     "&surface kind = 'wave_1d', amplitude = 0 /\n&load pbar_over_pstar = 3*0.5 /\n&output map = .true., map_points = 8 /\n",
+    "&surface kind = 'wave_1d', amplitude = 2 /\n&material e_star = 3 /\n&load pbar_over_pstar = -0.01, 0.3, 0.9 /\n"
+    "&interface friction = 0.4, tangential_over_normal = 0.1, 0.2, nu = 0.3, shear_direction = 'y', slip_loop = .true.,\n"
+    "   slip_map = .true., resistivity1 = 1, resistivity2 = 2, work_of_adhesion = 0.1 /\n&method solver = 'auto' /\n"
+    "&output map_points = 8 /\n",
+    "&surface kind = 'wave_2d' /\n&material e1 = 210, nu1 = 0.3, e2 = 70, nu2 = 0.2 /\n&load pbar_over_pstar = 0.3, 1 /\n"
+    "&interface friction = 0.4, tangential_load = 0, 0.01, slip_map = .true. /\n"
+    "&method solver = 'beale', harmonics = 4, constraint_points = 9 /\n&output map_points = 8, map_format = 'npy' /\n",
 ]
 # Also the other surfaces and kinds of load. The cases of --check start from these.
 LARGE = SMALL + [
@@ -39,6 +46,7 @@ LARGE = SMALL + [
     "   rolloff_wavelength = 0.5, short_wavelength = 0.2, spectrum = 'random', seed = 3, points = 12, 24 /\n"
     "&load pbar_over_pstar = 0.1 /\n&method grid_points = 16, 32 /\n",
     "&surface kind = 'ball', radius_x = 1, radius_y = 2 /\n&load force = 0.001, 0.1 /\n&method accuracy = 0.1 /\n",
+    "&surface kind = 'ball', radius = 1 /\n&load force = -1e-4, 1e-3 /\n&interface work_of_adhesion = 1e-4 /\n",
     "&surface kind = 'ball', radius = 1, length_x = 0.5, points = 16 /\n&load approach = 0.01 /\n&material hardness = 0.1 /\n",
     "&surface kind = 'self_affine', rms_slope = 0.1, points = 16, short_wavelength = 0.3, edges = 'free',\n"
     "   form_radius = 3 /\n&load contact_area = 0.1 /\n&stress nu = 0.3, section = 'x' /\n",
