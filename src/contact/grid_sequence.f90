@@ -9,6 +9,7 @@ module wavycon_grid_sequence
    use wavycon_contact_tuning, only: iteration_limit, iterations_of_root
    use wavycon_counted_area, only: corrected_area_fraction, counted_area_fraction
    use wavycon_grid_area, only: grid_contact_area
+   use wavycon_free_level, only: complete_gap, solve_free_level
    use wavycon_grid_edge, only: grid_edge, joined, make_grid_edge, pressure_per_gap, start_grid_edge
    use wavycon_grid_error, only: change_history, estimate_errors, unresolved_errors
    use wavycon_grid_peak, only: grid_peak_pressure
@@ -52,7 +53,7 @@ contains
    !> Solves one load, to an accuracy or up to a given grid. The sequence ends early if a grid does not fit into memory
    !> (`out_of_memory`), the iteration on it does not converge (`state%converged` is false), or `progress` says that it
    !> shall stop (`state%interrupted`): then there is no edge.
-   subroutine solve_by_sequence(surface, mean_pressure, accuracy, points, answer, progress, residual)
+   subroutine solve_by_sequence(surface, mean_pressure, accuracy, points, answer, progress, residual, needs_gap)
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: mean_pressure           !! P in (0, 1), or in (0, H) if the surface has a hardness
       !> Largest error estimate allowed of the three values, with free edges over these, >= 0.
@@ -63,8 +64,10 @@ contains
       class(solver_progress), intent(in), optional :: progress
       !> Residual (C9) of the last grid that `points` gives; absent or 0: as its edge needs it (C10).
       real(dp), intent(in), optional :: residual
+      !> Whether the edge of a surface with free edges is to have the gap at points far from the contact too.
+      logical, intent(in), optional :: needs_gap
 
-      real(dp), allocatable :: finer(:, :)
+      real(dp), allocatable :: finer(:, :), h(:, :)
       type(change_history) :: history, history_at_hardness
       type(grid_edge), allocatable :: edge_at_hardness
       type(grid_plan) :: plan
@@ -84,7 +87,7 @@ contains
       answer%state%hardness = surface%hardness
       do
          last = all(grid == plan%last)
-         call solve_level(surface, mean_pressure, merge(last_residual, 0.0_dp, last), answer, progress)
+         call solve_level(surface, mean_pressure, merge(last_residual, 0.0_dp, last), h, answer, progress)
          if (answer%state%interrupted) return
          if (surface%has_hardness()) then
             call find_edge_at_hardness(surface, answer%state, edge_at_hardness)
@@ -114,27 +117,33 @@ contains
          call refine_pressure(answer%state%pressure, coarser, surface%shape%is_even(), answer%state%slab, finer)
          call move_alloc(finer, answer%state%pressure)
       end do
-      if (.not. surface%has_free_edges) answer%errors = known_errors(answer%errors, surface%full_contact_peak)
+      if (surface%has_free_edges) then
+         if (present(needs_gap)) then
+            if (needs_gap) call complete_gap(surface, h, answer%state%approach, answer%edge%pressure_or_gap)
+         end if
+      else
+         answer%errors = known_errors(answer%errors, surface%full_contact_peak)
+      end if
       ! No pressure is negative: an estimate as large as the peak says nothing of it.
       if (.not. answer%accurate .and. answer%errors(3) >= answer%values(3)) answer%errors(3) = unknown
    end subroutine solve_by_sequence
 
    !> Solves on one grid, that of answer%state%pressure, and starts from that pressure.
-   subroutine solve_level(surface, mean_pressure, residual, answer, progress)
+   subroutine solve_level(surface, mean_pressure, residual, h, answer, progress)
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: mean_pressure, residual
+      real(dp), allocatable, intent(out) :: h(:, :)   !! undeformed gap [Delta]
       type(sequence_answer), intent(inout) :: answer
       class(solver_progress), intent(in), optional :: progress
 
       type(compliance_operator) :: half_space
       type(local_stiffness) :: stencil
-      real(dp), allocatable :: h(:, :)
+      integer :: most
       real(dp) :: highest(1), load
 
       associate (slab => answer%state%slab, pressure => answer%state%pressure)
          allocate (h(slab%points(1), slab%columns()))
          call sample_undeformed_gap(surface, slab, h)
-         call half_space%start(surface, slab%points)
          load = mean_pressure*product(real(slab%points, dp))
          pressure = pressure*(load/sum_of_field(slab, pressure))
          if (surface%has_hardness()) then
@@ -143,14 +152,19 @@ contains
             if (highest(1) >= surface%hardness) call set_load(slab, pressure, load, surface%hardness)
          end if
          call stencil%start(surface, slab%points)
+         most = most_iterations(surface, slab%points)
       end associate
-      call solve_on_grid(half_space, stencil, h, residual, most_iterations(surface, answer%state%slab%points), &
-                         answer%state, progress)
+      answer%transform_pairs = answer%transform_pairs/2**surface%dimension
+      if (surface%has_free_edges) then
+         call solve_free_level(surface, stencil, h, residual, most, answer%state, answer%transform_pairs, progress)
+      else
+         call half_space%start(surface, answer%state%slab%points)
+         call solve_on_grid(half_space, stencil, h, residual, most, answer%state, progress)
+         answer%transform_pairs = answer%transform_pairs + half_space%transform_pairs + half_space%single_pairs
+      end if
       if (.not. answer%state%interrupted) answer%elastic_energy = energy_of(answer%state, h)
       answer%grids = answer%grids + 1
       answer%iterations = answer%iterations + answer%state%iterations
-      answer%transform_pairs = answer%transform_pairs/2**surface%dimension &
-                               + half_space%transform_pairs + half_space%single_pairs
    end subroutine solve_level
 
    !> The mean of p u/2, u = gap - h + approach.

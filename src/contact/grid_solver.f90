@@ -22,14 +22,11 @@ module wavycon_grid_solver
    implicit none (type, external)
    private
 
-   public :: grid_state, solve_on_grid
+   public :: grid_state, rounding, size_of_gaps, solve_on_grid
 
    !> Residuals below the first, over Delta, are rounding. Those below the second are rounding if a step does not halve
    !> them: the rounding of gaps depends on the depth of the surface and on its longest wave.
    real(dp), parameter :: rounding = 32*epsilon(1.0_dp), most_rounding = 1e-12_dp
-
-   !> Least side of the rectangle of a correction, in points.
-   integer, parameter :: least_side = 16
 
    type :: grid_state
       type(grid_slab) :: slab                   !! of the grid
@@ -67,7 +64,6 @@ contains
 
       logical :: touched(size(undeformed_gap, 2))
       real(dp) :: allowed, last_residual
-      type(compliance_operator) :: box
 
       last_residual = huge(1.0_dp)
       state%corrections = 0
@@ -85,7 +81,7 @@ contains
                            (state%residual <= most_rounding .and. 2*state%residual > last_residual)
          last_residual = state%residual
          if (state%converged .or. state%iterations >= most_iterations) exit
-         call correct_pressure(half_space, box, stencil, &
+         call correct_pressure(half_space, stencil, &
                                max(correction_part, correction_margin*allowed/state%residual), &
                                min(correction_limit, most_iterations - state%iterations), state, progress)
          if (state%interrupted) return
@@ -94,12 +90,8 @@ contains
    end subroutine solve_on_grid
 
    !> Corrects the pressure until the residual has fallen to a given part.
-   !>
-   !> With free edges the correction takes place on the smallest rectangle about its points, whose convolutions are
-   !> those of the whole grid.
-   subroutine correct_pressure(half_space, box, stencil, part, most_iterations, state, progress)
+   subroutine correct_pressure(half_space, stencil, part, most_iterations, state, progress)
       type(compliance_operator), intent(inout) :: half_space
-      type(compliance_operator), intent(inout) :: box   !! of the last rectangle
       type(local_stiffness), intent(in) :: stencil
       real(dp), intent(in) :: part
       integer, intent(in) :: most_iterations
@@ -108,62 +100,18 @@ contains
 
       type(pressure_correction) :: correction
       logical(c_bool), allocatable :: inside(:, :)
-      integer :: low(2), high(2)
-      type(grid_slab) :: slab
 
       call find_region(state, inside)
-      low = 1
-      high = state%slab%points
-      if (half_space%is_free) call find_box(inside, low, high)
-      if (all(high - low + 1 == state%slab%points)) then
-         call correction%start(state%slab, inside, stencil, state%pressure, state%gap, state%residual, state%hardness)
-         ! The correction needs their memory; the next step computes the gap anew.
-         deallocate (inside, state%gap)
-         call correction%improve(half_space, part, most_iterations, progress)
-         call correction%add_to(state%pressure)
-      else
-         call slab%start(high - low + 1, whole=.true.)
-         if (any(box%points /= slab%points)) call box%start_part(half_space, slab%points)
-         box%single_pairs = 0
-         associate (p => state%pressure(low(1):high(1), low(2):high(2)))
-            call correction%start(slab, inside(low(1):high(1), low(2):high(2)), stencil, p, &
-               state%gap(low(1):high(1), low(2):high(2)), &
-               state%residual*sqrt(product(real(state%slab%points, dp)/slab%points)), state%hardness)
-            deallocate (inside, state%gap)
-            call correction%improve(box, part, most_iterations, progress)
-            call correction%add_to(p)
-         end associate
-         half_space%single_pairs = half_space%single_pairs + &
-            nint(box%single_pairs*product(real(slab%points, dp)/state%slab%points))
-      end if
+      call correction%start(state%slab, inside, stencil, state%pressure, state%gap, state%residual, state%hardness)
+      ! The correction needs their memory; the next step computes the gap anew.
+      deallocate (inside, state%gap)
+      call correction%improve(half_space, part, most_iterations, progress)
+      call correction%add_to(state%pressure)
       state%interrupted = correction%is_interrupted
       state%corrections = state%corrections + 1
       ! A correction without iterations corrects the approach alone. It counts, so that the number of steps is limited.
       state%iterations = state%iterations + max(1, correction%iterations)
    end subroutine correct_pressure
-
-   !> The smallest rectangle about some points, enlarged to sides whose transforms are fast and on which the
-   !> preconditioner has coarser grids.
-   pure subroutine find_box(inside, low, high)
-      logical(c_bool), intent(in) :: inside(:, :)
-      integer, intent(out) :: low(2), high(2)
-
-      !> Of which a power of two has fast transforms.
-      integer, parameter :: lengths(*) = [8, 9, 10, 12, 15, 16]
-      integer :: d, length, unit
-
-      low(1) = findloc(any(inside, dim=2), .true., dim=1)
-      high(1) = findloc(any(inside, dim=2), .true., dim=1, back=.true.)
-      low(2) = findloc(any(inside, dim=1), .true., dim=1)
-      high(2) = findloc(any(inside, dim=1), .true., dim=1, back=.true.)
-      do d = 1, 2
-         length = max(high(d) - low(d) + 1, least_side)
-         unit = 2**(exponent(real(length - 1)) - 4)
-         length = min(unit*minval(lengths, lengths*unit >= length), size(inside, d))
-         low(d) = min(low(d), size(inside, d) - length + 1)
-         high(d) = low(d) + length - 1
-      end do
-   end subroutine find_box
 
    !> The mean gap G [Delta], where overlaps count as zero; zero if no point is open.
    pure real(dp) function open_gap(self)

@@ -180,23 +180,24 @@ contains
       if (key == 'force') pressures = loads/surface%nominal_area()
    end function pressures_of_loads
 
-   !> The loads in the deck's order; a sweep is a list of pbar_over_pstar.
+   !> The loads in the deck's order; a sweep is a list of pbar_over_pstar. None if the group does not give them.
    pure subroutine given_loads(values, key, loads_by, loads)
-      type(group_values), intent(in) :: values              !! of a &load group without problems
+      type(group_values), intent(in) :: values              !! of a &load group without bad values
       character(:), allocatable, intent(out) :: key         !! the key that gives them; pbar_over_pstar for a sweep
       integer, intent(out) :: loads_by                      !! a name of wavycon_scene
       real(dp), allocatable, intent(out) :: loads(:)        !! [unit of the key]
 
       integer :: k
 
-      if (values%has(trim(sweep_keys(1)))) then
+      if (all([(values%has(trim(sweep_keys(k))), k=1, size(sweep_keys))])) then
          k = 1
          loads = sweep(values%real('sweep_from'), values%real('sweep_to'), values%integer('sweep_steps'))
       else
+         allocate (loads(0))
          do k = 1, size(lists) - 1
             if (values%has(trim(lists(k)))) exit
          end do
-         loads = values%reals(trim(lists(k)))
+         if (values%has(trim(lists(k)))) loads = values%reals(trim(lists(k)))
       end if
       key = trim(lists(k))
       loads_by = list_is(k)

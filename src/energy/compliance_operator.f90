@@ -5,7 +5,6 @@
 !> App. 1). Where its surface has free edges the displacement is that of (E15), and the pressure of a displacement that
 !> of the mirror images, as a preconditioner needs it.
 module wavycon_compliance_operator
-   use wavycon_assertion, only: assert
    use wavycon_free_kernel, only: free_kernel, transform_of_kernel
    use wavycon_grid_convolution_dp, only: convolution_dp => grid_convolution
    use wavycon_grid_convolution_sp, only: convolution_sp => grid_convolution
@@ -30,7 +29,6 @@ module wavycon_compliance_operator
       type(convolution_sp), private :: free_single
    contains
       procedure :: start
-      procedure :: start_part
       !> From a pressure [p*] to its displacement [Delta], in place: u - ubar, with free edges u.
       generic :: displacement => displacement_dp, displacement_sp
       !> From a displacement [Delta] to its pressure p - pbar [p*] on a periodic surface, in place.
@@ -43,32 +41,20 @@ module wavycon_compliance_operator
 
 contains
 
-   subroutine start(self, surface, points)
+   subroutine start(self, surface, points, part)
       class(compliance_operator), intent(out) :: self
       type(surface_type), intent(in) :: surface
       integer, intent(in) :: points(2)   !! M, N >= 1, of the whole cell, or of a quarter of an even surface's cell
+      integer, intent(in), optional :: part(2)   !! points of the part of this grid that it is for, of free edges
 
       self%points = points
+      if (present(part)) self%points = part
       self%is_free = surface%has_free_edges
       self%stiffness = surface%stiffness
       self%step = surface%length/(merge(2, 1, surface%shape%is_even())*points)
       if (points(2) == 1) self%step(2) = surface%length(2)
-      call start_on_points(self, points, surface%shape%is_even())
+      call start_on_points(self, self%points, surface%shape%is_even())
    end subroutine start
-
-   !> The half-space on a part of the grid of another one, whose surface has free edges.
-   subroutine start_part(self, whole, points)
-      class(compliance_operator), intent(out) :: self
-      type(compliance_operator), intent(in) :: whole   !! started, is_free
-      integer, intent(in) :: points(2)                 !! of the part
-
-      call assert(whole%is_free, 'images do not depend on a part')
-      self%points = points
-      self%is_free = .true.
-      self%stiffness = whole%stiffness
-      self%step = whole%step
-      call start_on_points(self, points, .true.)
-   end subroutine start_part
 
    !> Starts the convolutions for a number of points.
    subroutine start_on_points(self, points, even)

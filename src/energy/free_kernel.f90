@@ -8,11 +8,11 @@ module wavycon_free_kernel
    implicit none (type, external)
    private
 
-   public :: free_kernel, transform_of_kernel
+   public :: free_kernel, integral_to_corner, transform_of_kernel
 
-   !> Cells farther away than this, in steps, have their integral by three Gauss points each way: the relative error is
-   !> below 1e-13, and differences of the closed form would lose digits there.
-   real(dp), parameter :: far = 40.0_dp
+   !> Cells farther away than this, in steps, have their integral by Taylor's series of fourth order about the centre: the
+   !> relative error is below 1e-13, and differences of the closed form would lose digits there.
+   real(dp), parameter :: far = 64.0_dp
 
 contains
 
@@ -23,10 +23,8 @@ contains
       real(dp), intent(in) :: step(2)      !! of the grid [length], > 0
       real(dp), allocatable, intent(out) :: kernel(:, :)   !! shape (0:M, 0:N), (0:M, 0:0) in 1-D
 
-      real(dp), parameter :: nodes(3) = [-sqrt(0.15_dp), 0.0_dp, sqrt(0.15_dp)]
-      real(dp), parameter :: weights(3) = [5.0_dp, 8.0_dp, 5.0_dp]/18
-      integer :: a, b, i, j
-      real(dp) :: x, y
+      integer :: i, j
+      real(dp) :: c2, mean(2), nearest, r2, s2, x, y   ! squares of r and of its cosines with x and y
 
       if (points(2) == 1) then
          allocate (kernel(0:points(1), 0:0))
@@ -35,23 +33,26 @@ contains
          end do
          return
       end if
-      allocate (kernel(0:points(1), 0:points(2)), source=0.0_dp)
+      allocate (kernel(0:points(1), 0:points(2)))
+      nearest = (far*maxval(step))**2
+      ! Mean squares of the places in a cell about its centre, along x and y.
+      mean = step**2/12
       do j = 0, points(2)
          y = j*step(2)
          do i = 0, points(1)
             x = i*step(1)
-            if (hypot(x, y) > far*maxval(step)) then
-               do b = 1, 3
-                  do a = 1, 3
-                     kernel(i, j) = kernel(i, j) + weights(a)*weights(b) &
-                        /sqrt((x + nodes(a)*step(1))**2 + (y + nodes(b)*step(2))**2)
-                  end do
-               end do
-               kernel(i, j) = product(step)*kernel(i, j)
+            r2 = x**2 + y**2
+            if (r2 > nearest) then
+               c2 = x**2/r2
+               s2 = y**2/r2
+               kernel(i, j) = product(step)/sqrt(r2)*( &
+                  1.0_dp + (mean(1)*(3*c2 - 1) + mean(2)*(3*s2 - 1))/(2*r2) &
+                  + (0.075_dp*(mean(1)**2*((105*c2 - 90)*c2 + 9) + mean(2)**2*((105*s2 - 90)*s2 + 9)) &
+                     + 0.25_dp*mean(1)*mean(2)*(105*c2*s2 - 12))/r2**2)
             else
                associate (h => 0.5_dp*step)
-                  kernel(i, j) = corner(x + h(1), y + h(2)) - corner(x - h(1), y + h(2)) &
-                                 - corner(x + h(1), y - h(2)) + corner(x - h(1), y - h(2))
+                  kernel(i, j) = integral_to_corner(x + h(1), y + h(2)) - integral_to_corner(x - h(1), y + h(2)) &
+                                 - integral_to_corner(x + h(1), y - h(2)) + integral_to_corner(x - h(1), y - h(2))
                end associate
             end if
          end do
@@ -66,14 +67,14 @@ contains
          line = x*(log(abs(x)) - 1.0_dp)
       end function line
 
-      !> The integral of 1/r over the rectangle between the origin and a corner.
-      pure real(dp) function corner(x, y)
-         real(dp), intent(in) :: x, y   !! /= 0
-
-         corner = x*asinh(y/abs(x)) + y*asinh(x/abs(y))
-      end function corner
-
    end subroutine free_kernel
+
+   !> The integral of 1/r over the rectangle between the origin and a corner.
+   elemental real(dp) function integral_to_corner(x, y) result(integral)
+      real(dp), intent(in) :: x, y   !! /= 0
+
+      integral = x*asinh(y/abs(x)) + y*asinh(x/abs(y))
+   end function integral_to_corner
 
    !> The transform (E17) of a kernel that is even both ways, in place: that of its 2M x 2N values, which repeat.
    subroutine transform_of_kernel(kernel)
