@@ -212,7 +212,9 @@ def second_reading(content, form):
     """Points along x and y, lowest and highest height over their mean and rms of a map, None if it is no map to this
     reader, which is more lenient than the program."""
     text = content.decode(errors="replace").removeprefix("\ufeff")
-    lines = [re.split(r"[ \t,;]+", line.split("#")[0].strip(" \t,;")) for line in re.split("\r\n|\r|\n", text)]
+    lines = [line.split("#")[0].strip(" \t,;") for line in re.split("\r\n|\r|\n", text)]
+    # Between semicolons a comma is decimal.
+    lines = [re.split(r"[ \t;]+", line.replace(",", ".")) if ";" in line else re.split(r"[ \t,]+", line) for line in lines]
     try:
         rows = [[float(word.lower().replace("d", "e")) for word in line] for line in lines if line != [""]]
     except ValueError:
