@@ -175,7 +175,7 @@ contains
       call check_ready(self, error)
       if (allocated(error)) return
       call read_group_text(load_table(), quantity//' = '//number_words(value), values, text, problems)
-      call check_load_group(values, .false., problems)
+      call check_load_group(values, self%results%scene%interface%has('work_of_adhesion'), problems)
       if (problems%number == 0) &
          call check_loads_of_surface(values, self%results%solver%surface, self%scale%p_star, problems)
       if (problems%number > 0) then

@@ -167,6 +167,16 @@ static void loads(wavycon_scene scene, wavycon_solution solution)
     for (size_t i = 0; i < COUNT(quantities); i++)
         for (size_t j = 0; j < COUNT(bad_values); j++)
             NOTHING(wavycon_solve(error, scene, quantities[i], bad_values[j]));
+    /* A tension is a load of a contact with adhesion alone. */
+    wavycon_scene adhesive = scene_of("&surface kind = 'wave_1d' / &method solver = 'auto' /"
+                                      "&interface work_of_adhesion = .1 /");
+    wavycon_solution pulled = wavycon_solve(error, adhesive, "pbar_over_pstar", -0.01);
+    check(number(pulled, "status_code") == WAVYCON_NO_LOAD, "a tension", __LINE__);
+    wavycon_table curve = wavycon_new_table(error, pulled, "adhesion");
+    MADE(curve);
+    wavycon_delete(&curve);
+    wavycon_delete(&pulled);
+    wavycon_delete(&adhesive);
     const int bad_threads[] = {0, -1, 1000000};
     for (size_t i = 0; i < COUNT(bad_threads); i++)
         REFUSED(wavycon_set_threads(error, bad_threads[i]));
