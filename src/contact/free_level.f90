@@ -4,6 +4,7 @@
 !> Numbers (C..) are the equations of README.md in this directory.
 module wavycon_free_level
    use wavycon_compliance_operator, only: compliance_operator
+   use wavycon_contact_tuning, only: approach_margin
    use wavycon_free_kernel, only: integral_to_corner
    use wavycon_grid_slab, only: grid_slab
    use wavycon_grid_solver, only: grid_state, rounding, size_of_gaps, solve_on_grid
@@ -15,9 +16,6 @@ module wavycon_free_level
    private
 
    public :: solve_free_level, complete_gap
-
-   !> Part of the approach that is added to that of the coarser grid: a second solution would cost more than a margin.
-   real(dp), parameter :: margin = 0.02_dp
 
    !> Points on each side of the rectangle whose gaps place the edge of contact.
    integer, parameter :: beside = 4
@@ -45,7 +43,7 @@ contains
       type(grid_slab) :: whole
 
       whole = state%slab
-      reach = (1 + margin)*state%approach
+      reach = (1 + approach_margin)*state%approach
       do
          low = 1
          high = whole%points
@@ -76,7 +74,7 @@ contains
          state%gap(low(1):high(1), low(2):high(2)) = pressure
          ! Nothing outside the rectangle touches.
          if (part >= 1.0_dp .or. state%approach <= reach) exit
-         reach = (1 + margin)*state%approach
+         reach = (1 + approach_margin)*state%approach
          deallocate (state%gap)
       end do
    end subroutine solve_free_level

@@ -162,6 +162,9 @@ module wavycon_contact_tuning
    !> that of (C10) says nothing. 5e-5 keeps the iteration error of the approach below a tenth of the error estimates of
    !> punches of 128 points a side.
    real(dp), parameter, public :: approach_tolerance = 5e-5_dp
+   !> Part of the approach of the coarser grid that is added to it for the rectangle of the finer one: if the approach
+   !> turns out larger still, the grid is solved twice. Twice the part makes the rectangle 1 % wider about a ball.
+   real(dp), parameter, public :: approach_margin = 0.02_dp
 
    !> Width of the border, over the sides of the map, whose part of the load the log tells: nearer contacts may miss
    !> neighbours beyond the border.

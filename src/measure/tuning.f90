@@ -30,7 +30,8 @@ module wavycon_measure_tuning
    !> With it the area's error has the least scatter, 0.26 cells; 0.28 with 1.15 and 1.3.
    real(dp), parameter, public :: cell_gap_weight = 1.225_dp
    !> Slope and intercept of the area's error against the length of the edge.
-   real(dp), parameter, public :: cell_edge_offset = 0.160_dp, cell_turn_area = 0.80_dp
+   real(dp), parameter, public :: cell_edge_offset = 0.160_dp
+   real(dp), parameter, public :: cell_turn_area = 0.80_dp
 
    ! Histograms, (A7) of README.md in this directory.
 
