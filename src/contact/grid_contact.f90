@@ -187,7 +187,8 @@ contains
                  points => max(self%options%points/2**self%level, min(self%options%points, 1)), &
                  residual => self%options%residual)
          if (associated(self%progress)) then
-            call solve_by_sequence(surface, pbar_over_pstar, accuracy, points, answer, self%progress, residual, self%keep_fields)
+            call solve_by_sequence(surface, pbar_over_pstar, accuracy, points, answer, self%progress, residual, &
+                                   self%keep_fields)
          else
             call solve_by_sequence(surface, pbar_over_pstar, accuracy, points, answer, residual=residual, &
                                    needs_gap=self%keep_fields)

@@ -27,12 +27,6 @@ contains
       call move_alloc(deck%surface, scene%surface)
       call move_alloc(deck%map, scene%map)
       scene%roughness = scene%surface%roughness()
-      if (allocated(scene%map)) then
-         if (any(scene%map%differences > 0.0_dp)) then
-            scene%roughness%slope_by_differences = scene%map%differences(1)
-            scene%roughness%curvature_by_differences = scene%map%differences(2)
-         end if
-      end if
       scene%e_star = deck%e_star
       scene%p_star = deck%p_star
       scene%gives_modulus = deck%material%has('e_star') .or. deck%material%has('e1')

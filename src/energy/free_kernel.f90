@@ -10,8 +10,8 @@ module wavycon_free_kernel
 
    public :: free_kernel, integral_to_corner, transform_of_kernel
 
-   !> Cells farther away than this, in steps, have their integral by Taylor's series of fourth order about the centre: the
-   !> relative error is below 1e-13, and differences of the closed form would lose digits there.
+   !> Cells farther away than this, in steps, have their integral by Taylor's series of fourth order about the centre
+   !> (E15a): the relative error is below 1e-13, and differences of the closed form would lose digits there.
    real(dp), parameter :: far = 64.0_dp
 
 contains

@@ -20,8 +20,8 @@ module wavycon_map_statistics
       !> Root mean square of the steps from the last points to the first, which are their neighbours because the map is
       !> continued periodically [length].
       real(dp) :: border_step(2) = 0.0_dp
-      !> Of a map that does not repeat: slope and curvature by differences within it, see `differences_within`.
-      real(dp) :: differences(2) = 0.0_dp
+      !> Root mean squares of slope and curvature by differences between neighbours, eq. (M25) [-, 1/length].
+      real(dp) :: slope_by_differences = 0.0_dp, curvature_by_differences = 0.0_dp
       integer :: spikes = 0                      !! heights far from all around them, if they were looked for
       logical :: lacks_missing_value = .false.   !! whether the deck gives a missing_value that no height has
       character(:), allocatable :: assumed_sides   !! sides that neither deck nor file gives, in words; empty if none
@@ -35,14 +35,17 @@ module wavycon_map_statistics
 contains
 
    !> The statistics of a map. The last digit of largest_step(1) may depend on how the map is distributed.
-   type(map_statistics) function statistics_of(height, format, path, points) result(statistics)
+   type(map_statistics) function statistics_of(height, format, path, points, step, repeats) result(statistics)
       real(dp), intent(in) :: height(:, :)   !! over the mean [length], shape (M, N) or (M, columns of the grid's slab)
       character(*), intent(in) :: format     !! as of measured_map
       character(*), intent(in) :: path       !! absolute
       integer, intent(in), optional :: points(2)   !! M, N if the map may be distributed; shape of height if absent
+      real(dp), intent(in), optional :: step(2)    !! between the points [length]; absent: 1
+      logical, intent(in), optional :: repeats     !! whether opposite borders are neighbours; absent: they are
 
       type(grid_slab) :: slab
-      real(dp) :: extremes(2)
+      logical :: is_periodic
+      real(dp) :: extremes(2), steps(2)
 
       statistics%points = shape(height)
       if (present(points)) statistics%points = points
@@ -53,7 +56,11 @@ contains
       statistics%lowest = -extremes(1)
       statistics%highest = extremes(2)
       call take_moments(slab, height, statistics)
-      call take_steps(slab, height, statistics)
+      steps = 1.0_dp
+      if (present(step)) steps = step
+      is_periodic = .true.
+      if (present(repeats)) is_periodic = repeats
+      call take_steps(slab, height, steps, is_periodic, statistics)
       statistics%path = path
       statistics%assumed_sides = ''
    end function statistics_of
@@ -80,38 +87,67 @@ contains
       statistics%kurtosis = moments(4)/moments(2)**2
    end subroutine take_moments
 
-   !> Finds the steps between neighbours.
-   subroutine take_steps(slab, height, statistics)
+   !> Finds the steps between neighbours, and slope and curvature by them.
+   subroutine take_steps(slab, height, step, repeats, statistics)
       type(grid_slab), intent(in) :: slab
       real(dp), intent(in) :: height(:, :)                  !! own columns [length]
-      type(map_statistics), intent(inout) :: statistics
+      real(dp), intent(in) :: step(2)                       !! as of statistics_of
+      logical, intent(in) :: repeats
+      type(map_statistics), intent(inout) :: statistics     !! with the lowest and the highest
 
-      real(dp) :: low(size(height, 1), 1), next(size(height, 1), 1)
-      real(dp) :: across_border(1, size(height, 2))   ! squares of the steps from the last points along x to the first
-      real(dp), allocatable :: squares(:)                ! sums over the steps across each line along y
-      real(dp) :: step, steps(2)                         ! largest within the map along y, and that across its border
-      integer :: j
+      real(dp), dimension(size(height, 1), 1) :: behind, next
+      real(dp), dimension(size(height, 1)) :: bend, here, to_last, to_next, x_steps
+      real(dp) :: across(2)                              ! largest step within the map along y, and across its border
+      real(dp) :: over_step(2), squares(size(height, 1)), sums(3), unit
+      !> Of each column the mean squares of the differences along x and y and of the curvature, and the squared step
+      !> from the last point along x to the first.
+      real(dp) :: parts(4, size(height, 2)), totals(4)
+      integer :: first, j, last
 
+      ! Powers of heights over the largest one and of steps over the least do not overflow.
+      unit = max(statistics%highest, -statistics%lowest)
+      if (.not. unit > 0.0_dp) return
+      over_step = minval(step)/step
+      call slab%halo(height, .false., behind, next)
+      to_next = (height(:, 1) - behind(:, 1))/unit
+      squares = 0.0_dp
+      across = 0.0_dp
+      parts = 0.0_dp
       associate (m => slab%points(1), n => slab%points(2))
-         call slab%halo(height, .false., low, next)
-         allocate (squares(m - 1), source=0.0_dp)
-         steps = 0.0_dp
+         first = merge(1, 2, repeats)
+         last = merge(m, m - 1, repeats)
+         sums = merge([m*n, m*n, m*n], [(m - 1)*n, m*(n - 1), (m - 2)*max(n - 2, 1)], repeats)
          do j = 1, size(height, 2)
-            squares = squares + (height(2:, j) - height(:m - 1, j))**2
-            across_border(1, j) = (height(1, j) - height(m, j))**2
+            here = height(:, j)/unit
+            to_last = to_next
             if (j < size(height, 2)) then
-               step = root_mean_square(height(:, j + 1) - height(:, j))
+               to_next = height(:, j + 1)/unit - here
             else
-               step = root_mean_square(next(:, 1) - height(:, j))
+               to_next = next(:, 1)/unit - here
             end if
-            if (slab%first - 1 + j < n) steps(1) = max(steps(1), step)
-            if (slab%first - 1 + j == n) steps(2) = step
+            x_steps = cshift(here, 1) - here
+            squares = squares + x_steps**2
+            parts(4, j) = x_steps(m)**2
+            associate (column => slab%first - 1 + j)
+               if (column < n) across(1) = max(across(1), root_mean_square(to_next))
+               if (column == n) across(2) = root_mean_square(to_next)
+               parts(1, j) = sum((over_step(1)*x_steps(:last))**2)
+               if (column < n .or. repeats) parts(2, j) = sum((over_step(2)*to_next)**2)
+               if (n > 1 .and. .not. repeats .and. any(column == [1, n])) cycle
+            end associate
+            bend = over_step(1)**2*(x_steps - cshift(x_steps, -1))
+            if (n > 1) bend = 0.5_dp*(bend + over_step(2)**2*(to_next - to_last))
+            parts(3, j) = sum(bend(first:last)**2)
          end do
          call slab%add(squares)
-         call slab%largest(steps)
-         statistics%largest_step = [sqrt(maxval(squares)/n), steps(1)]
-         statistics%border_step = [sqrt(sum(slab%column_totals(across_border))/n), steps(2)]
+         call slab%largest(across)
+         totals = slab%column_totals(parts)
+         statistics%largest_step = unit*[sqrt(maxval(squares(:m - 1))/n), across(1)]
+         statistics%border_step = unit*[sqrt(totals(4)/n), across(2)]
       end associate
+      totals(:3) = totals(:3)/max(sums, 1.0_dp)
+      statistics%slope_by_differences = unit/minval(step)*sqrt(totals(1) + totals(2))
+      statistics%curvature_by_differences = unit/minval(step)**2*sqrt(totals(3))
    end subroutine take_steps
 
    !> Whether the steps across the border are much larger than those across any line inside: in a periodic map they are

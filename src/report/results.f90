@@ -130,9 +130,9 @@ contains
          if (.not. map%rms > 0.0_dp) return
          call file%put('# roughness: skewness[-] = '//exact_number(map%skewness)// &
                        number_of('kurtosis', '-', map%kurtosis)//number_of('rms_slope', '-', roughness%slope)// &
-                       number_of('rms_slope_by_differences', '-', roughness%slope_by_differences)// &
+                       number_of('rms_slope_by_differences', '-', map%slope_by_differences)// &
                        number_of('rms_curvature', '1/'//unit, roughness%curvature)// &
-                       number_of('rms_curvature_by_differences', '1/'//unit, roughness%curvature_by_differences))
+                       number_of('rms_curvature_by_differences', '1/'//unit, map%curvature_by_differences))
       end associate
    end subroutine put_statistics
 

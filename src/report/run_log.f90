@@ -8,7 +8,6 @@ module wavycon_run_log
    use wavycon_preparation_words, only: preparation_words
    use wavycon_result_lines, only: line_of_load, line_of_stress
    use wavycon_results, only: results_type
-   use wavycon_roughness, only: roughness_type
    use wavycon_scene, only: scene_type, target_words
    use wavycon_surface, only: surface_type
    use wavycon_solver_progress, only: solver_progress
@@ -142,7 +141,7 @@ contains
          'surface does not. Remedy: despike = .true.')
       call show_broken_borders(self, map, scene%length_unit)
       ! A broken border is a step between two points.
-      if (.not. any(map%is_broken_along([1, 2]))) call show_unresolved_slopes(self, scene%roughness)
+      if (.not. any(map%is_broken_along([1, 2]))) call show_unresolved_slopes(self, scene%roughness%slope, map)
    end subroutine show_map
 
    !> Slope and curvature, in brackets by differences, and the form of the distribution of heights.
@@ -150,12 +149,12 @@ contains
       type(scene_type), intent(in) :: scene   !! of a height map
       character(:), allocatable :: words
 
-      associate (roughness => scene%roughness)
+      associate (roughness => scene%roughness, map => scene%map)
          words = 'rms slope '//short_number(roughness%slope)//' (by differences '// &
-                 short_number(roughness%slope_by_differences)//'), rms curvature '// &
-                 short_number(roughness%curvature)//' ('//short_number(roughness%curvature_by_differences)// &
-                 ') [1/'//scene%length_unit//'], skewness '//short_number(scene%map%skewness)//', kurtosis '// &
-                 short_number(scene%map%kurtosis)
+                 short_number(map%slope_by_differences)//'), rms curvature '// &
+                 short_number(roughness%curvature)//' ('//short_number(map%curvature_by_differences)// &
+                 ') [1/'//scene%length_unit//'], skewness '//short_number(map%skewness)//', kurtosis '// &
+                 short_number(map%kurtosis)
       end associate
    end function roughness_words
 
@@ -193,17 +192,18 @@ contains
    end subroutine show_broken_borders
 
    !> Warns of a map whose slopes are between neighbouring points rather than in waves of many.
-   subroutine show_unresolved_slopes(self, roughness)
+   subroutine show_unresolved_slopes(self, rms_slope, map)
       class(run_log), intent(inout) :: self
-      type(roughness_type), intent(in) :: roughness
+      real(dp), intent(in) :: rms_slope            !! of the series
+      type(map_statistics), intent(in) :: map
 
       !> Least slope by differences over that of the series. Noise that lowers it to 0.9 takes a quarter or more of the
       !> contact area at light loads: see the table of src/map/README.md.
       real(dp), parameter :: least = 0.9_dp
 
-      if (roughness%slope_by_differences >= least*roughness%slope) return
-      call self%say('note: the rms slope is '//short_number(roughness%slope)//', by differences of neighbours only '// &
-                    short_number(roughness%slope_by_differences)// &
+      if (map%slope_by_differences >= least*rms_slope) return
+      call self%say('note: the rms slope is '//short_number(rms_slope)//', by differences of neighbours only '// &
+                    short_number(map%slope_by_differences)// &
                     ': much of it is in waves of two or three points. If these are noise, smooth the map: '// &
                     'they make contact areas smaller')
    end subroutine show_unresolved_slopes

@@ -12,7 +12,6 @@ module wavycon_height_map
    use wavycon_plain_text, only: escaped, short_number
    use wavycon_prepare_map, only: map_changes, map_preparation, prepare_map
    use wavycon_spikes, only: find_spikes
-   use wavycon_roughness, only: differences_within
    use wavycon_surface, only: surface_of_points, surface_type
    implicit none (type, external)
    private
@@ -67,12 +66,11 @@ contains
       if (allocated(error)) return
       changes%rise = scale*changes%rise
       changes%rms_of_short = scale*changes%rms_of_short
-      statistics = statistics_of(map%height, map%format, '', map%points())
+      statistics = statistics_of(map%height, map%format, '', map%points(), length/map%points(), &
+                                 all(changes%edges /= ['mirror', 'free  ']))
       surface = surface_of_points(length, map%height, changes%edges == 'mirror', map%points(), changes%edges == 'free', &
                                   radii)
       statistics%changes = changes
-      if (any(changes%edges == ['mirror', 'free  '])) &
-         statistics%differences = differences_within(map%height, map%points(), length)
       if (statistics%kurtosis > spiky_kurtosis .and. .not. slab%is_distributed .and. .not. preparation%despike) &
          call find_spikes(map%height, map%missing, statistics%spikes, replace=.false.)
    end subroutine surface_of_map

@@ -162,10 +162,11 @@ contains
 
    pure function numbers_of(statistics) result(numbers)
       type(map_statistics), intent(in) :: statistics
-      real(dp) :: numbers(8)
+      real(dp) :: numbers(10)
 
       numbers = [statistics%lowest, statistics%highest, statistics%rms, statistics%skewness, statistics%kurtosis, &
-                 statistics%largest_step(2), statistics%border_step]
+                 statistics%largest_step(2), statistics%border_step, statistics%slope_by_differences, &
+                 statistics%curvature_by_differences]
    end function numbers_of
 
 end program distributed_map_files

@@ -109,10 +109,9 @@ contains
 
    pure function numbers_of(roughness) result(numbers)
       type(roughness_type), intent(in) :: roughness
-      real(dp) :: numbers(5)
+      real(dp) :: numbers(4)
 
-      numbers = [roughness%height, roughness%slope, roughness%curvature, roughness%slope_by_differences, &
-                 roughness%curvature_by_differences]
+      numbers = [roughness%height, roughness%slope, roughness%curvature, roughness%frequency_moment]
    end function numbers_of
 
    logical function same_shapes(a, b)
