@@ -230,7 +230,7 @@ def edges(tables, beside, choice, folder):
     facts = put_scale("load", load, "p_bar", "mean pressure")
     facts += array_of("load_of", [repr(number) for number in on_axis])
     facts += array_of("block_of", [str(place) for place in places]) + [f"loads_shown = {len(places)}"]
-    facts += put_range("load", on_axis, up_to=load[1][0]*p_star)
+    facts += put_range("load", on_axis, up_to=load[1][0]*table.numbers.get("p*", 0.0))
     facts += put_scale("length", length, "x_symbol") + [f"y_label = {length[0].label('y_symbol')}"]
     facts += array_of("cell", [repr(side) for side in cell])
     facts += [f"length_step = {step_of(max(1.5*min(cell), max(cell)))!r}"]

@@ -21,8 +21,7 @@ def interface(tables, beside, choice, folder):
     facts += [f"stiffness_label = 'contact stiffness'.{quoted(' ({}/{})'.format(*units) if all(units) else '')}"]
     facts += [f"with_resistance = {int(bool(table.column('contact_resistance')))}"]
     for name in "stiffness", "resistance":
-        numbers = [number for number in table.column(f"contact_{name}") if number > 0] or [1.0]
-        facts += [f"{name}_low = {min(numbers)/1.6!r}", f"{name}_high = {max(numbers)*1.6!r}"]
+        facts += put_range(name, [number for number in table.column(f"contact_{name}") if number > 0] or [1.0])
     return "interface", (480, 300), facts
 
 
@@ -33,6 +32,7 @@ def partial_slip(tables, beside, choice, folder):
     if not table.column("displacement"):
         raise CannotBeDrawn("the bodies slide under all its loads")
     facts = axis_of(table, "slip", "displacement", "Delta", quoted("{/:Italic s}"), "displacement", may_be_wide=False)
+    facts += put_range("stick", table.column("stick_area_fraction"), may_be_wide=False)
     facts += array_of("load_number", [repr(int(load)) for load in loads[:MOST_CURVES]])
     return "partial_slip", (640, 300), facts
 

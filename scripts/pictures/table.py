@@ -31,7 +31,7 @@ MARKS = {"summary": ("pbar_over_pstar", "active_constraints", "mean_pressure", "
          "adhesion": ("pbar1_over_pstar", "point")}
 # The labels of units if the deck gives none.
 UNLABELLED = {"pressure", "length"}
-HEAD_NUMBER = re.compile(r"(Delta|p\*|cell_x|cell_y|edge_level)\[([^]]*)\] = ([^ ,]+)")
+HEAD_NUMBER = re.compile(r"(Delta|p\*|e_star|cell_x|cell_y|edge_level)\[([^]]*)\] = ([^ ,]+)")
 MAGIC = b"\x93NUMPY\x01\x00"
 
 
@@ -45,7 +45,7 @@ class Block:
     def __init__(self, names):
         self.load = None   # its number in the deck's order
         self.place = 0     # in the file, as gnuplot's `index` counts
-        self.pbar_over_pstar = math.nan
+        self.pbar_over_pstar = math.nan   # with free edges, where there is no p*, the mean pressure
         self.body = 1      # the number of the body whose stresses these are
         self.columns = {name: array.array("d") for name in names}
 
@@ -98,7 +98,7 @@ class Table:
                 for line in file:
                     if line.startswith("#"):
                         self._read_head(line)
-                        begun = re.match(r"# load (\d+): pbar/p\* = ([^ ,]+)", line)
+                        begun = re.match(r"# load (\d+): (?:pbar/p\*|mean pressure) = ([^ ,]+)", line)
                         if begun:
                             load, words_of_load = int(begun[1]), begun[2]
                         continue
@@ -140,7 +140,7 @@ class Table:
             fields = [("height", form)] if isinstance(form, str) else form   # heights are no records
             self.names = [name for name, form in fields if form[1:] == "f8"]
             self.endian = "little" if fields[0][1][0] == "<" else "big"
-            # within: of stresses, bodies and depths. Heights have no loads.
+            # within: of stresses, bodies and depths; of slip, tangential loads. Heights have no loads.
             loads, *within, rows, columns = (1, *header["shape"]) if isinstance(form, str) else header["shape"]
         except (ValueError, SyntaxError, TypeError, KeyError, IndexError, UnicodeDecodeError):
             raise NotATable("this array is not a map of wavycon: its records have other fields") from None
@@ -154,7 +154,7 @@ class Table:
                 numbers.byteswap()
             block = Block([])
             block.load, block.place = place//math.prod(within) + 1, place
-            if within:
+            if len(within) == 2:
                 block.body = place//within[1] % within[0] + 1
             block.columns = {name: numbers[i::len(self.names)] for i, name in enumerate(self.names)}
             self.blocks.append(block)
@@ -169,7 +169,7 @@ class Table:
         """Takes what the summary of the same run says: a map in numpy's format has no head."""
         self.numbers, self.units = summary.numbers, summary.units
         self.surface, self.method, self.title = summary.surface, summary.method, summary.title
-        of_load = summary.column("pbar_over_pstar")
+        of_load = summary.column("pbar_over_pstar" if "p*" in summary.numbers else "mean_pressure")
         for block in self.blocks:
             if self.kind != "height" and block.load <= len(of_load):
                 block.pbar_over_pstar = of_load[block.load - 1]
@@ -194,7 +194,8 @@ class Table:
 
     def label(self, name):
         """The unit of a number of the head, '' if the deck gives it no label."""
-        unit = self.units.get(name, "")
+        # With free edges there is no p*.
+        unit = self.units.get(name, self.units.get("e_star", "") if name == "p*" else "")
         return "" if unit in UNLABELLED else unit
 
     def column(self, name, blocks=None):

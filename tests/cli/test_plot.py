@@ -65,6 +65,8 @@ DECKS = {
     "slip": WAVE + "&interface friction = 0.5, tangential_over_normal = 0.1, 0.3, nu = 0.3, slip_loop = t, slip_map = t,\n"
             "work_of_adhesion = 0.05, resistivity1 = 1, resistivity2 = 1 /\n&method solver = 'auto', accuracy = 1e-2 /\n"
             "&output map_points = 16 /",
+    "free": "&scene pressure_unit = 'MPa', length_unit = 'mm' /\n&surface kind = 'ball', radius = 1, length_x = 0.2, points = 32 /\n"
+            "&material e_star = 2 /\n&load force = 1e-4, 1e-3 /\n&output map = t, contours = t, lines = t /",
     "pull": "&surface kind = 'ball', radius = 1 /\n&load force = 1e-4 /\n&interface work_of_adhesion = 1e-5 /",
     "map": "&surface kind = 'file', file = 'heights.txt' /\n&load pbar_over_pstar = 0.1, 0.5 /",
 }
@@ -333,6 +335,15 @@ class Plot(ProgramTest):
             for word in words:
                 self.assertIn(word, shown, table)
         self.assertIn("force", self.drawn("pull.adhesion.dat"))
+        self.run_deck("array", DECKS["slip"].replace("map_points", "map_format = 'npy', map_points") + "\n")
+        self.assertIn("drawn from texts: set map_format", self.plot("array.slip_map.npy", status=3)[1])
+
+    def test_free_edges(self):
+        # There is no p*: loads are mean pressures.
+        for table in "map", "contour", "lines":
+            shown = self.drawn(f"free.{table}.dat")
+            self.assertNotIn("nan", shown.lower(), table)
+            self.assertIn("kPa", shown, table)
 
     def test_stresses_of_two_bodies(self):
         shown = self.drawn("bodies.stress_largest.dat")
