@@ -27,7 +27,8 @@ UNFIT = re.compile("[\x00-\x09\x0b-\x1f\x7f-\xa0\xad\u061c\u180e\u200b\u200e\u20
 OVERFLOW = re.compile(r"[+-]?(inf|infinity)|\*{3,}", re.IGNORECASE)
 # The kinds of tables, and the columns in which NaN stands for what a solver or a surface does not have.
 MAY_BE_MISSING = {
-    "summary": ".*_error|.*_at_hardness_fraction|contact_area_(counted|corrected)_fraction|linear_area_fraction",
+    "summary": ".*_error|.*_at_hardness_fraction|contact_area_(counted|corrected)_fraction|linear_area_fraction|"
+               "elastic_energy.*",
     "lines": "",
     "map": "",
     "contour": "",
@@ -43,6 +44,11 @@ MAY_BE_MISSING = {
     "stress_line": "stress_error",
     "stress_section": "stress_error",
     "stress_planes": "stress_error",
+    "interface": "(contact_stiffness|contact_area_slope|mean_gap_curvature|contact_resistance).*",
+    "partial_slip": "stick_.*|tangential_over_limit|.*displacement.*|tangential_stiffness|cycle_energy.*",
+    "slip_loop": "",
+    "slip_map": "traction|pressure|slip_state",
+    "adhesion": "(?!load$).*",
 }
 # On surfaces with free edges, which have no p*, and on profiles no approach.
 MISSING_WITH_FREE_EDGES = ".*_over_pstar|approach.*"
