@@ -1,12 +1,10 @@
 !> The last lines of the log: what a user should know of the solutions, and how many loads were solved.
 module wavycon_closing_notes
-   use wavycon_constants, only: pi
    use wavycon_contact_measures, only: is_known
    use wavycon_contact_status, only: converged, not_found, unresolved
    use wavycon_contact_tuning, only: border, least_concentration
    use wavycon_error, only: exit_fine, exit_not_converged
    use wavycon_kinds, only: dp
-   use wavycon_lattice_sums, only: rectangular_distance_sum
    use wavycon_method_list, only: method_of
    use wavycon_plain_text, only: escaped, integer_text, listed, percent, short_number
    use wavycon_results, only: results_type
@@ -64,34 +62,19 @@ contains
       status = merge(exit_fine, exit_not_converged, bad == 0)
    end subroutine sum_up
 
-   !> Says what the periodic images of a single spot on a measured map add to its approach (C27).
+   !> Says that the periodic images of a single spot on a measured map change its approach.
    subroutine note_images(results, log)
       type(results_type), intent(in) :: results
       type(run_log), intent(inout) :: log
 
-      real(dp) :: factor, largest, pressure, side(2)
-      integer :: i, spots
+      integer :: spots
 
       associate (scene => results%scene, surface => results%solver%surface)
          if (.not. allocated(scene%map) .or. surface%dimension == 1 .or. surface%mirrored) return
          if (scene%map%path == '') return
-         side = surface%sides()
-         factor = rectangular_distance_sum(side(1)/side(2))/pi
-         spots = 0
-         largest = 0.0_dp
-         do i = 1, size(results%loads)
-            associate (measures => results%loads(i)%measures)
-               if (measures%load_concentration < least_concentration) cycle
-               spots = spots + 1
-               pressure = scene%p_star*results%loads(i)%pbar_over_pstar
-               largest = max(largest, abs(factor*pressure*sqrt(product(side))/scene%e_star)/ &
-                                      (surface%amplitude*measures%approach_over_amplitude))
-            end associate
-         end do
+         spots = count(results%loads%measures%load_concentration >= least_concentration)
          if (spots > 0) call log%say('note: at '//integer_text(spots)//' of '//integer_text(size(results%loads))// &
-            ' loads the contact is one spot. Its periodic images change the approach, by up to '// &
-            integer_text(nint(100*largest))//' %: that of the spot alone is approach '// &
-            merge('+ ', '- ', factor < 0.0_dp)//short_number(abs(factor))//'*mean_pressure*sqrt(cell_x*cell_y)/e_star')
+            " loads the contact is one spot, whose approach its periodic images change: edges = 'free' leaves them out")
       end associate
    end subroutine note_images
 

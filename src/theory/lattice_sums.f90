@@ -10,7 +10,7 @@ module wavycon_lattice_sums
    implicit none (type, external)
    private
 
-   public :: inverse_distance_sum, inverse_cube_sum, rectangular_distance_sum
+   public :: inverse_distance_sum, inverse_cube_sum
 
    integer :: m, n  ! of the implied loops in the constant
 
@@ -34,24 +34,5 @@ contains
       beta = (gsl_sf_hzeta(q, 0.25_dp) - gsl_sf_hzeta(q, 0.75_dp))/4**q
       inverse_cube_sum = 4*gsl_sf_zeta(q)*beta
    end function inverse_cube_sum
-
-   !> Sum of 1/r less its mean over a lattice of rectangles of unit area, -3.9003 for squares; the origin is left out.
-   !> The reciprocal lattice is the same one rotated by 90 degrees, so that Ewald's two sums are equal here too.
-   pure real(dp) function rectangular_distance_sum(ratio) result(total)
-      real(dp), intent(in) :: ratio   !! of the sides, > 0
-
-      integer :: i, k
-      real(dp) :: r, side(2)
-
-      side = [sqrt(ratio), 1/sqrt(ratio)]
-      total = -4
-      do k = 0, ceiling(4/side(2))
-         do i = 0, ceiling(4/side(1))
-            if (i + k == 0) cycle
-            r = hypot(i*side(1), k*side(2))
-            total = total + 2*merge(1, 2, i == 0)*merge(1, 2, k == 0)*erfc(sqrt(pi)*r)/r
-         end do
-      end do
-   end function rectangular_distance_sum
 
 end module wavycon_lattice_sums
