@@ -17,7 +17,7 @@ module wavycon_read_deck
    use wavycon_kinds, only: dp
    use wavycon_load_group, only: check_load_group, check_loads_of_surface, given_loads
    use wavycon_material_group, only: check_material_group, plane_strain_modulus
-   use wavycon_method_group, only: check_method_group
+   use wavycon_methods, only: check_method_group
    use wavycon_output_group, only: check_output_group
    use wavycon_plain_text, only: escaped
    use wavycon_problem_report, only: problem_report

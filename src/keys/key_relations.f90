@@ -161,7 +161,8 @@ contains
             if (first == 0 .or. keys(k)%way == 0) return
             if (keys(k)%way == keys(first)%way .or. any(family .and. keys(:k - 1)%way /= keys(first)%way)) return
             call problems%add(max(values%place_of(keys(first)%name), values%place_of(keys(k)%name)), &
-                              trim(keys(first)%name)//' and '//trim(keys(k)%name)//' contradict each other: give one of them')
+                              trim(keys(first)%name)//' and '//trim(keys(k)%name)//' contradict each other: '// &
+                              'give one of them')
          end associate
       end subroutine check_way
 

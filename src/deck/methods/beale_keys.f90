@@ -1,21 +1,18 @@
-!> solver = 'beale': the paper's truncated Fourier series.
-module wavycon_beale_method
-   use wavycon_beale_contact, only: beale_contact, paper_constraint_points, paper_harmonics, qp_options
+!> The keys of solver = 'beale', the paper's truncated Fourier series.
+module wavycon_beale_keys
+   use wavycon_beale_contact, only: paper_constraint_points, paper_harmonics, qp_options
    use wavycon_constraint_points, only: choose_points
-   use wavycon_contact_solver, only: contact_solver
    use wavycon_fourier_terms, only: choose_terms, fourier_terms, symmetry_diagonal, symmetry_full, symmetry_none
    use wavycon_group_values, only: group_values
-   use wavycon_key_table, only: choice_key, integer_key, real_key
+   use wavycon_key_table, only: choice_key, integer_key, key_type, real_key
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: integer_text, short_number
    use wavycon_problems, only: problem_list_type
-   use wavycon_solver_method, only: solver_method
    use wavycon_surface, only: surface_type
-   use wavycon_wave_kinds, only: paper_waves
    implicit none (type, external)
    private
 
-   public :: beale_method
+   public :: beale_in_words, beale_keys, beale_options, check_beale_keys
 
    !> Largest values accepted from a deck, for 1-D and 2-D waves, so that a mistyped number does not run for hours.
    integer, parameter :: most_harmonics = 60, most_constraint_points(2) = [6001, 601]
@@ -24,47 +21,34 @@ module wavycon_beale_method
 
 contains
 
-   type(solver_method) function beale_method() result(method)
-      type(beale_contact) :: solver
+   function beale_keys() result(keys)
+      type(key_type) :: keys(5)
+
       type(qp_options) :: default
 
-      method%name = 'beale'
-      method%meaning = "the paper's truncated Fourier series, for its waves; their default. The key minimiser "// &
-         "says how its quadratic programme is solved: by default not by Beale's method"
-      allocate (method%keys, source=[ &
-            integer_key('harmonics', '9 (2-D), 10 (1-D)', 'highest harmonic of the pressure, in each direction.', &
-               1, most_harmonics), &
-            integer_key('constraint_points', 'in proportion to harmonics', &
-               'equally spaced points on half a wavelength, ends included, in each direction, '// &
-               'at which the pressure is constrained. More than harmonics; at most 601 in 2-D. The default is '// &
-               "3 harmonics in 2-D and 2.5 harmonics + 1 in 1-D: the paper's 27 for 9 and 26 for 10.", 2, &
-               maxval(most_constraint_points)), &
-            choice_key('symmetry', "'full'", &
-               "in 2-D, symmetry of the pressure. 'full': alike in x and y and at both crests (29 unknowns, 196 "// &
-               "points by default); 'diagonal': at both crests (49, 378); 'none' (99, 729).", &
-               ['full    ', 'diagonal', 'none    ']), &
-            choice_key('minimiser', "'dual'", &
-               "how the minimum of the energy is found, which is one and the same. 'dual': Goldfarb and Idnani's "// &
-               "method, from the load before; 'beale': Beale's method as in the paper, "// &
-               "each load from an even pressure.", &
-               ['dual ', 'beale']), &
-            real_key('edge_level', short_number(default%edge_level), 'p*', &
-               'the isobar that is taken as the edge of contact.', above=0.0_dp, below=1.0_dp)])
-      method%traits = solver%traits()
-      method%refusal => refusal
-      method%check => check
-      method%make => make
-   end function beale_method
+      keys = [ &
+         integer_key('harmonics', '9 (2-D), 10 (1-D)', 'highest harmonic of the pressure, in each direction.', &
+            1, most_harmonics), &
+         integer_key('constraint_points', 'in proportion to harmonics', &
+            'equally spaced points on half a wavelength, ends included, in each direction, '// &
+            'at which the pressure is constrained. More than harmonics; at most 601 in 2-D. The default is '// &
+            "3 harmonics in 2-D and 2.5 harmonics + 1 in 1-D: the paper's 27 for 9 and 26 for 10.", 2, &
+            maxval(most_constraint_points)), &
+         choice_key('symmetry', "'full'", &
+            "in 2-D, symmetry of the pressure. 'full': alike in x and y and at both crests (29 unknowns, 196 "// &
+            "points by default); 'diagonal': at both crests (49, 378); 'none' (99, 729).", &
+            ['full    ', 'diagonal', 'none    ']), &
+         choice_key('minimiser', "'dual'", &
+            "how the minimum of the energy is found, which is one and the same. 'dual': Goldfarb and Idnani's "// &
+            "method, from the load before; 'beale': Beale's method as in the paper, "// &
+            "each load from an even pressure.", &
+            ['dual ', 'beale']), &
+         real_key('edge_level', short_number(default%edge_level), 'p*', &
+            'the isobar that is taken as the edge of contact.', above=0.0_dp, below=1.0_dp)]
+   end function beale_keys
 
-   subroutine refusal(surface, words)
-      type(surface_type), intent(in) :: surface
-      character(:), allocatable, intent(out) :: words
-
-      words = ''
-      if (.not. surface%is_paper_wave()) words = 'is for the waves of the paper: '//paper_waves
-   end subroutine refusal
-
-   subroutine check(values, surface, problems)
+   !> Sets the defaults that depend on the surface, and reports numbers that do not fit each other or the memory.
+   subroutine check_beale_keys(values, surface, problems)
       type(group_values), intent(inout) :: values
       type(surface_type), intent(in) :: surface
       type(problem_list_type), intent(inout) :: problems
@@ -98,7 +82,7 @@ contains
                ' unknowns and '//integer_text(constraints)//' constraints: too many for the memory. Give fewer '// &
                'constraint_points (harmonics + 1 serve well), or a symmetry')
       end if
-   end subroutine check
+   end subroutine check_beale_keys
 
    !> The size of the quadratic programme.
    subroutine find_size(values, surface, unknowns, constraints)
@@ -128,26 +112,25 @@ contains
       end select
    end function symmetry_of
 
-   subroutine make(values, surface, keep_fields, solver, description)
-      type(group_values), intent(in) :: values
-      type(surface_type), intent(in) :: surface
-      logical, intent(in) :: keep_fields
-      class(contact_solver), allocatable, intent(out) :: solver
-      character(:), allocatable, intent(out) :: description
+   pure type(qp_options) function beale_options(values) result(options)
+      type(group_values), intent(in) :: values   !! of &method
 
-      type(beale_contact), allocatable :: own
+      options = qp_options(values%integer('harmonics'), values%integer('constraint_points'), symmetry_of(values), &
+                           values%real('edge_level'), values%text('minimiser') == 'beale')
+   end function beale_options
+
+   !> The discretisation in words.
+   function beale_in_words(values, surface) result(words)
+      type(group_values), intent(in) :: values   !! of &method
+      type(surface_type), intent(in) :: surface
+      character(:), allocatable :: words
+
       integer :: constraints, unknowns
 
-      associate (fields_are_always_kept => keep_fields); end associate
-      allocate (own)
-      call own%start(surface, qp_options(values%integer('harmonics'), values%integer('constraint_points'), &
-                                         symmetry_of(values), values%real('edge_level'), &
-                                         values%text('minimiser') == 'beale'))
-      call move_alloc(own, solver)
       call find_size(values, surface, unknowns, constraints)
-      description = integer_text(values%integer('harmonics'))//' harmonics ('//integer_text(unknowns)// &
-                    ' unknowns), '//integer_text(constraints*merge(2, 1, surface%has_hardness()))// &
-                    ' constraint points, edge_level[p*] = '//short_number(values%real('edge_level'))
-   end subroutine make
+      words = integer_text(values%integer('harmonics'))//' harmonics ('//integer_text(unknowns)//' unknowns), '// &
+              integer_text(constraints*merge(2, 1, surface%has_hardness()))//' constraint points, edge_level[p*] = '// &
+              short_number(values%real('edge_level'))
+   end function beale_in_words
 
-end module wavycon_beale_method
+end module wavycon_beale_keys
