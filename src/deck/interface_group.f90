@@ -94,11 +94,8 @@ contains
       type(surface_type), intent(in) :: surface
 
       type(fitted_frame) :: frame
-      real(dp) :: radii(2)
-
       if (surface%is_ball()) then
-         radii = surface%radii()
-         has_adhesion = abs(radii(1) - radii(2)) <= 0.0_dp
+         has_adhesion = maxval(surface%radii()) <= minval(surface%radii())
       else if (surface%dimension == 1) then
          has_adhesion = surface%is_paper_wave()
       else
@@ -154,14 +151,12 @@ contains
          setting%tangential = values%reals('tangential_load')/p_star
       end if
       e = [1.0_dp]
+      ! Beside e_star both bodies are alike.
+      nu = values%reals('nu')
+      if (material%has('nu1')) nu = material%reals('nu1')
       if (material%has('e2')) then
          e = [material%real('e1'), material%real('e2')]
-         nu = [material%real('nu1'), material%real('nu2')]
-      else if (material%has('nu1')) then
-         nu = [material%real('nu1')]
-      else
-         ! Both bodies are alike.
-         nu = [values%real('nu')]
+         nu = [nu, material%real('nu2')]
       end if
       kappa = shear_factors(e, nu)
       if (material%has('nu1')) setting%beta = dundurs_beta(e, nu)

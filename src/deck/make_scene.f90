@@ -51,14 +51,14 @@ contains
       scene%surface_kind = deck%surface_values%text('kind')
       scene%method = deck%method
       scene%output = deck%output
-      call deck%output%set('directory', '')
+      call deck%output%set('directory', text='')
       scene%fingerprint = resolved_deck_text(deck)
       ! The first line has the path of the deck.
       scene%fingerprint = scene%fingerprint(index(scene%fingerprint, newline):)
-      call deck%output%set('directory', scene%directory)
+      call deck%output%set('directory', text=scene%directory)
       ! A copy of the resolved deck in another directory must find the map. A map that was made has no file.
       if (allocated(scene%map)) then
-         if (scene%map%path /= '') call deck%surface_values%set('file', scene%map%path)
+         if (scene%map%path /= '') call deck%surface_values%set('file', text=scene%map%path)
       end if
       scene%resolved_deck = resolved_deck_text(deck)
    end subroutine make_scene

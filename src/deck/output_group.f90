@@ -75,8 +75,8 @@ contains
       character(:), allocatable :: key, refusal
       integer :: i
 
-      call values%set_default('directory', 'outputs/'//case)
-      call values%set('directory', plain_directory(values%text('directory')))
+      call values%set_default('directory', text='outputs/'//case)
+      call values%set('directory', text=plain_directory(values%text('directory')))
       if (.not. allocated(surface)) return
       if (.not. method%is_bad('grid_points')) call set_points(values, method, surface)
       if (method%is_bad('solver')) return

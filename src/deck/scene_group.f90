@@ -34,15 +34,15 @@ contains
    end function scene_table
 
    !> Checks the labels of units and the name of the case, whose default is the name of the deck's file without '.nml'.
-   subroutine check_scene_group(values, problems, usual_case)
+   subroutine check_scene_group(values, problems, is_file)
       type(group_values), intent(inout) :: values
       type(problem_list_type), intent(inout) :: problems
-      character(*), intent(in), optional :: usual_case   !! the default in place of the name of the file
+      logical, intent(in) :: is_file   !! whether the deck is a file: the default is otherwise 'deck'
 
       character(:), allocatable :: usual
 
-      usual = stem(values%deck_path)
-      if (present(usual_case)) usual = usual_case
+      usual = 'deck'
+      if (is_file) usual = stem(values%deck_path)
       call check_unit(values, 'pressure_unit', "'MPa' or 'N/mm^2'", problems)
       call check_unit(values, 'length_unit', "'mm'", problems)
       if (values%is_bad('case')) return
@@ -51,7 +51,7 @@ contains
             plain_in_words//"): give case in &scene")
          return
       end if
-      call values%set_default('case', usual)
+      call values%set_default('case', text=usual)
       if (.not. is_plain_name(values%text('case'))) call values%complain(problems, 'case', &
          'case must be a plain file name of '//plain_in_words)
    end subroutine check_scene_group
@@ -71,8 +71,8 @@ contains
    pure logical function is_plain_name(name)
       character(*), intent(in) :: name
 
-      is_plain_name = len(name) > 0 .and. len(name) <= longest_name .and. verify(name, name_letters) == 0
-      if (is_plain_name) is_plain_name = scan(name(1:1), '-.') == 0
+      is_plain_name = len(name) > 0 .and. len(name) <= longest_name .and. verify(name, name_letters) == 0 .and. &
+                      scan(name, '-.') /= 1
    end function is_plain_name
 
    !> The last part of a path, without '.nml'.
@@ -80,11 +80,8 @@ contains
       character(*), intent(in) :: path
       character(:), allocatable :: stem
 
-      character(*), parameter :: suffix = '.nml'
-
       stem = path(index(path, '/', back=.true.) + 1:)
-      if (len(stem) <= len(suffix)) return
-      if (stem(len(stem) - len(suffix) + 1:) == suffix) stem = stem(:len(stem) - len(suffix))
+      if (len(stem) > 4 .and. index(stem, '.nml', back=.true.) == len(stem) - 3) stem = stem(:len(stem) - 4)
    end function stem
 
 end module wavycon_scene_group

@@ -85,7 +85,7 @@ contains
                'stresses below a profile with free edges are not computed: leave &stress out')
             if (values%has('lateral')) call values%complain(problems, 'lateral', &
                'a surface with free edges has no mean pressure far below it: leave lateral out')
-            call values%set('lateral', 'free')
+            call values%set('lateral', text='free')
             call values%leave_out('lateral')
          end if
          if (surface%dimension == 1 .and. any(values%text('section') == ['y       ', 'diagonal'])) &
@@ -107,9 +107,9 @@ contains
       else if (values%has('nu')) then
          call values%complain(problems, 'nu', 'nu contradicts nu1 of &material: leave it out')
       else if (material%has('nu2')) then
-         call values%set_default('nu', [material%real('nu1'), material%real('nu2')])
+         call values%set_default('nu', [material%reals('nu1'), material%reals('nu2')])
       else
-         call values%set_default('nu', [material%real('nu1')])
+         call values%set_default('nu', material%reals('nu1'))
       end if
    end subroutine take_ratios
 
@@ -138,9 +138,9 @@ contains
       allocate (setting%body, source=[elastic_body(nu(1), lateral), elastic_body(nu(2), lateral)])
       setting%by_shear = values%text('yield_criterion') == 'tresca'
       if (values%has('yield_stress') .and. p_star > 0.0_dp) setting%yield_stress = values%pair('yield_stress')/p_star
-      are_alike = abs(nu(2) - nu(1)) <= 0.0_dp
+      are_alike = maxval(nu) <= minval(nu)
       if (allocated(setting%yield_stress)) are_alike = are_alike .and. &
-         abs(setting%yield_stress(2) - setting%yield_stress(1)) <= 0.0_dp
+         maxval(setting%yield_stress) <= minval(setting%yield_stress)
       ! Without e2 the second body is rigid.
       if (are_alike .or. (material%has('e1') .and. .not. material%has('e2'))) then
          setting%body = setting%body(:1)

@@ -45,12 +45,8 @@ module wavycon_group_values
       procedure :: integer => get_integer
       procedure :: logical => get_logical
       procedure :: text
-      procedure, private :: set_numbers
-      procedure, private :: set_text
-      generic :: set => set_numbers, set_text
-      procedure, private :: default_numbers
-      procedure, private :: default_text
-      generic :: set_default => default_numbers, default_text
+      procedure :: set
+      procedure :: set_default
       procedure :: complain
       procedure, private :: find
    end type group_values
@@ -73,10 +69,11 @@ contains
       do k = 0, size(table%keys)
          allocate (self%entries(k)%numbers(0))
          self%entries(k)%text = ''
-         if (k == 0) cycle
+      end do
+      do k = 1, size(table%keys)
          if (table%keys(k)%default == '') cycle
          call read_value(table%keys(k), trim(table%keys(k)%default), value, trouble)
-         if (.not. allocated(trouble)) call put(self, k, [value%number], value%text)
+         if (.not. allocated(trouble)) call self%set(table%keys(k)%name, [value%number], value%text)
       end do
    end subroutine start
 
@@ -94,7 +91,7 @@ contains
       if (k == 0) return
       self%entries(k)%place = place
       self%entries(k)%is_bad = .not. present(numbers)
-      if (present(numbers)) call put(self, k, numbers, text)
+      if (present(numbers)) call self%set(key, numbers, text)
    end subroutine take
 
    !> Whether the deck gives a key.
@@ -216,51 +213,32 @@ contains
       words = self%entries(self%find(key))%text
    end function text
 
-   !> `set`: sets a value in place of the deck's or the default.
-   pure subroutine set_numbers(self, key, numbers)
+   !> Sets a value in place of the deck's or the default.
+   pure subroutine set(self, key, numbers, text)
       class(group_values), intent(inout) :: self
       character(*), intent(in) :: key
-      real(dp), intent(in) :: numbers(:)   !! of an integer key without fractions
+      real(dp), intent(in), optional :: numbers(:)   !! as of key_entry
+      character(*), intent(in), optional :: text     !! of texts and choices
 
-      call put(self, self%find(key), numbers)
-   end subroutine set_numbers
+      integer :: k
 
-   pure subroutine set_text(self, key, words)
-      class(group_values), intent(inout) :: self
-      character(*), intent(in) :: key, words
-
-      call put(self, self%find(key), text=words)
-   end subroutine set_text
-
-   !> `set_default`: sets a default that depends on other values. It has no effect if the deck gives the key a good
-   !> value.
-   pure subroutine default_numbers(self, key, numbers)
-      class(group_values), intent(inout) :: self
-      character(*), intent(in) :: key
-      real(dp), intent(in) :: numbers(:)   !! as of set
-
-      if (.not. self%has(key) .or. self%is_bad(key)) call self%set(key, numbers)
-   end subroutine default_numbers
-
-   pure subroutine default_text(self, key, words)
-      class(group_values), intent(inout) :: self
-      character(*), intent(in) :: key, words
-
-      if (.not. self%has(key) .or. self%is_bad(key)) call self%set(key, words)
-   end subroutine default_text
-
-   !> Sets the value of key number k. Entry 0, which stands for keys that do not exist, is not changed.
-   pure subroutine put(self, k, numbers, text)
-      class(group_values), intent(inout) :: self
-      integer, intent(in) :: k
-      real(dp), intent(in), optional :: numbers(:)
-      character(*), intent(in), optional :: text
-
+      k = self%find(key)
+      ! Entry 0, which stands for keys that do not exist, is not changed.
       if (k == 0) return
       self%entries(k)%has_value = .true.
       if (present(numbers)) self%entries(k)%numbers = numbers
       if (present(text)) self%entries(k)%text = trim(text)
-   end subroutine put
+   end subroutine set
+
+   !> Sets a default that depends on other values. It has no effect if the deck gives the key a good value.
+   pure subroutine set_default(self, key, numbers, text)
+      class(group_values), intent(inout) :: self
+      character(*), intent(in) :: key
+      real(dp), intent(in), optional :: numbers(:)   !! as of set
+      character(*), intent(in), optional :: text
+
+      if (.not. self%has(key) .or. self%is_bad(key)) call self%set(key, numbers, text)
+   end subroutine set_default
 
    !> Reports a problem at the place of a key.
    pure subroutine complain(self, problems, key, words)

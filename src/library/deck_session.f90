@@ -105,7 +105,7 @@ contains
       self%keeps_fields = keep_fields .or. scene%loads_by == by_yield
       call start_results(scene, self%results, tables, self%keeps_fields)
       associate (scene => self%results%scene)
-         call scene%output%set('map_format', 'text')
+         call scene%output%set('map_format', text='text')
          if (allocated(scene%mean_pressure)) call move_alloc(scene%mean_pressure, self%mean_pressure)
          allocate (scene%mean_pressure(1), self%results%loads(1))
          self%scale = scale_of(self%results%solver%surface, scene%e_star)

@@ -73,7 +73,7 @@ contains
 
       character(:), allocatable :: solver, words
 
-      if (allocated(surface)) call values%set_default('solver', default_solver(surface, kind))
+      if (allocated(surface)) call values%set_default('solver', text=default_solver(surface, kind))
       call check_relations(values, problems)
       ! Without a surface the remaining checks would report problems that are not there.
       if (.not. allocated(surface) .or. values%is_bad('solver')) return
