@@ -67,8 +67,8 @@ contains
                   part%name = token
                   return
                end if
-               call problems%add(token%first, "'"//shown(token)//"' stands outside of any group: a group begins with "// &
-                                 "&name and ends with '/', which is text only between quotes")
+               call problems%add(token%first, "'"//shown(token)//"' stands outside of any group: a group begins "// &
+                                 "with &name and ends with '/', which is text only between quotes")
                call skip()
             else if (token%kind == is_slash) then
                scan%next = token%last + 1

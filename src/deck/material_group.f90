@@ -39,7 +39,7 @@ contains
    end function material_table
 
    !> Checks the keys. Leaves e_star out of the resolved deck if e1 is given. Finds E* and, where there is a surface, p*
-   !> and its hardness, which is checked too.
+   !> and its hardness: not one of a flat surface, nor one so far from p* that its unit is most likely wrong.
    subroutine check_material_group(values, surface, e_star, p_star, problems)
       type(group_values), intent(inout) :: values
       type(surface_type), allocatable, intent(inout) :: surface   !! not allocated if it has problems
@@ -47,6 +47,7 @@ contains
       type(problem_list_type), intent(inout) :: problems
 
       integer :: before
+      real(dp) :: hardness
 
       e_star = 0.0_dp
       p_star = 0.0_dp
@@ -56,30 +57,19 @@ contains
       if (problems%number > before .or. values%any_bad() .or. .not. allocated(surface)) return
       e_star = plane_strain_modulus(values)
       p_star = surface%full_contact_pressure(e_star)
-      if (values%has('hardness')) call take_hardness(values, p_star, surface%hardness, problems)
-   end subroutine check_material_group
-
-   !> Takes the hardness. Reports one on a flat surface, and one so far from p* that its unit is most likely wrong.
-   subroutine take_hardness(values, p_star, hardness_over_pstar, problems)
-      type(group_values), intent(in) :: values             !! of a &material group without problems
-      real(dp), intent(in) :: p_star                       !! p* [pressure]; 0: the surface is flat
-      real(dp), intent(inout) :: hardness_over_pstar       !! of a flat surface as it was
-      type(problem_list_type), intent(inout) :: problems
-
-      real(dp) :: hardness
-
+      if (.not. values%has('hardness')) return
       hardness = values%real('hardness')
-      if (p_star > 0.0_dp) hardness_over_pstar = hardness/p_star
       if (p_star <= 0.0_dp) then
          call values%complain(problems, 'hardness', &
             'the surface is flat: its pressure is the mean pressure, and a hardness means nothing')
       else if (hardness > most_hardness*p_star .or. hardness < p_star/most_hardness) then
          call values%complain(problems, 'hardness', &
             'hardness = '//short_number(hardness)//' is not within a factor of '// &
-            short_number(most_hardness)//' of p* = '//short_number(p_star)// &
-            '. Do the units agree?')
+            short_number(most_hardness)//' of p* = '//short_number(p_star)//'. Do the units agree?')
+      else
+         surface%hardness = hardness/p_star
       end if
-   end subroutine take_hardness
+   end subroutine check_material_group
 
    !> E* of the pair [pressure]: as given, or from 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2, without the second term if
    !> the second body is rigid.

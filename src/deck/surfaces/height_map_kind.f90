@@ -100,8 +100,8 @@ contains
    end subroutine surface_of_file
 
    !> The surface of heights in memory in place of those of the file, whose name messages use. Errors: exit_bad_input
-   !> for another kind of surface, for keys that only a file can have, and as of `surface_of_file`; exit_file_trouble without
-   !> memory.
+   !> for another kind of surface, for keys that only a file can have, and as of `surface_of_file`; exit_file_trouble
+   !> without memory.
    subroutine surface_of_heights(values, heights, surface, map, error)
       type(group_values), intent(inout) :: values     !! of &surface, as for `surface_of_file`
       real(dp), intent(in) :: heights(:, :)   !! upwards to the other body, NaN: missing; x first, one column: a profile
