@@ -2,7 +2,7 @@
 module wavycon_material_group
    use wavycon_group_values, only: group_values
    use wavycon_key_relations, only: check_relations
-   use wavycon_key_table, only: key_group, key_group_type, real_key
+   use wavycon_key_table, only: key_group_type, real_key
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: short_number
    use wavycon_problems, only: problem_list_type
@@ -10,7 +10,7 @@ module wavycon_material_group
    implicit none (type, external)
    private
 
-   public :: material_table, check_material_group, plane_strain_modulus
+   public :: material_table, check_material_group, plane_strain_modulus, take_ratios
 
    !> Largest ratio of hardness and p*: a hardness farther away is most likely a mistake of units.
    real(dp), parameter :: most_hardness = 1.0e6_dp
@@ -21,7 +21,7 @@ contains
    function material_table() result(table)
       type(key_group_type) :: table
 
-      table = key_group('material', 'how stiff the two bodies are: e_star, or e1 and nu1 (and e2, nu2)', [ &
+      table = key_group_type('material', 'how stiff the two bodies are: e_star, or e1 and nu1 (and e2, nu2)', [ &
          real_key('e_star', '1.0', 'pressure', &
             'Plane-strain modulus E* of the pair, 1/E* = (1 - nu1^2)/e1 + (1 - nu2^2)/e2.', above=0.0_dp, way=10), &
          real_key('e1', '', 'pressure', "Young's modulus of the first body.", above=0.0_dp, way=11, needs='nu1'), &
@@ -86,5 +86,22 @@ contains
          e_star = values%real('e_star')
       end if
    end function plane_strain_modulus
+
+   !> Sets the key nu of another group, Poisson's ratios, to those of &material. Reports that both or none give them.
+   subroutine take_ratios(values, material, problems)
+      type(group_values), intent(inout) :: values    !! of the group, which the deck gives
+      type(group_values), intent(in) :: material
+      type(problem_list_type), intent(inout) :: problems
+
+      if (material%any_bad() .or. values%is_bad('nu')) return
+      if (material%has('nu1')) then
+         if (values%has('nu')) call values%complain(problems, 'nu', 'nu contradicts nu1 of &material: leave it out')
+         call values%set_default('nu', [material%reals('nu1'), material%reals('nu2')])
+         call values%leave_out('nu')
+      else if (.not. values%has('nu')) then
+         call problems%add(values%place, '&'//trim(values%table%name)// &
+                           " needs nu, Poisson's ratio: &material does not give nu1")
+      end if
+   end subroutine take_ratios
 
 end module wavycon_material_group

@@ -4,7 +4,7 @@ module wavycon_output_group
    use wavycon_grid_keys, only: points_of_grid
    use wavycon_group_values, only: group_values
    use wavycon_kinds, only: dp
-   use wavycon_key_table, only: choice_key, integer_key, key_group, key_group_type, key_type, logical_key, text_key
+   use wavycon_key_table, only: choice_key, integer_key, key_group_type, key_type, logical_key, text_key
    use wavycon_methods, only: traits_of
    use wavycon_plain_text, only: integer_text
    use wavycon_problems, only: problem_list_type
@@ -44,7 +44,7 @@ contains
          if (tables(i)%key == '' .or. tables(i)%group /= 'output') cycle
          rows = [rows, logical_key(trim(tables(i)%key), '.false.', tables(i)%meaning)]
       end do
-      table = key_group('output', 'which files are written, and where', [ &
+      table = key_group_type('output', 'which files are written, and where', [ &
          text_key('directory', "'outputs/<case>'", &
             'Where the results go, relative to where the program is started; made if it is not there.', &
             longest_directory), rows, &

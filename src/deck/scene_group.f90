@@ -1,7 +1,7 @@
 !> The &scene group: the name of the case and the labels of its units.
 module wavycon_scene_group
    use wavycon_group_values, only: group_values
-   use wavycon_key_table, only: key_group, key_group_type, text_key
+   use wavycon_key_table, only: key_group_type, text_key
    use wavycon_problems, only: problem_list_type
    implicit none (type, external)
    private
@@ -20,7 +20,7 @@ contains
    function scene_table() result(table)
       type(key_group_type) :: table
 
-      table = key_group('scene', 'what the case is called', [ &
+      table = key_group_type('scene', 'what the case is called', [ &
          text_key('title', "''", 'One line for the log and the heads of tables.', longest_name, &
             may_be_blank=.true.), &
          text_key('case', "the deck's name", &

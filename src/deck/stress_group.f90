@@ -3,8 +3,9 @@ module wavycon_stress_group
    use wavycon_elastic_body, only: elastic_body, hydrostatic, laterally_constrained, laterally_free
    use wavycon_group_values, only: group_values
    use wavycon_key_relations, only: check_relations
-   use wavycon_key_table, only: choice_key, integer_key, key_group, key_group_type, logical_key, real_key
+   use wavycon_key_table, only: choice_key, integer_key, key_group_type, logical_key, real_key
    use wavycon_kinds, only: dp
+   use wavycon_material_group, only: take_ratios
    use wavycon_problems, only: problem_list_type
    use wavycon_stress_setting, only: stress_setting
    use wavycon_surface, only: surface_type
@@ -22,7 +23,7 @@ contains
    function stress_table() result(table)
       type(key_group_type) :: table
 
-      table = key_group('stress', 'stresses below the surface, and when it yields', [ &
+      table = key_group_type('stress', 'stresses below the surface, and when it yields', [ &
          logical_key('largest', '.true.', 'A table of the largest von Mises stress and the largest shear stress of '// &
             'each load, and where they are.'), &
          logical_key('line', '.false.', 'A table of the stresses on the line below the crest.'), &
@@ -78,7 +79,7 @@ contains
       else if (values%logical('planes') .and. .not. has_range) then
          call values%complain(problems, 'planes', 'planes needs depths, depths_over_cell_x or a range of depths')
       end if
-      if (.not. material%any_bad() .and. .not. values%is_bad('nu')) call take_ratios(values, material, problems)
+      call take_ratios(values, material, problems)
       if (present(surface)) then
          if (surface%has_free_edges) then
             if (surface%dimension == 1) call problems%add(values%place, &
@@ -94,24 +95,6 @@ contains
       end if
       if (.not. values%has('yield_stress')) call values%leave_out('yield_criterion')
    end subroutine check_stress_group
-
-   !> Sets Poisson's ratios to those of &material, or reports that there are none or that they contradict each other.
-   subroutine take_ratios(values, material, problems)
-      type(group_values), intent(inout) :: values
-      type(group_values), intent(in) :: material
-      type(problem_list_type), intent(inout) :: problems
-
-      if (.not. material%has('nu1')) then
-         if (.not. values%has('nu')) call problems%add(values%place, &
-            "&stress needs nu, Poisson's ratio: &material does not give nu1")
-      else if (values%has('nu')) then
-         call values%complain(problems, 'nu', 'nu contradicts nu1 of &material: leave it out')
-      else if (material%has('nu2')) then
-         call values%set_default('nu', [material%reals('nu1'), material%reals('nu2')])
-      else
-         call values%set_default('nu', material%reals('nu1'))
-      end if
-   end subroutine take_ratios
 
    !> What the group asks for. A rigid body has no stresses, and a body that is like the other is left out.
    subroutine make_stress_setting(values, material, p_star, setting)

@@ -6,7 +6,7 @@
 !> resolved deck, and what --set replaces.
 module wavycon_key_relations
    use wavycon_group_values, only: group_values
-   use wavycon_key_table, only: allowed_values, choice_key, key_group, key_group_type, key_index, key_type, &
+   use wavycon_key_table, only: allowed_values, choice_key, key_group_type, key_index, key_type, &
       logical_value, meaning_length, ways_in_words
    use wavycon_nearest_name, only: did_you_mean
    use wavycon_plain_text, only: in_quotes, listed
@@ -59,9 +59,8 @@ contains
             end associate
          end do
       end do
-      group = key_group(name, meaning, [choice_key(selector, default, meanings(2:), alternatives%name, required), &
-                                        keys(:number)], required)
-      group%selector = selector
+      group = key_group_type(name, meaning, [choice_key(selector, default, meanings(2:), alternatives%name, required), &
+                                             keys(:number)], required, selector)
    end function alternative_group
 
    !> The meanings of a key for all alternatives: "Of a and b: this. Of c: that."

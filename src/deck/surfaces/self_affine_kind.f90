@@ -147,17 +147,11 @@ contains
       end if
       least = least_points_of(spectrum)
       if (all(points >= least)) return
-      if (any(least > most_points)) then
-         call values%complain(problems, 'short_wavelength', 'short_wavelength = '// &
-            short_number(spectrum%shortest)//' needs '//grid_words(least)//' points, and more than '// &
-            integer_text(most_points)//' a side are not possible: give a longer one or a smaller cell')
-      else
-         advice = ', and accurate contact areas twice as many each way or more'
-         if (all(points >= least - 1)) advice = advice//'. Waves of exactly two steps have no phase on the points: '// &
-            'short_wavelength = '//short_number(longer*spectrum%shortest)//' leaves them out'
-         call values%complain(problems, 'points', grid_words(points)//' points are too few for short_wavelength = '// &
-            short_number(spectrum%shortest)//': it needs '//grid_words(least)//advice)
-      end if
+      advice = ', and accurate contact areas twice as many each way or more'
+      if (all(points >= least - 1)) advice = advice//'. Waves of exactly two steps have no phase on the points: '// &
+         'short_wavelength = '//short_number(longer*spectrum%shortest)//' leaves them out'
+      call values%complain(problems, 'points', grid_words(points)//' points are too few for short_wavelength = '// &
+                           short_number(spectrum%shortest)//': it needs '//grid_words(least)//advice)
    end subroutine check_points
 
    !> "2 x 3", as for the sides of a grid.
