@@ -20,8 +20,8 @@ behind it. Lines that start with '#' are remarks. The keywords are
    deck NAME:          the same, a deck; behind its text stand `&surface kind = 'wave_2d' /` and
                        `&load pbar_over_pstar = 0.5 /` if it has no such group. `deck:` is `deck deck.nml:`
    bytes NAME:         a file with Python's escapes (\\t, \\r, \\xff) and nothing added behind the last character
-   run:                what the user types: lines for sh, in which `wavycon` is the program and `columns TABLE NAME...`
-                       prints columns of a table
+   run:                what the user types: lines for sh, in which `wavycon` is the program; `columns`, `interrupted` and `same`
+                       are in tools/
    status: N           the exit status of the last line of `run`; 0 if not given
    stdout:, stderr:    lines that must be there, one right after the other in this order; a line '...' stands for any
                        number of lines. All lines must be given.
