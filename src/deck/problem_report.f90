@@ -1,7 +1,7 @@
 !> The report of all problems in a deck, as the message of one error.
 module wavycon_problem_report
    use wavycon_deck_text, only: deck_text_type
-   use wavycon_plain_text, only: character_count, escaped, integer_text, is_continuation, newline
+   use wavycon_plain_text, only: character_count, escaped, integer_text, newline
    use wavycon_problems, only: most_kept, problem_list_type
    implicit none (type, external)
    private
@@ -59,15 +59,6 @@ contains
          from = max(first, place - most_before)
          to = min(last, place + most_after)
       end if
-      ! Not within a character.
-      do while (from < place)
-         if (.not. is_continuation(text%content(from:from))) exit
-         from = from + 1
-      end do
-      do while (to > place .and. to < last)
-         if (.not. is_continuation(text%content(to + 1:to + 1))) exit
-         to = to - 1
-      end do
       before = escaped(text%content(from:place - 1))
       if (from > first) before = '...'//before
       after = escaped(text%content(place:to))

@@ -17,6 +17,10 @@ module wavycon_stress_group
    !> Most depths of a list or a range.
    integer, parameter :: most_depths = 10000
 
+   !> The choices of `lateral`.
+   character(11), parameter :: laterals(*) = ['constrained', 'free       ', 'hydrostatic']
+   integer, parameter :: lateral_is(*) = [laterally_constrained, laterally_free, hydrostatic]
+
 contains
 
    !> The table of keys of &stress.
@@ -46,7 +50,7 @@ contains
             above=-1.0_dp, most=0.5_dp, most_values=2), &
          choice_key('lateral', "'constrained'", "the lateral stresses of the mean pressure pbar. 'constrained': no "// &
             "lateral strain, -nu pbar/(1 - nu); 'free': 0; 'hydrostatic': -pbar.", &
-            [character(11) :: 'constrained', 'free', 'hydrostatic']), &
+            laterals), &
          real_key('yield_stress', '', 'unit of e_star', &
             'Yield stresses of the first and the second body in uniaxial tension; one number: of both.', above=0.0_dp, &
             most_values=2), &
@@ -110,14 +114,7 @@ contains
       if (values%place == 0) return
       allocate (setting)
       nu = values%pair('nu')
-      select case (values%text('lateral'))
-      case ('free')
-         lateral = laterally_free
-      case ('hydrostatic')
-         lateral = hydrostatic
-      case default
-         lateral = laterally_constrained
-      end select
+      lateral = lateral_is(findloc(laterals == values%text('lateral'), .true., dim=1))
       allocate (setting%body, source=[elastic_body(nu(1), lateral), elastic_body(nu(2), lateral)])
       setting%by_shear = values%text('yield_criterion') == 'tresca'
       if (values%has('yield_stress') .and. p_star > 0.0_dp) setting%yield_stress = values%pair('yield_stress')/p_star

@@ -25,8 +25,7 @@ module wavycon_group_values
    type :: group_values
       type(key_group_type) :: table
       character(:), allocatable :: deck_path   !! the deck's file, as the caller named it
-      !> The deck's label of lengths, for &surface; not allocated if the deck gives none.
-      character(:), allocatable :: length_unit
+      character(:), allocatable :: length_unit   !! the deck's label of lengths, for &surface; empty: it gives none
       integer :: place = 0                     !! byte of the deck's text where '&name' stands; 0 if it is absent
       type(key_entry), allocatable, private :: entries(:)   !! of the keys of the table; 0 is the neutral one
    contains
@@ -65,6 +64,7 @@ contains
 
       self%table = table
       self%deck_path = deck_path
+      self%length_unit = ''
       allocate (self%entries(0:size(table%keys)))
       do k = 0, size(table%keys)
          allocate (self%entries(k)%numbers(0))

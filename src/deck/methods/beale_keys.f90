@@ -18,6 +18,9 @@ module wavycon_beale_keys
    integer, parameter :: most_harmonics = 60, most_constraint_points(2) = [6001, 601]
    !> Most elements of the constraints' matrix. A few copies of it exist at a time, each of 160 MB.
    real(dp), parameter :: most_elements = 2.0e7_dp
+   !> The choices of `symmetry`.
+   character(8), parameter :: symmetries(*) = ['full    ', 'diagonal', 'none    ']
+   integer, parameter :: symmetry_is(*) = [symmetry_full, symmetry_diagonal, symmetry_none]
 
 contains
 
@@ -37,7 +40,7 @@ contains
          choice_key('symmetry', "'full'", &
             "in 2-D, symmetry of the pressure. 'full': alike in x and y and at both crests (29 unknowns, 196 "// &
             "points by default); 'diagonal': at both crests (49, 378); 'none' (99, 729).", &
-            ['full    ', 'diagonal', 'none    ']), &
+            symmetries), &
          choice_key('minimiser', "'dual'", &
             "how the minimum of the energy is found, which is one and the same. 'dual': Goldfarb and Idnani's "// &
             "method, from the load before; 'beale': Beale's method as in the paper, "// &
@@ -102,14 +105,7 @@ contains
    pure integer function symmetry_of(values) result(symmetry)
       type(group_values), intent(in) :: values
 
-      select case (values%text('symmetry'))
-      case ('none')
-         symmetry = symmetry_none
-      case ('diagonal')
-         symmetry = symmetry_diagonal
-      case default
-         symmetry = symmetry_full
-      end select
+      symmetry = symmetry_is(findloc(symmetries == values%text('symmetry'), .true., dim=1))
    end function symmetry_of
 
    pure type(qp_options) function beale_options(values) result(options)

@@ -171,7 +171,6 @@ contains
       type(measured_map), intent(out) :: heights
       type(error_type), allocatable, intent(out) :: error
 
-      character(:), allocatable :: unit
       real(dp), allocatable :: missing_value   ! not allocated: the argument is absent
 
       if (values%has('missing_value')) missing_value = values%real('missing_value')
@@ -179,10 +178,7 @@ contains
       call read_height_map(path, values%text('file_format'), heights, error, missing_value, &
                            in_slabs=values%text('fill_missing') == 'none' .and. .not. &
                                     (values%logical('crop_missing') .or. values%logical('despike')))
-      if (allocated(error)) return
-      unit = ''
-      if (allocated(values%length_unit)) unit = values%length_unit
-      call convert_lengths(path, unit, heights, error)
+      if (.not. allocated(error)) call convert_lengths(path, values%length_unit, heights, error)
    end subroutine read_map
 
    !> The sides of the cell: those of the file, those of the deck, or assumed ones. Errors: exit_bad_input if file and
@@ -201,9 +197,9 @@ contains
       logical :: is_given(2)   ! by the deck
 
       assumed = ''
-      unit = ''
-      if (allocated(values%length_unit)) unit = ' ['//escaped(values%length_unit)//']'
-      if (allocated(heights%length_unit)) unit = ' ['//escaped(heights%length_unit)//']'
+      unit = values%length_unit
+      if (allocated(heights%length_unit)) unit = heights%length_unit
+      if (unit /= '') unit = ' ['//escaped(unit)//']'
       is_given = [values%has(keys(1)), values%has(keys(2))]
       points = heights%points()
       associate (m => points(1), n => points(2), step => heights%step)
