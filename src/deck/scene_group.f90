@@ -39,12 +39,17 @@ contains
       type(problem_list_type), intent(inout) :: problems
       logical, intent(in) :: is_file   !! whether the deck is a file: the default is otherwise 'deck'
 
+      character(13), parameter :: units(*) = ['pressure_unit', 'length_unit  ']
       character(:), allocatable :: usual
+      integer :: i
 
       usual = 'deck'
       if (is_file) usual = stem(values%deck_path)
-      call check_unit(values, 'pressure_unit', "'MPa' or 'N/mm^2'", problems)
-      call check_unit(values, 'length_unit', "'mm'", problems)
+      ! The units of a table stand in one line, in brackets and separated by blanks.
+      do i = 1, size(units)
+         if (scan(values%text(units(i)), ' []') > 0 .and. .not. values%is_bad(units(i))) call values%complain( &
+            problems, units(i), trim(units(i))//" must have no blanks and no brackets, such as 'mm' or 'N/mm^2'")
+      end do
       if (values%is_bad('case')) return
       if (.not. values%has('case') .and. .not. is_plain_name(usual)) then
          call problems%add(values%place, "the deck's file name cannot serve as the name of the case ("// &
@@ -55,17 +60,6 @@ contains
       if (.not. is_plain_name(values%text('case'))) call values%complain(problems, 'case', &
          'case must be a plain file name of '//plain_in_words)
    end subroutine check_scene_group
-
-   !> Checks the label of a unit: the units of a table stand in one line, in brackets and separated by blanks.
-   subroutine check_unit(values, key, examples, problems)
-      type(group_values), intent(inout) :: values
-      character(*), intent(in) :: key, examples
-      type(problem_list_type), intent(inout) :: problems
-
-      if (values%is_bad(key)) return
-      if (scan(values%text(key), ' []') > 0) call values%complain(problems, key, &
-         key//' must have no blanks and no brackets, such as '//examples)
-   end subroutine check_unit
 
    !> Whether a text can be the stem of file names: as plain_in_words.
    pure logical function is_plain_name(name)

@@ -38,7 +38,6 @@ module wavycon_group_values
       procedure :: in_effect
       procedure :: leave_out
       procedure :: reals
-      procedure :: integers
       procedure :: pair
       procedure :: real => get_real
       procedure :: integer => get_integer
@@ -155,15 +154,6 @@ contains
 
       numbers = self%entries(self%find(key))%numbers
    end function reals
-
-   !> The values of an integer key.
-   pure function integers(self, key) result(numbers)
-      class(group_values), intent(in) :: self
-      character(*), intent(in) :: key
-      integer, allocatable :: numbers(:)
-
-      numbers = nint(self%reals(key))
-   end function integers
 
    !> The two numbers of a real or integer key; a single one is both. Zeros if it has none.
    pure function pair(self, key)

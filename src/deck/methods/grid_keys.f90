@@ -79,7 +79,7 @@ contains
       if (values%has('residual') .and. .not. values%has('accuracy') .and. all(points_of_grid(values, surface) == 0)) &
          call values%complain(problems, 'residual', 'residual needs grid_points, or a height map on '// &
                               'its own points: other grids have the residual that their accuracy takes')
-      if (.not. surface%mirrored .and. any(mod(values%integers('grid_points'), 2) /= 0)) &
+      if (.not. surface%mirrored .and. any(mod(nint(values%reals('grid_points')), 2) /= 0)) &
          call values%complain(problems, 'grid_points', &
          'grid_points must be even: of surfaces with mirror symmetry half of them are solved each way')
    end subroutine check_grid_keys

@@ -139,7 +139,7 @@ contains
       character(:), allocatable :: advice
       integer :: least(2), points(2)
 
-      points = values%integers('points')
+      points = nint(values%reals('points'))
       if (points(1) < least_points .or. (points(2) < least_points .and. spectrum%dimension == 2)) then
          call values%complain(problems, 'points', 'there must be at least '//integer_text(least_points)// &
                               ' points along each side, or 1 along y for a profile')
@@ -150,17 +150,10 @@ contains
       advice = ', and accurate contact areas twice as many each way or more'
       if (all(points >= least - 1)) advice = advice//'. Waves of exactly two steps have no phase on the points: '// &
          'short_wavelength = '//short_number(longer*spectrum%shortest)//' leaves them out'
-      call values%complain(problems, 'points', grid_words(points)//' points are too few for short_wavelength = '// &
-                           short_number(spectrum%shortest)//': it needs '//grid_words(least)//advice)
+      call values%complain(problems, 'points', integer_text(points(1))//' x '//integer_text(points(2))// &
+         ' points are too few for short_wavelength = '//short_number(spectrum%shortest)//': it needs '// &
+         integer_text(least(1))//' x '//integer_text(least(2))//advice)
    end subroutine check_points
-
-   !> "2 x 3", as for the sides of a grid.
-   pure function grid_words(points) result(words)
-      integer, intent(in) :: points(2)
-      character(:), allocatable :: words
-
-      words = integer_text(points(1))//' x '//integer_text(points(2))
-   end function grid_words
 
    !> The spectrum that the keys describe.
    pure function spectrum_of(values) result(spectrum)
@@ -169,7 +162,7 @@ contains
 
       integer :: points(2)
 
-      points = values%integers('points')
+      points = nint(values%reals('points'))
       spectrum%dimension = merge(1, 2, points(2) == 1)
       spectrum%length = [values%real('length_x'), values%real('length_y')]
       spectrum%hurst = values%real('hurst')
@@ -191,7 +184,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       call self_affine_surface(escaped(values%deck_path)//": kind = 'self_affine'", spectrum_of(values), &
-                               values%integers('points'), surface, map, error, values%text('edges') == 'free', &
+                               nint(values%reals('points')), surface, map, error, values%text('edges') == 'free', &
                                radii_of(values, 'form_radius'))
       if (.not. allocated(error)) map%changes%edges = values%text('edges')
    end subroutine self_affine_of

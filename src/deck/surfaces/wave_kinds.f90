@@ -112,8 +112,8 @@ contains
             key//' has '//integer_text(size(values%reals(key)))//' values and amplitudes '//integer_text(number)// &
             ': give one for each wave')
       end do
-      m = values%integers('waves_x')
-      n = values%integers('waves_y')
+      m = nint(values%reals('waves_x'))
+      n = nint(values%reals('waves_y'))
       if (size(m) /= size(n)) return
       i = findloc(m == 0 .and. n == 0, .true., dim=1)
       if (i > 0) call values%complain(problems, 'waves_x', 'wave '//integer_text(i)// &
@@ -138,7 +138,7 @@ contains
          surface = hexagonal(values%real('amplitude'), values%real('wavelength'))
       case ('sum')
          surface = wave_sum([values%real('length_x'), values%real('length_y')], values%reals('amplitudes'), &
-                            values%integers('waves_x'), values%integers('waves_y'), values%reals('phases')*pi/180)
+                            nint(values%reals('waves_x')), nint(values%reals('waves_y')), values%reals('phases')*pi/180)
       end select
    end function wave_surface
 
