@@ -31,7 +31,11 @@ contains
       logical :: is_asked_for
       integer :: i, k, number
 
-      groups = [deck%material, deck%surface_values, deck%load, deck%stress, deck%method]
+      groups(1) = deck%material
+      groups(2) = deck%surface_values
+      groups(3) = deck%load
+      groups(4) = deck%stress
+      groups(5) = deck%method
       allocate (keys(sum([(size(groups(i)%table%keys), i=1, size(groups))])))
       number = 0
       do i = 1, size(groups)

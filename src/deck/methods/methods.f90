@@ -26,6 +26,8 @@ module wavycon_methods
       start_solver, why_chosen
 
    integer, parameter, public :: number_of_methods = 5
+   character(12), parameter :: names(number_of_methods) = [character(12) :: 'beale', 'grid', 'fitted', 'closed_form', &
+                                                           'auto']
 
 contains
 
@@ -34,20 +36,16 @@ contains
    subroutine get_methods(methods)
       type(alternative_type), intent(out) :: methods(number_of_methods)
 
-      methods(1)%name = 'beale'
+      methods%name = names
       methods(1)%meaning = "the paper's truncated Fourier series, for its waves; their default. The key minimiser "// &
          "says how its quadratic programme is solved: by default not by Beale's method"
       allocate (methods(1)%keys, source=beale_keys())
-      methods(2)%name = 'grid'
       methods(2)%meaning = 'ever finer grids until mean gap, area and peak pressure are accurate'
       allocate (methods(2)%keys, source=grid_keys())
-      methods(3)%name = 'fitted'
       methods(3)%meaning = 'collocation fitted to the edge of contact, of spots or of closed pools of gap'
       allocate (methods(3)%keys, source=[accuracy_key()])
-      methods(4)%name = 'closed_form'
       methods(4)%meaning = "Westergaard's solution of the 1-D wave"
       allocate (methods(4)%keys(0))
-      methods(5)%name = 'auto'
       methods(5)%meaning = "the closed form where there is one, otherwise 'fitted' where it applies, with "// &
          "'grid' for loads at which these are not accurate enough, otherwise and with a hardness 'grid'"
       allocate (methods(5)%keys, source=grid_keys())
@@ -133,13 +131,9 @@ contains
       type(surface_type), intent(in) :: surface
       character(:), allocatable :: words
 
-      type(alternative_type) :: methods(number_of_methods)
       integer :: i
 
-      call get_methods(methods)
-      associate (can => [(refusal(trim(methods(i)%name), surface) == '', i=1, number_of_methods)])
-         words = listed(in_quotes(pack(methods%name, can)), ' or ')
-      end associate
+      words = listed(in_quotes(pack(names, [(refusal(names(i), surface) == '', i=1, size(names))])), ' or ')
    end function solvers_for
 
    !> The solvers whose solutions have details, or the coefficients of a series.
@@ -147,14 +141,12 @@ contains
       character(*), intent(in) :: trait   !! 'details' or 'coefficients'
       character(:), allocatable :: words
 
-      type(alternative_type) :: methods(number_of_methods)
       type(solver_traits) :: traits(number_of_methods)
       integer :: i
 
-      call get_methods(methods)
-      traits = [(traits_of(methods(i)%name), i=1, number_of_methods)]
-      words = listed(in_quotes(pack(methods%name, merge(traits%has_details, traits%has_coefficients, &
-                                                        trait == 'details'))), ' or ')
+      traits = [(traits_of(names(i)), i=1, size(names))]
+      words = listed(in_quotes(pack(names, merge(traits%has_details, traits%has_coefficients, trait == 'details'))), &
+                     ' or ')
    end function solvers_with
 
    !> The traits of a solver before it is started.

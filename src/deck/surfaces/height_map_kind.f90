@@ -83,7 +83,12 @@ contains
       character(:), allocatable :: file, path
 
       file = values%text('file')
-      path = place_of_map(values%deck_path, file)
+      ! Beside the deck or, if it is not there, where the program was started.
+      path = file
+      if (file(1:1) /= '/') path = values%deck_path(:index(values%deck_path, '/', back=.true.))//file
+      if (path_kind(path) == path_absent) then
+         if (path_kind(file) /= path_absent) path = file
+      end if
       call read_map(values, path, heights, error)
       if (path_kind(path) == path_absent .and. file(1:1) /= '/') then
          if (allocated(error)) error%message = escaped(file)// &
@@ -234,16 +239,5 @@ contains
          length(2) = values%real('length_y')
       end associate
    end subroutine take_sides
-
-   !> The path of the map: in the directory of the deck or, if it is not there, in the one the program was started in.
-   function place_of_map(deck_path, file) result(path)
-      character(*), intent(in) :: deck_path, file
-      character(:), allocatable :: path
-
-      path = deck_path(:index(deck_path, '/', back=.true.))//file
-      if (file(1:1) == '/') path = file
-      if (path_kind(path) /= path_absent) return
-      if (path_kind(file) /= path_absent) path = file
-   end function place_of_map
 
 end module wavycon_height_map_kind
