@@ -170,7 +170,7 @@ contains
             call values%take(values%table%keys(k)%name, entry%name%first)
       else if (values%has(key) .and. .not. values%is_bad(key)) then
          first = 'in line '//integer_text(text%line_of(values%place_of(key)))
-         if (text%is_in_option(values%place_of(key))) first = 'by '//excerpt(text%line_at(values%place_of(key)))
+         if (values%place_of(key) > text%own) first = 'by '//excerpt(text%line_at(values%place_of(key)))
          call problems%add(entry%name%first, key//' is given twice, first '//first)
       else
          call take_value(text, entry, values%table%keys(k), values, problems)

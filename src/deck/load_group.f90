@@ -197,12 +197,9 @@ contains
       integer, intent(in) :: steps   !! >= 1
       real(dp) :: loads(steps)
 
-      integer :: i, intervals
+      integer :: i
 
-      intervals = max(1, steps - 1)
-      do i = 1, steps
-         loads(i) = (from*(intervals - i + 1) + to*(i - 1))/intervals
-      end do
+      loads = [((from*(steps - 1 - i) + to*i)/max(1, steps - 1), i=0, steps - 1)]
       loads(steps) = to
       loads(1) = from
    end function sweep

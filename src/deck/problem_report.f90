@@ -29,7 +29,7 @@ contains
             report = report//escaped(text%path)//':'
             if (place == 0) then
                report = report//words
-            else if (text%is_in_option(place)) then
+            else if (place > text%own) then
                report = report//' '//escaped(text%line_at(place))//':'//words
             else
                call text%line_bounds(place, first, last)

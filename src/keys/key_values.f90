@@ -97,19 +97,11 @@ contains
       else if (.not. is_integer .and. (abs(number) > largest_number .or. &
                                        (abs(number) < smallest_number .and. abs(number) > 0.0_dp))) then
          trouble = must_be(key, word)//'; numbers may be 0 or from 1e-90 to 1e90 in size'
-      else if (.not. within(key, number)) then
+      else if (number < key%least .or. number > key%most .or. key%above .and. number <= key%least .or. &
+               key%below .and. number >= key%most) then
          trouble = must_be(key, word)
       end if
    end subroutine read_number
-
-   pure logical function within(key, number)
-      type(key_type), intent(in) :: key
-      real(dp), intent(in) :: number
-
-      within = number >= key%least .and. number <= key%most
-      if (key%above) within = within .and. number > key%least
-      if (key%below) within = within .and. number < key%most
-   end function within
 
    pure subroutine read_text(key, word, text, trouble)
       type(key_type), intent(in) :: key
