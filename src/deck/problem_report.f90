@@ -48,8 +48,7 @@ contains
       integer, intent(in) :: place, first, last   !! in the text: of the problem and of its line
       character(:), allocatable :: words
 
-      integer, parameter :: longest_line = 100, most_before = 60, most_after = 40
-      character(4) :: short_number
+      integer, parameter :: longest_line = 100, most_before = 60, most_after = 40, narrowest_number = 4
       character(:), allocatable :: after, before, number
       integer :: from, to
 
@@ -64,8 +63,7 @@ contains
       after = escaped(text%content(place:to))
       if (to < last) after = after//'...'
       number = integer_text(text%line_of(place))
-      short_number = number
-      if (len(number) < len(short_number)) number = adjustr(short_number)
+      number = repeat(' ', max(0, narrowest_number - len(number)))//number
       words = number//' | '//trim(before//after)//newline// &
               repeat(' ', len(number))//' | '//repeat(' ', character_count(before))//'^'
    end function line_and_caret

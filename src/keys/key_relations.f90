@@ -92,7 +92,7 @@ contains
       type(group_values), intent(inout) :: values   !! the selector has its value, if it is not bad
       type(problem_list_type), intent(inout) :: problems
 
-      character(:), allocatable :: key, selector, who
+      character(:), allocatable :: key, selector, what, who
       integer :: first, k, place, selected
       logical, dimension(size(values%table%keys)) :: is_read, is_given, is_needed, family
 
@@ -127,8 +127,11 @@ contains
             family = is_read .and. keys%way/10 == keys(k)%way/10
             if (keys(k)%way == 0) family = keys%name == key
             first = findloc(family, .true., dim=1)
-            if (is_needed(k) .and. k == first .and. values%place > 0 .and. .not. any(family .and. is_given)) &
-               call problems%add(place, who//' needs '//needed(keys, k))
+            if (is_needed(k) .and. k == first .and. values%place > 0 .and. .not. any(family .and. is_given)) then
+               what = ways_in_words(keys, k)
+               if (keys(k)%way == 0) what = what//' = '//allowed_values(keys(k))
+               call problems%add(place, who//' needs '//what)
+            end if
             if (.not. is_given(k)) cycle
             first = findloc(family .and. is_given, .true., dim=1)
             if (keys(k)%way /= keys(first)%way .and. &
@@ -163,15 +166,5 @@ contains
          call values%complain(problems, key, key//' needs '//word//' beside it')
       end do
    end subroutine check_needs
-
-   !> What a deck must give: a key and its values, or one of several ways.
-   pure function needed(keys, k) result(words)
-      type(key_type), intent(in) :: keys(:)
-      integer, intent(in) :: k
-      character(:), allocatable :: words
-
-      words = ways_in_words(keys, k)
-      if (keys(k)%way == 0) words = words//' = '//allowed_values(keys(k))
-   end function needed
 
 end module wavycon_key_relations
