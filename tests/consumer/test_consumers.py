@@ -2,10 +2,9 @@
 """The library as others use it: installed, found by CMake and pkg-config, linked by Fortran, C and Python programs.
 
 usage: test_consumers.py --build BUILD --cmake CMAKE --sources SOURCES --generator GENERATOR --c CC --fortran FC
-                         --flags FLAGS --numpy PYTHON
+                         --flags FLAGS
 
-PYTHON: one that may have numpy, if the one that runs this has not. The long test, Consumers.memory, runs only if it is
-named.
+The long test, Consumers.memory, runs only if it is named.
 """
 import argparse
 import functools
@@ -190,19 +189,6 @@ class Consumers(unittest.TestCase):
     def test_a_project_in_c_alone(self):
         self.assertEqual(self.expected, numbers(run(self.folder / "only_c" / "consumer_c_shared")))
 
-    @loads_the_library
-    def test_python(self):
-        self.assertEqual(self.expected, numbers(run(sys.executable, HERE / "consumer.py", self.library)))
-
-    @loads_the_library
-    def test_python_with_numpy(self):
-        for python in sys.executable, self.options.numpy:
-            if shutil.which(python) and subprocess.run([python, "-c", "import numpy"], stderr=subprocess.DEVNULL,
-                                                       check=False).returncode == 0:
-                self.assertEqual(self.expected, numbers(run(python, HERE / "consumer.py", self.library)))
-                return
-        self.skipTest("there is no numpy")
-
     def test_pkg_config_with_the_shared_library(self):
         program = self.folder / "by_pkg_config"
         run(self.options.c, *shlex.split(self.options.flags), HERE / "consumer.c", "-o", program,
@@ -298,7 +284,7 @@ class Consumers(unittest.TestCase):
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--sources", type=pathlib.Path, required=True)
-    for name in ("build", "cmake", "generator", "c", "fortran", "flags", "numpy"):
+    for name in ("build", "cmake", "generator", "c", "fortran", "flags"):
         parser.add_argument(f"--{name}", required=True)
     Consumers.options, others = parser.parse_known_args()
     unittest.main(argv=[sys.argv[0], *others], verbosity=2)
