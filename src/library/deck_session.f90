@@ -16,7 +16,7 @@ module wavycon_deck_session
    use wavycon_load_group, only: check_load_group, check_loads_of_surface, load_table
    use wavycon_make_scene, only: make_scene, take_loads
    use wavycon_memory_table, only: memory_table, of_words
-   use wavycon_plain_text, only: exact_number, integer_text
+   use wavycon_plain_text, only: exact_number, integer_text, newline
    use wavycon_problem_report, only: problem_report
    use wavycon_problems, only: problem_list_type
    use wavycon_read_deck, only: parse_deck
@@ -122,17 +122,18 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       character(:), allocatable :: trouble
-      type(deck_text_type) :: lines, text
+      type(deck_text_type) :: text
       type(setting_type), allocatable :: setting(:)
       integer :: first, i, last
 
-      lines = deck_text_type(path, settings)
-      allocate (setting(merge(size(lines%line_start), 0, settings /= '')))
+      allocate (setting(merge(0, 1 + count([(settings(i:i) == newline, i=1, len(settings))]), settings == '')))
+      first = 1
       do i = 1, size(setting)
-         call lines%line_bounds(i, first, last)
-         call read_setting(lines%content(first:last), setting(i), trouble)
+         last = first + index(settings(first:)//newline, newline) - 2
+         call read_setting(settings(first:last), setting(i), trouble)
          if (allocated(trouble)) call fatal_error(error, exit_bad_input, trouble)
          if (allocated(error)) return
+         first = last + 2
       end do
       call read_deck_text(path, text, error)
       if (.not. allocated(error)) call self%open(text%content, path, keep_fields, error, settings=setting)
@@ -158,7 +159,8 @@ contains
       call read_group_text(load_table(), quantity//' = '//number_words(value), values, text, problems)
       call check_load_group(values, self%results%scene%interface%has('work_of_adhesion'), problems)
       if (problems%number == 0) &
-         call check_loads_of_surface(values, self%results%solver%surface, self%scale%p_star, problems)
+         call check_loads_of_surface(values, self%results%solver%surface, self%scale%p_star, problems, &
+                                     has_own_sides=.true.)
       if (problems%number > 0) then
          call fatal_error(error, exit_bad_input, problem_report(problems, text))
          return
