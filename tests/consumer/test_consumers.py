@@ -37,11 +37,6 @@ MEASURED_DECK = """&surface kind = 'file', file = 'measured.dat', length_x = 4e-
 &method residual = 1e-10 /
 &load pbar_over_pstar = 0.2 /
 """
-TABLES_DECK = WAVE.replace("auto", "fitted") + """&load pbar_over_pstar = 0.2 /
-&stress line = .true., planes = .true., section = 'x', depths = 1e-4, 3e-4 /
-&output lines = .true., map = .true., contours = .true., spots = .true., histograms = .true., theory = .true.,
-   details = .true., spectrum = .true., map_points = 24, line_points = 24 /
-"""
 YIELD_DECK = WAVE + """&load yield = 1 /
 &stress yield_stress = 1e9 /
 """
@@ -111,8 +106,7 @@ class Consumers(unittest.TestCase):
         heights = [[((7*i*i + 3*j*j + i*j) % 11 + 0.25*i)/1048576 for i in range(16)] for j in range(12)]
         heights[2][5] = math.nan
         (cls.folder / "measured.dat").write_text("".join(" ".join(map(repr, row)) + "\n" for row in heights))
-        for name, deck in (("deck", DECK), ("yield", YIELD_DECK), ("measured", MEASURED_DECK),
-                           ("tables", TABLES_DECK)):
+        for name, deck in (("deck", DECK), ("yield", YIELD_DECK), ("measured", MEASURED_DECK)):
             (cls.folder / f"{name}.nml").write_text(deck)
             run(cls.prefix / "bin" / "wavycon", f"{name}.nml", "--output", ".", "--quiet", cwd=cls.folder)
         cls.expected = numbers(run(cls.folder / "project" / "consumer_fortran"))
@@ -248,11 +242,6 @@ class Consumers(unittest.TestCase):
         self.assertTrue(keys["surface"]["kind"]["required"])
         self.assertEqual(["wave_1d", "wave_2d", "hexagonal"], keys["surface"]["amplitude"]["read_by"])
         self.assertNotIn("read_by", keys["material"]["e_star"])
-
-    @loads_the_library
-    def test_tables(self):
-        names = run(sys.executable, HERE / "same_tables.py", self.library, self.folder / "tables.nml").split()
-        self.assertEqual(15, len(names))
 
     @loads_the_library
     def test_a_load_is_stopped(self):

@@ -43,6 +43,12 @@ ROUGH = """&surface kind = 'self_affine', rms_slope = 0.1, points = 64, short_wa
 &stress nu = 0.3, line = t /
 &output map = t, spots = t /
 """
+ALL_TABLES = """&surface kind = 'wave_2d' /
+&load pbar_over_pstar = 0.2 /
+&method solver = 'fitted', accuracy = 1e-4 /
+&stress nu = 0.3, planes = t, section = 'x', depths = 0.1, 0.3 /
+&output lines = t, contours = t, histograms = t, theory = t, details = t, spectrum = t, map_points = 24, line_points = 24 /
+"""
 LONG = """
 import wavycon as wc
 surface = wc.self_affine(points=[512, 512], hurst=0.8, rms_height=1e-6, length_x=1e-3)
@@ -159,6 +165,13 @@ class Digits(PackageTest):
         for results in wc.run("rough.nml"), self.solve_rough():
             for name in "summary", "map", "spots", "spot_sizes", "stress_line", "stress_largest":
                 self.assert_same_rows(f"rough.{name}.dat", results.table(name))
+        self.run_deck("all", ALL_TABLES)
+        results = wc.run("all.nml")
+        for name in ("lines", "contours", "histograms", "theory", "theory_lines", "details", "spectrum", "stress_section",
+                     "stress_planes"):
+            # Files have other names than two of the keys.
+            file = {"contours": "contour", "histograms": "histogram"}.get(name, name)
+            self.assert_same_rows(f"all.{file}.dat", results.table(name))
 
     def solve_rough(self):
         surface = wc.self_affine(rms_slope=0.1, points=64, short_wavelength=0.125, seed=3)
