@@ -58,7 +58,7 @@ contains
       text = rounded(number, 6)
    end function short_number
 
-   !> A number in 6, 15, 16 or 17 significant digits: the fewest that are read back as the same number.
+   !> A number in 6, 15, 16 or 17 significant digits: the fewest that are read back as the same number. 'NaN' for none.
    pure function exact_number(number) result(text)
       real(dp), intent(in) :: number
       character(:), allocatable :: text
@@ -69,6 +69,7 @@ contains
 
       do i = 1, size(digits)
          text = rounded(number, digits(i))
+         if (text == 'NaN') return   ! Comparisons with it raise an exception, which Debug builds trap.
          read (text, '(f32.0)') again
          if (.not. (again < number .or. again > number)) return
       end do
