@@ -3,16 +3,20 @@
 
 usage: own_solvers.py BUILD
 
-Expansions: a load of the two-dimensional and of the hexagonal wave to ever smaller accuracies, and 99 loads, each from
+The program from start to finish, with the deck of the paper's sweep. Expansions: a load of the two-dimensional and of the hexagonal wave to ever smaller accuracies, and 99 loads, each from
 the one before. Grids: a load of the 2-D wave to three accuracies, and how the errors of the 1-D and the 2-D wave fall
 with the step. Maps, and stresses, beside the solution that they show: a section of 128 x 64 points, the search for the
 largest stresses, a plane.
 """
 import ctypes
 import math
+import pathlib
+import subprocess
 import sys
+import tempfile
+import time
 
-from own import Own, middle_and_least, reference_loads, repeated
+from own import ROOT, Own, middle_and_least, reference_loads, repeated
 
 SQUARE, HEXAGONAL, LINE = "kind = 'wave_2d'", "kind = 'hexagonal'", "kind = 'wave_1d'"
 # P of each surface: away from the loads at which spots merge, 0.2286 and 0.7119, and next to them.
@@ -37,6 +41,18 @@ def name_of(surface):
 def pairs(values, errors, truth):
     """Errors and their estimates, relative to the truth."""
     return "".join(f"{value/true - 1:11.1e}{error/true:10.1e}" for value, error, true in zip(values, errors, truth))
+
+
+def program(build, runs=20):
+    print(f"# The program from start to finish, {runs} runs of inputs/paper_2d_sweep.nml, wall time: median, least [ms]")
+    times = []
+    with tempfile.TemporaryDirectory() as folder:
+        for _ in range(runs):
+            before = time.perf_counter()
+            subprocess.run([pathlib.Path(build)/"wavycon", ROOT/"inputs"/"paper_2d_sweep.nml", "--quiet", "--output", folder],
+                           check=True)
+            times.append(1000*(time.perf_counter() - before))
+    print(middle_and_least(times) + "\n\n", flush=True)
 
 
 def expansions(own):
@@ -160,6 +176,7 @@ def stresses(own):
 def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__.split("\n\n")[1])
+    program(sys.argv[1])
     own = Own(sys.argv[1])
     expansions(own)
     grids(own)
