@@ -197,7 +197,8 @@ contains
       !> The least code of a character of 1, 2, 3 and 4 bytes: UTF-8 has no smaller one in as many bytes.
       integer, parameter :: least(*) = [0, 128, 2048, 65536]
       !> The first bytes of such characters, and what is taken off them.
-      integer, parameter :: lowest(*) = [32, 194, 224, 240], highest(*) = [126, 223, 239, 244], mark(*) = [0, 192, 224, 240]
+      integer, parameter :: lowest(*) = [32, 194, 224, 240], highest(*) = [126, 223, 239, 244], &
+                            mark(*) = [0, 192, 224, 240]
       integer :: code, i
 
       code = iachar(text(place:place))

@@ -51,8 +51,7 @@ module wavycon_c_handles
       type(solved_load) :: solution
       type(memory_table) :: table
       type(c_progress) :: progress                    !! of a scene
-      integer :: users = 0                            !! of a scene: its solutions, and those being found
-      logical :: is_deleted = .false.                 !! of a scene, which lives as long as it has users
+      integer :: users = 1                            !! the caller; of a scene also its solutions, for which it lives
       type(handle_type), pointer :: owner => null()   !! of a solution: its scene
    end type handle_type
 
@@ -118,7 +117,7 @@ contains
 
       handle = c_null_ptr
       if (allocated(error)) then
-         call remove(contents)
+         call release(contents)
       else
          handle = c_loc(contents)
       end if
@@ -242,27 +241,26 @@ contains
       call lock()
       contents => object_at(handle)
       handle = c_null_ptr
-      if (contents%kind /= '') call remove(contents)
+      if (contents%kind /= '') call release(contents)
       call unlock()
    end subroutine delete_handle
 
-   !> Deallocates an object, a scene only if it has no users, and a scene that has lost its last one.
-   recursive subroutine remove(contents)
-      type(handle_type), pointer, intent(inout) :: contents
+   !> Takes off a user, and deallocates an object that has lost its last one: then its owner has one less.
+   recursive subroutine release(contents)
+      type(handle_type), pointer, intent(inout) :: contents   !! null afterwards
 
       type(handle_type), pointer :: owner
 
-      owner => contents%owner
-      contents%is_deleted = .true.
+      nullify (owner)
+      contents%users = contents%users - 1
       if (contents%users == 0) then
+         owner => contents%owner
          contents%mark = 0
          deallocate (contents)
       end if
       nullify (contents)
-      if (.not. associated(owner)) return
-      owner%users = owner%users - 1
-      if (owner%is_deleted) call remove(owner)
-   end subroutine remove
+      if (associated(owner)) call release(owner)
+   end subroutine release
 
    integer(c_int) function c_set_threads(error, number) bind(c, name='wavycon_set_threads')
       type(c_ptr), value :: error

@@ -273,7 +273,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       associate (period => session%scale%period)
-         if (.not. all([ieee_is_finite(x/period(1)), ieee_is_finite(y/period(2)), ieee_is_finite(depth/period(1))])) then
+         if (.not. all(ieee_is_finite([x/period(1), y/period(2), depth/period(1)]))) then
             call fatal_error(error, exit_bad_input, 'places, offsets and depths must be finite numbers')
          else if (any(depth < 0.0_dp)) then
             call fatal_error(error, exit_bad_input, 'depths must be 0 or more: z points into the body')

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """wavycon beside other programs on rough surfaces with free edges, or with a hardness.
 
-usage: bounded_peers.py free|hardness --build DIRECTORY --peers DIRECTORY --points N,... [--others N,...] [--limit SECONDS]
+usage: bounded_peers.py free|hardness --build DIRECTORY --peers DIRECTORY --points N,... [--others N,...]
+                        [--limit SECONDS]
 
 free: a self-affine map on a ball, sixteen points to the shortest wave; loads are forces over E* and the square of the
 side. hardness: a periodic self-affine map with a root mean square slope of 1, eight points to the shortest wave; loads
@@ -10,8 +11,8 @@ are mean pressures and hardnesses over E*.
 Each row has the points a side, the load, and of each program: the processor time of the solution [s], with wavycon that
 of the whole program, reading the map included; the largest difference of its pressures from wavycon's over the largest
 pressure; and, with a hardness, the residual (C9) of src/contact/README.md, computed in the same way for all. The last
-columns are the contact and, with a hardness, the area at it. All solve to a tolerance, each in its own measure. Grids of
---others are solved by wavycon and ASPHER alone. Run it with a Python that has numpy.
+columns are the contact and, with a hardness, the area at it. All solve to a tolerance, each in its own measure. Grids
+of --others are solved by wavycon and ASPHER alone. Run it with a Python that has numpy.
 """
 import argparse
 import math
@@ -165,7 +166,8 @@ def main():
     *_, loads, peers = KINDS[given.kind]
     pythons = {code: peer_install.python_with(code, given.peers) for code in peers}
     of_each = "  time[s]  differs residual" if given.kind == "hardness" else "  time[s]  differs"
-    print(f"# Of each of wavycon, {', '.join(peers)}:{of_each}\n#    N     load hardness{of_each*(1 + len(peers))}  contact")
+    print(f"# Of each of wavycon, {', '.join(peers)}:{of_each}\n"
+          f"#    N     load hardness{of_each*(1 + len(peers))}  contact")
     with tempfile.TemporaryDirectory() as folder:
         for sizes, codes in ((given.points, peers), (given.others, ("aspher",))):
             for points in filter(None, sizes.split(",")):

@@ -3,8 +3,8 @@
 
 usage: own_solvers.py BUILD
 
-The program from start to finish, with the deck of the paper's sweep. Expansions: a load of the two-dimensional and of the hexagonal wave to ever smaller accuracies, and 99 loads, each from
-the one before. Grids: a load of the 2-D wave to three accuracies, and how the errors of the 1-D and the 2-D wave fall
+The program from start to finish, with the deck of the paper's sweep. Expansions: a load of the two-dimensional and of
+the hexagonal wave to ever smaller accuracies, and 99 loads, each from the one before. Grids: a load of the 2-D wave to three accuracies, and how the errors of the 1-D and the 2-D wave fall
 with the step. Maps, and stresses, beside the solution that they show: a section of 128 x 64 points, the search for the
 largest stresses, a plane.
 """
@@ -26,7 +26,8 @@ POWERS, FINEST = (2, 3, 4, 5, 6, 8, 10), 12   # powers of ten of the accuracies,
 SWEEP = 99
 MAP_SIDES, MAP_LOADS = (128, 257, 1025), (0.05, 0.2, 0.3, 0.6, 0.9)
 STRESS_LOADS = 1e-3, 0.1, 0.3, 0.9
-STRESSES = "&stress nu = 0.3, section = 'x', depth_from = 0, depth_to = 1, depth_steps = 64 / &output line_points = 128 /"
+STRESSES = ("&stress nu = 0.3, section = 'x', depth_from = 0, depth_to = 1, depth_steps = 64 / "
+            "&output line_points = 128 /")
 ROUGH = "kind = 'self_affine', rms_slope = 0.1, long_wavelength = 0.125, short_wavelength = 0.015625, points = "
 
 
@@ -49,15 +50,15 @@ def program(build, runs=20):
     with tempfile.TemporaryDirectory() as folder:
         for _ in range(runs):
             before = time.perf_counter()
-            subprocess.run([pathlib.Path(build)/"wavycon", ROOT/"inputs"/"paper_2d_sweep.nml", "--quiet", "--output", folder],
-                           check=True)
+            subprocess.run([pathlib.Path(build)/"wavycon", ROOT/"inputs"/"paper_2d_sweep.nml", "--quiet", "--output",
+                            folder], check=True)
             times.append(1000*(time.perf_counter() - before))
     print(middle_and_least(times) + "\n\n", flush=True)
 
 
 def expansions(own):
-    print("# Expansions: a load from nothing. Errors of mean gap, area and peak pressure and their estimates are relative,"
-          f"\n# against an accuracy of 1e-{FINEST}.")
+    print("# Expansions: a load from nothing. Errors of mean gap, area and peak pressure and their estimates are "
+          f"relative,\n# against an accuracy of 1e-{FINEST}.")
     print("# surface   accuracy       P degree steps  time[ms]     least  gap_error  estimate area_error  estimate "
           "peak_error  estimate")
     for surface, loads in EXPANDED.items():
@@ -104,12 +105,14 @@ def orders(own, surface, exact, sides):
         for load in loads:
             scene = own.scene(surface, f"solver = 'grid', grid_points = {side}")
             found, _ = own.values(own.load(scene, load))
-            squares = [square + (value - true)**2/len(loads) for square, value, true in zip(squares, found, truth[load])]
+            squares = [square + (value - true)**2/len(loads)
+                       for square, value, true in zip(squares, found, truth[load])]
         rows.append([math.sqrt(square) for square in squares])
         print(f"{side:12d}" + "".join(f"{error:11.1e}" for error in rows[-1]), flush=True)
     steps = [-math.log(side) for side in sides]
     steps = [step - sum(steps)/len(steps) for step in steps]
-    slopes = [sum(math.log(row[i])*step for row, step in zip(rows, steps))/sum(step**2 for step in steps) for i in range(3)]
+    slopes = [sum(math.log(row[i])*step for row, step in zip(rows, steps))/sum(step**2 for step in steps)
+              for i in range(3)]
     print("#    order:  " + "".join(f"{slope:11.1f}" for slope in slopes))
 
 
@@ -149,7 +152,7 @@ def maps(own):
 
 def stresses(own):
     print("\n\n# Stresses: a load solved, the table of a section of 128 x 64 points, of the largest von Mises and shear "
-          "stress, and a plane\n# of 128 x 128 points, or of those of the height map, at a depth of 0.1; least times [ms]\n"
+          "stress, and a\n# plane of 128 x 128 points, or of those of the map, at a depth of 0.1; least times [ms]\n"
           "#     solver     surface accuracy        P      solve    section     search      plane")
     cases = [(*case, 128) for case in solvers()]
     cases += [(ROUGH + str(side), "solver = 'grid'", str(side), side) for side in (256, 1024)]

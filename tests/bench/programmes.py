@@ -123,7 +123,7 @@ def compare(solvers, loads, seconds):
     own = solvers[0]
     block = max(1, 20000//(own.n*own.m))
     print(f'# In turns: {", ".join(solver.name for solver in solvers)}. Of each median and least time [ms], pivots or '
-          'iterations;\n# of all but the first the time over that of the first, and the largest difference of the answers')
+          'iterations;\n# of all but the first the time over that of the first, and the largest difference from it')
     print('#   P' + ''.join(f'{solver.name:>18}{"least":>10}{"steps":>7}' for solver in solvers)
           + (f'{"ratio":>8}{"differs":>9}')*(len(solvers) - 1))
     ratios, medians, good = [], [], True
@@ -143,7 +143,8 @@ def compare(solvers, loads, seconds):
         good = good and answers[0][0] == 'converged' and not differences[-1] > AGREEMENT
         print(f'{load:5.2f}' + ''.join(f'{median:18.4f}{min(series):10.4f}{answer[1]:7d}'
                                        for median, series, answer in zip(medians[-1], times, answers))
-              + ''.join(f'{ratio:8.3f}{difference:9.1e}' for ratio, difference in zip(ratios[-1], differences)), flush=True)
+              + ''.join(f'{ratio:8.3f}{difference:9.1e}' for ratio, difference in zip(ratios[-1], differences)),
+              flush=True)
     means = [math.exp(statistics.mean(map(math.log, column))) for column in zip(*ratios)]
     print('# means over the loads [ms]: ' + ' '.join(f'{statistics.mean(column):.4f}' for column in zip(*medians))
           + '; geometric means of the ratios: ' + ' '.join(f'{mean:.3f}' for mean in means) + '\n\n')
@@ -167,7 +168,8 @@ def paper(build, loads, seconds):
     except ImportError:
         print('# quadprog (Goldfarb & Idnani 1983): SKIPPED, this Python does not have it\n\n')
     alone = sum(statistics.median(usual.solve(load, 20)[2]) for load in loads)
-    print(f'# The sweep of all loads, 29/196 [ms]: from load to load {sweep(usual, loads):.3f}, each on its own {alone:.3f}')
+    print(f'# The sweep of all loads, 29/196 [ms]: from load to load {sweep(usual, loads):.3f}, '
+          f'each on its own {alone:.3f}')
     largest = Wavycon(build, *LARGEST)
     print(f'# {largest.n}/{largest.m}, mean of loads from 0.8 to 0.2, from load to load [ms]: '
           f'{sum(largest.solve(load, 0)[2][0] for load in LARGEST_LOADS)/len(LARGEST_LOADS):.1f}')

@@ -9,7 +9,8 @@ mean pressure over p*, which closes the gap. Each program gets the tolerance wit
 wanted, found by trial. The time is processor time from the heights to the pressures; it is the median of three
 solutions if they do not take long. All residuals are computed by the same routine from the pressures.
 
-bytes_a_point is the most memory of the whole process. With --table the rows go to a file too, from which those of other cases are kept: the cases can be measured in parts.
+bytes_a_point is the most memory of the whole process. With --table the rows go to a file too, from which those of other
+cases are kept: the cases can be measured in parts.
 """
 import argparse
 import math

@@ -1,6 +1,7 @@
 # Draws a table of rough_cases.py, of wavycon alone: processor time and transforms against the contact fraction, and
 # processor time against the points along a side, at a shortest wave of 1/32 of the cell. To be loaded after
-# scripts/figure_style.gp; wants the name of the table in `runs`, and in `grid` the points a side where the contact varies.
+# scripts/figure_style.gp; wants the name of the table in `runs`, and in `grid` the points a side where the contact
+# varies.
 
 small = ',11'
 array series[3] = ['0.01', '0.2', '0.8']

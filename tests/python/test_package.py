@@ -47,7 +47,8 @@ ALL_TABLES = """&surface kind = 'wave_2d' /
 &load pbar_over_pstar = 0.2 /
 &method solver = 'fitted', accuracy = 1e-4 /
 &stress nu = 0.3, planes = t, section = 'x', depths = 0.1, 0.3 /
-&output lines = t, contours = t, histograms = t, theory = t, details = t, spectrum = t, map_points = 24, line_points = 24 /
+&output lines = t, contours = t, histograms = t, theory = t, details = t, spectrum = t, map_points = 24,
+   line_points = 24 /
 """
 LONG = """
 import wavycon as wc
@@ -167,8 +168,8 @@ class Digits(PackageTest):
                 self.assert_same_rows(f"rough.{name}.dat", results.table(name))
         self.run_deck("all", ALL_TABLES)
         results = wc.run("all.nml")
-        for name in ("lines", "contours", "histograms", "theory", "theory_lines", "details", "spectrum", "stress_section",
-                     "stress_planes"):
+        for name in ("lines", "contours", "histograms", "theory", "theory_lines", "details", "spectrum",
+                     "stress_section", "stress_planes"):
             # Files have other names than two of the keys.
             file = {"contours": "contour", "histograms": "histogram"}.get(name, name)
             self.assert_same_rows(f"all.{file}.dat", results.table(name))

@@ -1,5 +1,5 @@
-/* Makes a test that stops the program a failure: the program then ends with status 1, whatever the test's own was. Gives
-   the program a working folder of its own, so that it may run twice at the same time. */
+/* Makes a test that stops the program a failure: the program then ends with status 1, whatever the test's own was.
+   Gives the program a working folder of its own, so that it may run twice at the same time. */
 #define _XOPEN_SOURCE 700
 #include <stdio.h>
 #include <stdlib.h>
