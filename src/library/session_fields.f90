@@ -49,7 +49,6 @@ contains
       integer :: i
 
       call prepare_fields(session, solved, error)
-      if (.not. allocated(error)) call check_number(n, error)
       if (.not. allocated(error)) call check_places(session, x, y, [0.0_dp], error)
       if (allocated(error)) return
       do i = 1, n
@@ -145,7 +144,6 @@ contains
       integer :: i
 
       call prepare_stresses(session, solved, nu, lateral, body, error)
-      if (.not. allocated(error)) call check_number(n, error)
       if (.not. allocated(error)) call check_places(session, x, y, depth, error)
       if (allocated(error)) return
       do i = 1, n
@@ -272,6 +270,8 @@ contains
       real(dp), intent(in) :: x(:), y(:), depth(:)   !! [length]
       type(error_type), allocatable, intent(out) :: error
 
+      call check_number(size(x), error)
+      if (allocated(error)) return
       associate (period => session%scale%period)
          if (.not. all(ieee_is_finite([x/period(1), y/period(2), depth/period(1)]))) then
             call fatal_error(error, exit_bad_input, 'places, offsets and depths must be finite numbers')
