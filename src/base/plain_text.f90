@@ -58,7 +58,7 @@ contains
       text = rounded(number, 6)
    end function short_number
 
-   !> A number in 6, 15, 16 or 17 significant digits: the fewest that are read back as the same number.
+   !> A number in 6, 15, 16 or 17 significant digits: the fewest that are read back as the same number. 'NaN' for none.
    pure function exact_number(number) result(text)
       real(dp), intent(in) :: number
       character(:), allocatable :: text
@@ -69,6 +69,7 @@ contains
 
       do i = 1, size(digits)
          text = rounded(number, digits(i))
+         if (text == 'NaN') return   ! Comparisons with it raise an exception, which Debug builds trap.
          read (text, '(f32.0)') again
          if (.not. (again < number .or. again > number)) return
       end do
@@ -196,7 +197,8 @@ contains
       !> The least code of a character of 1, 2, 3 and 4 bytes: UTF-8 has no smaller one in as many bytes.
       integer, parameter :: least(*) = [0, 128, 2048, 65536]
       !> The first bytes of such characters, and what is taken off them.
-      integer, parameter :: lowest(*) = [32, 194, 224, 240], highest(*) = [126, 223, 239, 244], mark(*) = [0, 192, 224, 240]
+      integer, parameter :: lowest(*) = [32, 194, 224, 240], highest(*) = [126, 223, 239, 244], &
+                            mark(*) = [0, 192, 224, 240]
       integer :: code, i
 
       code = iachar(text(place:place))

@@ -140,17 +140,18 @@ void wavycon_error_text(int number, char *text, size_t length)
 
 /* The number behind a name such as "MemAvailable:" at the start of a line of a file; with an empty name the number at
    its start. -1 if it is not there. */
-static long long number_in_file(const char *path, const char *name)
+static long long number_in_file(const char *directory, const char *file, const char *name)
 {
-    char line[256];
+    char line[256], path[3*PATH_MAX];
     long long number = -1;
-    FILE *file = fopen(path, "r");
-    if (file == NULL)
+    snprintf(path, sizeof path, "%s/%s", directory, file);
+    FILE *lines = fopen(path, "r");
+    if (lines == NULL)
         return -1;
-    while (number < 0 && fgets(line, sizeof line, file) != NULL)
+    while (number < 0 && fgets(line, sizeof line, lines) != NULL)
         if (strncmp(line, name, strlen(name)) == 0 && sscanf(line + strlen(name), "%lld", &number) != 1)
             number = -1;
-    fclose(file);
+    fclose(lines);
     return number;
 }
 
@@ -162,19 +163,14 @@ long long wavycon_memory_of_group(const char *directory)
     static const char *const names[2][3] = {
         {"memory.max", "memory.current", "inactive_file "},
         {"memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file "}};
-    char path[PATH_MAX];
     for (int version = 0; version < 2; version++) {
-        snprintf(path, sizeof path, "%s/%s", directory, names[version][0]);
-        long long limit = number_in_file(path, "");
-        snprintf(path, sizeof path, "%s/%s", directory, names[version][1]);
-        long long used = number_in_file(path, "");
+        long long limit = number_in_file(directory, names[version][0], "");
+        long long used = number_in_file(directory, names[version][1], "");
         if (limit < 0 || used < 0)
             continue;
-        snprintf(path, sizeof path, "%s/memory.stat", directory);
-        long long files = number_in_file(path, names[version][2]);
-        if (files > 0)
-            used -= files;
-        return limit > used ? limit - used : 0;
+        long long files = number_in_file(directory, "memory.stat", names[version][2]);
+        long long left = limit - used + (files > 0 ? files : 0);
+        return left > 0 ? left : 0;
     }
     return -1;
 }
@@ -186,32 +182,28 @@ static long long memory_of_groups(void)
     char line[PATH_MAX], directory[2*PATH_MAX];
     long long least = wavycon_memory_of_group(top_of_version_1);
     FILE *file = fopen("/proc/self/cgroup", "r");
-    if (file == NULL)
-        return least;
-    while (fgets(line, sizeof line, file) != NULL) {
+    while (file != NULL && fgets(line, sizeof line, file) != NULL) {
         /* number:controllers:path; of version 2 the controllers are empty. In a container the path may be one of the
            host that is not there, but the top is that of the container. */
         char *controllers = strchr(line, ':');
-        char *path = controllers == NULL ? NULL : strchr(controllers + 1, ':');
-        if (path == NULL)
+        char *slash = controllers == NULL ? NULL : strchr(controllers + 1, ':');
+        if (slash == NULL)
             continue;
-        *path++ = '\0';
-        path[strcspn(path, "\n")] = '\0';
-        int is_version_2 = controllers[1] == '\0';
-        if (!is_version_2 && strstr(controllers + 1, "memory") == NULL)
+        *slash = '\0';
+        if (controllers + 1 != slash && strstr(controllers + 1, "memory") == NULL)
             continue;
-        for (;;) {
-            snprintf(directory, sizeof directory, "%s%s", is_version_2 ? top : top_of_version_1, path);
+        snprintf(directory, sizeof directory, "%s%.*s", controllers + 1 == slash ? top : top_of_version_1,
+                 (int)strcspn(slash + 1, "\n"), slash + 1);
+        /* Up to the top, which has no path. */
+        while (strlen(directory) >= strlen(top)) {
             long long left = wavycon_memory_of_group(directory);
             if (left >= 0 && (least < 0 || left < least))
                 least = left;
-            char *slash = strrchr(path, '/');
-            if (slash == NULL)
-                break;
-            *slash = '\0';
+            *strrchr(directory, '/') = '\0';
         }
     }
-    fclose(file);
+    if (file != NULL)
+        fclose(file);
     return least;
 }
 
@@ -221,7 +213,7 @@ static long long memory_of_groups(void)
 int64_t wavycon_available_memory(void)
 {
     struct rlimit limit;
-    long long kilobytes = number_in_file("/proc/meminfo", "MemAvailable:");
+    long long kilobytes = number_in_file("/proc", "meminfo", "MemAvailable:");
     long long available = kilobytes < 0 ? -1 : 1024*kilobytes;
 #ifdef _SC_AVPHYS_PAGES
     if (available < 0 && sysconf(_SC_AVPHYS_PAGES) > 0)
@@ -233,7 +225,7 @@ int64_t wavycon_available_memory(void)
     if (available < 0 || getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
         return available;
     /* The pages of the process's address space; -1 where the system does not say. */
-    long long pages = number_in_file("/proc/self/statm", "");
+    long long pages = number_in_file("/proc/self", "statm", "");
     if (pages < 0)
         return -1;
     long long left = (long long)limit.rlim_cur - pages*sysconf(_SC_PAGESIZE);

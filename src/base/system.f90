@@ -36,8 +36,8 @@ module wavycon_system
          character(kind=c_char), intent(in) :: path(*)
       end subroutine c_remove
 
-      !> Removes a file if the program is interrupted (SIGINT, SIGTERM, SIGHUP) before it is renamed or removed. Only the
-      !> file of the last call is removed.
+      !> Removes a file if the program is interrupted (SIGINT, SIGTERM, SIGHUP) before it is renamed or removed. Only
+      !> the file of the last call is removed.
       subroutine remove_when_interrupted(path) bind(c, name='wavycon_remove_when_interrupted')
          import :: c_char
          character(kind=c_char), intent(in) :: path(*)   !! ended by a null character; at most 4095 bytes, or ignored

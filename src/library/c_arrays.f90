@@ -24,7 +24,8 @@ contains
       call begin_call(solution, 'solution', contents, trouble)
       call check_arguments([present(x), present(y)], trouble)
       if (.not. allocated(trouble)) &
-         call fields_at(contents%owner%scene, contents%solution, int(points), x, y, trouble, pressure, gap, displacement)
+         call fields_at(contents%owner%scene, contents%solution, int(points), x, y, trouble, pressure, gap, &
+                        displacement)
       get_fields = close_call(error, trouble)
    end function get_fields
 
@@ -62,8 +63,8 @@ contains
       call text_at(lateral, word, trouble)
       call check_arguments([present(x), present(y), present(depth), present(stress)], trouble)
       if (.not. allocated(trouble)) &
-         call stresses_at(contents%owner%scene, contents%solution, int(points), x, y, depth, nu, word, stress, trouble, &
-                          stress_error)
+         call stresses_at(contents%owner%scene, contents%solution, int(points), x, y, depth, nu, word, stress, &
+                          trouble, stress_error)
       get_stresses = close_call(error, trouble)
    end function get_stresses
 

@@ -1,7 +1,7 @@
 !> What all functions of the C interface need: handles, errors, texts, the lock. wavycon.h documents each function.
 !>
-!> A function is begin_call or lock, its work unless there is an error, and close_call, close_new or close_text. All
-!> handles point to one type, whose mark and kind are checked before use: a null handle, or one of another kind, is an error of the
+!> A function is begin_call or lock, its work unless there is an error, and close_call or close_new. All handles point
+!> to one type, whose mark and kind are checked before use: a null handle, or one of another kind, is an error of the
 !> caller and not a crash. A pointer that is NULL in C is an absent optional argument.
 module wavycon_c_handles
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_double, c_f_pointer, c_int, c_loc, c_null_char, &
@@ -16,8 +16,8 @@ module wavycon_c_handles
    private
 
    public :: c_progress, handle_type, progress_callback
-   public :: begin_call, check_arguments, close_call, close_new, close_text, lock, new_handle, not_a_handle, &
-      object_at, text_at
+   public :: begin_call, check_arguments, close_call, close_new, lock, new_handle, not_a_handle, object_at, &
+      put_text, text_at
 
    !> Marks the objects of this library in memory.
    integer, parameter :: our_mark = 1935764579
@@ -51,8 +51,7 @@ module wavycon_c_handles
       type(solved_load) :: solution
       type(memory_table) :: table
       type(c_progress) :: progress                    !! of a scene
-      integer :: users = 0                            !! of a scene: its solutions, and those being found
-      logical :: is_deleted = .false.                 !! of a scene, which lives as long as it has users
+      integer :: users = 1                            !! the caller; of a scene also its solutions, for which it lives
       type(handle_type), pointer :: owner => null()   !! of a solution: its scene
    end type handle_type
 
@@ -114,27 +113,16 @@ contains
       type(handle_type), pointer, intent(inout) :: contents       !! the object; deallocated in case of an error
       type(error_type), allocatable, intent(in) :: error
 
+      integer(c_int) :: ignored
+
       handle = c_null_ptr
       if (allocated(error)) then
-         call remove(contents)
+         call release(contents)
       else
          handle = c_loc(contents)
       end if
-      if (close_call(error_handle, error) /= exit_fine) handle = c_null_ptr
+      ignored = close_call(error_handle, error)
    end function close_new
-
-   !> Ends a call that copies a text: the bytes that it needs, with its null character, or 0 in case of an error.
-   integer(c_size_t) function close_text(error_handle, words, buffer, bytes, error) result(needed)
-      type(c_ptr), intent(in) :: error_handle                     !! as of close_call
-      character(:), allocatable, intent(in) :: words              !! allocated unless there is an error
-      character(kind=c_char), intent(inout), optional :: buffer(*)
-      integer(c_size_t), intent(in) :: bytes
-      type(error_type), allocatable, intent(in) :: error
-
-      needed = 0
-      if (.not. allocated(error)) needed = put_text(words, buffer, bytes)
-      if (close_call(error_handle, error) /= exit_fine) needed = 0
-   end function close_text
 
    !> A new object of a kind.
    function new_handle(kind) result(made)
@@ -253,27 +241,26 @@ contains
       call lock()
       contents => object_at(handle)
       handle = c_null_ptr
-      if (contents%kind /= '') call remove(contents)
+      if (contents%kind /= '') call release(contents)
       call unlock()
    end subroutine delete_handle
 
-   !> Deallocates an object, a scene only if it has no users, and a scene that has lost its last one.
-   recursive subroutine remove(contents)
-      type(handle_type), pointer, intent(inout) :: contents
+   !> Takes off a user, and deallocates an object that has lost its last one: then its owner has one less.
+   recursive subroutine release(contents)
+      type(handle_type), pointer, intent(inout) :: contents   !! null afterwards
 
       type(handle_type), pointer :: owner
 
-      owner => contents%owner
-      contents%is_deleted = .true.
+      nullify (owner)
+      contents%users = contents%users - 1
       if (contents%users == 0) then
+         owner => contents%owner
          contents%mark = 0
          deallocate (contents)
       end if
       nullify (contents)
-      if (.not. associated(owner)) return
-      owner%users = owner%users - 1
-      if (owner%is_deleted) call remove(owner)
-   end subroutine remove
+      if (associated(owner)) call release(owner)
+   end subroutine release
 
    integer(c_int) function c_set_threads(error, number) bind(c, name='wavycon_set_threads')
       type(c_ptr), value :: error

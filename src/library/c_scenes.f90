@@ -2,8 +2,8 @@
 module wavycon_c_scenes
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_double, c_f_procpointer, c_funptr, c_int, c_ptr, &
       c_size_t
-   use wavycon_c_handles, only: begin_call, check_arguments, close_call, close_new, close_text, handle_type, lock, &
-      new_handle, not_a_handle, object_at, text_at
+   use wavycon_c_handles, only: begin_call, check_arguments, close_call, close_new, handle_type, lock, new_handle, &
+      not_a_handle, object_at, put_text, text_at
    use wavycon_deck_run, only: run_deck
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_key_json, only: key_json
@@ -193,6 +193,7 @@ contains
       integer(c_size_t), value :: bytes
 
       character(:), allocatable :: its_name, words
+      integer(c_int) :: ignored
       type(error_type), allocatable :: trouble
       type(handle_type), pointer :: contents
 
@@ -214,7 +215,9 @@ contains
          if (.not. (allocated(words) .or. allocated(trouble))) &
             call fatal_error(trouble, exit_bad_input, not_a_handle//"scene, or there is no text '"//its_name//"'")
       end if
-      needed = close_text(error, words, buffer, bytes, trouble)
+      needed = 0
+      if (.not. allocated(trouble)) needed = put_text(words, buffer, bytes)
+      ignored = close_call(error, trouble)
    end function get_text
 
    type(c_ptr) function new_table(error, solution, name) result(handle) bind(c, name='wavycon_new_table')

@@ -1,6 +1,5 @@
 !> A deck whose loads are solved one at a time, with its tables in memory. The steps are those of the program.
 module wavycon_deck_session
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use, intrinsic :: iso_c_binding, only: c_int
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_solution, only: contact_solution
@@ -34,7 +33,7 @@ module wavycon_deck_session
    implicit none (type, external)
    private
 
-   public :: check_ready, deck_session, number_words, solved_load
+   public :: check_ready, deck_session, solved_load
 
    !> In C a thread that solves a load lets others into the library meanwhile, but not into this session: c_lock.c.
    interface
@@ -156,7 +155,7 @@ contains
 
       call check_ready(self, error)
       if (allocated(error)) return
-      call read_group_text(load_table(), quantity//' = '//number_words(value), values, text, problems)
+      call read_group_text(load_table(), quantity//' = '//exact_number(value), values, text, problems)
       call check_load_group(values, self%results%scene%interface%has('work_of_adhesion'), problems)
       if (problems%number == 0) &
          call check_loads_of_surface(values, self%results%solver%surface, self%scale%p_star, problems, &
@@ -411,15 +410,5 @@ contains
             call fatal_error(error, exit_bad_input, 'there is no solution: no load has been solved')
       end if
    end subroutine check_ready
-
-   !> A number to all digits; 'NaN', of which a deck's reader makes a good message, if it is none.
-   function number_words(number) result(words)
-      real(dp), intent(in) :: number
-      character(:), allocatable :: words
-
-      ! Comparisons with a NaN raise an exception, which Debug builds trap.
-      words = 'NaN'
-      if (.not. ieee_is_nan(number)) words = exact_number(number)
-   end function number_words
 
 end module wavycon_deck_session

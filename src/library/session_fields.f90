@@ -8,14 +8,14 @@ module wavycon_session_fields
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_cell_file, only: map_offset, map_points
    use wavycon_deck_groups, only: read_group_text
-   use wavycon_deck_session, only: check_ready, deck_session, number_words, solved_load
+   use wavycon_deck_session, only: check_ready, deck_session, solved_load
    use wavycon_deck_text, only: deck_text_type
    use wavycon_elastic_body, only: elastic_body
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_group_values, only: group_values
    use wavycon_kinds, only: dp
    use wavycon_material_group, only: material_table
-   use wavycon_plain_text, only: integer_text, quoted
+   use wavycon_plain_text, only: exact_number, integer_text, quoted
    use wavycon_problem_report, only: problem_report
    use wavycon_problems, only: problem_list_type
    use wavycon_stress_group, only: make_stress_setting, stress_table
@@ -49,7 +49,6 @@ contains
       integer :: i
 
       call prepare_fields(session, solved, error)
-      if (.not. allocated(error)) call check_number(n, error)
       if (.not. allocated(error)) call check_places(session, x, y, [0.0_dp], error)
       if (allocated(error)) return
       do i = 1, n
@@ -145,7 +144,6 @@ contains
       integer :: i
 
       call prepare_stresses(session, solved, nu, lateral, body, error)
-      if (.not. allocated(error)) call check_number(n, error)
       if (.not. allocated(error)) call check_places(session, x, y, depth, error)
       if (allocated(error)) return
       do i = 1, n
@@ -231,7 +229,7 @@ contains
 
       call own_points(session, solved, points, offset, error)
       if (allocated(error)) return
-      call read_group_text(stress_table(), 'nu = '//number_words(nu)//', lateral = '//quoted(lateral), values, text, &
+      call read_group_text(stress_table(), 'nu = '//exact_number(nu)//', lateral = '//quoted(lateral), values, text, &
                            problems)
       if (problems%number > 0) then
          call fatal_error(error, exit_bad_input, problem_report(problems, text))
@@ -272,8 +270,10 @@ contains
       real(dp), intent(in) :: x(:), y(:), depth(:)   !! [length]
       type(error_type), allocatable, intent(out) :: error
 
+      call check_number(size(x), error)
+      if (allocated(error)) return
       associate (period => session%scale%period)
-         if (.not. all([ieee_is_finite(x/period(1)), ieee_is_finite(y/period(2)), ieee_is_finite(depth/period(1))])) then
+         if (.not. all(ieee_is_finite([x/period(1), y/period(2), depth/period(1)]))) then
             call fatal_error(error, exit_bad_input, 'places, offsets and depths must be finite numbers')
          else if (any(depth < 0.0_dp)) then
             call fatal_error(error, exit_bad_input, 'depths must be 0 or more: z points into the body')

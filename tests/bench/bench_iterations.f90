@@ -9,7 +9,8 @@ module bench_iteration_count
    use wavycon_solver_progress, only: solver_progress
    implicit none (type, external)
 
-   integer :: iterations(20), points(20), grids
+   !> Of each grid: its iterations and the points along its side.
+   integer :: numbers(20), sides(20), grids
 
    type, extends(solver_progress) :: iteration_count
    contains
@@ -24,22 +25,16 @@ contains
       real(dp), intent(in) :: residual
 
       associate (unused => self, also_unused => residual); end associate
-      call count_iterations(points(1), iterations)
-   end subroutine grid_solved
-
-   subroutine count_iterations(side, number)
-      integer, intent(in) :: side, number
-
       grids = grids + 1
-      points(grids) = side
-      iterations(grids) = number
-   end subroutine count_iterations
+      sides(grids) = points(1)
+      numbers(grids) = iterations
+   end subroutine grid_solved
 
 end module bench_iteration_count
 
 program bench_iterations
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
-   use bench_iteration_count, only: grids, iteration_count, iterations, points
+   use bench_iteration_count, only: grids, iteration_count, numbers, sides
    use wavycon_constants, only: pi
    use wavycon_error, only: error_type
    use wavycon_grid_sequence, only: sequence_answer, solve_by_sequence
@@ -91,11 +86,11 @@ program bench_iterations
                grids = 0
                call solve_by_sequence(surface, inverse_erf(areas(i))*slope/(sqrt(2.0_dp)*pi*full), 0.0_dp, &
                                       surface%points, answer, progress, 1e-8_dp)
-               weighted = sum(iterations(:grids)*(real(points(:grids), dp)/side)**2)
+               weighted = sum(numbers(:grids)*(real(sides(:grids), dp)/side)**2)
                write (output_unit, '(2x,i6,i15,f10.3,i6,f11.5,i25,f21.1,es10.1)') side, cutoffs(j), areas(i), seed, &
-                  answer%counted_area, iterations(grids), weighted, answer%state%residual
+                  answer%counted_area, numbers(grids), weighted, answer%state%residual
                flush (output_unit)
-               worst = max(worst, iterations(grids))
+               worst = max(worst, numbers(grids))
             end do
          end do
       end do

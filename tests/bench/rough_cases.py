@@ -9,7 +9,8 @@ mean pressure over p*, which closes the gap. Each program gets the tolerance wit
 wanted, found by trial. The time is processor time from the heights to the pressures; it is the median of three
 solutions if they do not take long. All residuals are computed by the same routine from the pressures.
 
-With --table the rows go to a file too, from which those of other cases are kept: the cases can be measured in parts.
+bytes_a_point is the most memory of the whole process. With --table the rows go to a file too, from which those of other
+cases are kept: the cases can be measured in parts.
 """
 import argparse
 import math
@@ -25,9 +26,9 @@ import rough_surface  # noqa: E402
 
 CODES = [rough_runs.OWN, 'aspher', 'tamaas', 'contactmechanics', 'slippy']
 COLUMNS = ['points', 'shortest_wave', 'load', 'code', 'status', 'P', 'contact', 'time[s]', 'iterations',
-           'transform_pairs', 'residual', 'complementarity', 'load_error', 'mean_gap', 'tolerance']
+           'transform_pairs', 'residual', 'complementarity', 'load_error', 'mean_gap', 'tolerance', 'bytes_a_point']
 KEY = 4       # columns that name a row
-WIDTHS = [7, 14, 9, 17, 12, 22, 11, 10, 11, 16, 10, 16, 11, 11, 10]
+WIDTHS = [7, 14, 9, 17, 12, 22, 11, 10, 11, 16, 10, 16, 11, 11, 10, 15]
 
 
 def numbers(kind):
@@ -123,7 +124,7 @@ def words_of(key, full, load, run, residual):
                                             found.mean_gap]
     return [*key, status, f'{load/full:.14e}', f'{values[0]:.6f}', f'{run.seconds:.3f}', f'{run.iterations:g}',
             f'{run.pairs:.1f}', f'{values[1]:.2e}', f'{values[2]:.2e}', f'{values[3]:.1e}', f'{values[4]:.3e}',
-            f'{run.tolerance:.1e}']
+            f'{run.tolerance:.1e}', f'{run.megabytes*1024**2/int(key[0])**2:.1f}']
 
 
 class Measurement:

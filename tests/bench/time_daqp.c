@@ -1,4 +1,4 @@
-/* Times DAQP, a dual active-set method in C, on the programme and the loads that programme_peers.py hands on.
+/* Times DAQP, a dual active-set method in C, on the programme and the loads that programmes.py hands on.
  *
  * Standard input: n and m; the n columns of D, c, and the m rows of C of  min 1/2 x'Dx - c'x,  Cx >= -P;  then lines
  * with a load P, a tolerance of Cx >= -P and a number of solves. Each is answered by three lines: exit flag and

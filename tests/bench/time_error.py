@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """Time against error of wavycon and other programs, in one run on one thread each.
 
-usage: time_error.py BENCH_DIRECTORY ENVIRONMENTS REFERENCE TABLE SECONDS
+usage: time_error.py BUILD ENVIRONMENTS REFERENCE TABLE SECONDS
 
-SECONDS: approximate time of a solver for a load. BENCH_DIRECTORY has the built program time_error_wave;
-the other programs are installed in ENVIRONMENTS. The table goes to TABLE, as blocks for gnuplot (one for each load and
-solver), a summary to standard output.
+SECONDS: approximate time of a solver for a load. BUILD has the shared library; the other programs are installed in
+ENVIRONMENTS. The table goes to TABLE, as blocks for gnuplot (one for each load and solver), a summary to standard
+output. wavycon runs by grids and the collocation fitted to the edge to ever smaller accuracies, and by the paper's
+series with ever more harmonics.
 
 Errors are relative to the values of the collocation fitted to the edge, accurate to some 1e-13, which must agree with all
 digits of REFERENCE, values of other programs. The effective error of a run is the largest of its own error and those
@@ -15,15 +16,13 @@ finer one.
 import itertools
 import math
 import os
-import pathlib
+import statistics
 import subprocess
 import sys
+import time
 
+from own import Own, Table
 from peer_install import PEERS, python_with
-
-sys.dont_write_bytecode = True
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / 'support'))
-from tables import Table  # noqa: E402
 
 LOADS = '0.05', '0.2', '0.5', '0.9'
 QUANTITIES = 'gap', 'area', 'peak'
@@ -32,6 +31,9 @@ RATIO_TARGETS = 1e-5, 1e-3, 1e-3  # of the three quantities, for the ratios
 OWN = 'wavycon-grid', 'wavycon-fitted', 'wavycon-beale'
 RATED = 'wavycon-grid', 'wavycon-fitted'  # for the ratios
 HANG = 5  # a solver is ended after so many times its time
+GROWTH = 6  # largest ratio of the times of two runs of a solver
+HARMONICS = 5, 7, 9, 12, 15, 20, 25, 30
+FINEST = 1e-12
 
 
 def references(path):
@@ -76,18 +78,40 @@ def text(milliseconds):
     return '-' if milliseconds is None else f'{milliseconds:.3g}'
 
 
-def measure_wave(commands, seconds):
+def methods():
+    """wavycon's solvers, each with its methods from coarse to fine."""
+    return zip(OWN, ([(k, f"solver = 'grid', accuracy = {0.1*0.5**k:g}") for k in range(36)],
+                     [(k, f"solver = 'fitted', accuracy = 1e-{k}") for k in range(2, 13)],
+                     [(n, f"solver = 'beale', harmonics = {n}, constraint_points = {n + 1}") for n in HARMONICS]))
+
+
+def run_own(own, load, seconds):
+    """Solver and row of each run of wavycon. Of accuracies with the same solution only the first is told."""
+    for solver, series in methods():
+        end, last = time.process_time() + seconds, None
+        for fineness, method in series:
+            solution, times = own.solved("kind = 'wave_2d'", method, load)
+            values, _ = own.values(solution)
+            if own.numbers(solution, 'status_code')[0] < 10 and values != last:
+                yield solver, (fineness, statistics.median(times), values)
+            last = values
+            if time.process_time() + GROWTH*min(times)/1000 > end:
+                break
+
+
+def measure_wave(own, commands, seconds):
     """Runs by solver and load, reference values and their errors by load, and the remarks of the solvers."""
     found, exact, remarks = {}, {}, []
+    for load in map(float, LOADS):
+        exact[load] = own.values(own.solved("kind = 'wave_2d'", f"solver = 'fitted', accuracy = {FINEST}", load)[0])
+        for solver, row in run_own(own, load, seconds):
+            found.setdefault(solver, {}).setdefault(load, []).append(row)
+        print(f'bench: wavycon at P = {load} done', file=sys.stderr)
     for name, command in commands:
         for load in LOADS:
-            for line in run([*command, f'{seconds:g}', load], seconds*(2 if name == 'wavycon' else 1) + 20):
+            for line in run([*command, f'{seconds:g}', load], seconds + 20):
                 if line.startswith('#'):
                     remarks.append(line if name in line else f'# {name} at P = {load}: {line[2:]}')
-                    continue
-                if line.startswith('reference'):
-                    at, *numbers = [float(word) for word in line.split()[1:]]
-                    exact[at] = numbers[:3], numbers[3:]
                     continue
                 solver, at, fineness, milliseconds, _, *values = line.split()
                 row = int(fineness), float(milliseconds), [float(value) for value in values]
@@ -160,7 +184,7 @@ def write_ratios(results, floors):
 def main():
     if len(sys.argv) != 6:
         sys.exit(__doc__.split('\n\n')[1])
-    bench, environments, reference, table = sys.argv[1:5]
+    build, environments, reference, table = sys.argv[1:5]
     seconds = float(sys.argv[5])
     here = os.path.dirname(os.path.abspath(__file__))
     known = references(reference)
@@ -176,12 +200,8 @@ def main():
             head.append(f'# {requirement.replace("==", " ")}: SKIPPED, it could not be installed')
             print(f'bench: {requirement} could not be installed and is SKIPPED', file=sys.stderr)
 
-    commands = [('wavycon', [os.path.join(bench, 'time_error_wave')])]
-    commands += [(name, [python, os.path.join(here, 'time_error_peer.py'), name])
-                 for name, python in pythons.items()]
-    found, exact, remarks = measure_wave(commands, seconds)
-    if not exact:
-        sys.exit('time_error: wavycon gave no answer')
+    commands = [(name, [python, os.path.join(here, 'time_error_peer.py'), name]) for name, python in pythons.items()]
+    found, exact, remarks = measure_wave(Own(build), commands, seconds)
     check_references(exact, known)
     floors = {load: [error/value for value, error in zip(*numbers)] for load, numbers in exact.items()}
     results = {solver: {load: judged(rows, exact[load][0]) for load, rows in by_load.items()}

@@ -2,10 +2,9 @@
 """The library as others use it: installed, found by CMake and pkg-config, linked by Fortran, C and Python programs.
 
 usage: test_consumers.py --build BUILD --cmake CMAKE --sources SOURCES --generator GENERATOR --c CC --fortran FC
-                         --flags FLAGS --numpy PYTHON
+                         --flags FLAGS
 
-PYTHON: one that may have numpy, if the one that runs this has not. The long test, Consumers.memory, runs only if it is
-named.
+The long test, Consumers.memory, runs only if it is named.
 """
 import argparse
 import functools
@@ -37,11 +36,6 @@ MEASURED_DECK = """&surface kind = 'file', file = 'measured.dat', length_x = 4e-
 &material e_star = 1e9 /
 &method residual = 1e-10 /
 &load pbar_over_pstar = 0.2 /
-"""
-TABLES_DECK = WAVE.replace("auto", "fitted") + """&load pbar_over_pstar = 0.2 /
-&stress line = .true., planes = .true., section = 'x', depths = 1e-4, 3e-4 /
-&output lines = .true., map = .true., contours = .true., spots = .true., histograms = .true., theory = .true.,
-   details = .true., spectrum = .true., map_points = 24, line_points = 24 /
 """
 YIELD_DECK = WAVE + """&load yield = 1 /
 &stress yield_stress = 1e9 /
@@ -112,8 +106,7 @@ class Consumers(unittest.TestCase):
         heights = [[((7*i*i + 3*j*j + i*j) % 11 + 0.25*i)/1048576 for i in range(16)] for j in range(12)]
         heights[2][5] = math.nan
         (cls.folder / "measured.dat").write_text("".join(" ".join(map(repr, row)) + "\n" for row in heights))
-        for name, deck in (("deck", DECK), ("yield", YIELD_DECK), ("measured", MEASURED_DECK),
-                           ("tables", TABLES_DECK)):
+        for name, deck in (("deck", DECK), ("yield", YIELD_DECK), ("measured", MEASURED_DECK)):
             (cls.folder / f"{name}.nml").write_text(deck)
             run(cls.prefix / "bin" / "wavycon", f"{name}.nml", "--output", ".", "--quiet", cwd=cls.folder)
         cls.expected = numbers(run(cls.folder / "project" / "consumer_fortran"))
@@ -190,19 +183,6 @@ class Consumers(unittest.TestCase):
     def test_a_project_in_c_alone(self):
         self.assertEqual(self.expected, numbers(run(self.folder / "only_c" / "consumer_c_shared")))
 
-    @loads_the_library
-    def test_python(self):
-        self.assertEqual(self.expected, numbers(run(sys.executable, HERE / "consumer.py", self.library)))
-
-    @loads_the_library
-    def test_python_with_numpy(self):
-        for python in sys.executable, self.options.numpy:
-            if shutil.which(python) and subprocess.run([python, "-c", "import numpy"], stderr=subprocess.DEVNULL,
-                                                       check=False).returncode == 0:
-                self.assertEqual(self.expected, numbers(run(python, HERE / "consumer.py", self.library)))
-                return
-        self.skipTest("there is no numpy")
-
     def test_pkg_config_with_the_shared_library(self):
         program = self.folder / "by_pkg_config"
         run(self.options.c, *shlex.split(self.options.flags), HERE / "consumer.c", "-o", program,
@@ -264,11 +244,6 @@ class Consumers(unittest.TestCase):
         self.assertNotIn("read_by", keys["material"]["e_star"])
 
     @loads_the_library
-    def test_tables(self):
-        names = run(sys.executable, HERE / "same_tables.py", self.library, self.folder / "tables.nml").split()
-        self.assertEqual(15, len(names))
-
-    @loads_the_library
     def test_a_load_is_stopped(self):
         self.assertEqual("stopped\n", run(sys.executable, HERE / "interrupt.py", self.library))
 
@@ -298,7 +273,7 @@ class Consumers(unittest.TestCase):
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--sources", type=pathlib.Path, required=True)
-    for name in ("build", "cmake", "generator", "c", "fortran", "flags", "numpy"):
+    for name in ("build", "cmake", "generator", "c", "fortran", "flags"):
         parser.add_argument(f"--{name}", required=True)
     Consumers.options, others = parser.parse_known_args()
     unittest.main(argv=[sys.argv[0], *others], verbosity=2)

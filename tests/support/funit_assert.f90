@@ -1,4 +1,5 @@
-!> The assertions: `@assertX(expected, actual, ..)` of a .pf file is `call funit_check('assertX', expected, actual, ..)`.
+!> The assertions: `@assertX(expected, actual, ..)` of a .pf file is
+!> `call funit_check('assertX', expected, actual, ..)`.
 !>
 !> Ranks are 0, 1 or 2; a scalar expected value is compared with every element, of which there must be one. Integers and
 !> logical values are compared as real numbers, which hold them exactly. The arithmetic raises no floating-point
@@ -64,7 +65,8 @@ contains
       character(*), intent(in), optional :: message
       type(SourceLocation), intent(in) :: location
 
-      call compare(assertion, as_integer, of_integers(expected), of_integers(actual), message=message, location=location)
+      call compare(assertion, as_integer, of_integers(expected), of_integers(actual), message=message, &
+                   location=location)
 
    contains
 
@@ -92,7 +94,8 @@ contains
       character(*), intent(in), optional :: message
       type(SourceLocation), intent(in) :: location
 
-      call compare(assertion, as_logical, of_logicals(expected), of_logicals(actual), message=message, location=location)
+      call compare(assertion, as_logical, of_logicals(expected), of_logicals(actual), message=message, &
+                   location=location)
 
    contains
 

@@ -1,4 +1,4 @@
-"""Pictures by matplotlib, on Axes that are given or made."""
+"""Pictures by matplotlib, on Axes that are given or made: methods of Result and Results."""
 import numpy as np
 
 
@@ -14,7 +14,9 @@ def label(facts, column):
     return column.replace("_", " ") + ("" if unit in ("-", "word") else f" [{unit}]")
 
 
-def plot(results, y, x, ax, **style):
+def plot(results, y="contact_area_fraction", x="mean_pressure", ax=None, **style):
+    """Draws a column of the summary over another, with its error estimates, on matplotlib's Axes, made if not given,
+    and returns these. Loads that were not solved as requested are open symbols. style: as of errorbar."""
     ax, summary, facts = axes(ax), results.table("summary"), results._facts
     error = summary[f"{y}_error"] if f"{y}_error" in summary.dtype.names else None
     order = np.argsort(summary[x])
@@ -26,7 +28,9 @@ def plot(results, y, x, ax, **style):
     return ax
 
 
-def plot_map(result, field, ax, **style):
+def plot_map(result, field="pressure", ax=None, **style):
+    """Draws a field ('pressure', 'gap', 'displacement') on matplotlib's Axes, made if not given, and returns these.
+    style: options of pcolormesh, for a profile of plot."""
     ax, x, values = axes(ax), result.x, result._fields[field]
     result.table("summary")
     unit = result._facts["pressure_unit" if field == "pressure" else "length_unit"]
@@ -41,7 +45,9 @@ def plot_map(result, field, ax, **style):
                 aspect="equal", style=style)
 
 
-def plot_stress_section(result, column, ax, **style):
+def plot_stress_section(result, column="von_mises", ax=None, **style):
+    """Draws a column of the table 'stress_section', which needs stress={...} in the solve, on a vertical section
+    through the crest, on matplotlib's Axes, and returns these. style: options of pcolormesh."""
     rows, facts = result.table("stress_section"), result._facts
     rows = rows[rows["body"] == 1]
     depth, distance = np.unique(rows["depth"]), np.unique(rows["distance"])

@@ -10,7 +10,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from . import library
+from . import library, pictures
 from .deck import Surface, deck_text, sort_keys, value_text
 from .library import address, call, keys, reals
 
@@ -114,17 +114,8 @@ class Result:
         call("get_invariants", x.size, stress, *invariants)
         return parts
 
-    def plot_map(self, field="pressure", ax=None, **style):
-        """Draws a field ('pressure', 'gap', 'displacement') on matplotlib's Axes, made if not given, and returns these.
-        style: options of pcolormesh, for a profile of plot."""
-        from .pictures import plot_map
-        return plot_map(self, field, ax, **style)
-
-    def plot_stress_section(self, column="von_mises", ax=None, **style):
-        """Draws a column of the table 'stress_section', which needs stress={...} in the solve, on a vertical section
-        through the crest, on matplotlib's Axes, and returns these. style: options of pcolormesh."""
-        from .pictures import plot_stress_section
-        return plot_stress_section(self, column, ax, **style)
+    plot_map = pictures.plot_map
+    plot_stress_section = pictures.plot_stress_section
 
 
 class Results(Sequence):
@@ -166,11 +157,7 @@ class Results(Sequence):
         frame.attrs["units"] = {column: self._facts["units"][column] for column in frame}
         return frame
 
-    def plot(self, y="contact_area_fraction", x="mean_pressure", ax=None, **style):
-        """Draws a column of the summary over another, with its error estimates, on matplotlib's Axes, made if not
-        given, and returns these. Loads that were not solved as requested are open symbols. style: as of errorbar."""
-        from .pictures import plot
-        return plot(self, y, x, ax, **style)
+    plot = pictures.plot
 
     def save(self, file, fields: bool = True) -> None:
         """Saves the summary, all tables that were asked for and, unless told not to, the fields to an .npz file."""
