@@ -4,7 +4,7 @@ module wavycon_binary_file
    use, intrinsic :: iso_fortran_env, only: int32, int64, int8
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_file_bytes, only: open_file
-   use wavycon_grid_slab, only: grid_slab, row_exchange
+   use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp, sp
    use wavycon_map_size, only: check_map_size, check_room
    use wavycon_measured_map, only: measured_map
@@ -163,7 +163,6 @@ contains
       type(measured_map), intent(inout) :: map
       type(error_type), allocatable, intent(out) :: error
 
-      class(row_exchange), allocatable :: exchange
       real(dp), allocatable :: height(:, :)
       type(grid_slab) :: lines, slab   ! of the file and of the map
       integer :: across(2)             ! points along y and x
@@ -183,8 +182,7 @@ contains
       call map%distribute_over(slab)
       if (.not. by_columns) return
       allocate (height(points(1), slab%columns()))
-      call slab%exchange_rows(points(1), 1, dp, exchange)
-      call exchange%to_columns(map%height, height)
+      call slab%exchange_rows(lines, 8, height, map%height, to_rows=.false.)
       call move_alloc(height, map%height)
    end subroutine read_heights
 

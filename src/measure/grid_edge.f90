@@ -18,7 +18,7 @@ module wavycon_grid_edge
    implicit none (type, external)
    private
 
-   public :: edge_rule, grid_edge, aligned_part, angle_steps, balance, joined, make_grid_edge, pressure_per_gap, &
+   public :: edge_rule, grid_edge, angle_steps, balance, joined, make_grid_edge, pressure_per_gap, &
       start_grid_edge
 
    !> Constants of (C11), (C12), which depend on the kernel of the half-space. The defaults are those of waves.
@@ -54,7 +54,6 @@ module wavycon_grid_edge
       procedure :: place
       procedure :: at
       procedure :: column
-      procedure :: points_in_contact
       procedure :: number_of_points
       procedure :: fetch_neighbours
    end type grid_edge
@@ -163,32 +162,10 @@ contains
       integer, intent(in) :: l   !! as of `at`
       real(dp) :: values(0:self%slab%points(1) + 1)
 
-      integer :: m
+      integer :: k
 
-      m = self%slab%points(1)
-      if (.not. self%slab%is_distributed) then
-         values(1:m) = self%pressure_or_gap(:, self%place(l, 2))
-      else if (l < self%slab%first) then
-         values(1:m) = self%low(:, reach + 1 - (self%slab%first - l))
-      else if (l > self%slab%last) then
-         values(1:m) = self%high(:, l - self%slab%last)
-      else
-         values(1:m) = self%pressure_or_gap(:, l - self%slab%first + 1)
-      end if
-      values(0) = values(self%place(0, 1))
-      values(m + 1) = values(self%place(m + 1, 1))
+      values = [(self%at(k, l), k=0, self%slab%points(1) + 1)]
    end function column
-
-   !> The number of points of the grid in contact.
-   integer(int64) function points_in_contact(self) result(number)
-      class(grid_edge), intent(in) :: self
-
-      integer(int64) :: total(1)
-
-      total = count(self%pressure_or_gap > 0.0_dp, kind=int64)
-      call self%slab%add(total)
-      number = total(1)
-   end function points_in_contact
 
    !> The number of points of the grid.
    pure integer(int64) function number_of_points(self) result(number)
@@ -202,16 +179,9 @@ contains
       integer, intent(in) :: k, l
       real(dp), intent(out) :: phi, theta
 
-      phi = angle(self, k, 1)
-      theta = angle(self, l, 2)
+      phi = point_angle(k, self%slab%points(1), self%even)
+      theta = point_angle(l, self%slab%points(2), self%even)
    end subroutine angles
-
-   elemental real(dp) function angle(edge, k, direction)
-      class(grid_edge), intent(in) :: edge
-      integer, intent(in) :: k, direction
-
-      angle = point_angle(k, edge%slab%points(direction), edge%even)
-   end function angle
 
    !> The step of the grid along phi and theta [rad].
    pure function angle_steps(edge) result(steps)
