@@ -162,9 +162,21 @@ contains
       integer, intent(in) :: l   !! as of `at`
       real(dp) :: values(0:self%slab%points(1) + 1)
 
-      integer :: k
+      integer :: m
 
-      values = [(self%at(k, l), k=0, self%slab%points(1) + 1)]
+      ! One by one by `at` they would take a tenth of the time of a solution.
+      m = self%slab%points(1)
+      if (.not. self%slab%is_distributed) then
+         values(1:m) = self%pressure_or_gap(:, self%place(l, 2))
+      else if (l < self%slab%first) then
+         values(1:m) = self%low(:, reach + 1 - (self%slab%first - l))
+      else if (l > self%slab%last) then
+         values(1:m) = self%high(:, l - self%slab%last)
+      else
+         values(1:m) = self%pressure_or_gap(:, l - self%slab%first + 1)
+      end if
+      values(0) = values(self%place(0, 1))
+      values(m + 1) = values(self%place(m + 1, 1))
    end function column
 
    !> The number of points of the grid.
