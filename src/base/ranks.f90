@@ -13,61 +13,29 @@ module wavycon_ranks
    implicit none (type, external)
    private
 
-   public :: communicator, row_exchange, use_communicator
+   public :: communicator, use_communicator
    public :: this_rank, rank_count, ranks_at_work, is_first_rank, work_alone, ranks_on_this_machine, rank_library
    public :: add_over_ranks, add_integers_over_ranks, largest_over_ranks, any_rank
    public :: share_error, share_text, end_ranks
 
-   !> Exchanges a matrix whose columns are distributed over the ranks for the same matrix with its rows distributed, and
-   !> back. In both the elements of a column follow each other. An element has one or two real numbers of one precision.
-   !> Each rank has adjacent columns; all ranks but the last ones have the same number, `width`. The same holds for
-   !> rows.
-   type, abstract :: row_exchange
-      integer :: columns = 0      !! of the matrix
-      integer :: rows = 0         !! of the matrix
-      integer :: own_columns = 0
-      integer :: first_row = 1    !! of this rank's rows
-      integer :: own_rows = 0
-   contains
-      !> From the own columns, shape (numbers, rows, own_columns), to the own rows, shape (numbers, own_rows, columns).
-      procedure(exchange_rows_and_columns), deferred :: to_rows
-      !> The inverse.
-      procedure(exchange_rows_and_columns), deferred :: to_columns
-   end type row_exchange
-
    !> What the ranks exchange; the parallel program extends the type and does it by MPI. Columns are exchanged by the
    !> procedures of `comm`, only where there is more than one rank; all else by the procedures of this module.
    type, abstract :: communicator
+      integer :: rank = 0                     !! the number of this process, from 0
+      integer :: ranks = 1                    !! the number of processes
+      integer :: ranks_on_machine = 1         !! those that share this machine's memory
+      character(:), allocatable :: library    !! name and version
    contains
-      procedure(get_number), deferred :: rank                  !! of this process, from 0
-      procedure(get_number), deferred :: ranks                 !! their number
-      procedure(get_number), deferred :: ranks_on_machine      !! those that share this machine's memory
       procedure(combine_reals), deferred :: add_reals
       procedure(add_whole_numbers), deferred :: add_integers
       procedure(combine_reals), deferred :: largest
       procedure(exchange_two_blocks), deferred :: exchange
-      procedure(gather_blocks), deferred :: gather
       procedure(move_blocks), deferred :: move
-      procedure(make_row_exchange), deferred :: new_row_exchange
-      procedure(send_text), deferred :: share_text
-      procedure(put_columns), deferred :: write_columns
+      procedure(exchange_rows_and_columns), deferred :: exchange_rows
       procedure(end_run), deferred :: finish
-      procedure(get_text), deferred :: library                 !! name and version
    end type communicator
 
    abstract interface
-      subroutine exchange_rows_and_columns(self, from, to)
-         import :: row_exchange
-         class(row_exchange), intent(inout) :: self
-         type(*), intent(in), target :: from(*)
-         type(*), intent(inout), target :: to(*)     !! another array, of the same precision
-      end subroutine exchange_rows_and_columns
-
-      pure integer function get_number(self)
-         import :: communicator
-         class(communicator), intent(in) :: self
-      end function get_number
-
       subroutine combine_reals(self, values)
          import :: dp, communicator
          class(communicator), intent(in) :: self
@@ -90,17 +58,6 @@ module wavycon_ranks
          type(*), intent(inout), target :: from_low(*), from_high(*)     !! theirs; unchanged where there is none
       end subroutine exchange_two_blocks
 
-      !> Gathers the columns of all ranks into whole matrices, on all ranks or on rank 0 alone.
-      subroutine gather_blocks(self, column_bytes, columns, own, whole, first_only)
-         import :: communicator
-         class(communicator), intent(in) :: self
-         integer, intent(in) :: column_bytes             !! of a column
-         integer, intent(in) :: columns(0:)              !! of each rank
-         type(*), intent(in), target :: own(*)           !! columns(rank) columns
-         type(*), intent(inout), target :: whole(*)      !! sum(columns) columns; of any size where not needed
-         logical, intent(in) :: first_only               !! whether rank 0 alone needs it
-      end subroutine gather_blocks
-
       !> Moves columns of a matrix from the ranks that have them to those that want them.
       !>
       !> N.B. Every rank knows what all others have and want, so that only the columns are sent.
@@ -115,48 +72,23 @@ module wavycon_ranks
          type(*), intent(inout), target :: wanted(*)       !! what this rank wants
       end subroutine move_blocks
 
-      !> Prepares the exchange of columns and rows of a matrix.
-      subroutine make_row_exchange(self, columns, rows, width, numbers, precision, exchange)
-         import :: communicator, row_exchange
-         class(communicator), intent(in) :: self
-         integer, intent(in) :: columns, rows   !! of the matrix
-         integer, intent(in) :: width           !! columns of each rank but the last ones
-         integer, intent(in) :: numbers         !! of an element: 1 or, for complex numbers, 2
-         integer, intent(in) :: precision       !! kind of the numbers: dp or sp
-         class(row_exchange), allocatable, intent(out) :: exchange
-      end subroutine make_row_exchange
-
-      subroutine send_text(self, from, text)
+      !> Exchanges a matrix whose columns are distributed over the ranks for the same matrix with its rows distributed,
+      !> or back. In both the elements of a column follow each other.
+      subroutine exchange_rows_and_columns(self, bytes, columns, rows, by_columns, by_rows, to_rows)
          import :: communicator
          class(communicator), intent(in) :: self
-         integer, intent(in) :: from
-         character(:), allocatable, intent(inout) :: text
-      end subroutine send_text
-
-      !> All ranks write their columns of a matrix, one after the other, to a file that exists.
-      subroutine put_columns(self, path, start, number_bytes, rows, first, columns, values, failure)
-         import :: int64, communicator
-         class(communicator), intent(in) :: self
-         character(*), intent(in) :: path
-         integer(int64), intent(in) :: start       !! bytes before the first column of all
-         integer, intent(in) :: number_bytes       !! of a number
-         integer, intent(in) :: rows               !! numbers of a column
-         integer, intent(in) :: first, columns     !! of this rank; columns may be 0
-         type(*), intent(inout), target :: values(*)    !! shape (rows, columns)
-         character(:), allocatable, intent(out) :: failure   !! the system's words on this rank; allocated if it failed
-      end subroutine put_columns
+         integer, intent(in) :: bytes                              !! of an element
+         integer, intent(in) :: columns(:, 0:), rows(:, 0:)        !! of each rank, as `have` of `move`
+         type(*), intent(inout), target :: by_columns(*)           !! shape (all rows, own columns)
+         type(*), intent(inout), target :: by_rows(*)              !! shape (own rows, all columns)
+         logical, intent(in) :: to_rows                            !! or from rows to columns
+      end subroutine exchange_rows_and_columns
 
       subroutine end_run(self, status)
          import :: communicator
          class(communicator), intent(in) :: self
          integer, intent(in) :: status
       end subroutine end_run
-
-      function get_text(self) result(text)
-         import :: communicator
-         class(communicator), intent(in) :: self
-         character(:), allocatable :: text
-      end function get_text
    end interface
 
    !> The sums of arrays over the ranks, element by element, in place. Real sums do not depend on the number of ranks if
@@ -180,13 +112,13 @@ contains
    !> The number of this process, from zero.
    integer function this_rank()
       this_rank = 0
-      if (allocated(comm)) this_rank = comm%rank()
+      if (allocated(comm)) this_rank = comm%rank
    end function this_rank
 
    !> The number of processes.
    integer function rank_count()
       rank_count = 1
-      if (allocated(comm)) rank_count = comm%ranks()
+      if (allocated(comm)) rank_count = comm%ranks
    end function rank_count
 
    !> The number of processes that share the present work: one while each has work of its own.
@@ -203,7 +135,7 @@ contains
    !> The processes that share the memory of this machine.
    integer function ranks_on_this_machine() result(number)
       number = 1
-      if (allocated(comm)) number = comm%ranks_on_machine()
+      if (allocated(comm)) number = comm%ranks_on_machine
    end function ranks_on_this_machine
 
    !> Name and version of the library that the ranks exchange data with; empty in the serial program.
@@ -211,7 +143,7 @@ contains
       character(:), allocatable :: text
 
       text = ''
-      if (allocated(comm)) text = comm%library()
+      if (allocated(comm)) text = comm%library
    end function rank_library
 
    !> From now on each rank works on something else: no grid is distributed, and nothing is exchanged until the ranks
@@ -286,7 +218,20 @@ contains
       integer, intent(in) :: from                              !! the rank
       character(:), allocatable, intent(inout) :: text         !! allocated
 
-      if (ranks_at_work() > 1) call comm%share_text(from, text)
+      integer(int64) :: length(1)
+      integer(int64), allocatable :: codes(:)
+      integer :: i
+
+      if (ranks_at_work() == 1) return
+      length = merge(len(text), 0, this_rank() == from)
+      call add_over_ranks(length)
+      allocate (codes(length(1)), source=0_int64)
+      if (this_rank() == from) codes(:) = [(ichar(text(i:i)), i=1, len(text))]
+      call add_over_ranks(codes)
+      text = repeat(' ', size(codes))
+      do i = 1, size(codes)
+         text(i:i) = char(codes(i))
+      end do
    end subroutine share_text
 
    !> Ends the work of all ranks, before the program ends; it need not be called by all of them.

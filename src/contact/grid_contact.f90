@@ -16,7 +16,7 @@ module wavycon_grid_contact
    use wavycon_grid_plan, only: grid_plan, plan_grids
    use wavycon_grid_source, only: grid_source
    use wavycon_kinds, only: dp
-   use wavycon_load_concentration, only: load_concentration
+   use wavycon_grid_area, only: load_concentration
    use wavycon_solution_record, only: by_grids, no_solution
    use wavycon_surface, only: surface_type
    implicit none (type, external)

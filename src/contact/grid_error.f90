@@ -10,7 +10,7 @@ module wavycon_grid_error
    use wavycon_contact_measures, only: unknown
    use wavycon_contact_tuning, only: area_kept_change, area_safety, edge_bias, edge_scatter, gap_safety, &
       kept_change, least_of_area, opening_ratio, peak_safety, unresolved_width
-   use wavycon_counted_area, only: edge_crossings
+   use wavycon_grid_area, only: edge_crossings
    use wavycon_grid_edge, only: grid_edge
    use wavycon_kinds, only: dp
    use wavycon_surface, only: surface_type

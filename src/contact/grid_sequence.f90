@@ -7,8 +7,7 @@ module wavycon_grid_sequence
    use wavycon_compliance_operator, only: compliance_operator
    use wavycon_contact_measures, only: known_errors, unknown
    use wavycon_contact_tuning, only: iteration_limit, iterations_of_root
-   use wavycon_counted_area, only: corrected_area_fraction, counted_area_fraction
-   use wavycon_grid_area, only: grid_contact_area
+   use wavycon_grid_area, only: corrected_area_fraction, counted_area_fraction, grid_contact_area
    use wavycon_free_level, only: complete_gap, solve_free_level
    use wavycon_grid_edge, only: grid_edge, joined, make_grid_edge, pressure_per_gap, start_grid_edge
    use wavycon_grid_error, only: change_history, estimate_errors, unresolved_errors

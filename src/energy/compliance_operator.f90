@@ -21,8 +21,6 @@ module wavycon_compliance_operator
       integer :: single_pairs = 0                  !! the same in single precision
       integer :: points(2) = 0                     !! of the grid that it was started on
       logical :: is_free = .false.                 !! whether the surface has free edges: displacements have a mean
-      real(dp), private :: stiffness = 1.0_dp      !! sigma [length]
-      real(dp), private :: step(2) = 1.0_dp        !! between the points [length]
       type(convolution_dp), private :: in_double
       type(convolution_sp), private :: in_single
       type(convolution_dp), private :: free_double
@@ -47,34 +45,28 @@ contains
       integer, intent(in) :: points(2)   !! M, N >= 1, of the whole cell, or of a quarter of an even surface's cell
       integer, intent(in), optional :: part(2)   !! points of the part of this grid that it is for, of free edges
 
+      real(dp), allocatable :: kernel(:, :), square_x(:), square_y(:)
+      real(dp) :: frequency(2), step(2)
+      integer :: i
+      logical :: even
+
+      even = surface%shape%is_even()
       self%points = points
       if (present(part)) self%points = part
       self%is_free = surface%has_free_edges
-      self%stiffness = surface%stiffness
-      self%step = surface%length/(merge(2, 1, surface%shape%is_even())*points)
-      if (points(2) == 1) self%step(2) = surface%length(2)
-      call start_on_points(self, self%points, surface%shape%is_even())
-   end subroutine start
-
-   !> Starts the convolutions for a number of points.
-   subroutine start_on_points(self, points, even)
-      type(compliance_operator), intent(inout) :: self   !! with stiffness, step, is_free
-      integer, intent(in) :: points(2)
-      logical, intent(in) :: even
-
-      real(dp), allocatable :: kernel(:, :)
-      real(dp) :: frequency(2), square_x(0:points(1) - 1), square_y(0:points(2) - 1)
-      integer :: i
-
-      ! Stiffness over wavelength, squared: of the order of one in any unit of length.
-      frequency = self%stiffness/(merge(2, 1, even .and. points > 1)*points*self%step)
-      square_x = (frequency(1)*[(wave(i, points(1)), i=0, points(1) - 1)])**2
-      square_y = (frequency(2)*[(wave(i, points(2)), i=0, points(2) - 1)])**2
-      call self%in_double%start(even, square_x, square_y)
-      call self%in_single%start(even, square_x, square_y)
-      if (.not. self%is_free) return
-      call free_kernel(points, self%step, kernel)
-      kernel = kernel/self%stiffness
+      step = surface%length/(merge(2, 1, even)*points)
+      if (points(2) == 1) step(2) = surface%length(2)
+      associate (points => self%points, stiffness => surface%stiffness)
+         ! Stiffness over wavelength, squared: of the order of one in any unit of length.
+         frequency = stiffness/(merge(2, 1, even .and. points > 1)*points*step)
+         square_x = (frequency(1)*[(wave(i, points(1)), i=0, points(1) - 1)])**2
+         square_y = (frequency(2)*[(wave(i, points(2)), i=0, points(2) - 1)])**2
+         call self%in_double%start(even, square_x, square_y)
+         call self%in_single%start(even, square_x, square_y)
+         if (.not. self%is_free) return
+         call free_kernel(points, step, kernel)
+         kernel = kernel/stiffness
+      end associate
       call transform_of_kernel(kernel)
       call self%free_double%start_free(kernel)
       call self%free_single%start_free(kernel)
@@ -89,7 +81,7 @@ contains
          wave = merge(index, min(index, length - index), even)
       end function wave
 
-   end subroutine start_on_points
+   end subroutine start
 
    subroutine displacement_dp(self, field, nonzero, wanted)
       class(compliance_operator), intent(inout) :: self

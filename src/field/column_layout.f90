@@ -31,7 +31,6 @@ module wavycon_column_layout
       procedure :: strips
       procedure :: has_memory
       procedure :: blocks
-      procedure :: columns_of_ranks
       procedure :: find_neighbours
       procedure :: place_of_image
    end type column_layout
@@ -96,16 +95,6 @@ contains
          blocks(:, rank) = [min(rank*self%width, self%points(2)) + 1, min((rank + 1)*self%width, self%points(2))]
       end do
    end function blocks
-
-   !> The numbers of columns of all ranks.
-   function columns_of_ranks(self) result(columns)
-      class(column_layout), intent(in) :: self
-      integer, allocatable :: columns(:)
-
-      associate (blocks => self%blocks())
-         columns = blocks(2, :) - blocks(1, :) + 1
-      end associate
-   end function columns_of_ranks
 
    !> The number of the own columns.
    pure integer function columns(self)

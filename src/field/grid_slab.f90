@@ -13,12 +13,12 @@ module wavycon_grid_slab
    use wavycon_column_layout, only: column_layout, least_distributed_points, most_reach, strip_columns
    use wavycon_grid_points, only: image_of_point
    use wavycon_kinds, only: dp, sp
-   use wavycon_ranks, only: add_over_ranks, any_rank, comm, largest_over_ranks, &
-      row_exchange, share_error, this_rank
+   use wavycon_ranks, only: add_over_ranks, any_rank, comm, largest_over_ranks, share_error, &
+      this_rank
    implicit none (type, external)
    private
 
-   public :: grid_slab, least_distributed_points, most_reach, row_exchange, strip_columns
+   public :: column_layout, grid_slab, least_distributed_points, most_reach, strip_columns
 
    type, extends(column_layout) :: grid_slab
    contains
@@ -151,57 +151,15 @@ contains
    !> The columns before and after the own ones: columns of other ranks, or at the border of the grid the images that
    !> continue it. A rank without columns gets none.
    subroutine halo_dp(self, field, even, low, high)
-      class(grid_slab), intent(in) :: self
-      real(dp), intent(in) :: field(:, :)                        !! shape (any, columns())
-      logical, intent(in) :: even                                !! whether mirror images continue the grid, or periods
-      real(dp), intent(inout), contiguous :: low(:, :)           !! columns first - R to first - 1, shape (any, R)
-      real(dp), intent(inout), contiguous :: high(:, :)          !! columns last + 1 to last + R; R <= most_reach
+      integer, parameter :: wp = dp
 
-      real(dp), allocatable :: first_columns(:, :), last_columns(:, :)
-      integer :: before, behind, k, reach
-
-      reach = size(low, 2)
-      if (self%columns() < 1) return
-      if (self%is_distributed) then
-         call self%find_neighbours(even, before, behind)
-         allocate (first_columns, source=field(:, :reach))
-         allocate (last_columns, source=field(:, self%columns() - reach + 1:))
-         call comm%exchange(before, behind, size(low)*storage_size(low)/8, first_columns, last_columns, low, high)
-      end if
-      do k = 1, reach
-         associate (before => self%place_of_image(even, self%first - k), &
-                    behind => self%place_of_image(even, self%last + k))
-            if (before > 0) low(:, reach + 1 - k) = field(:, before)
-            if (behind > 0) high(:, k) = field(:, behind)
-         end associate
-      end do
+      include 'halo.inc'
    end subroutine halo_dp
 
-   !> As halo_dp, in single precision.
    subroutine halo_sp(self, field, even, low, high)
-      class(grid_slab), intent(in) :: self
-      real(sp), intent(in) :: field(:, :)
-      logical, intent(in) :: even
-      real(sp), intent(inout), contiguous :: low(:, :), high(:, :)
+      integer, parameter :: wp = sp
 
-      real(sp), allocatable :: first_columns(:, :), last_columns(:, :)
-      integer :: before, behind, k, reach
-
-      reach = size(low, 2)
-      if (self%columns() < 1) return
-      if (self%is_distributed) then
-         call self%find_neighbours(even, before, behind)
-         allocate (first_columns, source=field(:, :reach))
-         allocate (last_columns, source=field(:, self%columns() - reach + 1:))
-         call comm%exchange(before, behind, size(low)*storage_size(low)/8, first_columns, last_columns, low, high)
-      end if
-      do k = 1, reach
-         associate (before => self%place_of_image(even, self%first - k), &
-                    behind => self%place_of_image(even, self%last + k))
-            if (before > 0) low(:, reach + 1 - k) = field(:, before)
-            if (behind > 0) high(:, k) = field(:, behind)
-         end associate
-      end do
+      include 'halo.inc'
    end subroutine halo_sp
 
    !> Adjacent columns, of which other ranks may have some or all: each rank asks for those that it wants.
@@ -232,8 +190,8 @@ contains
          column_bytes = size(field, 1)*storage_size(field)/8
          call comm%move(column_bytes, have, field, images_for_ranks(0), wanted(:, first:min(last, 0)))
          call comm%move(column_bytes, have, field, &
-                           reshape([max(bounds(1, :), 1), min(bounds(2, :), n)], shape(have), order=[2, 1]), &
-                           wanted(:, max(first, 1):min(last, n)))
+                        reshape([max(bounds(1, :), 1), min(bounds(2, :), n)], shape(have), order=[2, 1]), &
+                        wanted(:, max(first, 1):min(last, n)))
          call comm%move(column_bytes, have, field, images_for_ranks(n + 1), wanted(:, max(first, n + 1):last))
       end associate
 
@@ -254,13 +212,14 @@ contains
       end function images_for_ranks
 
    end subroutine fetch
+
    subroutine gather_whole_dp(self, own, whole)
       class(grid_slab), intent(in) :: self
       real(dp), intent(in), contiguous :: own(:, :)         !! shape (any, columns())
       real(dp), intent(inout), contiguous :: whole(:, :)    !! shape (any, N)
 
       if (self%is_distributed) then
-         call comm%gather(size(own, 1)*storage_size(own)/8, self%columns_of_ranks(), own, whole, first_only=.false.)
+         call gather(self, size(own, 1)*storage_size(own)/8, own, whole, first_only=.false.)
       else
          whole = own
       end if
@@ -272,7 +231,7 @@ contains
       real(sp), intent(inout), contiguous :: whole(:, :)
 
       if (self%is_distributed) then
-         call comm%gather(size(own, 1)*storage_size(own)/8, self%columns_of_ranks(), own, whole, first_only=.false.)
+         call gather(self, size(own, 1)*storage_size(own)/8, own, whole, first_only=.false.)
       else
          whole = own
       end if
@@ -290,20 +249,36 @@ contains
          return
       end if
       allocate (whole(size(own, 1), merge(self%points(2), 0, this_rank() == 0)))
-      call comm%gather(size(own, 1)*storage_size(own)/8, self%columns_of_ranks(), own, whole, first_only=.true.)
+      call gather(self, size(own, 1)*storage_size(own)/8, own, whole, first_only=.true.)
       if (this_rank() > 0) deallocate (whole)
    end subroutine gather_to_first
 
-   !> Prepares the exchange of own columns for own rows of a distributed grid. The elements may be complex numbers, and
-   !> each column may have another number of them than M.
-   subroutine exchange_rows(self, rows, numbers, precision, exchange)
-      class(grid_slab), intent(in) :: self
-      integer, intent(in) :: rows         !! elements of a column
-      integer, intent(in) :: numbers      !! of an element: 1 or, for complex numbers, 2
-      integer, intent(in) :: precision    !! kind of the numbers: dp or sp
-      class(row_exchange), allocatable, intent(out) :: exchange
+   subroutine gather(slab, column_bytes, own, whole, first_only)
+      type(grid_slab), intent(in) :: slab             !! of a distributed grid
+      integer, intent(in) :: column_bytes
+      type(*), intent(in), target :: own(*)
+      type(*), intent(inout), target :: whole(*)
+      logical, intent(in) :: first_only               !! whether rank 0 alone wants the grid
 
-      call comm%new_row_exchange(self%points(2), rows, self%width, numbers, precision, exchange)
+      integer, allocatable :: have(:, :), want(:, :)
+
+      allocate (have, source=slab%blocks())
+      allocate (want, source=spread([1, slab%points(2)], 2, size(have, 2)))
+      if (first_only) want(2, 2:) = 0
+      call comm%move(column_bytes, have, own, want, whole)
+   end subroutine gather
+
+   !> Exchanges the own columns of a distributed matrix for own rows, or back. It has the columns of this grid; its
+   !> elements may be complex numbers, and their number in a column need not be M.
+   subroutine exchange_rows(self, rows, bytes, by_columns, by_rows, to_rows)
+      class(grid_slab), intent(in) :: self
+      class(column_layout), intent(in) :: rows              !! of the matrix, as columns: divided
+      integer, intent(in) :: bytes                          !! of an element
+      type(*), intent(inout), target :: by_columns(*)       !! shape (rows, columns())
+      type(*), intent(inout), target :: by_rows(*)          !! shape (own rows, N)
+      logical, intent(in) :: to_rows                        !! or from rows to columns
+
+      call comm%exchange_rows(bytes, self%blocks(), rows%blocks(), by_columns, by_rows, to_rows)
    end subroutine exchange_rows
 
 end module wavycon_grid_slab

@@ -1,7 +1,7 @@
 !> The largest value of a Fourier series.
 module wavycon_series_peak
    use wavycon_constants, only: pi
-   use wavycon_fourier_series, only: cosine_table, fourier_series
+   use wavycon_fourier_series, only: fourier_series
    use wavycon_grid_transform, only: grid_transform
    use wavycon_newton_maximiser, only: newton_maximiser
    use wavycon_kinds, only: dp
@@ -17,15 +17,12 @@ module wavycon_series_peak
    !> line, at most so many are tried.
    real(dp), parameter :: most_between = 1.0_dp/cos(pi/points_per_wave)**2
    integer, parameter :: most_crests = 10
-   !> An even series on a grid of so many points is summed directly: FFTW takes longer to plan its transform.
-   integer, parameter :: most_direct = 4096
 
    !> A series as the field in which Newton's method climbs.
    type, extends(newton_maximiser) :: series_maximiser
       type(fourier_series) :: series
    contains
-      procedure :: height
-      procedure :: derivatives
+      procedure :: expand
    end type series_maximiser
 
 contains
@@ -41,7 +38,7 @@ contains
 
       type(grid_transform) :: transform
       type(series_maximiser) :: field
-      real(dp), allocatable :: values(:, :), x(:, :), y(:, :)
+      real(dp), allocatable :: values(:, :)
       real(dp) :: crest(2), found, hidden, largest
       integer :: best(2), i, points(2)
 
@@ -49,13 +46,7 @@ contains
       if (ubound(series%c, 2) == 0) points(2) = 1
       allocate (values(points(1), points(2)))
       call transform%start(points, even=.false., whole=.true.)
-      if (series%is_even() .and. product(points) <= most_direct) then
-         x = cosine_table(points(1), 2*ubound(series%c, 1))   ! cos(pi k 2 i/M), k = 0 .. M
-         y = cosine_table(points(2), 2*ubound(series%c, 2))
-         values = matmul(x(:points(1), ::2), matmul(series%c, transpose(y(:points(2), ::2))))
-      else
-         call transform%sample(series, values)
-      end if
+      call transform%sample(series, values)
       largest = maxval(abs(values))
       hidden = (most_between - 1.0_dp)*largest
       best = maxloc(values)
@@ -65,8 +56,7 @@ contains
       place = 0.0_dp
       do i = 1, most_crests
          crest = [transform%x_angle(best(1)), transform%y_angle(best(2))]
-         call field%maximise(crest)
-         found = field%height(crest)
+         call field%maximise(crest, found)
          if (found > peak + rounding*largest) then
             peak = found
             place = crest
@@ -92,21 +82,15 @@ contains
       end do
    end subroutine remove_crest
 
-   pure real(dp) function height(self, place)
+   pure subroutine expand(self, place, height, gradient, hessian)
       class(series_maximiser), intent(in) :: self
       real(dp), intent(in) :: place(2)
-
-      height = self%series%at(place(1), place(2))
-   end function height
-
-   pure subroutine derivatives(self, place, gradient, hessian)
-      class(series_maximiser), intent(in) :: self
-      real(dp), intent(in) :: place(2)
-      real(dp), intent(out) :: gradient(2), hessian(3)
+      real(dp), intent(out) :: height, gradient(2), hessian(3)
 
       real(dp) :: cx, cy, sx, sy, f, f_x, f_y, f_xy
       integer :: i, j
 
+      height = 0.0_dp
       gradient = 0.0_dp
       hessian = 0.0_dp
       associate (series => self%series)
@@ -126,12 +110,13 @@ contains
                   f_y = f_y + series%cs(i, j)*cx*cy - series%sc(i, j)*sx*sy + series%ss(i, j)*sx*cy
                   f_xy = f_xy - series%cs(i, j)*sx*cy - series%sc(i, j)*cx*sy + series%ss(i, j)*cx*cy
                end if
+               height = height + f
                gradient = gradient + [i*f_x, j*f_y]
                hessian = hessian + [-real(i, dp)**2*f, i*j*f_xy, -real(j, dp)**2*f]
             end do
          end do
          if (ubound(series%c, 2) == 0) hessian(2:3) = [0.0_dp, hessian(1)]
       end associate
-   end subroutine derivatives
+   end subroutine expand
 
 end module wavycon_series_peak

@@ -21,71 +21,13 @@ contains
       !> How often the points fit into the cell along x and y, 1 or 2; 1 if absent.
       integer, intent(in), optional :: parts(2)
 
-      real(dp), allocatable :: all_values(:, :)
-      logical :: is_part
-
-      is_part = .false.
-      if (present(parts)) is_part = any(parts > 1)
-      if (.not. is_part) then
-         call sample_whole(series, points, offset, values)
-      else if (series%is_even() .and. &
-               all(merge(abs(offset - 0.5_dp) <= 0.0_dp, ubound(series%c) == 0, parts == 2))) then
-         call sample_quarter(series, points, values)
+      if (present(parts)) then
+         call sample_whole(series, parts*points, offset, values)
+         values = values(:points(1), :points(2))
       else
-         call sample_whole(series, parts*points, offset, all_values)
-         allocate (values, source=all_values(:points(1), :points(2)))
+         call sample_whole(series, points, offset, values)
       end if
    end subroutine sample_series
-
-   !> An even series at X = pi (k + 1/2)/N_x, k = 0 .. N_x - 1, and the same in Y.
-   subroutine sample_quarter(series, points, values)
-      type(fourier_series), intent(in) :: series
-      integer, intent(in) :: points(2)
-      real(dp), allocatable, intent(out) :: values(:, :)
-
-      type(fourier_series) :: folded
-      type(grid_transform) :: transform
-      real(dp), allocatable :: sign_x(:), sign_y(:)
-      integer, allocatable :: wave_x(:), wave_y(:)
-      integer :: i, j
-
-      call fold(ubound(series%c, 1), points(1), wave_x, sign_x)
-      call fold(ubound(series%c, 2), points(2), wave_y, sign_y)
-      allocate (folded%c(0:points(1) - 1, 0:points(2) - 1), source=0.0_dp)
-      do j = 0, ubound(series%c, 2)
-         do i = 0, ubound(series%c, 1)
-            associate (c => folded%c(wave_x(i + 1), wave_y(j + 1)))
-               c = c + sign_x(i + 1)*sign_y(j + 1)*series%c(i, j)
-            end associate
-         end do
-      end do
-      allocate (values(points(1), points(2)))
-      call transform%start(points, even=.true., whole=.true.)
-      call transform%sample(folded, values)
-
-   contains
-
-      !> The slowest wave that cos(i X) equals at the points, and its sign: cos((2N - i) X) = -cos(i X), and
-      !> cos(N X) = 0.
-      pure subroutine fold(last, number, wave, sign)
-         integer, intent(in) :: last      !! highest wave number
-         integer, intent(in) :: number    !! N
-         integer, allocatable, intent(out) :: wave(:)   !! of i = 0 .. last
-         real(dp), allocatable, intent(out) :: sign(:)
-
-         integer :: k
-
-         wave = [(modulo(k, 4*number), k=0, last)]
-         sign = merge(-1.0_dp, 1.0_dp, wave > number .and. wave < 3*number)
-         where (wave > 2*number) wave = 4*number - wave
-         where (wave > number) wave = 2*number - wave
-         where (wave == number)
-            wave = 0
-            sign = 0.0_dp
-         end where
-      end subroutine fold
-
-   end subroutine sample_quarter
 
    !> The values on a whole cell.
    subroutine sample_whole(series, points, offset, values)

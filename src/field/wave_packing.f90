@@ -10,28 +10,26 @@ module wavycon_wave_packing
 
 contains
 
-   !> The coefficients of an even field from rows of its transform.
-   pure subroutine take_cosines(points, block, first, answer)
+   !> The coefficients of an even field from its spectrum.
+   pure subroutine take_cosines(points, spectrum, answer)
       integer, intent(in) :: points(2)                  !! M, N
-      real(dp), intent(in) :: block(:, :, :)
-      integer, intent(in) :: first                      !! wave number of the first row
-      type(fourier_series), intent(inout) :: answer
+      real(dp), intent(in) :: spectrum(:, :, :)         !! shape (1, wave numbers of the series in X, N)
+      type(fourier_series), intent(inout) :: answer     !! its arrays are those of own wave numbers
 
       integer :: k, l
 
       do l = 0, points(2) - 1
-         do k = first, first + size(block, 3) - 1
+         do k = lbound(answer%c, 1), ubound(answer%c, 1)
             answer%c(k, l) = merge(0.5_dp, 1.0_dp, k == 0)*merge(0.5_dp, 1.0_dp, l == 0)* &
-                             (block(1, l + 1, k - first + 1)/(real(points(1), dp)*points(2)))
+                             (spectrum(1, k - lbound(answer%c, 1) + 1, l + 1)/(real(points(1), dp)*points(2)))
          end do
       end do
    end subroutine take_cosines
 
    !> The coefficients of any other field.
-   pure subroutine take_waves(points, block, first, answer)
+   pure subroutine take_waves(points, spectrum, answer)
       integer, intent(in) :: points(2)                  !! M, N
-      real(dp), intent(in) :: block(:, :, :)
-      integer, intent(in) :: first                      !! wave number of the first row
+      real(dp), intent(in) :: spectrum(:, :, :)         !! real and imaginary part, shape (2, wave numbers, N)
       type(fourier_series), intent(inout) :: answer
 
       complex(dp) :: down, up
@@ -40,13 +38,13 @@ contains
 
       associate (m => points(1), n => points(2))
          do l = 0, n/2
-            do r = 1, size(block, 3)
-               k = first + r - 1
+            do r = 1, size(spectrum, 2)
+               k = lbound(answer%c, 1) + r - 1
                ! Of e^(i(kX + lY)) and e^(i(kX - lY)), which are equal for l = 0, and at all points for 2l = N.
                weight = merge(1.0_dp, 2.0_dp, k == 0 .or. 2*k == m)/(real(m, dp)*n)
-               up = weight*cmplx(block(1, l + 1, r), block(2, l + 1, r), dp)
+               up = weight*cmplx(spectrum(1, r, l + 1), spectrum(2, r, l + 1), dp)
                down = 0.0_dp
-               if (l > 0 .and. 2*l < n) down = weight*cmplx(block(1, n - l + 1, r), block(2, n - l + 1, r), dp)
+               if (l > 0 .and. 2*l < n) down = weight*cmplx(spectrum(1, r, n - l + 1), spectrum(2, r, n - l + 1), dp)
                answer%c(k, l) = real(up + down)
                answer%sc(k, l) = -aimag(up + down)
                if (l > 0 .and. 2*l < n) then
@@ -59,36 +57,35 @@ contains
    end subroutine take_waves
 
    !> The inverse of `take_cosines`; the number of points may differ.
-   pure subroutine give_cosines(points, from, first, block, power, per_wave)
-      integer, intent(in) :: points(2)                  !! M, N
+   pure subroutine give_cosines(points, from, spectrum, power, per_wave)
+      integer, intent(in) :: points(2)                    !! M, N
       type(fourier_series), intent(in) :: from
-      integer, intent(in) :: first                        !! wave number of the first row
-      real(dp), intent(inout) :: block(:, :, :)
+      real(dp), intent(inout) :: spectrum(:, :, :)        !! of the first wave numbers of the series in X
       integer, intent(in), optional :: power              !! as of `grid_transform%sample`
       real(dp), intent(in), optional :: per_wave(2)
 
-      integer :: k, l
+      integer :: k, l, r
 
-      block = 0.0_dp
+      spectrum = 0.0_dp
       do l = 0, min(points(2) - 1, ubound(from%c, 2))
-         do k = first, first + size(block, 3) - 1
-            block(1, l + 1, k - first + 1) = merge(1.0_dp, 0.5_dp, k == 0)*merge(1.0_dp, 0.5_dp, l == 0)* &
-                                             from%c(k, l)*factor(k, l, power, per_wave)
+         do r = 1, size(spectrum, 2)
+            k = lbound(from%c, 1) + r - 1
+            spectrum(1, r, l + 1) = merge(1.0_dp, 0.5_dp, k == 0)*merge(1.0_dp, 0.5_dp, l == 0)* &
+                                    from%c(k, l)*factor(k, l, power, per_wave)
          end do
       end do
    end subroutine give_cosines
 
    !> The inverse of `take_waves`; the number of points may differ.
-   pure subroutine give_waves(points, from, first, block, power, per_wave)
-      integer, intent(in) :: points(2)                  !! M, N
+   pure subroutine give_waves(points, from, spectrum, power, per_wave)
+      integer, intent(in) :: points(2)                    !! M, N
       type(fourier_series), intent(in) :: from
-      integer, intent(in) :: first                        !! wave number of the first row
-      real(dp), intent(inout) :: block(:, :, :)
+      real(dp), intent(inout) :: spectrum(:, :, :)        !! of the first wave numbers of the series in X
       integer, intent(in), optional :: power              !! as of `grid_transform%sample`
       real(dp), intent(in), optional :: per_wave(2)
 
       !> One half where k and -k are two waves, and whether they have sines.
-      real(dp), dimension(size(block, 3)) :: halves, sines
+      real(dp), dimension(size(spectrum, 2)) :: halves, sines
       real(dp) :: weight
       real(dp) :: of_c, of_cs, of_sc, of_ss
       integer :: k, l, last, r
@@ -100,14 +97,15 @@ contains
       of_ss = 0.0_dp
       associate (m => points(1), n => points(2))
          last = min(n/2, ubound(from%c, 2))
-         block(:, last + 2:n - last, :) = 0.0_dp
-         do r = 1, size(block, 3)
-            halves(r) = merge(1.0_dp, 0.5_dp, first + r == 1 .or. 2*(first + r - 1) == m)
+         spectrum(:, :, last + 2:n - last) = 0.0_dp
+         do r = 1, size(spectrum, 2)
+            k = lbound(from%c, 1) + r - 1
+            halves(r) = merge(1.0_dp, 0.5_dp, k == 0 .or. 2*k == m)
             sines(r) = merge(0.0_dp, 1.0_dp, halves(r) > 0.5_dp)
          end do
          do l = 0, last
-            do r = 1, size(block, 3)
-               k = first + r - 1
+            do r = 1, size(spectrum, 2)
+               k = lbound(from%c, 1) + r - 1
                weight = halves(r)*factor(k, l, power, per_wave)
                of_c = weight*from%c(k, l)
                if (.not. even) then
@@ -116,10 +114,10 @@ contains
                   of_ss = weight*sines(r)*from%ss(k, l)
                end if
                if (l == 0 .or. 2*l == n) then
-                  block(:, l + 1, r) = [of_c, -of_sc]
+                  spectrum(:, r, l + 1) = [of_c, -of_sc]
                else
-                  block(:, l + 1, r) = 0.5_dp*[of_c - of_ss, -of_sc - of_cs]
-                  block(:, n - l + 1, r) = 0.5_dp*[of_c + of_ss, of_cs - of_sc]
+                  spectrum(:, r, l + 1) = 0.5_dp*[of_c - of_ss, -of_sc - of_cs]
+                  spectrum(:, r, n - l + 1) = 0.5_dp*[of_c + of_ss, of_cs - of_sc]
                end if
             end do
          end do

@@ -223,7 +223,7 @@ contains
       quarters = 0
       do
          count = count + 1
-         if (count > size(points, 2)) call lengthen(points)
+         if (count > size(points, 2)) points = reshape(points, [2, 2*size(points, 2)], pad=[0.0_dp])
          points(:, count) = [last%phi, last%theta]
          place = numbers%wrap(k, l)
          if (btest(seen(place(1), place(2)), number)) exit
@@ -253,16 +253,6 @@ contains
       allocate (curve%phi, source=points(1, :count))
       allocate (curve%theta, source=points(2, :count))
    end subroutine trace
-
-   subroutine lengthen(points)
-      real(dp), allocatable, intent(inout) :: points(:, :)
-
-      real(dp), allocatable :: longer(:, :)
-
-      allocate (longer(2, 2*size(points, 2)))
-      longer(:, :size(points, 2)) = points
-      call move_alloc(longer, points)
-   end subroutine lengthen
 
    !> Whether a cell is known to have no edge: its corners belong to one region. It lies inside the rows.
    pure logical function is_uniform(numbers, k, l)

@@ -60,8 +60,8 @@ module wavycon_contact_edge
 contains
 
    !> The area in contact of one cell that the edge crosses [rad^2]: that of the polygon of its corners in contact and
-   !> the edge's points on its sides, less what `beside_chord` gives. In a cell that the edge enters twice the two parts
-   !> in contact are taken as connected.
+   !> the edge's points on its sides, less what `beside_chord` gives, with `area_correction`. In a cell that the edge
+   !> enters twice the two parts in contact are taken as connected.
    pure real(dp) function cell_area(self, k, l) result(area)
       class(contact_edge), intent(in) :: self
       integer, intent(in) :: k, l
@@ -93,7 +93,22 @@ contains
          area = area + 0.5_dp*(points(i)%phi*points(next)%theta - points(next)%phi*points(i)%theta)
          if (leaves(i)) area = area - self%beside_chord(points(i), points(next))
       end do
+      area = area + self%area_correction(k, l, turns(corners))
    end function cell_area
+
+   !> Turns of the edge in one cell, positive where the contact is convex; their sum over a closed edge is 1 or -1.
+   pure real(dp) function turns(corners)
+      logical, intent(in) :: corners(4)   !! whether they are in contact, counter-clockwise
+
+      select case (count(corners))
+      case (1)
+         turns = 0.25_dp
+      case (2)
+         turns = merge(-0.5_dp, 0.0_dp, (corners(1) .eqv. corners(3)) .and. (corners(1) .neqv. corners(2)))
+      case default
+         turns = -0.25_dp
+      end select
+   end function turns
 
    !> Area between the chord from one point of the edge to the next and the edge, on the side of the contact, which is
    !> on the left [rad^2]. The edge is the cubic curve with the directions at its ends, or straight where they are not

@@ -1,16 +1,22 @@
 !> The area of contact of a solution on the points of a grid, by the edge between the points: eqs. (C11), (C12) of
-!> src/contact/README.md. In 1-D also the edges.
+!> src/contact/README.md; in 1-D also the edges. For comparison with other programs the number of points in contact, and
+!> its correction by the number of changes along the lines of the grid: (C26). How closely the load stands together.
 module wavycon_grid_area
+   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_assertion, only: assert
    use wavycon_constants, only: pi
-   use wavycon_grid_edge, only: aligned_part, angle_steps, balance, grid_edge
+   use wavycon_grid_edge, only: angle_steps, balance, grid_edge
    use wavycon_grid_points, only: point_angle
    use wavycon_kinds, only: dp
    use wavycon_line_zeros, only: length_inside
    implicit none (type, external)
    private
 
-   public :: grid_contact_area, grid_strip_edges
+   public :: corrected_area_fraction, counted_area_fraction, edge_crossings, grid_contact_area, grid_strip_edges, &
+      load_concentration
+
+   !> c of (C26), the area by which each change makes the counted area too large, in cells of the grid.
+   real(dp), parameter :: area_of_change = (pi - 1.0_dp + log(2.0_dp))/24
 
 contains
 
@@ -47,11 +53,10 @@ contains
       integer, intent(in) :: l   !! the column of points before
 
       logical :: high(0:edge%slab%points(1) + 1), low(0:edge%slab%points(1) + 1)
-      real(dp) :: share, steps(2)
+      real(dp) :: share
       integer :: i, m
 
       m = edge%slab%points(1)
-      steps = angle_steps(edge)
       low = edge%column(l) > 0.0_dp
       high = edge%column(l + 1) > 0.0_dp
       area = 0.0_dp
@@ -66,27 +71,10 @@ contains
          if (all([low(i:i + 1), high(i:i + 1)])) then
             area = area + share
          else if (any([low(i:i + 1), high(i:i + 1)])) then
-            area = area + share*(edge%cell_area(i, l)/product(steps) &
-                                 + edge%rule%turn_area*turns(low(i:i + 1), high(i:i + 1)) &
-                                 + aligned_part(edge, i, l, low(i:i + 1), high(i:i + 1)))
+            area = area + share*edge%cell_area(i, l)/product(angle_steps(edge))
          end if
       end do
    end function area_of_cells
-
-   !> Turns of the edge in one cell, positive where the contact is convex; their sum over a closed edge is 1 or -1.
-   !> Parts in contact that meet at a corner are taken as connected, as in cell_area.
-   pure real(dp) function turns(low, high)
-      logical, intent(in) :: low(2), high(2)   !! whether the corners are in contact
-
-      select case (count([low, high]))
-      case (1)
-         turns = 0.25_dp
-      case (2)
-         turns = merge(-0.5_dp, 0.0_dp, (low(1) .eqv. high(2)) .and. (low(1) .neqv. low(2)))
-      case default
-         turns = -0.25_dp
-      end select
-   end function turns
 
    !> The edges of contact in 1-D, ascending [rad]: between 0 and pi of an even surface, otherwise within a period from
    !> the first point.
@@ -131,5 +119,71 @@ contains
       ! A contact of one point has no negative width.
       if (.not. edge%in_contact(k - dk, 1)) distance = max(distance, 0.0_dp)
    end function distance_to_edge
+
+   !> Points in contact over all points.
+   real(dp) function counted_area_fraction(edge) result(fraction)
+      type(grid_edge), intent(in) :: edge
+
+      integer(int64) :: total(1)
+
+      total = count(edge%pressure_or_gap > 0.0_dp, kind=int64)
+      call edge%slab%add(total)
+      fraction = total(1)/real(edge%number_of_points(), dp)
+   end function counted_area_fraction
+
+   !> The counted area less c for each change from contact to gap (C26).
+   real(dp) function corrected_area_fraction(edge) result(fraction)
+      type(grid_edge), intent(in) :: edge   !! of a surface: a profile has no lines in a second direction
+
+      fraction = counted_area_fraction(edge) - area_of_change*edge_crossings(edge)/edge%number_of_points()
+   end function corrected_area_fraction
+
+   !> Number of pairs of neighbouring points of the grid, along both directions, of which one is in contact and the
+   !> other is not. On a whole cell the last points are neighbours of the first; on a quarter those next to a mirror
+   !> line have their own images as neighbours.
+   integer(int64) function edge_crossings(edge) result(crossings)
+      type(grid_edge), intent(in) :: edge   !! with the columns of the neighbours, if the grid is distributed
+
+      logical :: here(0:edge%slab%points(1) + 1), next(0:edge%slab%points(1) + 1)
+      integer(int64) :: total(1)
+      integer :: j, m
+
+      m = edge%slab%points(1)
+      total = 0
+      if (edge%slab%columns() > 0) next = edge%column(edge%slab%first) > 0.0_dp
+      do j = edge%slab%first, edge%slab%last
+         here = next
+         next = edge%column(j + 1) > 0.0_dp
+         total = total + count(here(1:m) .neqv. here(2:)) + count(here(1:m) .neqv. next(1:m))
+      end do
+      call edge%slab%add(total)
+      crossings = total(1)
+   end function edge_crossings
+
+   !> |mean of exp(i X)| with the pressure as weight, or of exp(i Y) if that is less: 1 if all load is at one place,
+   !> about 1 - (2 pi d/L)^2/2 if it has the standard deviation d along a side L, 0 if it is distributed evenly.
+   real(dp) function load_concentration(edge) result(least)
+      type(grid_edge), intent(in) :: edge   !! on the whole cell or, of an even surface, its quarter
+
+      real(dp) :: p, phi, sums(5), theta
+      integer :: j, k
+
+      sums = 0.0_dp
+      do j = edge%slab%first, edge%slab%last
+         do k = 1, edge%slab%points(1)
+            p = edge%pressure_or_gap(k, j - edge%slab%first + 1)
+            if (p <= 0.0_dp) cycle
+            call edge%angles(k, j, phi, theta)
+            sums = sums + p*[1.0_dp, cos(phi), sin(phi), cos(theta), sin(theta)]
+         end do
+      end do
+      call edge%slab%add(sums)
+      least = 0.0_dp
+      if (.not. sums(1) > 0.0_dp) return
+      sums = sums/sums(1)
+      ! The sines of the other quarters are those of the first with the other sign.
+      if (edge%even) sums([3, 5]) = 0.0_dp
+      least = min(norm2(sums(2:3)), norm2(sums(4:5)))
+   end function load_concentration
 
 end module wavycon_grid_area

@@ -16,8 +16,7 @@ module wavycon_grid_peak
       real(dp) :: values(first:last, first:last) = 0.0_dp
       logical :: in_plane = .true.
    contains
-      procedure :: height
-      procedure :: derivatives
+      procedure :: expand
    end type peak_polynomial
 
 contains
@@ -29,22 +28,13 @@ contains
       real(dp), intent(out) :: peak        !! in the unit of the edge's pressure
       logical, intent(out) :: resolved     !! whether all of these points are in contact
 
-      real(dp) :: answer(2), column(1), highest(1)
+      real(dp) :: answer(2), highest
       integer :: best(2)
-      logical :: has_highest
 
-      best = maxloc(edge%pressure_or_gap)
-      best(2) = best(2) + edge%slab%first - 1
-      highest = maxval(edge%pressure_or_gap)
-      call edge%slab%largest(highest)
-      ! The first in the order of the grid, of equal ones: the slab that has the least column computes the peak.
-      has_highest = all(best >= 1) .and. edge%slab%columns() > 0
-      if (has_highest) has_highest = .not. edge%pressure_or_gap(best(1), best(2) - edge%slab%first + 1) < highest(1)
-      column = -huge(column)
-      if (has_highest) column = -best(2)
-      call edge%slab%largest(column)
+      ! The slab that has the first of the highest points computes the peak.
+      call edge%slab%find_largest(edge%pressure_or_gap, highest, best)
       answer = 0.0_dp
-      if (has_highest .and. best(2) == nint(-column(1))) then
+      if (best(2) >= edge%slab%first .and. best(2) <= edge%slab%last) then
          call find_peak(edge, best, peak, resolved)
          answer = [peak, merge(1.0_dp, 0.0_dp, resolved)]
       end if
@@ -63,7 +53,7 @@ contains
       !> The search leaves the step of the peak by no more than half a step.
       real(dp), parameter :: margin = 0.5_dp
       type(peak_polynomial) :: field
-      real(dp) :: place(2)
+      real(dp) :: height, place(2)
       integer :: base(2), i, j
       logical :: in_plane
 
@@ -84,29 +74,23 @@ contains
       peak = max(maxval(field%values), 0.0_dp)
       if (.not. resolved) return
       place = best - base
-      call field%maximise(place)
-      peak = max(peak, field%height(place))
+      call field%maximise(place, height)
+      peak = max(peak, height)
    end subroutine find_peak
 
-   pure real(dp) function height(self, place)
+   pure subroutine expand(self, place, height, gradient, hessian)
       class(peak_polynomial), intent(in) :: self
       real(dp), intent(in) :: place(2)
+      real(dp), intent(out) :: height, gradient(2), hessian(3)
 
       height = polynomial(self%values, place, 0, 0)
-   end function height
-
-   pure subroutine derivatives(self, place, gradient, hessian)
-      class(peak_polynomial), intent(in) :: self
-      real(dp), intent(in) :: place(2)
-      real(dp), intent(out) :: gradient(2), hessian(3)
-
       gradient = [polynomial(self%values, place, 1, 0), 0.0_dp]
       hessian = [polynomial(self%values, place, 2, 0), 0.0_dp, 0.0_dp]
       hessian(3) = hessian(1)
       if (.not. self%in_plane) return
       gradient(2) = polynomial(self%values, place, 0, 1)
       hessian(2:3) = [polynomial(self%values, place, 1, 1), polynomial(self%values, place, 0, 2)]
-   end subroutine derivatives
+   end subroutine expand
 
    !> The polynomial through the values, or a derivative of it.
    pure real(dp) function polynomial(values, t, order_x, order_y)

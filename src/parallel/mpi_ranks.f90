@@ -1,42 +1,29 @@
 !> The ranks of the parallel program, by MPI.
 module wavycon_mpi_ranks
    use, intrinsic :: iso_fortran_env, only: error_unit, int64
-   use mpi_f08, only: mpi_abort, mpi_allgatherv, mpi_allreduce, mpi_alltoallv, mpi_bcast, mpi_byte, mpi_character, &
-      mpi_comm, mpi_comm_free, mpi_comm_rank, mpi_comm_size, mpi_comm_split_type, mpi_comm_type_shared, &
-      mpi_comm_world, mpi_datatype, mpi_double_precision, mpi_error_string, mpi_file, mpi_file_close, mpi_file_open, &
-      mpi_file_write_at_all, mpi_finalize, mpi_gatherv, mpi_get_count, mpi_get_library_version, &
-      mpi_ibarrier, mpi_in_place, mpi_info_null, mpi_init_thread, mpi_integer, mpi_integer8, mpi_irecv, mpi_isend, &
-      mpi_logical, mpi_lor, mpi_max, mpi_max_error_string, mpi_max_library_version_string, &
-      mpi_mode_wronly, mpi_offset_kind, mpi_request, mpi_status, mpi_status_ignore, mpi_statuses_ignore, mpi_success, &
-      mpi_sum, mpi_test, mpi_thread_funneled, mpi_type_commit, mpi_type_contiguous, mpi_type_free, mpi_waitall
+   use mpi_f08, only: mpi_abort, mpi_address_kind, mpi_allreduce, mpi_alltoallv, mpi_alltoallw, mpi_byte, mpi_comm, &
+      mpi_comm_free, mpi_comm_rank, mpi_comm_size, mpi_comm_split_type, mpi_comm_type_shared, mpi_comm_world, &
+      mpi_datatype, mpi_double_precision, mpi_finalize, mpi_get_library_version, mpi_ibarrier, mpi_in_place, &
+      mpi_info_null, mpi_init_thread, mpi_integer8, mpi_irecv, mpi_isend, mpi_max, mpi_max_library_version_string, &
+      mpi_request, mpi_status_ignore, mpi_statuses_ignore, mpi_sum, mpi_test, mpi_thread_funneled, mpi_type_commit, &
+      mpi_type_contiguous, mpi_type_create_hindexed_block, mpi_type_free, mpi_type_vector, mpi_waitall
    use wavycon_error, only: exit_bad_input, exit_file_trouble
    use wavycon_kinds, only: dp
-   use wavycon_mpi_rows, only: start_mpi_rows
-   use wavycon_ranks, only: communicator, row_exchange, use_communicator
+   use wavycon_ranks, only: communicator, use_communicator
    implicit none (type, external)
    private
 
    public :: start_mpi
 
-   integer, parameter :: message_length = 512   !! of the compiler's messages
-
    type, extends(communicator) :: mpi_communicator
-      integer :: this = 0, number = 1, on_machine = 1
    contains
-      procedure :: rank => own_rank
-      procedure :: ranks
-      procedure :: ranks_on_machine
       procedure :: add_reals
       procedure :: add_integers
       procedure :: largest
       procedure :: exchange
-      procedure :: gather
       procedure :: move
-      procedure :: new_row_exchange
-      procedure :: share_text
-      procedure :: write_columns
+      procedure :: exchange_rows
       procedure :: finish
-      procedure :: library
    end type mpi_communicator
 
 contains
@@ -45,8 +32,9 @@ contains
    subroutine start_mpi()
       class(communicator), allocatable :: comm
       type(mpi_communicator), allocatable :: own
+      character(mpi_max_library_version_string) :: library
       type(mpi_comm) :: machine
-      integer :: provided
+      integer :: length, provided
 
       allocate (own)
       call mpi_init_thread(mpi_thread_funneled, provided)
@@ -54,32 +42,17 @@ contains
          write (error_unit, '(a)') 'wavycon: this MPI library does not allow threads in its processes'
          call mpi_abort(mpi_comm_world, 1)
       end if
-      call mpi_comm_rank(mpi_comm_world, own%this)
-      call mpi_comm_size(mpi_comm_world, own%number)
+      call mpi_comm_rank(mpi_comm_world, own%rank)
+      call mpi_comm_size(mpi_comm_world, own%ranks)
       call mpi_comm_split_type(mpi_comm_world, mpi_comm_type_shared, 0, mpi_info_null, machine)
-      call mpi_comm_size(machine, own%on_machine)
+      call mpi_comm_size(machine, own%ranks_on_machine)
       call mpi_comm_free(machine)
+      call mpi_get_library_version(library, length)
+      ! As the library calls itself up to the first comma or line.
+      own%library = trim(library(:scan(library(:length)//new_line('a'), ','//new_line('a')) - 1))
       call move_alloc(own, comm)
       call use_communicator(comm)
    end subroutine start_mpi
-
-   pure integer function own_rank(self)
-      class(mpi_communicator), intent(in) :: self
-
-      own_rank = self%this
-   end function own_rank
-
-   pure integer function ranks(self)
-      class(mpi_communicator), intent(in) :: self
-
-      ranks = self%number
-   end function ranks
-
-   pure integer function ranks_on_machine(self)
-      class(mpi_communicator), intent(in) :: self
-
-      ranks_on_machine = self%on_machine
-   end function ranks_on_machine
 
    subroutine add_reals(self, values)
       class(mpi_communicator), intent(in) :: self
@@ -132,29 +105,6 @@ contains
    end subroutine exchange
 
    !> N.B. Counts are numbers of columns: numbers of bytes may exceed the integers of MPI.
-   subroutine gather(self, column_bytes, columns, own, whole, first_only)
-      class(mpi_communicator), intent(in) :: self
-      integer, intent(in) :: column_bytes
-      integer, intent(in) :: columns(0:)
-      type(*), intent(in), target :: own(*)
-      type(*), intent(inout), target :: whole(*)
-      logical, intent(in) :: first_only
-
-      integer :: i, places(0:size(columns) - 1)
-      type(mpi_datatype) :: column
-
-      places = [(sum(columns(0:i - 1)), i=0, size(columns) - 1)]
-      call mpi_type_contiguous(column_bytes, mpi_byte, column)
-      call mpi_type_commit(column)
-      if (first_only) then
-         call mpi_gatherv(own, columns(self%this), column, whole, columns, places, column, 0, mpi_comm_world)
-      else
-         call mpi_allgatherv(own, columns(self%this), column, whole, columns, places, column, mpi_comm_world)
-      end if
-      call mpi_type_free(column)
-   end subroutine gather
-
-   !> N.B. Counts are numbers of columns, as in `gather`.
    subroutine move(self, column_bytes, have, own, want, wanted)
       class(mpi_communicator), intent(in) :: self
       integer, intent(in) :: column_bytes
@@ -162,10 +112,10 @@ contains
       type(*), intent(in), target :: own(*)
       type(*), intent(inout), target :: wanted(*)
 
-      integer, dimension(0:self%number - 1) :: received, received_at, sent, sent_at
+      integer, dimension(0:self%ranks - 1) :: received, received_at, sent, sent_at
       type(mpi_datatype) :: column
 
-      associate (mine => self%this)
+      associate (mine => self%rank)
          sent_at = max(have(1, mine), want(1, :)) - have(1, mine)
          sent = max(0, min(have(2, mine), want(2, :)) - have(1, mine) + 1 - sent_at)
          received_at = max(have(1, :), want(1, mine)) - want(1, mine)
@@ -177,101 +127,62 @@ contains
       call mpi_type_free(column)
    end subroutine move
 
-   subroutine new_row_exchange(self, columns, rows, width, numbers, precision, exchange)
+   !> Messages are described to MPI as they lie in the arrays: nothing is copied before or after.
+   subroutine exchange_rows(self, bytes, columns, rows, by_columns, by_rows, to_rows)
       class(mpi_communicator), intent(in) :: self
-      integer, intent(in) :: columns, rows, width, numbers, precision
-      class(row_exchange), allocatable, intent(out) :: exchange
+      integer, intent(in) :: bytes
+      integer, intent(in) :: columns(:, 0:), rows(:, 0:)
+      type(*), intent(inout), target :: by_columns(*), by_rows(*)
+      logical, intent(in) :: to_rows
 
-      call start_mpi_rows(self%this, self%number, columns, rows, width, numbers, precision, exchange)
-   end subroutine new_row_exchange
+      !> The part of the own columns that is a rank's rows, and the part of the own rows that is its columns.
+      type(mpi_datatype), dimension(0:self%ranks - 1) :: in_columns, in_rows
+      integer, dimension(0:self%ranks - 1) :: number_of_columns, number_of_rows, nowhere   ! messages: 1 or 0
+      integer :: columns_of(0:self%ranks - 1), i, own_columns, own_rows, rows_of(0:self%ranks - 1)
 
-   subroutine share_text(self, from, text)
-      class(mpi_communicator), intent(in) :: self
-      integer, intent(in) :: from
-      character(:), allocatable, intent(inout) :: text
-
-      integer :: length
-
-      length = len(text)
-      call mpi_bcast(length, 1, mpi_integer, from, mpi_comm_world)
-      if (self%this /= from) then
-         deallocate (text)
-         allocate (character(length) :: text)
-      end if
-      call mpi_bcast(text, length, mpi_character, from, mpi_comm_world)
-   end subroutine share_text
-
-   !> Writes the columns of all ranks at a time.
-   !>
-   !> N.B. Files report their errors by default, other procedures of MPI end the program. Counts are numbers of columns,
-   !> as in `gather`.
-   subroutine write_columns(self, path, start, number_bytes, rows, first, columns, values, failure)
-      class(mpi_communicator), intent(in) :: self
-      character(*), intent(in) :: path
-      integer(int64), intent(in) :: start
-      integer, intent(in) :: number_bytes, rows, first, columns
-      type(*), intent(inout), target :: values(*)
-      character(:), allocatable, intent(out) :: failure
-
-      integer :: code, written
-      integer(mpi_offset_kind) :: place
-      logical :: is_missing
-      type(mpi_datatype) :: column
-      type(mpi_file) :: file
-      type(mpi_status) :: status
-
-      associate (unused => self); end associate
-      call check_access(path, failure)
-      call mpi_allreduce(allocated(failure), is_missing, 1, mpi_logical, mpi_lor, mpi_comm_world)
-      if (is_missing) return
-      call mpi_file_open(mpi_comm_world, path, mpi_mode_wronly, mpi_info_null, file, code)
-      if (code /= mpi_success) then
-         failure = words_of(code)
-         return
-      end if
-      call mpi_type_contiguous(rows*number_bytes, mpi_byte, column)
-      call mpi_type_commit(column)
-      place = start + int(first - 1, int64)*rows*number_bytes
-      call mpi_file_write_at_all(file, place, values, columns, column, status, code)
-      if (code /= mpi_success) then
-         failure = words_of(code)
+      columns_of = columns(2, :) - columns(1, :) + 1
+      rows_of = rows(2, :) - rows(1, :) + 1
+      own_columns = columns_of(self%rank)
+      own_rows = rows_of(self%rank)
+      nowhere = 0
+      number_of_columns = merge(1, 0, rows_of > 0 .and. own_columns > 0)
+      number_of_rows = merge(1, 0, columns_of > 0 .and. own_rows > 0)
+      do i = 0, self%ranks - 1
+         in_columns(i) = part_of(bytes, own_columns, rows_of(i), sum(rows_of), &
+                                 int(sum(rows_of(:i - 1)), mpi_address_kind))
+         in_rows(i) = part_of(bytes, columns_of(i), own_rows, own_rows, &
+                              int(own_rows, mpi_address_kind)*sum(columns_of(:i - 1)))
+      end do
+      if (to_rows) then
+         call mpi_alltoallw(by_columns, number_of_columns, nowhere, in_columns, by_rows, number_of_rows, nowhere, &
+                            in_rows, mpi_comm_world)
       else
-         call mpi_get_count(status, column, written)
-         if (written /= columns) failure = 'the disk may be full'
+         call mpi_alltoallw(by_rows, number_of_rows, nowhere, in_rows, by_columns, number_of_columns, nowhere, &
+                            in_columns, mpi_comm_world)
       end if
-      call mpi_type_free(column)
-      call mpi_file_close(file, code)
-      if (code /= mpi_success .and. .not. allocated(failure)) failure = words_of(code)
-   end subroutine write_columns
+      do i = 0, self%ranks - 1
+         call mpi_type_free(in_columns(i))
+         call mpi_type_free(in_rows(i))
+      end do
+   end subroutine exchange_rows
 
-   !> Whether this rank can write to a file that exists. If one rank cannot, as on a machine that does not share the
-   !> disk, Open MPI 4 opens the file on the others, and these would wait for it for ever.
-   subroutine check_access(path, failure)
-      character(*), intent(in) :: path
-      character(:), allocatable, intent(out) :: failure   !! the system's words; not allocated: it can
+   !> The type of runs of elements at equal distances from a place on.
+   type(mpi_datatype) function part_of(bytes, runs, length, distance, start) result(part)
+      integer, intent(in) :: bytes              !! of an element
+      integer, intent(in) :: runs
+      integer, intent(in) :: length, distance   !! elements
+      !> Elements; it may exceed the integers of mpi_alltoallw.
+      integer(mpi_address_kind), intent(in) :: start
 
-      character(message_length) :: words
-      integer :: status, unit
+      type(mpi_datatype) :: all_runs, element
 
-      open (newunit=unit, file=path, status='old', access='stream', action='write', iostat=status, iomsg=words)
-      if (status == 0) then
-         close (unit)
-      else
-         failure = trim(words)
-      end if
-   end subroutine check_access
-
-   !> MPI's words for an error.
-   function words_of(code) result(words)
-      integer, intent(in) :: code
-      character(:), allocatable :: words
-
-      character(mpi_max_error_string) :: buffer
-      integer :: length
-
-      call mpi_error_string(code, buffer, length)
-      words = buffer(:length)
-   end function words_of
+      call mpi_type_contiguous(bytes, mpi_byte, element)
+      call mpi_type_vector(runs, length, distance, element, all_runs)
+      call mpi_type_create_hindexed_block(1, 1, [start*bytes], all_runs, part)
+      call mpi_type_commit(part)
+      call mpi_type_free(all_runs)
+      call mpi_type_free(element)
+   end function part_of
 
    !> Ends MPI on all ranks. A rank that ends by an error which the others do not know of would wait for them, as they
    !> do for it: after a while it ends them too.
@@ -292,24 +203,11 @@ contains
             if (all_are_here) exit
             call system_clock(now)
             if (now - begun <= patience*rate) cycle
-            write (error_unit, '(a, i0, a)') 'wavycon: process ', self%this, ' ends by an error of its own'
+            write (error_unit, '(a, i0, a)') 'wavycon: process ', self%rank, ' ends by an error of its own'
             call mpi_abort(mpi_comm_world, status)
          end do
       end if
       call mpi_finalize()
    end subroutine finish
-
-   !> The library of MPI, as it calls itself up to the first comma or line.
-   function library(self) result(text)
-      class(mpi_communicator), intent(in) :: self
-      character(:), allocatable :: text
-
-      character(mpi_max_library_version_string) :: buffer
-      integer :: length
-
-      associate (unused => self); end associate
-      call mpi_get_library_version(buffer, length)
-      text = trim(buffer(:scan(buffer(:length)//new_line('a'), ','//new_line('a')) - 1))
-   end function library
 
 end module wavycon_mpi_ranks

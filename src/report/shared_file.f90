@@ -4,13 +4,14 @@ module wavycon_shared_file
    use wavycon_error, only: error_type, exit_file_trouble, fatal_error
    use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
-   use wavycon_ranks, only: add_over_ranks, any_rank, comm, is_first_rank, share_error, share_text
+   use wavycon_ranks, only: add_over_ranks, any_rank, is_first_rank, share_error, share_text
    implicit none (type, external)
    private
 
    public :: shared_file
 
    integer, parameter :: bytes_of_number = storage_size(1.0_dp)/8
+   integer, parameter :: message_length = 512   !! of the compiler's messages
 
    type :: shared_file
       private
@@ -54,15 +55,28 @@ contains
       integer(int64), intent(in) :: before       !! numbers between the head and column 1
       integer, intent(in) :: rows                !! numbers of a column
       integer, intent(in) :: first, columns      !! of this rank; columns may be 0
-      real(dp), intent(inout) :: values(*)       !! size >= rows*columns
+      real(dp), intent(in) :: values(*)       !! size >= rows*columns
 
-      character(:), allocatable :: failure
+      character(message_length) :: words
       type(error_type), allocatable :: error
+      integer :: status, unit
 
       if (.not. self%is_open) return
-      call comm%write_columns(self%path, self%head + before*bytes_of_number, bytes_of_number, rows, first, columns, &
-                              values, failure)
-      if (allocated(failure)) call fatal_error(error, exit_file_trouble, failure)
+      if (columns > 0) then
+         associate (number => int(rows, int64)*columns, place => before + int(first - 1, int64)*rows)
+            open (newunit=unit, file=self%path, status='old', access='stream', action='write', iostat=status, &
+                  iomsg=words)
+            if (status == 0) then
+               write (unit, pos=self%head + place*bytes_of_number + 1, iostat=status, iomsg=words) values(:number)
+               if (status == 0) then
+                  close (unit, iostat=status, iomsg=words)
+               else
+                  close (unit)
+               end if
+            end if
+         end associate
+         if (status /= 0) call fatal_error(error, exit_file_trouble, trim(words))
+      end if
       call share_error(error)
       self%is_open = .not. allocated(error)
       if (allocated(error)) call self%file%note_trouble(error%message)

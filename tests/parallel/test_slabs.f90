@@ -3,30 +3,18 @@
 !> `mpirun -n N test_slabs` prints a line for each subject, and ends with status 1 if one of them fails. Grids and slabs
 !> are chosen for 1 to 5 ranks: all the same size, odd, ranks without columns, of the least width.
 program test_slabs
-   use, intrinsic :: iso_c_binding, only: c_bool
    use, intrinsic :: iso_fortran_env, only: int64
-   use rank_checks, only: check, end_checks, report
-   use wavycon_multilevel_preconditioner, only: multilevel_preconditioner
-   use wavycon_contact_region, only: contact_region
-   use wavycon_grid_refinement, only: refine_pressure
+   use rank_checks, only: check, end_checks, report, same
    use wavycon_grid_points, only: image_of_point
-   use wavycon_grid_slab, only: grid_slab, most_reach, strip_columns
+   use wavycon_grid_slab, only: column_layout, grid_slab, most_reach, strip_columns
    use wavycon_kinds, only: dp, sp
-   use wavycon_local_stiffness, only: local_stiffness
    use wavycon_mpi_ranks, only: start_mpi
-   use wavycon_ranks, only: add_over_ranks, comm, rank_count, row_exchange, this_rank, work_alone
-   use wavycon_surface, only: surface_of_points, surface_type
-   use wavycon_wave_2d, only: wave_2d
+   use wavycon_ranks, only: rank_count, this_rank, work_alone
    implicit none (type, external)
 
    !> Those that are distributed over two ranks or more, and two that never are: one too narrow, one too small.
    integer, parameter :: distributed_grids(2, 4) = reshape([256, 256, 509, 257, 2048, 40, 1024, 160], [2, 4])
    integer, parameter :: whole_grids(2, 2) = reshape([2048, 36, 300, 200], [2, 2])
-
-   !> Whether two arrays are equal to the last bit.
-   interface same
-      procedure :: same_line, same_grid, same_single
-   end interface same
 
    call start_mpi()
    call test_layouts()
@@ -34,11 +22,7 @@ program test_slabs
    call test_neighbours()
    call test_gathered_grids()
    call test_fetched_columns()
-   call test_first_rank()
    call test_row_exchange()
-   call test_extension()
-   call test_stencil()
-   call test_refinement()
    call end_checks()
 
 contains
@@ -132,8 +116,9 @@ contains
                if (slab%columns() > 0) then
                   before = places(slab%first - r, slab%first - 1, slab, even == 1)
                   behind = places(slab%last + 1, slab%last + r, slab, even == 1)
-                  call check(same(low, whole(:, before)) .and. same(high, whole(:, behind)))
-                  call check(same(low_single, single(:, before)) .and. same(high_single, single(:, behind)))
+                  call check(same([low], [whole(:, before)]) .and. same([high], [whole(:, behind)]))
+                  call check(same(real([low_single, high_single], dp), &
+                                  real([single(:, before), single(:, behind)], dp)))
                else
                   call check(all(low < 0.0_dp) .and. all(high < 0.0_dp))
                end if
@@ -158,7 +143,7 @@ contains
 
    subroutine test_gathered_grids()
       type(grid_slab) :: slab
-      real(dp), allocatable :: all_columns(:, :), whole(:, :)
+      real(dp), allocatable :: all_columns(:, :), gathered(:, :), whole(:, :)
       real(sp), allocatable :: all_single(:, :), single(:, :)
       integer :: k
 
@@ -170,8 +155,11 @@ contains
          allocate (all_single, mold=single)
          call slab%gather(whole(:, slab%first:slab%last), all_columns)
          call slab%gather(single(:, slab%first:slab%last), all_single)
-         call check(same(all_columns, whole))
-         call check(same(all_single, single))
+         call check(same([all_columns], [whole]))
+         call check(same(real([all_single], dp), real([single], dp)))
+         call slab%gather_to_first(whole(:, slab%first:slab%last), gathered)
+         call check(allocated(gathered) .eqv. this_rank() == 0)
+         if (allocated(gathered)) call check(same([gathered], [whole]))
          deallocate (all_columns, all_single)
       end do
       call report('gathered grids')
@@ -198,193 +186,41 @@ contains
          allocate (wanted(size(whole, 1), first:last))
          call slab%fetch(whole(:, slab%first:slab%last), even, first, wanted)
          do j = first, last
-            call check(same(wanted(:, j:j), whole(:, image_of_point(j, n, even):image_of_point(j, n, even))))
+            call check(same(wanted(:, j), whole(:, image_of_point(j, n, even))))
          end do
          deallocate (wanted)
       end do
       call report('fetched columns')
    end subroutine test_fetched_columns
 
-   subroutine test_first_rank()
-      type(grid_slab) :: slab
-      real(dp), allocatable :: gathered(:, :), whole(:, :)
-      integer :: k
-
-      do k = 1, size(distributed_grids, 2)
-         call slab%start(distributed_grids(:, k))
-         whole = numbers(distributed_grids(:, k))
-         call slab%gather_to_first(whole(:, slab%first:slab%last), gathered)
-         call check(allocated(gathered) .eqv. this_rank() == 0)
-         if (allocated(gathered)) call check(same(gathered, whole))
-      end do
-      call report('grids gathered to the first rank')
-   end subroutine test_first_rank
-
    subroutine test_row_exchange()
       ! Columns and rows of the matrix; some ranks have no rows, others no columns.
       integer, parameter :: matrices(2, 5) = reshape([96, 7, 65, 33, 160, 2, 33, 64, 257, 129], [2, 5])
-      class(row_exchange), allocatable :: exchange
+      type(grid_slab) :: slab
+      type(column_layout) :: rows
       real(dp), allocatable :: back(:, :, :), by_columns(:, :, :), by_rows(:, :, :), whole(:, :, :)
-      real(sp), allocatable :: back_single(:, :, :), single(:, :, :)
-      integer(int64) :: all_rows(1)
-      integer :: k, number, width
+      integer :: k, number
 
+      if (rank_count() == 1) return
       do k = 1, 2*size(matrices, 2)
          number = 1 + mod(k, 2)
-         associate (columns => matrices(1, (k + 1)/2), rows => matrices(2, (k + 1)/2))
-            width = strip_columns*(((columns - 1)/strip_columns)/rank_count() + 1)
-            whole = reshape(numbers([number*rows, columns]), [number, rows, columns])
-            associate (first => min(this_rank()*width, columns) + 1, last => min((this_rank() + 1)*width, columns))
-               by_columns = whole(:, :, first:last)
-               call comm%new_row_exchange(columns, rows, width, number, dp, exchange)
-               call check(exchange%own_columns == last - first + 1)
-            end associate
-            all_rows = exchange%own_rows
-            call add_over_ranks(all_rows)
-            call check(all_rows(1) == rows)
-            allocate (by_rows(number, exchange%own_rows, columns))
-            call exchange%to_rows(by_columns, by_rows)
-            whole = whole(:, exchange%first_row:exchange%first_row + exchange%own_rows - 1, :)
-            call check(same(pack(by_rows, .true.), pack(whole, .true.)))
-            allocate (back, mold=by_columns)
-            call exchange%to_columns(by_rows, back)
-            call check(same(pack(back, .true.), pack(by_columns, .true.)))
-            call comm%new_row_exchange(columns, rows, width, number, sp, exchange)
-            allocate (single(number, exchange%own_rows, columns), back_single(number, rows, exchange%own_columns))
-            call exchange%to_rows(real(by_columns, sp), single)
-            call check(same(real(pack(single, .true.), dp), real(real(pack(whole, .true.), sp), dp)))
-            call exchange%to_columns(single, back_single)
-            call check(same(real(pack(back_single, .true.), dp), real(real(pack(by_columns, .true.), sp), dp)))
+         associate (matrix => matrices(:, (k + 1)/2))
+            call slab%divide([1, matrix(1)])
+            call rows%divide([1, matrix(2)])
+            whole = reshape(numbers([number*matrix(2), matrix(1)]), [number, matrix(2), matrix(1)])
          end associate
-         deallocate (by_rows, back, single, back_single)
+         by_columns = whole(:, :, slab%first:slab%last)
+         allocate (by_rows(number, rows%columns(), size(whole, 3)))
+         allocate (back, mold=by_columns)
+         call slab%exchange_rows(rows, 8*number, by_columns, by_rows, to_rows=.true.)
+         whole = whole(:, rows%first:rows%last, :)
+         call check(same(pack(by_rows, .true.), pack(whole, .true.)))
+         call slab%exchange_rows(rows, 8*number, back, by_rows, to_rows=.false.)
+         call check(same(pack(back, .true.), pack(by_columns, .true.)))
+         deallocate (by_rows, back)
       end do
       call report('columns and rows')
    end subroutine test_row_exchange
-
-   subroutine test_extension()
-      ! Without coarser grids; with small ones only; with some that are distributed, all of them or not.
-      integer, parameter :: grids(2, 6) = reshape([509, 257, 256, 256, 2048, 40, 1024, 160, 802, 666, 2048, 640], &
-                                                  [2, 6])
-      type(grid_slab) :: slab
-      real(sp), allocatable, dimension(:, :) :: contact, collected, extended, own_collected, own_contact, own_extended
-      integer :: k
-      logical :: even
-
-      do k = 1, 2*size(grids, 2)
-         even = mod(k, 2) == 0
-         associate (points => grids(:, (k + 1)/2))
-            collected = real(numbers(points), sp)
-            contact = merge(1.0_sp, 0.0_sp, collected < 0.2_sp)
-            extended = contact*collected
-            call slab%start(points)
-            own_collected = collected(:, slab%first:slab%last)
-            own_contact = contact(:, slab%first:slab%last)
-            own_extended = extended(:, slab%first:slab%last)
-            call extend_and_collect(points, even, own_contact, own_extended, own_collected)
-            call work_alone(.true.)
-            call extend_and_collect(points, even, contact, extended, collected)
-            call work_alone(.false.)
-         end associate
-         call check(same(own_extended, extended(:, slab%first:slab%last)))
-         call check(same(own_collected, collected(:, slab%first:slab%last)))
-      end do
-      call report('extension of the contact')
-   end subroutine test_extension
-
-   subroutine extend_and_collect(points, even, contact, extended, collected)
-      integer, intent(in) :: points(2)
-      logical, intent(in) :: even
-      real(sp), intent(in), contiguous :: contact(:, :)
-      real(sp), intent(inout), contiguous :: extended(:, :), collected(:, :)
-
-      type(multilevel_preconditioner) :: extension
-
-      call extension%start(points, even)
-      call extension%set_contact(contact)
-      call extension%extend(contact, extended)
-      call extension%collect(contact, collected)
-   end subroutine extend_and_collect
-
-   subroutine test_stencil()
-      ! Contact at the rims only, so that some ranks have none of it.
-      type(surface_type) :: surfaces(2)
-      type(grid_slab) :: slab
-      real(dp) :: height(64, 60)
-      real(sp), allocatable :: own(:, :), whole(:, :)
-      logical(c_bool), allocatable :: inside(:, :)
-      integer :: k, n
-
-      height = numbers(shape(height))
-      surfaces(1) = surface_of_points([1.0_dp, 1.0_dp], height)
-      surfaces(2) = wave_2d(1.0_dp, 1.0_dp, 1.0_dp)
-      do k = 1, 4
-         n = merge(256, 320, k > 2)
-         whole = real(numbers([n, n]), sp)
-         inside = whole < 0.4_sp
-         inside(:, 50:n - 20) = .false.
-         call slab%start([n, n])
-         own = whole(:, slab%first:slab%last)
-         call apply_stencil(surfaces(1 + mod(k, 2)), [n, n], inside(:, slab%first:slab%last), own)
-         call work_alone(.true.)
-         call apply_stencil(surfaces(1 + mod(k, 2)), [n, n], inside, whole)
-         call work_alone(.false.)
-         call check(same(own, whole(:, slab%first:slab%last)))
-      end do
-      call report('stencil')
-   end subroutine test_stencil
-
-   !> Displacements to pressures at the points of a region; others keep their values.
-   subroutine apply_stencil(surface, points, inside, field)
-      type(surface_type), intent(in) :: surface
-      integer, intent(in) :: points(2)
-      logical(c_bool), intent(in) :: inside(:, :)
-      real(sp), intent(inout) :: field(:, :)
-
-      type(contact_region) :: region
-      type(local_stiffness) :: stencil
-      real(sp), allocatable :: vector(:)
-
-      call region%start(inside)
-      allocate (vector(region%points))
-      call region%gather(field, vector)
-      call stencil%start(surface, points)
-      call stencil%apply(region, points, vector)
-      call region%scatter(vector, field)
-   end subroutine apply_stencil
-
-   subroutine test_refinement()
-      ! From grids that are whole on each rank, and from grids that are distributed. Slabs of the finer grid are not
-      ! twice those of the coarser one.
-      integer, parameter :: grids(2, 6) = reshape([128, 128, 1024, 40, 256, 256, 509, 257, 1024, 96, 512, 416], [2, 6])
-      type(grid_slab) :: coarse_slab, fine_slab
-      real(dp), allocatable :: coarse(:, :), fine(:, :), own(:, :)
-      integer :: k
-      logical :: even
-
-      do k = 1, 2*size(grids, 2)
-         even = mod(k, 2) == 0
-         associate (points => grids(:, (k + 1)/2))
-            coarse = numbers(points)
-            call coarse_slab%start(points)
-            call fine_slab%start(2*points)
-            call check(fine_slab%is_distributed .eqv. rank_count() > 1)
-            call check(coarse_slab%is_distributed .eqv. (rank_count() > 1 .and. k > 4))
-            own = coarse(:, coarse_slab%first:coarse_slab%last)
-            call refine_pressure(own, coarse_slab, even, fine_slab, fine)
-            own = fine
-            associate (first => fine_slab%first, last => fine_slab%last)
-               call work_alone(.true.)
-               call coarse_slab%start(points)
-               call fine_slab%start(2*points)
-               call refine_pressure(coarse, coarse_slab, even, fine_slab, fine)
-               call work_alone(.false.)
-               call fine_slab%start(2*points)
-               call check(same(own, fine(:, first:last)))
-            end associate
-         end associate
-      end do
-      call report('refinement')
-   end subroutine test_refinement
 
    !> Numbers spread evenly over 0 .. 1, of the shape of a grid.
    pure function numbers(points)
@@ -400,25 +236,5 @@ contains
          end do
       end do
    end function numbers
-
-   pure logical function same_line(a, b)
-      real(dp), intent(in) :: a(:), b(:)
-
-      same_line = size(a) == size(b)
-      if (same_line) same_line = all(abs(a - b) <= 0.0_dp)
-   end function same_line
-
-   pure logical function same_grid(a, b)
-      real(dp), intent(in) :: a(:, :), b(:, :)
-
-      same_grid = all(shape(a) == shape(b))
-      if (same_grid) same_grid = all(abs(a - b) <= 0.0_dp)
-   end function same_grid
-
-   pure logical function same_single(a, b)
-      real(sp), intent(in) :: a(:, :), b(:, :)
-
-      same_single = same_grid(real(a, dp), real(b, dp))
-   end function same_single
 
 end program test_slabs

@@ -1,6 +1,6 @@
 !> The checks of a program that several ranks run: a check counts as passed if it holds on all of them.
 module rank_checks
-   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
+   use, intrinsic :: iso_fortran_env, only: error_unit, int64, output_unit
    use wavycon_kinds, only: dp
    use wavycon_ranks, only: any_rank, end_ranks, is_first_rank, this_rank
    implicit none (type, external)
@@ -36,7 +36,7 @@ contains
       real(dp), intent(in) :: a(:), b(:)
 
       same = size(a) == size(b)
-      if (same) same = all(abs(a - b) <= 0.0_dp)
+      if (same) same = all(transfer(a, [0_int64]) == transfer(b, [0_int64]))
    end function same
 
    !> Ends the program on all ranks, with status 1 if a check does not hold.
