@@ -21,12 +21,12 @@ program bench_single_solves
    type(qp_solution) :: programme
    real(dp), allocatable :: times(:)
    real(dp) :: load, before
-   integer :: i, count, ios
+   integer :: i, j, count, ios
 
    call fresh%start(wave_2d(1.0_dp, 1.0_dp, 1.0_dp), qp_options(argument(1), argument(2)))
    write (output_unit, '(i0,1x,i0)') shape(fresh%problem%normals)
    do i = 1, size(fresh%problem%linear)
-      write (output_unit, numbers) fresh%problem%hessian(:, i)
+      write (output_unit, numbers) merge(fresh%problem%hessian, 0.0_dp, [(j == i, j=1, size(fresh%problem%linear))])
    end do
    write (output_unit, numbers) fresh%problem%linear
    do i = 1, size(fresh%problem%bounds)
