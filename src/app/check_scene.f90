@@ -1,12 +1,12 @@
 !> What --check says of a deck without running it.
 module wavycon_check_scene
    use, intrinsic :: iso_fortran_env, only: int64
-   use wavycon_auto_method, only: why_chosen
    use wavycon_grid_plan, only: bytes_of_grid
    use wavycon_fourier_series, only: fourier_series
    use wavycon_grid_slab, only: grid_slab
    use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
+   use wavycon_methods, only: why_chosen
    use wavycon_plain_text, only: escaped, integer_text, short_number
    use wavycon_results, only: results_type
    use wavycon_run_log, only: duration, run_log

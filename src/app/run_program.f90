@@ -102,7 +102,7 @@ contains
          call read_deck(command_line%runs(i)%path, deck, error, command_line%runs(i)%settings)
          if (.not. allocated(error)) then
             if (allocated(command_line%output)) &
-               call deck%output%set('directory', plain_directory(command_line%output))
+               call deck%output%set('directory', text=plain_directory(command_line%output))
             if (allocated(command_line%table)) call list_keys(deck, scenes(i)%keys)
             allocate (scenes(i)%scene)
             call make_scene(deck, scenes(i)%scene)

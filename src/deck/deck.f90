@@ -7,7 +7,7 @@ module wavycon_deck
    use wavycon_load_group, only: load_table
    use wavycon_map_statistics, only: map_statistics
    use wavycon_material_group, only: material_table
-   use wavycon_method_group, only: method_table
+   use wavycon_methods, only: method_table
    use wavycon_output_group, only: output_table
    use wavycon_scene_group, only: scene_table
    use wavycon_stress_group, only: stress_table

@@ -170,7 +170,7 @@ contains
             call values%take(values%table%keys(k)%name, entry%name%first)
       else if (values%has(key) .and. .not. values%is_bad(key)) then
          first = 'in line '//integer_text(text%line_of(values%place_of(key)))
-         if (text%is_in_option(values%place_of(key))) first = 'by '//excerpt(text%line_at(values%place_of(key)))
+         if (values%place_of(key) > text%own) first = 'by '//excerpt(text%line_at(values%place_of(key)))
          call problems%add(entry%name%first, key//' is given twice, first '//first)
       else
          call take_value(text, entry, values%table%keys(k), values, problems)
@@ -207,13 +207,15 @@ contains
       type(group_values), intent(inout) :: values
       type(problem_list_type), intent(inout) :: problems
 
-      character(:), allocatable :: trouble
+      character(:), allocatable :: most, trouble
       logical :: is_good
       real(dp) :: numbers(key%most_values)
       integer :: repeats, used
       type(token_type) :: token
       type(word_value) :: value
 
+      most = 'one value'
+      if (key%most_values > 1) most = 'at most '//integer_text(key%most_values)//' values'
       is_good = .true.
       used = 0
       token%last = entry%values - 1
@@ -225,7 +227,7 @@ contains
          associate (word => text%content(token%first:token%last))
             repeats = 1
             if (used >= key%most_values) then
-               trouble = trim(key%name)//' takes '//at_most(key%most_values)//", and here is one more: '"// &
+               trouble = trim(key%name)//' takes '//most//", and here is one more: '"// &
                          excerpt(word)//"'"
                if (key_index(values%table%keys, lower_case(word)) > 0) &
                   trouble = trouble//"; is a '=' missing behind it?"
@@ -233,7 +235,7 @@ contains
                call read_value(key, word, value, trouble)
                if (.not. allocated(trouble)) repeats = value%repeats
                if (repeats > key%most_values - used) &
-                  trouble = trim(key%name)//' takes '//at_most(key%most_values)//", got '"//excerpt(word)//"'"
+                  trouble = trim(key%name)//' takes '//most//", got '"//excerpt(word)//"'"
             end if
             if (allocated(trouble)) then
                call problems%add(token%first, trouble)
@@ -252,13 +254,5 @@ contains
       if (entry%last < entry%values) call problems%add(entry%name%first, trim(key%name)// &
          ' has no value: it must be '//allowed_values(key))
    end subroutine take_value
-
-   pure function at_most(number) result(words)
-      integer, intent(in) :: number
-      character(:), allocatable :: words
-
-      words = 'one value'
-      if (number > 1) words = 'at most '//integer_text(number)//' values'
-   end function at_most
 
 end module wavycon_deck_groups

@@ -27,39 +27,34 @@ contains
       type(deck_type), intent(in) :: deck   !! without problems
       type(deck_key), allocatable, intent(out) :: keys(:)
 
-      integer :: number
+      type(group_values) :: groups(5)
+      logical :: is_asked_for
+      integer :: i, k, number
 
-      allocate (keys(size(deck%material%table%keys) + size(deck%surface_values%table%keys) + &
-                     size(deck%load%table%keys) + size(deck%stress%table%keys) + size(deck%method%table%keys)))
+      groups(1) = deck%material
+      groups(2) = deck%surface_values
+      groups(3) = deck%load
+      groups(4) = deck%stress
+      groups(5) = deck%method
+      allocate (keys(sum([(size(groups(i)%table%keys), i=1, size(groups))])))
       number = 0
-      call add_group(deck%material, .true.)
-      call add_group(deck%surface_values, .true.)
-      call add_group(deck%load, .true.)
-      call add_group(deck%stress, deck%stress%place > 0)
-      call add_group(deck%method, .true.)
-
-   contains
-
-      subroutine add_group(values, is_asked_for)
-         type(group_values), intent(in) :: values
-         logical, intent(in) :: is_asked_for
-
-         integer :: k
-
-         do k = 1, size(values%table%keys)
-            number = number + 1
-            associate (key => values%table%keys(k), listed => keys(number))
-               listed%name = trim(values%table%name)//'_'//key%name
-               listed%given = values%has(trim(key%name))
-               listed%in_effect = is_asked_for .and. values%in_effect(trim(key%name)) .and. &
-                                  .not. (values%table%name == 'load' .and. key%most_values > 1)
-               listed%word = '-'
-               if (any(key%kind == [real_value, integer_value])) listed%word = 'NaN'
-               if (listed%in_effect) listed%word = word_of(values, key)
-            end associate
-         end do
-      end subroutine add_group
-
+      do i = 1, size(groups)
+         associate (values => groups(i))
+            is_asked_for = values%table%name /= 'stress' .or. values%place > 0
+            do k = 1, size(values%table%keys)
+               number = number + 1
+               associate (key => values%table%keys(k), listed => keys(number))
+                  listed%name = trim(values%table%name)//'_'//key%name
+                  listed%given = values%has(key%name)
+                  listed%in_effect = is_asked_for .and. values%in_effect(key%name) .and. &
+                                     .not. (values%table%name == 'load' .and. key%most_values > 1)
+                  listed%word = '-'
+                  if (any(key%kind == [real_value, integer_value])) listed%word = 'NaN'
+                  if (listed%in_effect) listed%word = word_of(values, key)
+               end associate
+            end do
+         end associate
+      end do
    end subroutine list_keys
 
    !> The value of a key: the numbers of a list with commas between them, one number if they are equal.

@@ -61,13 +61,14 @@ contains
                return
             else if (scan%group%kind == at_end) then
                scan%next = token%last + 1
-               if (token%kind == is_group .and. .not. is_old_end(token)) then
+               if (token%kind == is_group) then
                   scan%group = token
                   scan%quote_is_open = .false.
                   part%name = token
                   return
                end if
-               call report_outside(token)
+               call problems%add(token%first, "'"//shown(token)//"' stands outside of any group: a group begins "// &
+                                 "with &name and ends with '/', which is text only between quotes")
                call skip()
             else if (token%kind == is_slash) then
                scan%next = token%last + 1
@@ -76,7 +77,6 @@ contains
                if (.not. scan%quote_is_open) call problems%add(token%first, "expected the '/' that closes "// &
                   shown(scan%group)//' of line '//integer_text(text%line_of(scan%group%first)))
                scan%group%kind = at_end
-               if (is_old_end(token)) scan%next = token%last + 1
             else if (starts_entry(content, token)) then
                call read_entry(content, token, part, scan%quote_is_open, problems)
                scan%next = part%last + 1
@@ -92,19 +92,6 @@ contains
 
    contains
 
-      !> Reports text outside a group.
-      subroutine report_outside(token)
-         type(token_type), intent(in) :: token
-
-         if (text%content(max(1, token%first - 1):token%first - 1) == '/') then
-            call problems%add(token%first, "text after the '/' that ends the group; "// &
-                              "a '/' in a value is read as text only between quotes")
-         else
-            call problems%add(token%first, "'"//shown(token)// &
-                              "' stands outside of any group: a group begins with &name and ends with '/'")
-         end if
-      end subroutine report_outside
-
       !> Goes on to the next group or, within a group, to the next entry or the '/'.
       subroutine skip()
          do
@@ -116,13 +103,6 @@ contains
             scan%next = token%last + 1
          end do
       end subroutine skip
-
-      !> Whether a token is '&end', which closed a namelist group before Fortran 90. Decks do not allow it.
-      pure logical function is_old_end(token)
-         type(token_type), intent(in) :: token
-
-         is_old_end = lower_case(text%content(token%first:token%last)) == '&end'
-      end function is_old_end
 
       pure function shown(token) result(words)
          type(token_type), intent(in) :: token
@@ -201,8 +181,9 @@ contains
       case ('/')
          token%kind = is_slash
       case ('&')
-         token%kind = is_group
          token%last = end_before(content, token%first + 1, word_ends)
+         ! Before Fortran 90 '&end' closed a group.
+         token%kind = merge(is_slash, is_group, lower_case(content(token%first:token%last)) == '&end')
       case default
          call find_word_end(content, token)
       end select

@@ -13,10 +13,9 @@ module wavycon_deck_text
    type :: deck_text_type
       character(:), allocatable :: path        !! as the user named the file
       character(:), allocatable :: content     !! lines that end in LF, CR LF or CR, and the options
-      integer :: own = 0                       !! place of the last byte of the file
+      integer :: own = 0                       !! place of the last byte of the file; options are behind it
    contains
       procedure :: add_option
-      procedure :: is_in_option
       procedure :: line_of
       procedure :: line_bounds
       procedure :: line_at
@@ -50,14 +49,6 @@ contains
 
       self%content = self%content//line_feed//words
    end subroutine add_option
-
-   !> Whether a place is in an option.
-   pure logical function is_in_option(self, place)
-      class(deck_text_type), intent(in) :: self
-      integer, intent(in) :: place   !! >= 1
-
-      is_in_option = place > self%own
-   end function is_in_option
 
    !> The number of the line that a place is in.
    pure integer function line_of(self, place)

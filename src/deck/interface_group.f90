@@ -4,8 +4,9 @@ module wavycon_interface_group
    use wavycon_group_values, only: group_values
    use wavycon_interface_setting, only: dundurs_beta, interface_setting, shear_factors
    use wavycon_key_relations, only: check_relations
-   use wavycon_key_table, only: choice_key, key_group, key_group_type, logical_key, real_key
+   use wavycon_key_table, only: choice_key, key_group_type, logical_key, real_key
    use wavycon_kinds, only: dp
+   use wavycon_material_group, only: take_ratios
    use wavycon_plain_text, only: short_number
    use wavycon_problems, only: problem_list_type
    use wavycon_surface, only: surface_type
@@ -22,7 +23,7 @@ contains
    function interface_table() result(table)
       type(key_group_type) :: table
 
-      table = key_group('interface', 'stiffness and resistance of the contact, partial slip, adhesion', [ &
+      table = key_group_type('interface', 'stiffness and resistance of the contact, partial slip, adhesion', [ &
          real_key('resistivity1', '', '-', &
             'Electric or thermal resistivity of the first body, in any unit: adds the constriction resistance '// &
             'to the table.', least=0.0_dp, needs='resistivity2'), &
@@ -61,7 +62,14 @@ contains
       if (values%place == 0) return
       call check_relations(values, problems)
       if (values%has('friction')) then
-         call check_friction(values, material, problems)
+         call take_ratios(values, material, problems)
+         if (.not. (values%has('tangential_load') .or. values%has('tangential_over_normal'))) &
+            call values%complain(problems, 'friction', 'friction needs tangential_load or tangential_over_normal')
+         if (values%has('tangential_over_normal') .and. .not. values%any_bad()) then
+            if (maxval(values%reals('tangential_over_normal')) > values%real('friction')) call values%complain( &
+               problems, 'tangential_over_normal', 'a value of tangential_over_normal is more than friction = '// &
+               short_number(values%real('friction'))//': the whole contact would slip')
+         end if
       else
          call values%leave_out('shear_direction')
          call values%leave_out('slip_loop')
@@ -94,11 +102,8 @@ contains
       type(surface_type), intent(in) :: surface
 
       type(fitted_frame) :: frame
-      real(dp) :: radii(2)
-
       if (surface%is_ball()) then
-         radii = surface%radii()
-         has_adhesion = abs(radii(1) - radii(2)) <= 0.0_dp
+         has_adhesion = maxval(surface%radii()) <= minval(surface%radii())
       else if (surface%dimension == 1) then
          has_adhesion = surface%is_paper_wave()
       else
@@ -106,29 +111,6 @@ contains
          has_adhesion = frame%is_found()
       end if
    end function has_adhesion
-
-   !> Checks what a tangential load needs.
-   subroutine check_friction(values, material, problems)
-      type(group_values), intent(in) :: values       !! with friction
-      type(group_values), intent(in) :: material
-      type(problem_list_type), intent(inout) :: problems
-
-      real(dp) :: largest
-
-      if (.not. (values%has('tangential_load') .or. values%has('tangential_over_normal'))) &
-         call values%complain(problems, 'friction', 'friction needs tangential_load or tangential_over_normal')
-      if (values%has('nu') .and. material%has('nu1')) then
-         call values%complain(problems, 'nu', 'nu contradicts nu1 of &material: leave it out')
-      else if (.not. values%has('nu') .and. .not. material%has('nu1') .and. .not. material%any_bad()) then
-         call values%complain(problems, 'friction', "a tangential load needs Poisson's ratio: give nu here, or "// &
-                              'e1 and nu1 in &material')
-      end if
-      if (.not. values%has('tangential_over_normal') .or. values%any_bad()) return
-      largest = maxval(values%reals('tangential_over_normal'))
-      if (largest > values%real('friction')) call values%complain(problems, 'tangential_over_normal', &
-         'tangential_over_normal = '//short_number(largest)//' is more than friction = '// &
-         short_number(values%real('friction'))//': the whole contact would slip')
-   end subroutine check_friction
 
    !> What the group asks for.
    subroutine make_interface_setting(values, material, surface, p_star, setting)
@@ -154,15 +136,8 @@ contains
          setting%tangential = values%reals('tangential_load')/p_star
       end if
       e = [1.0_dp]
-      if (material%has('e2')) then
-         e = [material%real('e1'), material%real('e2')]
-         nu = [material%real('nu1'), material%real('nu2')]
-      else if (material%has('nu1')) then
-         nu = [material%real('nu1')]
-      else
-         ! Both bodies are alike.
-         nu = [values%real('nu')]
-      end if
+      if (material%has('e2')) e = [material%real('e1'), material%real('e2')]
+      nu = values%reals('nu')
       kappa = shear_factors(e, nu)
       if (material%has('nu1')) setting%beta = dundurs_beta(e, nu)
       setting%kappa = [kappa(3), minval(kappa), maxval(kappa)]

@@ -25,13 +25,6 @@ contains
          "A deck consists of Fortran namelist groups, '&group key = value ... /', "// &
          "in any order; '!' begins a comment. A group or key may be left out unless marked as required. "// &
          'Lengths may be in any one unit and pressures in any one unit.')
-      reference = reference//newline
-      call add_wrapped(reference, 0, 'Loads are mean pressures pbar over the nominal area. p* is the mean '// &
-         'pressure that just closes the gap everywhere: pi e_star amplitude/wavelength for wave_1d, '// &
-         'sqrt(2) times that for wave_2d of one wavelength, pi e_star times the sum of both '// &
-         'amplitude/wavelength for crossed_1d. '// &
-         'pbar_over_pstar = pbar/p* runs from 0, first touch, to 1, complete contact; above 1 the '// &
-         'contact stays complete.')
       do i = 1, size(tables)
          reference = reference//newline
          call add_wrapped(reference, 0, '&'//trim(tables(i)%name)//'   '//trim(tables(i)%meaning)// &

@@ -2,7 +2,7 @@
 module wavycon_load_group
    use wavycon_group_values, only: group_values
    use wavycon_key_relations, only: check_relations
-   use wavycon_key_table, only: integer_key, key_group, key_group_type, real_key
+   use wavycon_key_table, only: integer_key, key_group_type, real_key
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: short_number
    use wavycon_problems, only: problem_list_type
@@ -33,7 +33,7 @@ contains
    function load_table() result(table)
       type(key_group_type) :: table
 
-      table = key_group('load', 'the loads to solve for: a list of one kind, or a sweep', [ &
+      table = key_group_type('load', 'the loads to solve for: a list of one kind, or a sweep', [ &
          real_key('pbar_over_pstar', '', '-', &
             'Mean pressures over p*, the mean pressure that just closes the gap everywhere. Tensions, < 0, need '// &
             'work_of_adhesion of &interface, as do those of mean_pressure and force.', &
@@ -197,12 +197,9 @@ contains
       integer, intent(in) :: steps   !! >= 1
       real(dp) :: loads(steps)
 
-      integer :: i, intervals
+      integer :: i
 
-      intervals = max(1, steps - 1)
-      do i = 1, steps
-         loads(i) = (from*(intervals - i + 1) + to*(i - 1))/intervals
-      end do
+      loads = [((from*(steps - 1 - i) + to*i)/max(1, steps - 1), i=0, steps - 1)]
       loads(steps) = to
       loads(1) = from
    end function sweep

@@ -51,14 +51,14 @@ contains
       scene%surface_kind = deck%surface_values%text('kind')
       scene%method = deck%method
       scene%output = deck%output
-      call deck%output%set('directory', '')
+      call deck%output%set('directory', text='')
       scene%fingerprint = resolved_deck_text(deck)
       ! The first line has the path of the deck.
       scene%fingerprint = scene%fingerprint(index(scene%fingerprint, newline):)
-      call deck%output%set('directory', scene%directory)
+      call deck%output%set('directory', text=scene%directory)
       ! A copy of the resolved deck in another directory must find the map. A map that was made has no file.
       if (allocated(scene%map)) then
-         if (scene%map%path /= '') call deck%surface_values%set('file', scene%map%path)
+         if (scene%map%path /= '') call deck%surface_values%set('file', text=scene%map%path)
       end if
       scene%resolved_deck = resolved_deck_text(deck)
    end subroutine make_scene
@@ -79,7 +79,12 @@ contains
       select case (key)
       case ('pbar_over_pstar', 'mean_pressure', 'force')
          mean_pressure = pressures_of_loads(key, loads, surface, p_star)
-         if (key /= 'pbar_over_pstar' .or. p_star <= 0.0_dp) loads = in_p_star(mean_pressure, p_star)
+         if (p_star <= 0.0_dp) then
+            ! On a flat surface contact is full at every load.
+            loads = merge(ieee_value(1.0_dp, ieee_positive_inf), 1.0_dp, mean_pressure > 0.0_dp)
+         else if (key /= 'pbar_over_pstar') then
+            loads = mean_pressure/p_star
+         end if
       case ('mean_gap', 'approach')
          loads = loads/surface%amplitude
       case ('contact_area')
@@ -87,19 +92,5 @@ contains
       end select
       call move_alloc(loads, target)
    end subroutine take_loads
-
-   !> A mean pressure over p*. On a flat surface p* = 0 and contact is full at every load: the result is 1 without
-   !> load and infinity otherwise.
-   elemental real(dp) function in_p_star(mean_pressure, p_star)
-      real(dp), intent(in) :: mean_pressure, p_star   !! p* >= 0
-
-      if (p_star > 0.0_dp) then
-         in_p_star = mean_pressure/p_star
-      else if (mean_pressure > 0.0_dp) then
-         in_p_star = ieee_value(1.0_dp, ieee_positive_inf)
-      else
-         in_p_star = 1.0_dp
-      end if
-   end function in_p_star
 
 end module wavycon_make_scene

@@ -2,7 +2,7 @@
 module wavycon_material_group
    use wavycon_group_values, only: group_values
    use wavycon_key_relations, only: check_relations
-   use wavycon_key_table, only: key_group, key_group_type, real_key
+   use wavycon_key_table, only: key_group_type, real_key
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: short_number
    use wavycon_problems, only: problem_list_type
@@ -10,7 +10,7 @@ module wavycon_material_group
    implicit none (type, external)
    private
 
-   public :: material_table, check_material_group, plane_strain_modulus
+   public :: material_table, check_material_group, plane_strain_modulus, take_ratios
 
    !> Largest ratio of hardness and p*: a hardness farther away is most likely a mistake of units.
    real(dp), parameter :: most_hardness = 1.0e6_dp
@@ -21,7 +21,7 @@ contains
    function material_table() result(table)
       type(key_group_type) :: table
 
-      table = key_group('material', 'how stiff the two bodies are: e_star, or e1 and nu1 (and e2, nu2)', [ &
+      table = key_group_type('material', 'how stiff the two bodies are: e_star, or e1 and nu1 (and e2, nu2)', [ &
          real_key('e_star', '1.0', 'pressure', &
             'Plane-strain modulus E* of the pair, 1/E* = (1 - nu1^2)/e1 + (1 - nu2^2)/e2.', above=0.0_dp, way=10), &
          real_key('e1', '', 'pressure', "Young's modulus of the first body.", above=0.0_dp, way=11, needs='nu1'), &
@@ -39,7 +39,7 @@ contains
    end function material_table
 
    !> Checks the keys. Leaves e_star out of the resolved deck if e1 is given. Finds E* and, where there is a surface, p*
-   !> and its hardness, which is checked too.
+   !> and its hardness: not one of a flat surface, nor one so far from p* that its unit is most likely wrong.
    subroutine check_material_group(values, surface, e_star, p_star, problems)
       type(group_values), intent(inout) :: values
       type(surface_type), allocatable, intent(inout) :: surface   !! not allocated if it has problems
@@ -47,6 +47,7 @@ contains
       type(problem_list_type), intent(inout) :: problems
 
       integer :: before
+      real(dp) :: hardness
 
       e_star = 0.0_dp
       p_star = 0.0_dp
@@ -56,30 +57,19 @@ contains
       if (problems%number > before .or. values%any_bad() .or. .not. allocated(surface)) return
       e_star = plane_strain_modulus(values)
       p_star = surface%full_contact_pressure(e_star)
-      if (values%has('hardness')) call take_hardness(values, p_star, surface%hardness, problems)
-   end subroutine check_material_group
-
-   !> Takes the hardness. Reports one on a flat surface, and one so far from p* that its unit is most likely wrong.
-   subroutine take_hardness(values, p_star, hardness_over_pstar, problems)
-      type(group_values), intent(in) :: values             !! of a &material group without problems
-      real(dp), intent(in) :: p_star                       !! p* [pressure]; 0: the surface is flat
-      real(dp), intent(inout) :: hardness_over_pstar       !! of a flat surface as it was
-      type(problem_list_type), intent(inout) :: problems
-
-      real(dp) :: hardness
-
+      if (.not. values%has('hardness')) return
       hardness = values%real('hardness')
-      if (p_star > 0.0_dp) hardness_over_pstar = hardness/p_star
       if (p_star <= 0.0_dp) then
          call values%complain(problems, 'hardness', &
             'the surface is flat: its pressure is the mean pressure, and a hardness means nothing')
       else if (hardness > most_hardness*p_star .or. hardness < p_star/most_hardness) then
          call values%complain(problems, 'hardness', &
             'hardness = '//short_number(hardness)//' is not within a factor of '// &
-            short_number(most_hardness)//' of p* = '//short_number(p_star)// &
-            '. Do the units agree?')
+            short_number(most_hardness)//' of p* = '//short_number(p_star)//'. Do the units agree?')
+      else
+         surface%hardness = hardness/p_star
       end if
-   end subroutine take_hardness
+   end subroutine check_material_group
 
    !> E* of the pair [pressure]: as given, or from 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2, without the second term if
    !> the second body is rigid.
@@ -96,5 +86,22 @@ contains
          e_star = values%real('e_star')
       end if
    end function plane_strain_modulus
+
+   !> Sets the key nu of another group, Poisson's ratios, to those of &material. Reports that both or none give them.
+   subroutine take_ratios(values, material, problems)
+      type(group_values), intent(inout) :: values    !! of the group, which the deck gives
+      type(group_values), intent(in) :: material
+      type(problem_list_type), intent(inout) :: problems
+
+      if (material%any_bad() .or. values%is_bad('nu')) return
+      if (material%has('nu1')) then
+         if (values%has('nu')) call values%complain(problems, 'nu', 'nu contradicts nu1 of &material: leave it out')
+         call values%set_default('nu', [material%reals('nu1'), material%reals('nu2')])
+         call values%leave_out('nu')
+      else if (.not. values%has('nu')) then
+         call problems%add(values%place, '&'//trim(values%table%name)// &
+                           " needs nu, Poisson's ratio: &material does not give nu1")
+      end if
+   end subroutine take_ratios
 
 end module wavycon_material_group

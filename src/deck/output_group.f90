@@ -1,14 +1,13 @@
 !> The &output group: which files are written, and where.
 module wavycon_output_group
    use wavycon_cell_file, only: text_side
-   use wavycon_grid_method, only: points_of_grid
+   use wavycon_grid_keys, only: points_of_grid
    use wavycon_group_values, only: group_values
    use wavycon_kinds, only: dp
-   use wavycon_key_table, only: choice_key, integer_key, key_group, key_group_type, key_type, logical_key, text_key
-   use wavycon_method_list, only: method_of
+   use wavycon_key_table, only: choice_key, integer_key, key_group_type, key_type, logical_key, text_key
+   use wavycon_methods, only: traits_of
    use wavycon_plain_text, only: integer_text
    use wavycon_problems, only: problem_list_type
-   use wavycon_solver_method, only: solver_method
    use wavycon_surface, only: surface_type
    use wavycon_table, only: table_type
    use wavycon_tables, only: all_tables
@@ -45,7 +44,7 @@ contains
          if (tables(i)%key == '' .or. tables(i)%group /= 'output') cycle
          rows = [rows, logical_key(trim(tables(i)%key), '.false.', tables(i)%meaning)]
       end do
-      table = key_group('output', 'which files are written, and where', [ &
+      table = key_group_type('output', 'which files are written, and where', [ &
          text_key('directory', "'outputs/<case>'", &
             'Where the results go, relative to where the program is started; made if it is not there.', &
             longest_directory), rows, &
@@ -72,23 +71,21 @@ contains
       type(surface_type), allocatable, intent(in) :: surface   !! not allocated if it has problems
       type(problem_list_type), intent(inout) :: problems
 
-      type(solver_method) :: chosen
       type(table_type), allocatable :: tables(:)
       character(:), allocatable :: key, refusal
       integer :: i
 
-      call values%set_default('directory', 'outputs/'//case)
-      call values%set('directory', plain_directory(values%text('directory')))
+      call values%set_default('directory', text='outputs/'//case)
+      call values%set('directory', text=plain_directory(values%text('directory')))
       if (.not. allocated(surface)) return
       if (.not. method%is_bad('grid_points')) call set_points(values, method, surface)
-      chosen = method_of(method)
-      if (chosen%name == '') return
+      if (method%is_bad('solver')) return
       call all_tables(tables)
       do i = 1, size(tables)
          key = trim(tables(i)%key)
          if (key == '' .or. tables(i)%group /= 'output') cycle
          if (.not. values%logical(key)) cycle
-         refusal = tables(i)%refusal(chosen%traits, surface)
+         refusal = tables(i)%refusal(traits_of(method%text('solver')), surface)
          if (refusal /= '') call values%complain(problems, key, key//' cannot be written: '//refusal)
       end do
    end subroutine check_output_group

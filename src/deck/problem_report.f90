@@ -1,7 +1,7 @@
 !> The report of all problems in a deck, as the message of one error.
 module wavycon_problem_report
    use wavycon_deck_text, only: deck_text_type
-   use wavycon_plain_text, only: character_count, escaped, integer_text, is_continuation, newline
+   use wavycon_plain_text, only: character_count, escaped, integer_text, newline
    use wavycon_problems, only: most_kept, problem_list_type
    implicit none (type, external)
    private
@@ -29,7 +29,7 @@ contains
             report = report//escaped(text%path)//':'
             if (place == 0) then
                report = report//words
-            else if (text%is_in_option(place)) then
+            else if (place > text%own) then
                report = report//' '//escaped(text%line_at(place))//':'//words
             else
                call text%line_bounds(place, first, last)
@@ -48,8 +48,7 @@ contains
       integer, intent(in) :: place, first, last   !! in the text: of the problem and of its line
       character(:), allocatable :: words
 
-      integer, parameter :: longest_line = 100, most_before = 60, most_after = 40
-      character(4) :: short_number
+      integer, parameter :: longest_line = 100, most_before = 60, most_after = 40, narrowest_number = 4
       character(:), allocatable :: after, before, number
       integer :: from, to
 
@@ -59,22 +58,12 @@ contains
          from = max(first, place - most_before)
          to = min(last, place + most_after)
       end if
-      ! Not within a character.
-      do while (from < place)
-         if (.not. is_continuation(text%content(from:from))) exit
-         from = from + 1
-      end do
-      do while (to > place .and. to < last)
-         if (.not. is_continuation(text%content(to + 1:to + 1))) exit
-         to = to - 1
-      end do
       before = escaped(text%content(from:place - 1))
       if (from > first) before = '...'//before
       after = escaped(text%content(place:to))
       if (to < last) after = after//'...'
       number = integer_text(text%line_of(place))
-      short_number = number
-      if (len(number) < len(short_number)) number = adjustr(short_number)
+      number = repeat(' ', max(0, narrowest_number - len(number)))//number
       words = number//' | '//trim(before//after)//newline// &
               repeat(' ', len(number))//' | '//repeat(' ', character_count(before))//'^'
    end function line_and_caret

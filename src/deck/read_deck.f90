@@ -17,7 +17,7 @@ module wavycon_read_deck
    use wavycon_kinds, only: dp
    use wavycon_load_group, only: check_load_group, check_loads_of_surface, given_loads
    use wavycon_material_group, only: check_material_group, plane_strain_modulus
-   use wavycon_method_group, only: check_method_group
+   use wavycon_methods, only: check_method_group
    use wavycon_output_group, only: check_output_group
    use wavycon_plain_text, only: escaped
    use wavycon_problem_report, only: problem_report
@@ -91,11 +91,7 @@ contains
       deck%method = groups(method_number)
       deck%output = groups(output_number)
 
-      if (is_file) then
-         call check_scene_group(deck%scene, problems)
-      else
-         call check_scene_group(deck%scene, problems, 'deck')
-      end if
+      call check_scene_group(deck%scene, problems, is_file)
       if (present(settings)) call name_case(deck%scene, settings, problems)
       call read_surface(deck, problems, error, heights)
       call check_material_and_loads(deck, problems)
@@ -131,7 +127,7 @@ contains
       if (allocated(error)) return
       if (allocated(deck%surface)) call check_sides(deck%surface_values, deck%surface, problems)
       if (.not. allocated(deck%map)) return
-      if (allocated(deck%map%length_unit)) call deck%scene%set('length_unit', deck%map%length_unit)
+      if (allocated(deck%map%length_unit)) call deck%scene%set('length_unit', text=deck%map%length_unit)
    end subroutine read_surface
 
    !> Sets the default sides of a ball, which follow from its loads. If &material or &load has problems, which are

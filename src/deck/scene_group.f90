@@ -1,7 +1,7 @@
 !> The &scene group: the name of the case and the labels of its units.
 module wavycon_scene_group
    use wavycon_group_values, only: group_values
-   use wavycon_key_table, only: key_group, key_group_type, text_key
+   use wavycon_key_table, only: key_group_type, text_key
    use wavycon_problems, only: problem_list_type
    implicit none (type, external)
    private
@@ -20,7 +20,7 @@ contains
    function scene_table() result(table)
       type(key_group_type) :: table
 
-      table = key_group('scene', 'what the case is called', [ &
+      table = key_group_type('scene', 'what the case is called', [ &
          text_key('title', "''", 'One line for the log and the heads of tables.', longest_name, &
             may_be_blank=.true.), &
          text_key('case', "the deck's name", &
@@ -34,45 +34,39 @@ contains
    end function scene_table
 
    !> Checks the labels of units and the name of the case, whose default is the name of the deck's file without '.nml'.
-   subroutine check_scene_group(values, problems, usual_case)
+   subroutine check_scene_group(values, problems, is_file)
       type(group_values), intent(inout) :: values
       type(problem_list_type), intent(inout) :: problems
-      character(*), intent(in), optional :: usual_case   !! the default in place of the name of the file
+      logical, intent(in) :: is_file   !! whether the deck is a file: the default is otherwise 'deck'
 
+      character(13), parameter :: units(*) = ['pressure_unit', 'length_unit  ']
       character(:), allocatable :: usual
+      integer :: i
 
-      usual = stem(values%deck_path)
-      if (present(usual_case)) usual = usual_case
-      call check_unit(values, 'pressure_unit', "'MPa' or 'N/mm^2'", problems)
-      call check_unit(values, 'length_unit', "'mm'", problems)
+      usual = 'deck'
+      if (is_file) usual = stem(values%deck_path)
+      ! The units of a table stand in one line, in brackets and separated by blanks.
+      do i = 1, size(units)
+         if (scan(values%text(units(i)), ' []') > 0 .and. .not. values%is_bad(units(i))) call values%complain( &
+            problems, units(i), trim(units(i))//" must have no blanks and no brackets, such as 'mm' or 'N/mm^2'")
+      end do
       if (values%is_bad('case')) return
       if (.not. values%has('case') .and. .not. is_plain_name(usual)) then
          call problems%add(values%place, "the deck's file name cannot serve as the name of the case ("// &
             plain_in_words//"): give case in &scene")
          return
       end if
-      call values%set_default('case', usual)
+      call values%set_default('case', text=usual)
       if (.not. is_plain_name(values%text('case'))) call values%complain(problems, 'case', &
          'case must be a plain file name of '//plain_in_words)
    end subroutine check_scene_group
-
-   !> Checks the label of a unit: the units of a table stand in one line, in brackets and separated by blanks.
-   subroutine check_unit(values, key, examples, problems)
-      type(group_values), intent(inout) :: values
-      character(*), intent(in) :: key, examples
-      type(problem_list_type), intent(inout) :: problems
-
-      if (values%is_bad(key)) return
-      if (scan(values%text(key), ' []') > 0) call values%complain(problems, key, &
-         key//' must have no blanks and no brackets, such as '//examples)
-   end subroutine check_unit
 
    !> Whether a text can be the stem of file names: as plain_in_words.
    pure logical function is_plain_name(name)
       character(*), intent(in) :: name
 
-      is_plain_name = len(name) > 0 .and. len(name) <= longest_name .and. verify(name, name_letters) == 0
-      if (is_plain_name) is_plain_name = scan(name(1:1), '-.') == 0
+      is_plain_name = len(name) > 0 .and. len(name) <= longest_name .and. verify(name, name_letters) == 0 .and. &
+                      scan(name, '-.') /= 1
    end function is_plain_name
 
    !> The last part of a path, without '.nml'.
@@ -80,11 +74,8 @@ contains
       character(*), intent(in) :: path
       character(:), allocatable :: stem
 
-      character(*), parameter :: suffix = '.nml'
-
       stem = path(index(path, '/', back=.true.) + 1:)
-      if (len(stem) <= len(suffix)) return
-      if (stem(len(stem) - len(suffix) + 1:) == suffix) stem = stem(:len(stem) - len(suffix))
+      if (len(stem) > 4 .and. index(stem, '.nml', back=.true.) == len(stem) - 3) stem = stem(:len(stem) - 4)
    end function stem
 
 end module wavycon_scene_group

@@ -118,7 +118,7 @@ contains
          call problems%add(0, 'with the values of --set the name of the case would be longer than '// &
                            integer_text(longest_name)//' bytes: give one by --set scene.case=NAME')
       else
-         call scene%set('case', name)
+         call scene%set('case', text=name)
       end if
    end subroutine name_case
 

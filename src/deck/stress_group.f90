@@ -3,8 +3,9 @@ module wavycon_stress_group
    use wavycon_elastic_body, only: elastic_body, hydrostatic, laterally_constrained, laterally_free
    use wavycon_group_values, only: group_values
    use wavycon_key_relations, only: check_relations
-   use wavycon_key_table, only: choice_key, integer_key, key_group, key_group_type, logical_key, real_key
+   use wavycon_key_table, only: choice_key, integer_key, key_group_type, logical_key, real_key
    use wavycon_kinds, only: dp
+   use wavycon_material_group, only: take_ratios
    use wavycon_problems, only: problem_list_type
    use wavycon_stress_setting, only: stress_setting
    use wavycon_surface, only: surface_type
@@ -16,13 +17,17 @@ module wavycon_stress_group
    !> Most depths of a list or a range.
    integer, parameter :: most_depths = 10000
 
+   !> The choices of `lateral`.
+   character(11), parameter :: laterals(*) = ['constrained', 'free       ', 'hydrostatic']
+   integer, parameter :: lateral_is(*) = [laterally_constrained, laterally_free, hydrostatic]
+
 contains
 
    !> The table of keys of &stress.
    function stress_table() result(table)
       type(key_group_type) :: table
 
-      table = key_group('stress', 'stresses below the surface, and when it yields', [ &
+      table = key_group_type('stress', 'stresses below the surface, and when it yields', [ &
          logical_key('largest', '.true.', 'A table of the largest von Mises stress and the largest shear stress of '// &
             'each load, and where they are.'), &
          logical_key('line', '.false.', 'A table of the stresses on the line below the crest.'), &
@@ -45,7 +50,7 @@ contains
             above=-1.0_dp, most=0.5_dp, most_values=2), &
          choice_key('lateral', "'constrained'", "the lateral stresses of the mean pressure pbar. 'constrained': no "// &
             "lateral strain, -nu pbar/(1 - nu); 'free': 0; 'hydrostatic': -pbar.", &
-            [character(11) :: 'constrained', 'free', 'hydrostatic']), &
+            laterals), &
          real_key('yield_stress', '', 'unit of e_star', &
             'Yield stresses of the first and the second body in uniaxial tension; one number: of both.', above=0.0_dp, &
             most_values=2), &
@@ -78,14 +83,14 @@ contains
       else if (values%logical('planes') .and. .not. has_range) then
          call values%complain(problems, 'planes', 'planes needs depths, depths_over_cell_x or a range of depths')
       end if
-      if (.not. material%any_bad() .and. .not. values%is_bad('nu')) call take_ratios(values, material, problems)
+      call take_ratios(values, material, problems)
       if (present(surface)) then
          if (surface%has_free_edges) then
             if (surface%dimension == 1) call problems%add(values%place, &
                'stresses below a profile with free edges are not computed: leave &stress out')
             if (values%has('lateral')) call values%complain(problems, 'lateral', &
                'a surface with free edges has no mean pressure far below it: leave lateral out')
-            call values%set('lateral', 'free')
+            call values%set('lateral', text='free')
             call values%leave_out('lateral')
          end if
          if (surface%dimension == 1 .and. any(values%text('section') == ['y       ', 'diagonal'])) &
@@ -94,24 +99,6 @@ contains
       end if
       if (.not. values%has('yield_stress')) call values%leave_out('yield_criterion')
    end subroutine check_stress_group
-
-   !> Sets Poisson's ratios to those of &material, or reports that there are none or that they contradict each other.
-   subroutine take_ratios(values, material, problems)
-      type(group_values), intent(inout) :: values
-      type(group_values), intent(in) :: material
-      type(problem_list_type), intent(inout) :: problems
-
-      if (.not. material%has('nu1')) then
-         if (.not. values%has('nu')) call problems%add(values%place, &
-            "&stress needs nu, Poisson's ratio: &material does not give nu1")
-      else if (values%has('nu')) then
-         call values%complain(problems, 'nu', 'nu contradicts nu1 of &material: leave it out')
-      else if (material%has('nu2')) then
-         call values%set_default('nu', [material%real('nu1'), material%real('nu2')])
-      else
-         call values%set_default('nu', [material%real('nu1')])
-      end if
-   end subroutine take_ratios
 
    !> What the group asks for. A rigid body has no stresses, and a body that is like the other is left out.
    subroutine make_stress_setting(values, material, p_star, setting)
@@ -127,20 +114,13 @@ contains
       if (values%place == 0) return
       allocate (setting)
       nu = values%pair('nu')
-      select case (values%text('lateral'))
-      case ('free')
-         lateral = laterally_free
-      case ('hydrostatic')
-         lateral = hydrostatic
-      case default
-         lateral = laterally_constrained
-      end select
+      lateral = lateral_is(findloc(laterals == values%text('lateral'), .true., dim=1))
       allocate (setting%body, source=[elastic_body(nu(1), lateral), elastic_body(nu(2), lateral)])
       setting%by_shear = values%text('yield_criterion') == 'tresca'
       if (values%has('yield_stress') .and. p_star > 0.0_dp) setting%yield_stress = values%pair('yield_stress')/p_star
-      are_alike = abs(nu(2) - nu(1)) <= 0.0_dp
+      are_alike = maxval(nu) <= minval(nu)
       if (allocated(setting%yield_stress)) are_alike = are_alike .and. &
-         abs(setting%yield_stress(2) - setting%yield_stress(1)) <= 0.0_dp
+         maxval(setting%yield_stress) <= minval(setting%yield_stress)
       ! Without e2 the second body is rigid.
       if (are_alike .or. (material%has('e1') .and. .not. material%has('e2'))) then
          setting%body = setting%body(:1)

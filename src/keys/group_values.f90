@@ -25,8 +25,7 @@ module wavycon_group_values
    type :: group_values
       type(key_group_type) :: table
       character(:), allocatable :: deck_path   !! the deck's file, as the caller named it
-      !> The deck's label of lengths, for &surface; not allocated if the deck gives none.
-      character(:), allocatable :: length_unit
+      character(:), allocatable :: length_unit   !! the deck's label of lengths, for &surface; empty: it gives none
       integer :: place = 0                     !! byte of the deck's text where '&name' stands; 0 if it is absent
       type(key_entry), allocatable, private :: entries(:)   !! of the keys of the table; 0 is the neutral one
    contains
@@ -39,18 +38,13 @@ module wavycon_group_values
       procedure :: in_effect
       procedure :: leave_out
       procedure :: reals
-      procedure :: integers
       procedure :: pair
       procedure :: real => get_real
       procedure :: integer => get_integer
       procedure :: logical => get_logical
       procedure :: text
-      procedure, private :: set_numbers
-      procedure, private :: set_text
-      generic :: set => set_numbers, set_text
-      procedure, private :: default_numbers
-      procedure, private :: default_text
-      generic :: set_default => default_numbers, default_text
+      procedure :: set
+      procedure :: set_default
       procedure :: complain
       procedure, private :: find
    end type group_values
@@ -69,14 +63,16 @@ contains
 
       self%table = table
       self%deck_path = deck_path
+      self%length_unit = ''
       allocate (self%entries(0:size(table%keys)))
       do k = 0, size(table%keys)
          allocate (self%entries(k)%numbers(0))
          self%entries(k)%text = ''
-         if (k == 0) cycle
+      end do
+      do k = 1, size(table%keys)
          if (table%keys(k)%default == '') cycle
          call read_value(table%keys(k), trim(table%keys(k)%default), value, trouble)
-         if (.not. allocated(trouble)) call put(self, k, [value%number], value%text)
+         if (.not. allocated(trouble)) call self%set(table%keys(k)%name, [value%number], value%text)
       end do
    end subroutine start
 
@@ -94,7 +90,7 @@ contains
       if (k == 0) return
       self%entries(k)%place = place
       self%entries(k)%is_bad = .not. present(numbers)
-      if (present(numbers)) call put(self, k, numbers, text)
+      if (present(numbers)) call self%set(key, numbers, text)
    end subroutine take
 
    !> Whether the deck gives a key.
@@ -159,15 +155,6 @@ contains
       numbers = self%entries(self%find(key))%numbers
    end function reals
 
-   !> The values of an integer key.
-   pure function integers(self, key) result(numbers)
-      class(group_values), intent(in) :: self
-      character(*), intent(in) :: key
-      integer, allocatable :: numbers(:)
-
-      numbers = nint(self%reals(key))
-   end function integers
-
    !> The two numbers of a real or integer key; a single one is both. Zeros if it has none.
    pure function pair(self, key)
       class(group_values), intent(in) :: self
@@ -216,51 +203,32 @@ contains
       words = self%entries(self%find(key))%text
    end function text
 
-   !> `set`: sets a value in place of the deck's or the default.
-   pure subroutine set_numbers(self, key, numbers)
+   !> Sets a value in place of the deck's or the default.
+   pure subroutine set(self, key, numbers, text)
       class(group_values), intent(inout) :: self
       character(*), intent(in) :: key
-      real(dp), intent(in) :: numbers(:)   !! of an integer key without fractions
+      real(dp), intent(in), optional :: numbers(:)   !! as of key_entry
+      character(*), intent(in), optional :: text     !! of texts and choices
 
-      call put(self, self%find(key), numbers)
-   end subroutine set_numbers
+      integer :: k
 
-   pure subroutine set_text(self, key, words)
-      class(group_values), intent(inout) :: self
-      character(*), intent(in) :: key, words
-
-      call put(self, self%find(key), text=words)
-   end subroutine set_text
-
-   !> `set_default`: sets a default that depends on other values. It has no effect if the deck gives the key a good
-   !> value.
-   pure subroutine default_numbers(self, key, numbers)
-      class(group_values), intent(inout) :: self
-      character(*), intent(in) :: key
-      real(dp), intent(in) :: numbers(:)   !! as of set
-
-      if (.not. self%has(key) .or. self%is_bad(key)) call self%set(key, numbers)
-   end subroutine default_numbers
-
-   pure subroutine default_text(self, key, words)
-      class(group_values), intent(inout) :: self
-      character(*), intent(in) :: key, words
-
-      if (.not. self%has(key) .or. self%is_bad(key)) call self%set(key, words)
-   end subroutine default_text
-
-   !> Sets the value of key number k. Entry 0, which stands for keys that do not exist, is not changed.
-   pure subroutine put(self, k, numbers, text)
-      class(group_values), intent(inout) :: self
-      integer, intent(in) :: k
-      real(dp), intent(in), optional :: numbers(:)
-      character(*), intent(in), optional :: text
-
+      k = self%find(key)
+      ! Entry 0, which stands for keys that do not exist, is not changed.
       if (k == 0) return
       self%entries(k)%has_value = .true.
       if (present(numbers)) self%entries(k)%numbers = numbers
       if (present(text)) self%entries(k)%text = trim(text)
-   end subroutine put
+   end subroutine set
+
+   !> Sets a default that depends on other values. It has no effect if the deck gives the key a good value.
+   pure subroutine set_default(self, key, numbers, text)
+      class(group_values), intent(inout) :: self
+      character(*), intent(in) :: key
+      real(dp), intent(in), optional :: numbers(:)   !! as of set
+      character(*), intent(in), optional :: text
+
+      if (.not. self%has(key) .or. self%is_bad(key)) call self%set(key, numbers, text)
+   end subroutine set_default
 
    !> Reports a problem at the place of a key.
    pure subroutine complain(self, problems, key, words)

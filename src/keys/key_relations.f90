@@ -6,7 +6,7 @@
 !> resolved deck, and what --set replaces.
 module wavycon_key_relations
    use wavycon_group_values, only: group_values
-   use wavycon_key_table, only: allowed_values, choice_key, key_group, key_group_type, key_index, key_type, &
+   use wavycon_key_table, only: allowed_values, choice_key, key_group_type, key_index, key_type, &
       logical_value, meaning_length, ways_in_words
    use wavycon_nearest_name, only: did_you_mean
    use wavycon_plain_text, only: in_quotes, listed
@@ -59,9 +59,8 @@ contains
             end associate
          end do
       end do
-      group = key_group(name, meaning, [choice_key(selector, default, meanings(2:), alternatives%name, required), &
-                                        keys(:number)], required)
-      group%selector = selector
+      group = key_group_type(name, meaning, [choice_key(selector, default, meanings(2:), alternatives%name, required), &
+                                             keys(:number)], required, selector)
    end function alternative_group
 
    !> The meanings of a key for all alternatives: "Of a and b: this. Of c: that."
@@ -93,109 +92,79 @@ contains
       type(group_values), intent(inout) :: values   !! the selector has its value, if it is not bad
       type(problem_list_type), intent(inout) :: problems
 
-      character(:), allocatable :: key, selector, who
-      integer :: k, selected
-      logical :: is_read(size(values%table%keys)), is_given(size(values%table%keys))
+      character(:), allocatable :: key, selector, what, who
+      integer :: first, k, place, selected
+      logical, dimension(size(values%table%keys)) :: is_read, is_given, is_needed, family
 
-      who = '&'//trim(values%table%name)
       selector = trim(values%table%selector)
       selected = 0
+      place = values%place
+      who = '&'//trim(values%table%name)
       associate (keys => values%table%keys)
+         if (selector /= '') selected = key_index(keys, selector)
+         if (selected > 0) selected = findloc(keys(selected)%choices(:keys(selected)%number_of_choices) == &
+                                              values%text(selector), .true., dim=1)
+         is_needed = keys%required
          is_read = .true.
-         if (selector /= '') then
-            associate (choices => keys(key_index(keys, selector))%choices)
-               if (values%text(selector) /= '') selected = findloc(choices == values%text(selector), .true., dim=1)
-               do k = 1, size(keys)
-                  if (selected == 0 .or. .not. any(keys(k)%read_by)) cycle
-                  is_read(k) = keys(k)%read_by(selected)
-                  key = trim(keys(k)%name)
-                  if (is_read(k)) cycle
-                  call values%leave_out(key)
-                  if (values%has(key)) call values%complain(problems, key, key//' is a key of '//selector//' = '// &
-                     listed(in_quotes(pack(choices, keys(k)%read_by)), ' and ')//", not of '"// &
-                     values%text(selector)//"'"//did_you_mean(key, pack(keys%name, keys%read_by(selected)), "'", "'"))
-               end do
-            end associate
-            if (selected > 0) who = selector//" = '"//values%text(selector)//"'"
+         if (selected > 0) then
+            who = selector//" = '"//values%text(selector)//"'"
+            place = values%place_of(selector)
+            is_needed = keys%needed_by(selected)
+            is_read = keys%read_by(selected) .or. [(.not. any(keys(k)%read_by), k=1, size(keys))]
          end if
-         is_given = is_read .and. [(values%has(keys(k)%name), k=1, size(keys))]
+         is_given = [(values%has(keys(k)%name), k=1, size(keys))]
          do k = 1, size(keys)
-            if (.not. is_read(k)) cycle
-            call check_required(k)
-            if (is_given(k)) call check_way(k)
-            if (keys(k)%kind == logical_value .and. .not. values%logical(keys(k)%name)) cycle
-            if (is_given(k)) call check_needs(keys(k))
-         end do
-      end associate
-
-   contains
-
-      !> Reports a required key that is missing, at the first of those that give the same.
-      subroutine check_required(k)
-         integer, intent(in) :: k
-
-         associate (keys => values%table%keys, key => values%table%keys(k))
-            if (values%place == 0) return
-            if (key%way > 0) then
-               if (any(is_read(:k - 1) .and. keys(:k - 1)%way/10 == key%way/10) .or. &
-                   any(is_given .and. keys%way/10 == key%way/10)) return
-            end if
-            if (is_given(k)) return
-            if (selected == 0) then
-               if (key%required) call problems%add(values%place, who//' needs '//needed(keys, k))
-            else if (key%needed_by(selected)) then
-               call values%complain(problems, selector, who//' needs '//needed(keys, k))
-            end if
-         end associate
-      end subroutine check_required
-
-      !> Reports the first key that gives the same as another one in another way.
-      subroutine check_way(k)
-         integer, intent(in) :: k
-
-         integer :: first
-
-         associate (keys => values%table%keys, &
-                    family => is_given(:k - 1) .and. values%table%keys(:k - 1)%way/10 == values%table%keys(k)%way/10)
-            first = findloc(family, .true., dim=1)
-            if (first == 0 .or. keys(k)%way == 0) return
-            if (keys(k)%way == keys(first)%way .or. any(family .and. keys(:k - 1)%way /= keys(first)%way)) return
-            call problems%add(max(values%place_of(keys(first)%name), values%place_of(keys(k)%name)), &
-                              trim(keys(first)%name)//' and '//trim(keys(k)%name)//' contradict each other: give one of them')
-         end associate
-      end subroutine check_way
-
-      !> Reports what must stand beside a key and does not.
-      subroutine check_needs(key)
-         type(key_type), intent(in) :: key
-
-         character(:), allocatable :: left, word
-         integer :: equals
-
-         left = trim(key%needs)//' '
-         do while (left /= '')
-            word = left(:index(left, ' ') - 1)
-            left = left(len(word) + 2:)
-            equals = index(word, '=')
-            if (equals == 0) then
-               if (values%has(word)) cycle
-            else if (values%text(word(:equals - 1)) == word(equals + 2:len(word) - 1)) then
+            key = trim(keys(k)%name)
+            if (.not. is_read(k)) then
+               call values%leave_out(key)
+               if (is_given(k)) call values%complain(problems, key, key//' is a key of '//selector//' = '// &
+                  listed(in_quotes(pack(keys(key_index(keys, selector))%choices, keys(k)%read_by)), ' and ')// &
+                  ", not of '"//values%text(selector)//"'"// &
+                  did_you_mean(key, pack(keys%name, keys%read_by(selected)), "'", "'"))
                cycle
             end if
-            call values%complain(problems, key%name, trim(key%name)//' needs '//word//' beside it')
+            ! Those that give the same quantity: a key alone, or all ways.
+            family = is_read .and. keys%way/10 == keys(k)%way/10
+            if (keys(k)%way == 0) family = keys%name == key
+            first = findloc(family, .true., dim=1)
+            if (is_needed(k) .and. k == first .and. values%place > 0 .and. .not. any(family .and. is_given)) then
+               what = ways_in_words(keys, k)
+               if (keys(k)%way == 0) what = what//' = '//allowed_values(keys(k))
+               call problems%add(place, who//' needs '//what)
+            end if
+            if (.not. is_given(k)) cycle
+            first = findloc(family .and. is_given, .true., dim=1)
+            if (keys(k)%way /= keys(first)%way .and. &
+                .not. any(family(:k - 1) .and. is_given(:k - 1) .and. keys(:k - 1)%way /= keys(first)%way)) &
+               call problems%add(max(values%place_of(keys(first)%name), values%place_of(key)), &
+                  trim(keys(first)%name)//' and '//key//' contradict each other: give one of them')
+            if (keys(k)%kind == logical_value .and. .not. values%logical(key)) cycle
+            call check_needs(values, key, trim(keys(k)%needs)//' ', problems)
          end do
-      end subroutine check_needs
-
+      end associate
    end subroutine check_relations
 
-   !> What a deck must give: a key and its values, or one of several ways.
-   pure function needed(keys, k) result(words)
-      type(key_type), intent(in) :: keys(:)
-      integer, intent(in) :: k
-      character(:), allocatable :: words
+   !> Reports what must stand beside a key and does not.
+   subroutine check_needs(values, key, needs, problems)
+      type(group_values), intent(in) :: values
+      character(*), intent(in) :: key, needs   !! as of key_type
+      type(problem_list_type), intent(inout) :: problems
 
-      words = ways_in_words(keys, k)
-      if (keys(k)%way == 0) words = words//' = '//allowed_values(keys(k))
-   end function needed
+      character(:), allocatable :: left, word
+      integer :: equals
+
+      left = needs
+      do while (left /= '')
+         word = left(:index(left, ' ') - 1)
+         left = left(len(word) + 2:)
+         equals = index(word//'=', '=')
+         if (equals > len(word)) then
+            if (values%has(word)) cycle
+         else if (values%text(word(:equals - 1)) == word(equals + 2:len(word) - 1)) then
+            cycle
+         end if
+         call values%complain(problems, key, key//' needs '//word//' beside it')
+      end do
+   end subroutine check_needs
 
 end module wavycon_key_relations

@@ -9,7 +9,7 @@ module wavycon_key_table
    private
 
    public :: key_type, key_group_type, real_key, integer_key, logical_key, text_key, choice_key
-   public :: allowed_values, key_group, key_index, number_text, ways_in_words
+   public :: allowed_values, key_index, number_text, ways_in_words
 
    !> Types of values.
    integer, parameter, public :: real_value = 1, integer_value = 2, logical_value = 3, text_value = 4, &
@@ -47,26 +47,12 @@ module wavycon_key_table
    type :: key_group_type
       character(name_length) :: name = ''
       character(80) :: meaning = ''
-      logical :: required = .false.
       type(key_type), allocatable :: keys(:)
+      logical :: required = .false.
       character(name_length) :: selector = ''      !! the key that selects an alternative; empty: there are none
    end type key_group_type
 
 contains
-
-   !> A group with its keys.
-   pure function key_group(name, meaning, keys, required) result(group)
-      character(*), intent(in) :: name, meaning
-      type(key_type), intent(in) :: keys(:)
-      logical, intent(in), optional :: required
-      type(key_group_type) :: group
-
-      group%name = name
-      group%meaning = meaning
-      allocate (group%keys(size(keys)))
-      group%keys(:) = keys
-      if (present(required)) group%required = required
-   end function key_group
 
    !> A key whose value is a number or, with most_values, a list of numbers.
    pure function real_key(name, default, unit, meaning, least, most, above, below, most_values, required, way, needs) &

@@ -63,7 +63,6 @@ contains
       integer, intent(out) :: repeats  !! 1 where there is no 'r*'; 0 if r is out of range or no value follows
       integer, intent(out) :: start    !! of the value
 
-      integer, parameter :: most_digits = 7
       integer :: star, status
 
       repeats = 1
@@ -72,10 +71,8 @@ contains
       if (star < 2) return
       if (word(star:star) /= '*') return
       start = star + 1
-      repeats = 0
-      if (star - 1 > most_digits .or. start > len(word)) return
       read (word(:star - 1), *, iostat=status) repeats
-      if (status /= 0) repeats = 0
+      if (status /= 0 .or. start > len(word)) repeats = 0
    end subroutine split_repeat
 
    !> Reads a real number or an integer, which has digits and a sign alone.
@@ -98,32 +95,13 @@ contains
       if (.not. is_number) then
          trouble = must_be(key, word)
       else if (.not. is_integer .and. (abs(number) > largest_number .or. &
-                                       (abs(number) < smallest_number .and. .not. is_zero(word)))) then
+                                       (abs(number) < smallest_number .and. abs(number) > 0.0_dp))) then
          trouble = must_be(key, word)//'; numbers may be 0 or from 1e-90 to 1e90 in size'
-      else if (.not. within(key, number)) then
+      else if (number < key%least .or. number > key%most .or. key%above .and. number <= key%least .or. &
+               key%below .and. number >= key%most) then
          trouble = must_be(key, word)
       end if
    end subroutine read_number
-
-   !> Whether all digits of a number before its exponent are 0. The value does not show it: 1e-999 is read as zero.
-   pure logical function is_zero(number)
-      character(*), intent(in) :: number
-
-      integer :: letter
-
-      letter = scan(number, 'eEdD')
-      if (letter == 0) letter = len(number) + 1
-      is_zero = scan(number(:letter - 1), '123456789') == 0
-   end function is_zero
-
-   pure logical function within(key, number)
-      type(key_type), intent(in) :: key
-      real(dp), intent(in) :: number
-
-      within = number >= key%least .and. number <= key%most
-      if (key%above) within = within .and. number > key%least
-      if (key%below) within = within .and. number < key%most
-   end function within
 
    pure subroutine read_text(key, word, text, trouble)
       type(key_type), intent(in) :: key
@@ -166,25 +144,11 @@ contains
       end associate
    end subroutine read_choice
 
-   !> Whether a word is one character constant in quotes.
+   !> Whether a word, which ends with its closing quote if it begins with a quote, is a character constant.
    pure logical function is_constant(word)
       character(*), intent(in) :: word
 
-      integer :: i
-
-      is_constant = .false.
-      if (len(word) < 2) return
-      if (scan(word(1:1), '"''') == 0) return
-      i = 2
-      do while (i <= len(word))
-         if (word(i:i) == word(1:1)) then
-            if (i == len(word)) exit
-            if (word(i + 1:i + 1) /= word(1:1)) return
-            i = i + 1
-         end if
-         i = i + 1
-      end do
-      is_constant = i == len(word)
+      is_constant = len(word) > 1 .and. scan(word, '"''') == 1
    end function is_constant
 
    !> "key must be ..., got ..."

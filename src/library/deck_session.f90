@@ -2,7 +2,6 @@
 module wavycon_deck_session
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use, intrinsic :: iso_c_binding, only: c_int
-   use wavycon_auto_method, only: why_chosen
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_solution, only: contact_solution
    use wavycon_deck, only: deck_type
@@ -16,6 +15,7 @@ module wavycon_deck_session
    use wavycon_load_group, only: check_load_group, check_loads_of_surface, load_table
    use wavycon_make_scene, only: make_scene, take_loads
    use wavycon_memory_table, only: memory_table, of_words
+   use wavycon_methods, only: why_chosen
    use wavycon_plain_text, only: exact_number, integer_text, newline
    use wavycon_problem_report, only: problem_report
    use wavycon_problems, only: problem_list_type
@@ -105,7 +105,7 @@ contains
       self%keeps_fields = keep_fields .or. scene%loads_by == by_yield
       call start_results(scene, self%results, tables, self%keeps_fields)
       associate (scene => self%results%scene)
-         call scene%output%set('map_format', 'text')
+         call scene%output%set('map_format', text='text')
          if (allocated(scene%mean_pressure)) call move_alloc(scene%mean_pressure, self%mean_pressure)
          allocate (scene%mean_pressure(1), self%results%loads(1))
          self%scale = scale_of(self%results%solver%surface, scene%e_star)

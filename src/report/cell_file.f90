@@ -100,7 +100,7 @@ contains
       integer :: points(2)
 
       points = 1
-      associate (given => results%scene%output%integers('map_points'))
+      associate (given => nint(results%scene%output%reals('map_points')))
          points(:size(given)) = given
       end associate
    end function map_points

@@ -7,7 +7,7 @@ module wavycon_coefficients_table
    use wavycon_results, only: results_type
    use wavycon_solution_record, only: solver_names
    use wavycon_surface, only: surface_type
-   use wavycon_method_list, only: solvers_with
+   use wavycon_methods, only: solvers_with
    use wavycon_table, only: table_type
    implicit none (type, external)
    private

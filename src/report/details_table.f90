@@ -10,7 +10,7 @@ module wavycon_details_table
    use wavycon_results, only: not_a_number, results_type
    use wavycon_solution_record, only: solver_names
    use wavycon_surface, only: surface_type
-   use wavycon_method_list, only: solvers_with
+   use wavycon_methods, only: solvers_with
    use wavycon_table, only: table_type
    implicit none (type, external)
    private

@@ -7,7 +7,7 @@ module wavycon_run_scene
    use wavycon_find_interface, only: find_interface
    use wavycon_find_stresses, only: find_stresses
    use wavycon_kinds, only: dp
-   use wavycon_method_list, only: start_solver
+   use wavycon_methods, only: start_solver
    use wavycon_output_file, only: output_file
    use wavycon_plain_text, only: escaped, integer_text, short_number
    use wavycon_results, only: results_type

@@ -20,18 +20,19 @@ behind it. Lines that start with '#' are remarks. The keywords are
    deck NAME:          the same, a deck; behind its text stand `&surface kind = 'wave_2d' /` and
                        `&load pbar_over_pstar = 0.5 /` if it has no such group. `deck:` is `deck deck.nml:`
    bytes NAME:         a file with Python's escapes (\\t, \\r, \\xff) and nothing added behind the last character
-   run:                what the user types: lines for sh, in which `wavycon` is the program and `columns TABLE NAME...`
-                       prints columns of a table
+   run:                what the user types: lines for sh, in which `wavycon` is the program; `columns`, `interrupted` and `same`
+                       are in tools/
    status: N           the exit status of the last line of `run`; 0 if not given
    stdout:, stderr:    lines that must be there, one right after the other in this order; a line '...' stands for any
                        number of lines. All lines must be given.
-   makes:              every file that exists after the run and did not before; a.{x,y} is a.x and a.y
+   makes:              every file that exists after the run and did not before; a.{x,y} is a.x and a.y. Without it
+                       resolved decks and summaries may be made, nothing else
    refused:            in place of run, status and stderr: decks, each followed by the problems that are reported,
                        LINE:COLUMN: WORDS or, without a place, -: WORDS. One run of `wavycon` reads all of them
    as a user other than root:
                        if root runs the tests this case runs as nobody, and is skipped, visibly, if nobody cannot
 
-Without these keywords nothing may be printed and no file made; but a case with status 0 or 2 and without stdout may
+Without these keywords nothing may be printed and no other file made; but a case with status 0 or 2 and without stdout may
 print anything there: the log.
 
 Exit status: 0 if all cases pass, 77 if all were skipped, else 1.
@@ -184,6 +185,8 @@ def differences(case, status, output, made):
         if not re.fullmatch(pattern_of(expected), output[stream]):
             words.append(f"{stream} is not as expected; expected:\n" + "".join(f"   {line}\n" for line in expected))
     expected = set(case.expected.get("makes", []))
+    if "makes" not in case.expected:
+        made = {name for name in made if not name.endswith((".resolved.nml", ".summary.dat"))}
     words += [f"was not made: {name}" for name in sorted(expected - made)]
     words += [f"was made, but is not expected: {name}" for name in sorted(made - expected)]
     return words

@@ -18,7 +18,7 @@ program stress_scenes
    use wavycon_kinds, only: dp
    use wavycon_read_deck, only: read_deck
    use wavycon_make_scene, only: make_scene
-   use wavycon_method_list, only: start_solver
+   use wavycon_methods, only: start_solver
    use wavycon_scene, only: scene_type
    implicit none (type, external)
 

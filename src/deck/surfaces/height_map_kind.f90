@@ -4,6 +4,7 @@ module wavycon_height_map_kind
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_group_values, only: group_values
    use wavycon_height_map, only: surface_of_map
+   use wavycon_key_relations, only: alternative_type
    use wavycon_key_table, only: choice_key, logical_key, real_key, text_key
    use wavycon_kinds, only: dp
    use wavycon_length_unit, only: convert_lengths
@@ -14,20 +15,19 @@ module wavycon_height_map_kind
    use wavycon_measured_map, only: measured_map
    use wavycon_plain_text, only: clauses, escaped, integer_text, short_number
    use wavycon_prepare_map, only: map_preparation
-   use wavycon_problems, only: problem_list_type
    use wavycon_surface, only: surface_type
-   use wavycon_surface_kind, only: check_radii, form_radius_keys, length_x_key, length_y_key, radii_of, surface_kind
+   use wavycon_surface_keys, only: form_radius_keys, length_x_key, length_y_key, radii_of
    use wavycon_system, only: full_path, path_absent, path_kind
    implicit none (type, external)
    private
 
-   public :: height_map_kind, surface_of_heights
+   public :: height_map_kind, surface_of_file, surface_of_heights
 
    integer, parameter :: longest_path = 1000
 
 contains
 
-   type(surface_kind) function height_map_kind() result(kind)
+   type(alternative_type) function height_map_kind() result(kind)
       kind%name = 'file'
       kind%meaning = 'a height map'
       allocate (kind%keys, source=[ &
@@ -68,21 +68,12 @@ contains
          real_key('short_wavelength', '', 'length', 'shortest wave that stays in the map; without it all stay.', &
                   above=0.0_dp), &
          form_radius_keys('the map')])
-      kind%make => make
-      kind%check => check
    end function height_map_kind
-
-   subroutine check(values, problems)
-      type(group_values), intent(inout) :: values
-      type(problem_list_type), intent(inout) :: problems
-
-      call check_radii(values, problems, 'form_radius')
-   end subroutine check
 
    !> Reads the map. Errors: exit_file_trouble if the file cannot be read, exit_bad_input if it is not a map, its holes
    !> are not to be filled, its heights are out of range, its unit is unknown, or the deck gives sides of the cell
    !> beside those of the file, which may be in another unit.
-   subroutine make(values, surface, map, error)
+   subroutine surface_of_file(values, surface, map, error)
       type(group_values), intent(inout) :: values
       type(surface_type), intent(out) :: surface
       type(map_statistics), allocatable, intent(out) :: map
@@ -92,7 +83,12 @@ contains
       character(:), allocatable :: file, path
 
       file = values%text('file')
-      path = place_of_map(values%deck_path, file)
+      ! Beside the deck or, if it is not there, where the program was started.
+      path = file
+      if (file(1:1) /= '/') path = values%deck_path(:index(values%deck_path, '/', back=.true.))//file
+      if (path_kind(path) == path_absent) then
+         if (path_kind(file) /= path_absent) path = file
+      end if
       call read_map(values, path, heights, error)
       if (path_kind(path) == path_absent .and. file(1:1) /= '/') then
          if (allocated(error)) error%message = escaped(file)// &
@@ -106,13 +102,13 @@ contains
       map%path = full_path(path)
       map%lacks_missing_value = values%has('missing_value') .and. .not. heights%has_missing_value
       if (allocated(heights%length_unit)) map%length_unit = heights%length_unit
-   end subroutine make
+   end subroutine surface_of_file
 
    !> The surface of heights in memory in place of those of the file, whose name messages use. Errors: exit_bad_input
-   !> for another kind of surface, for keys that only a file can have, and as of `make`; exit_file_trouble without
-   !> memory.
+   !> for another kind of surface, for keys that only a file can have, and as of `surface_of_file`; exit_file_trouble
+   !> without memory.
    subroutine surface_of_heights(values, heights, surface, map, error)
-      type(group_values), intent(inout) :: values     !! of &surface, as for `make`
+      type(group_values), intent(inout) :: values     !! of &surface, as for `surface_of_file`
       real(dp), intent(in) :: heights(:, :)   !! upwards to the other body, NaN: missing; x first, one column: a profile
       type(surface_type), intent(out) :: surface
       type(map_statistics), allocatable, intent(out) :: map
@@ -148,7 +144,7 @@ contains
       call make_of(source, values, measured, surface, map, error)
    end subroutine surface_of_heights
 
-   !> Makes the surface of heights, prepared as the keys say. Errors: as of `make`.
+   !> Makes the surface of heights, prepared as the keys say. Errors: as of `surface_of_file`.
    subroutine make_of(source, values, heights, surface, map, error)
       character(*), intent(in) :: source              !! of the heights, for messages
       type(group_values), intent(inout) :: values
@@ -173,14 +169,13 @@ contains
       if (.not. allocated(error)) map%assumed_sides = assumed_sides
    end subroutine make_of
 
-   !> Reads the map and converts its lengths to the deck's unit. Errors: as of `make`.
+   !> Reads the map and converts its lengths to the deck's unit. Errors: as of `surface_of_file`.
    subroutine read_map(values, path, heights, error)
       type(group_values), intent(in) :: values
       character(*), intent(in) :: path
       type(measured_map), intent(out) :: heights
       type(error_type), allocatable, intent(out) :: error
 
-      character(:), allocatable :: unit
       real(dp), allocatable :: missing_value   ! not allocated: the argument is absent
 
       if (values%has('missing_value')) missing_value = values%real('missing_value')
@@ -188,10 +183,7 @@ contains
       call read_height_map(path, values%text('file_format'), heights, error, missing_value, &
                            in_slabs=values%text('fill_missing') == 'none' .and. .not. &
                                     (values%logical('crop_missing') .or. values%logical('despike')))
-      if (allocated(error)) return
-      unit = ''
-      if (allocated(values%length_unit)) unit = values%length_unit
-      call convert_lengths(path, unit, heights, error)
+      if (.not. allocated(error)) call convert_lengths(path, values%length_unit, heights, error)
    end subroutine read_map
 
    !> The sides of the cell: those of the file, those of the deck, or assumed ones. Errors: exit_bad_input if file and
@@ -210,9 +202,9 @@ contains
       logical :: is_given(2)   ! by the deck
 
       assumed = ''
-      unit = ''
-      if (allocated(values%length_unit)) unit = ' ['//escaped(values%length_unit)//']'
-      if (allocated(heights%length_unit)) unit = ' ['//escaped(heights%length_unit)//']'
+      unit = values%length_unit
+      if (allocated(heights%length_unit)) unit = heights%length_unit
+      if (unit /= '') unit = ' ['//escaped(unit)//']'
       is_given = [values%has(keys(1)), values%has(keys(2))]
       points = heights%points()
       associate (m => points(1), n => points(2), step => heights%step)
@@ -247,16 +239,5 @@ contains
          length(2) = values%real('length_y')
       end associate
    end subroutine take_sides
-
-   !> The path of the map: in the directory of the deck or, if it is not there, in the one the program was started in.
-   function place_of_map(deck_path, file) result(path)
-      character(*), intent(in) :: deck_path, file
-      character(:), allocatable :: path
-
-      path = deck_path(:index(deck_path, '/', back=.true.))//file
-      if (file(1:1) == '/') path = file
-      if (path_kind(path) /= path_absent) return
-      if (path_kind(file) /= path_absent) path = file
-   end function place_of_map
 
 end module wavycon_height_map_kind

@@ -2,6 +2,7 @@
 module wavycon_self_affine_kind
    use wavycon_error, only: error_type
    use wavycon_group_values, only: group_values
+   use wavycon_key_relations, only: alternative_type
    use wavycon_key_table, only: choice_key, integer_key, real_key
    use wavycon_kinds, only: dp
    use wavycon_map_size, only: most_points
@@ -11,11 +12,11 @@ module wavycon_self_affine_kind
    use wavycon_self_affine, only: self_affine_surface
    use wavycon_self_affine_heights, only: has_waves, least_points_of, self_affine_spectrum
    use wavycon_surface, only: surface_type
-   use wavycon_surface_kind, only: check_radii, form_radius_keys, length_x_key, length_y_key, radii_of, surface_kind
+   use wavycon_surface_keys, only: form_radius_keys, length_x_key, length_y_key, radii_of
    implicit none (type, external)
    private
 
-   public :: self_affine_kind
+   public :: self_affine_kind, check_self_affine, self_affine_of
 
    !> Most points along a side that a deck without `points` gets.
    integer, parameter :: most_default_points = 8192
@@ -23,7 +24,7 @@ module wavycon_self_affine_kind
 
 contains
 
-   type(surface_kind) function self_affine_kind() result(kind)
+   type(alternative_type) function self_affine_kind() result(kind)
       kind%name = 'self_affine'
       kind%meaning = 'a random rough surface, made from its spectrum'
       allocate (kind%keys, source=[ &
@@ -57,8 +58,6 @@ contains
                     'at all: it is pressed on a half-space.', &
                     [character(8) :: 'periodic', 'mirror', 'window', 'free']), &
          form_radius_keys('the surface')])
-      kind%make => make
-      kind%check => check
    end function self_affine_kind
 
    !> Sets the defaults that depend on other keys.
@@ -93,7 +92,7 @@ contains
    end function default_points
 
    !> Reports cut-offs out of order, too few points, and cut-offs between which the cell has no wave.
-   subroutine check(values, problems)
+   subroutine check_self_affine(values, problems)
       type(group_values), intent(inout) :: values
       type(problem_list_type), intent(inout) :: problems
 
@@ -103,7 +102,6 @@ contains
       call set_defaults(values)
       if (all(values%text('edges') /= ['periodic', 'free    '])) call values%complain(problems, 'edges', &
          "a random surface is made periodic: edges must be 'periodic' or 'free'")
-      call check_radii(values, problems, 'form_radius')
       if (values%any_bad()) return
       before = problems%number
       spectrum = spectrum_of(values)
@@ -128,7 +126,7 @@ contains
                                                  ' must not be longer than '//most_words//', '//short_number(most))
       end subroutine check_order
 
-   end subroutine check
+   end subroutine check_self_affine
 
    !> Reports numbers of points that are too small, by themselves or for the shortest wave.
    subroutine check_points(values, spectrum, problems)
@@ -141,7 +139,7 @@ contains
       character(:), allocatable :: advice
       integer :: least(2), points(2)
 
-      points = values%integers('points')
+      points = nint(values%reals('points'))
       if (points(1) < least_points .or. (points(2) < least_points .and. spectrum%dimension == 2)) then
          call values%complain(problems, 'points', 'there must be at least '//integer_text(least_points)// &
                               ' points along each side, or 1 along y for a profile')
@@ -149,26 +147,13 @@ contains
       end if
       least = least_points_of(spectrum)
       if (all(points >= least)) return
-      if (any(least > most_points)) then
-         call values%complain(problems, 'short_wavelength', 'short_wavelength = '// &
-            short_number(spectrum%shortest)//' needs '//grid_words(least)//' points, and more than '// &
-            integer_text(most_points)//' a side are not possible: give a longer one or a smaller cell')
-      else
-         advice = ', and accurate contact areas twice as many each way or more'
-         if (all(points >= least - 1)) advice = advice//'. Waves of exactly two steps have no phase on the points: '// &
-            'short_wavelength = '//short_number(longer*spectrum%shortest)//' leaves them out'
-         call values%complain(problems, 'points', grid_words(points)//' points are too few for short_wavelength = '// &
-            short_number(spectrum%shortest)//': it needs '//grid_words(least)//advice)
-      end if
+      advice = ', and accurate contact areas twice as many each way or more'
+      if (all(points >= least - 1)) advice = advice//'. Waves of exactly two steps have no phase on the points: '// &
+         'short_wavelength = '//short_number(longer*spectrum%shortest)//' leaves them out'
+      call values%complain(problems, 'points', integer_text(points(1))//' x '//integer_text(points(2))// &
+         ' points are too few for short_wavelength = '//short_number(spectrum%shortest)//': it needs '// &
+         integer_text(least(1))//' x '//integer_text(least(2))//advice)
    end subroutine check_points
-
-   !> "2 x 3", as for the sides of a grid.
-   pure function grid_words(points) result(words)
-      integer, intent(in) :: points(2)
-      character(:), allocatable :: words
-
-      words = integer_text(points(1))//' x '//integer_text(points(2))
-   end function grid_words
 
    !> The spectrum that the keys describe.
    pure function spectrum_of(values) result(spectrum)
@@ -177,7 +162,7 @@ contains
 
       integer :: points(2)
 
-      points = values%integers('points')
+      points = nint(values%reals('points'))
       spectrum%dimension = merge(1, 2, points(2) == 1)
       spectrum%length = [values%real('length_x'), values%real('length_y')]
       spectrum%hurst = values%real('hurst')
@@ -191,17 +176,17 @@ contains
       spectrum%seed = values%integer('seed')
    end function spectrum_of
 
-   !> Errors: as of self_affine_surface.
-   subroutine make(values, surface, map, error)
+   !> Makes the surface. Errors: as of self_affine_surface.
+   subroutine self_affine_of(values, surface, map, error)
       type(group_values), intent(inout) :: values
       type(surface_type), intent(out) :: surface
       type(map_statistics), allocatable, intent(out) :: map
       type(error_type), allocatable, intent(out) :: error
 
       call self_affine_surface(escaped(values%deck_path)//": kind = 'self_affine'", spectrum_of(values), &
-                               values%integers('points'), surface, map, error, values%text('edges') == 'free', &
+                               nint(values%reals('points')), surface, map, error, values%text('edges') == 'free', &
                                radii_of(values, 'form_radius'))
       if (.not. allocated(error)) map%changes%edges = values%text('edges')
-   end subroutine make
+   end subroutine self_affine_of
 
 end module wavycon_self_affine_kind

@@ -1,22 +1,27 @@
-!> The kinds of surface that are one, two or three cosine waves: 'wave_1d', 'wave_2d', 'crossed_1d' and 'hexagonal'.
+!> The kinds of surface that are cosine waves: 'wave_1d', 'wave_2d', 'crossed_1d' and 'hexagonal' of one, two or three,
+!> and 'sum' of any.
 module wavycon_wave_kinds
+   use wavycon_constants, only: pi
    use wavycon_crossed_1d, only: crossed_1d
-   use wavycon_error, only: error_type
    use wavycon_group_values, only: group_values
    use wavycon_hexagonal, only: hexagonal
-   use wavycon_key_table, only: key_type, real_key
+   use wavycon_key_relations, only: alternative_type
+   use wavycon_key_table, only: integer_key, key_type, real_key
    use wavycon_kinds, only: dp
-   use wavycon_map_statistics, only: map_statistics
+   use wavycon_plain_text, only: integer_text
+   use wavycon_problems, only: problem_list_type
    use wavycon_surface, only: surface_type
-   use wavycon_surface_kind, only: surface_kind
+   use wavycon_surface_keys, only: length_x_key, length_y_key
    use wavycon_wave_1d, only: wave_1d
    use wavycon_wave_2d, only: wave_2d
+   use wavycon_wave_sum, only: wave_sum
    implicit none (type, external)
    private
 
-   public :: get_wave_kinds
+   public :: get_wave_kinds, check_sum, wave_surface
 
-   integer, parameter, public :: number_of_wave_kinds = 4
+   integer, parameter, public :: number_of_wave_kinds = 5
+   integer, parameter :: most_waves = 1000, highest_wave = 128
 
    !> The kinds that are waves of Johnson, Greenwood & Higginson (1985), eqs. (3) and (21), and their conditions.
    character(*), parameter, public :: paper_kinds(*) = ['wave_1d   ', 'wave_2d   ', 'crossed_1d'], &
@@ -25,11 +30,10 @@ module wavycon_wave_kinds
 contains
 
    subroutine get_wave_kinds(kinds)
-      type(surface_kind), intent(out) :: kinds(number_of_wave_kinds)
+      type(alternative_type), intent(out) :: kinds(number_of_wave_kinds)
 
       character(*), parameter :: mean_gap = &
          'mean gap before load, half the height from trough to crest; 0 is a flat surface.'
-      integer :: i
 
       kinds(1)%name = 'wave_1d'
       kinds(1)%meaning = 'gap amplitude (1 - cos phi), phi = 2 pi x/wavelength'
@@ -52,9 +56,21 @@ contains
       kinds(4)%meaning = 'three equal waves at 60 degrees to each other'
       kinds(4)%keys = [amplitude_key('amplitude', 'mean gap before load; 0 is a flat surface.'), &
                        wavelength_key('wavelength', 'wavelength of each of the three waves.')]
-      do i = 1, size(kinds)
-         kinds(i)%make => make
-      end do
+
+      kinds(5)%name = 'sum'
+      kinds(5)%meaning = 'any waves'
+      allocate (kinds(5)%keys, source=[ &
+         length_x_key(), length_y_key(), &
+         real_key('amplitudes', '', 'length', &
+            'the height is the sum of amplitudes cos(2 pi (waves_x x/length_x + waves_y y/length_y) - phases).', &
+            most_values=most_waves, required=.true.), &
+         integer_key('waves_x', '', 'number of periods of each wave in the cell along x; may be negative.', &
+            -highest_wave, highest_wave, most_values=most_waves, required=.true.), &
+         integer_key('waves_y', '0', &
+            'number of periods of each wave in the cell along y. If all are 0 the surface is a profile.', &
+            -highest_wave, highest_wave, most_values=most_waves), &
+         real_key('phases', '0', 'degree', 'phase of each wave.', least=-360.0_dp, most=360.0_dp, &
+            most_values=most_waves)])
    end subroutine get_wave_kinds
 
    !> An amplitude, 1 by default unless it is required.
@@ -66,20 +82,48 @@ contains
       if (key%required) key%default = ''
    end function amplitude_key
 
-   !> A wavelength, 1 by default unless it is required.
+   !> A wavelength: as an amplitude, but not 0.
    pure type(key_type) function wavelength_key(name, meaning, required) result(key)
       character(*), intent(in) :: name, meaning
       logical, intent(in), optional :: required
 
-      key = real_key(name, '1.0', 'length', meaning, above=0.0_dp, required=required)
-      if (key%required) key%default = ''
+      key = amplitude_key(name, meaning, required)
+      key%above = .true.
    end function wavelength_key
 
-   subroutine make(values, surface, map, error)
+   !> Sets the defaults of 'sum', and reports lists of unlike lengths and waves without wave numbers.
+   subroutine check_sum(values, problems)
       type(group_values), intent(inout) :: values
-      type(surface_type), intent(out) :: surface
-      type(map_statistics), allocatable, intent(out) :: map
-      type(error_type), allocatable, intent(out) :: error
+      type(problem_list_type), intent(inout) :: problems
+
+      character(7), parameter :: lists(3) = [character(7) :: 'waves_x', 'waves_y', 'phases']
+      character(:), allocatable :: key
+      integer :: i, number
+      integer, allocatable :: m(:), n(:)
+
+      call values%set_default('length_y', values%reals('length_x'))
+      call values%set_default('waves_y', 0*values%reals('waves_x'))
+      call values%set_default('phases', 0*values%reals('amplitudes'))
+      if (values%any_bad()) return
+      number = size(values%reals('amplitudes'))
+      do i = 1, size(lists)
+         key = trim(lists(i))
+         if (values%has(key) .and. size(values%reals(key)) /= number) call values%complain(problems, key, &
+            key//' has '//integer_text(size(values%reals(key)))//' values and amplitudes '//integer_text(number)// &
+            ': give one for each wave')
+      end do
+      m = nint(values%reals('waves_x'))
+      n = nint(values%reals('waves_y'))
+      if (size(m) /= size(n)) return
+      i = findloc(m == 0 .and. n == 0, .true., dim=1)
+      if (i > 0) call values%complain(problems, 'waves_x', 'wave '//integer_text(i)// &
+         ' has waves_x = 0 and waves_y = 0: it is a height and no wave; leave it out')
+   end subroutine check_sum
+
+   !> The surface of a kind of this module.
+   function wave_surface(values) result(surface)
+      type(group_values), intent(inout) :: values   !! of &surface, without problems
+      type(surface_type) :: surface
 
       select case (values%text('kind'))
       case ('wave_1d')
@@ -92,7 +136,10 @@ contains
                               values%real('wavelength2'))
       case ('hexagonal')
          surface = hexagonal(values%real('amplitude'), values%real('wavelength'))
+      case ('sum')
+         surface = wave_sum([values%real('length_x'), values%real('length_y')], values%reals('amplitudes'), &
+                            nint(values%reals('waves_x')), nint(values%reals('waves_y')), values%reals('phases')*pi/180)
       end select
-   end subroutine make
+   end function wave_surface
 
 end module wavycon_wave_kinds

@@ -1,47 +1,19 @@
-!> solver = 'grid': grids, refined to an accuracy or with a given number of points; also its keys, which other solvers
-!> read.
-module wavycon_grid_method
-   use wavycon_contact_solver, only: contact_solver, default_accuracy
-   use wavycon_grid_contact, only: grid_contact, grid_options
+!> The keys of solvers that refine to an accuracy, and of those on grids.
+module wavycon_grid_keys
+   use wavycon_contact_solver, only: default_accuracy
+   use wavycon_grid_contact, only: grid_options
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: integer_key, key_type, real_key
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: integer_text, short_number
    use wavycon_problems, only: problem_list_type
-   use wavycon_solver_method, only: solver_method
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
 
-   public :: accuracy_key, check_grid_keys, grid_in_words, grid_keys, grid_method, points_of_grid, start_on_grids
+   public :: accuracy_key, check_grid_keys, grid_in_words, grid_keys, options_of_grid, points_of_grid
 
 contains
-
-   type(solver_method) function grid_method() result(method)
-      type(grid_contact) :: solver
-
-      method%name = 'grid'
-      method%meaning = 'ever finer grids until mean gap, area and peak pressure are accurate'
-      allocate (method%keys, source=grid_keys())
-      method%traits = solver%traits()
-      method%check => check_grid_keys
-      method%make => make
-   end function grid_method
-
-   subroutine make(values, surface, keep_fields, solver, description)
-      type(group_values), intent(in) :: values
-      type(surface_type), intent(in) :: surface
-      logical, intent(in) :: keep_fields
-      class(contact_solver), allocatable, intent(out) :: solver
-      character(:), allocatable, intent(out) :: description
-
-      type(grid_contact), allocatable :: own
-
-      allocate (own)
-      call start_on_grids(values, surface, keep_fields, own)
-      call move_alloc(own, solver)
-      description = grid_in_words(values, surface)
-   end subroutine make
 
    !> The key of solvers that refine.
    pure type(key_type) function accuracy_key() result(key)
@@ -78,16 +50,13 @@ contains
       if (all(points == 0) .and. .not. values%real('accuracy') > 0.0_dp) points = surface%points
    end function points_of_grid
 
-   !> Starts a solver on grids, or one that extends it, with the values of &method.
-   subroutine start_on_grids(values, surface, keep_fields, solver)
+   !> The options of a solver on grids, or of one that extends it.
+   pure type(grid_options) function options_of_grid(values, surface) result(options)
       type(group_values), intent(in) :: values     !! of &method
       type(surface_type), intent(in) :: surface
-      logical, intent(in) :: keep_fields
-      class(grid_contact), intent(inout) :: solver
 
-      call solver%start(surface, grid_options(values%real('accuracy'), points_of_grid(values, surface), &
-                                              values%real('residual')), keep_fields)
-   end subroutine start_on_grids
+      options = grid_options(values%real('accuracy'), points_of_grid(values, surface), values%real('residual'))
+   end function options_of_grid
 
    !> Removes the default of `accuracy` if the deck gives grid_points or the surface is a height map: these are then
    !> solved on one given grid. Writes grid_points in full to the resolved deck. Reports a residual without a given
@@ -110,7 +79,7 @@ contains
       if (values%has('residual') .and. .not. values%has('accuracy') .and. all(points_of_grid(values, surface) == 0)) &
          call values%complain(problems, 'residual', 'residual needs grid_points, or a height map on '// &
                               'its own points: other grids have the residual that their accuracy takes')
-      if (.not. surface%mirrored .and. any(mod(values%integers('grid_points'), 2) /= 0)) &
+      if (.not. surface%mirrored .and. any(mod(nint(values%reals('grid_points')), 2) /= 0)) &
          call values%complain(problems, 'grid_points', &
          'grid_points must be even: of surfaces with mirror symmetry half of them are solved each way')
    end subroutine check_grid_keys
@@ -142,4 +111,4 @@ contains
       if (all(points == 0) .and. surface%has_smaller_cell()) words = words//' turned by 45 degrees'
    end function grid_in_words
 
-end module wavycon_grid_method
+end module wavycon_grid_keys

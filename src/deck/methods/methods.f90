@@ -1,0 +1,241 @@
+!> What decks say about solvers: their names, their keys of &method, what they refuse, and how values start them.
+module wavycon_methods
+   use wavycon_auto_contact, only: auto_contact, has_a_hardness, has_closed_form, has_expansions, has_neither, &
+      points_are_given, points_are_of_the_map
+   use wavycon_beale_contact, only: beale_contact
+   use wavycon_beale_keys, only: beale_in_words, beale_keys, beale_options, check_beale_keys
+   use wavycon_closed_form_contact, only: closed_form_contact, closed_form_exists
+   use wavycon_contact_solver, only: contact_solver, solver_traits
+   use wavycon_contact_tuning, only: largest_aspect_ratio, largest_curvature_ratio
+   use wavycon_fitted_contact, only: fitted_contact, fitted_options
+   use wavycon_fitted_frame, only: find_frame, fitted_frame
+   use wavycon_grid_contact, only: grid_contact
+   use wavycon_grid_keys, only: accuracy_key, check_grid_keys, grid_in_words, grid_keys, options_of_grid
+   use wavycon_group_values, only: group_values
+   use wavycon_key_relations, only: alternative_group, alternative_type, check_relations
+   use wavycon_key_table, only: key_group_type
+   use wavycon_kinds, only: dp
+   use wavycon_plain_text, only: in_quotes, listed, short_number
+   use wavycon_problems, only: problem_list_type
+   use wavycon_surface, only: surface_type
+   use wavycon_wave_kinds, only: paper_kinds, paper_waves
+   implicit none (type, external)
+   private
+
+   public :: method_table, get_methods, check_method_group, default_solver, solvers_for, solvers_with, traits_of, &
+      start_solver, why_chosen
+
+   integer, parameter, public :: number_of_methods = 5
+   character(12), parameter :: names(number_of_methods) = [character(12) :: 'beale', 'grid', 'fitted', 'closed_form', &
+                                                           'auto']
+
+contains
+
+   !> All solvers, in the order of the key reference. A key that two of them read must have the same type, unit and
+   !> bounds in both; its meaning may differ.
+   subroutine get_methods(methods)
+      type(alternative_type), intent(out) :: methods(number_of_methods)
+
+      methods%name = names
+      methods(1)%meaning = "the paper's truncated Fourier series, for its waves; their default. The key minimiser "// &
+         "says how its quadratic programme is solved: by default not by Beale's method"
+      allocate (methods(1)%keys, source=beale_keys())
+      methods(2)%meaning = 'ever finer grids until mean gap, area and peak pressure are accurate'
+      allocate (methods(2)%keys, source=grid_keys())
+      methods(3)%meaning = 'collocation fitted to the edge of contact, of spots or of closed pools of gap'
+      allocate (methods(3)%keys, source=[accuracy_key()])
+      methods(4)%meaning = "Westergaard's solution of the 1-D wave"
+      allocate (methods(4)%keys(0))
+      methods(5)%meaning = "the closed form where there is one, otherwise 'fitted' where it applies, with "// &
+         "'grid' for loads at which these are not accurate enough, otherwise and with a hardness 'grid'"
+      allocate (methods(5)%keys, source=grid_keys())
+   end subroutine get_methods
+
+   !> The table of keys of &method: `solver` and the keys of all solvers.
+   function method_table() result(table)
+      type(key_group_type) :: table
+
+      type(alternative_type) :: methods(number_of_methods)
+
+      call get_methods(methods)
+      table = alternative_group('method', 'how the contact is computed', 'solver', 'by the surface', methods, &
+                                required=.false.)
+   end function method_table
+
+   !> Sets the defaults that depend on the surface and checks the keys against the solver.
+   subroutine check_method_group(values, kind, surface, problems)
+      type(group_values), intent(inout) :: values
+      character(*), intent(in) :: kind                           !! of the surface, as the deck names it
+      type(surface_type), allocatable, intent(in) :: surface     !! not allocated if it has problems
+      type(problem_list_type), intent(inout) :: problems
+
+      character(:), allocatable :: solver, words
+
+      if (allocated(surface)) call values%set_default('solver', text=default_solver(surface, kind))
+      call check_relations(values, problems)
+      ! Without a surface the remaining checks would report problems that are not there.
+      if (.not. allocated(surface) .or. values%is_bad('solver')) return
+      solver = values%text('solver')
+      words = refusal(solver, surface)
+      if (words /= '') then
+         call values%complain(problems, 'solver', "solver = '"//solver//"' "//words//'. Give '//solvers_for(surface))
+         return
+      end if
+      select case (solver)
+      case ('beale')
+         call check_beale_keys(values, surface, problems)
+      case ('grid', 'auto')
+         call check_grid_keys(values, surface, problems)
+      end select
+   end subroutine check_method_group
+
+   !> Why a solver cannot solve a surface, as the end of a sentence such as 'is for the 1-D wave'; empty if it can.
+   function refusal(solver, surface) result(words)
+      character(*), intent(in) :: solver
+      type(surface_type), intent(in) :: surface
+      character(:), allocatable :: words
+
+      type(fitted_frame) :: frame
+
+      words = ''
+      if (any(solver == ['fitted     ', 'closed_form']) .and. surface%has_hardness()) &
+         words = 'has no solution with a hardness'
+      select case (solver)
+      case ('beale')
+         if (.not. surface%is_paper_wave()) words = 'is for the waves of the paper: '//paper_waves
+      case ('closed_form')
+         if (.not. closed_form_exists(surface)) words = 'is for the 1-D wave'
+      case ('fitted')
+         call find_frame(surface, frame)
+         ! A flat surface is in full contact at every load: no expansion is needed.
+         if (.not. frame%is_found() .and. surface%amplitude > 0.0_dp) words = &
+            "is for the paper's wave, also with two wavelengths up to "//short_number(largest_aspect_ratio)// &
+            ':1, for crossed waves with crest curvatures up to '//short_number(largest_curvature_ratio)// &
+            ':1 and for three equal waves at 60 degrees'
+      end select
+   end function refusal
+
+   !> The name of the default solver of a surface.
+   function default_solver(surface, kind) result(name)
+      type(surface_type), intent(in) :: surface
+      character(*), intent(in) :: kind           !! of the surface, as the deck names it
+      character(:), allocatable :: name
+
+      name = 'auto'
+      ! A sum of waves that equals a wave of the paper is solved to an accuracy by default, as all other sums are.
+      if (any(paper_kinds == kind) .and. surface%is_paper_wave()) name = 'beale'
+   end function default_solver
+
+   !> The solvers that can solve a surface, such as "'grid' or 'auto'".
+   function solvers_for(surface) result(words)
+      type(surface_type), intent(in) :: surface
+      character(:), allocatable :: words
+
+      integer :: i
+
+      words = listed(in_quotes(pack(names, [(refusal(names(i), surface) == '', i=1, size(names))])), ' or ')
+   end function solvers_for
+
+   !> The solvers whose solutions have details, or the coefficients of a series.
+   function solvers_with(trait) result(words)
+      character(*), intent(in) :: trait   !! 'details' or 'coefficients'
+      character(:), allocatable :: words
+
+      type(solver_traits) :: traits(number_of_methods)
+      integer :: i
+
+      traits = [(traits_of(names(i)), i=1, size(names))]
+      words = listed(in_quotes(pack(names, merge(traits%has_details, traits%has_coefficients, trait == 'details'))), &
+                     ' or ')
+   end function solvers_with
+
+   !> The traits of a solver before it is started.
+   type(solver_traits) function traits_of(name) result(traits)
+      character(*), intent(in) :: name   !! of a solver
+
+      class(contact_solver), allocatable :: solver
+
+      call allocate_solver(name, solver)
+      if (allocated(solver)) traits = solver%traits()
+   end function traits_of
+
+   subroutine allocate_solver(name, solver)
+      character(*), intent(in) :: name
+      class(contact_solver), allocatable, intent(out) :: solver   !! not allocated if no solver has the name
+
+      select case (name)
+      case ('beale')
+         allocate (beale_contact :: solver)
+      case ('grid')
+         allocate (grid_contact :: solver)
+      case ('fitted')
+         allocate (fitted_contact :: solver)
+      case ('closed_form')
+         allocate (closed_form_contact :: solver)
+      case ('auto')
+         allocate (auto_contact :: solver)
+      end select
+   end subroutine allocate_solver
+
+   !> Makes the solver that &method names and starts it. Not allocated if no solver has that name.
+   subroutine start_solver(surface, values, keep_fields, solver, description)
+      type(surface_type), intent(in) :: surface      !! which the solver does not refuse
+      type(group_values), intent(in) :: values       !! of &method, without problems
+      logical, intent(in) :: keep_fields             !! whether fields, edges or details of solutions will be needed
+      class(contact_solver), allocatable, intent(out) :: solver
+      character(:), allocatable, intent(out), optional :: description   !! the discretisation, for log and tables
+
+      character(*), parameter :: closed_form = "closed form (Westergaard's solution)"
+      character(:), allocatable :: fitted, words
+      type(solver_traits) :: traits
+
+      call allocate_solver(values%text('solver'), solver)
+      if (.not. allocated(solver)) return
+      words = ''
+      fitted = 'collocation fitted to the edge to within '//short_number(values%real('accuracy'))
+      select type (solver)
+      type is (beale_contact)
+         call solver%start(surface, beale_options(values))
+         words = beale_in_words(values, surface)
+      type is (closed_form_contact)
+         call solver%start(surface)
+         words = closed_form
+      type is (fitted_contact)
+         call solver%start(surface, fitted_options(values%real('accuracy')), keep_fields)
+         words = fitted
+      class is (grid_contact)
+         ! auto_contact extends it.
+         call solver%start(surface, options_of_grid(values, surface), keep_fields)
+         traits = solver%traits()
+         words = grid_in_words(values, surface)
+         if (traits%choice == has_closed_form) words = closed_form
+         if (traits%choice == has_expansions) words = fitted//', grids where it cannot'
+      end select
+      if (present(description)) call move_alloc(words, description)
+   end subroutine start_solver
+
+   !> Why the solvers were taken, as a sentence for --check; empty for other solvers than 'auto'.
+   pure function why_chosen(traits) result(words)
+      type(solver_traits), intent(in) :: traits   !! of the started solver
+      character(:), allocatable :: words
+
+      select case (traits%choice)
+      case (has_closed_form)
+         words = 'the surface is the 1-D wave, which has a closed form'
+      case (has_expansions)
+         words = "the surface has a lattice of equal spots; grids solve the loads for which 'fitted' is not "// &
+                 'accurate enough'
+      case (has_neither)
+         words = 'the surface has neither a closed form nor a lattice of equal spots'
+      case (has_a_hardness)
+         words = "neither the closed form nor 'fitted' has a hardness"
+      case (points_are_given)
+         words = 'the points of the grid are given'
+      case (points_are_of_the_map)
+         words = 'a height map is solved on its own points unless an accuracy is given'
+      case default
+         words = ''
+      end select
+   end function why_chosen
+
+end module wavycon_methods
