@@ -6,11 +6,11 @@ program bench_grids
    use wavycon_fitted_solver, only: fitted_answer, solve_fitted, square_lattice
    use wavycon_grid_sequence, only: sequence_answer, solve_by_sequence
    use wavycon_kinds, only: dp
-   use wavycon_kuznetsov, only: kuznetsov_mean_gap_over_amplitude
+   use wavycon_westergaard, only: kuznetsov_mean_gap_over_amplitude, westergaard_contact_area_fraction, &
+      westergaard_peak_pressure_over_pstar
    use wavycon_surface, only: surface_type
    use wavycon_wave_1d, only: wave_1d
    use wavycon_wave_2d, only: wave_2d
-   use wavycon_westergaard, only: westergaard_contact_area_fraction, westergaard_peak_pressure_over_pstar
    implicit none (type, external)
 
    real(dp), parameter :: accuracies(*) = [1e-2_dp, 1e-3_dp, 1e-4_dp]
