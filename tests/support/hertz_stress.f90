@@ -19,14 +19,14 @@ module wavycon_hertz_stress
 contains
 
    !> On the axis of a point contact, Johnson (3.45): s_zz = -1/(1 + z^2) and
-   !> s_xx = s_yy = -(1 + nu) (1 - z arctan(1/z)) + 1/(2 (1 + z^2)).
+   !> s_xx = s_yy = -(1 + nu) (1 - z arctan(1/z)) + 1/(2 (1 + z^2)). At depth the terms of the bracket cancel.
    pure subroutine hertz_point_axis_stress(z, parts)
       real(dp), intent(in) :: z             !! depth, >= 0 [a]
       real(dp), intent(out) :: parts(6, 2)  !! stress in two parts [p0]
 
       real(dp) :: lateral
 
-      lateral = one_less_z_arccot(z)
+      lateral = 1 - z*atan2(1.0_dp, z)
       parts = 0
       parts(xx:yy, 1) = 1/(2*(1 + z**2)) - lateral
       parts(zz, 1) = -1/(1 + z**2)
@@ -103,31 +103,5 @@ contains
       depth = sqrt(golden_ratio)
       shear = depth*(1 - golden_ratio)
    end subroutine hertz_line_largest_shear
-
-   !> 1 - z arctan(1/z) for z >= 0.
-   !>
-   !> Its two terms cancel at depth, where it is about 1/(3 z^2). From z = 1 on by Euler's series of arctan in powers of
-   !> y = 1/(1 + z^2) <= 1/2: the sum of c_(k-1) y^k/(2 k + 1), c_0 = 1, c_k = c_(k-1) 2 k/(2 k + 1).
-   elemental real(dp) function one_less_z_arccot(z) result(total)
-      real(dp), intent(in) :: z
-
-      real(dp) :: power  !! c_(k-1) y^k
-      real(dp) :: term, y
-      integer :: k
-
-      if (z < 1) then
-         total = 1 - z*atan2(1.0_dp, z)
-      else
-         y = 1/(1 + z**2)
-         total = 0
-         power = y
-         do k = 1, digits(y)
-            term = power/(2*k + 1)
-            total = total + term
-            if (term < epsilon(total)*total) exit
-            power = power*y*2*k/(2*k + 1)
-         end do
-      end if
-   end function one_less_z_arccot
 
 end module wavycon_hertz_stress
