@@ -107,7 +107,7 @@ contains
       seconds = real(ended - begun, dp)/real(rate, dp)
    end subroutine solve
 
-   !> Runs a saved case.
+   !> Runs a saved case by both methods.
    subroutine run_file(path)
       character(*), intent(in) :: path
 
@@ -115,15 +115,17 @@ contains
       type(kkt_type) :: kkt
       type(qp_problem) :: problem
       type(qp_solution) :: solution
+      integer :: method
 
       call read_problem(path, problem)
-      call solve(problem, .true., solution, seconds)
-      write (*, '(a, i0, a, f0.3, a, es10.2e3)') trim(status_name(status_of_programme(solution%status)))//', ', &
-         solution%pivots, ' pivots, ', &
-         seconds, ' s, own residual ', solution%kkt_residual
-      kkt = check_in_quad(problem, solution)
-      write (*, '(4(a, es10.2e3))') 'in quadruple precision: stationarity ', kkt%stationarity, ', feasibility ', &
-         kkt%feasibility, ', sign ', kkt%sign, ', complementarity ', kkt%complementarity
+      do method = 1, 2
+         call solve(problem, method == 1, solution, seconds)
+         write (*, '(a, i0, a, f0.3, a, es10.2e3)') trim(status_name(status_of_programme(solution%status)))//', ', &
+            solution%pivots, ' pivots, ', seconds, ' s, own residual ', solution%kkt_residual
+         kkt = check_in_quad(problem, solution)
+         write (*, '(4(a, es10.2e3))') 'in quadruple precision: stationarity ', kkt%stationarity, ', feasibility ', &
+            kkt%feasibility, ', sign ', kkt%sign, ', complementarity ', kkt%complementarity
+      end do
    end subroutine run_file
 
 end program stress_qp
