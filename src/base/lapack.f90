@@ -4,8 +4,8 @@ module wavycon_lapack
    implicit none (type, external)
    private
 
-   public :: dasum, ddot, dgemm, dgemv, dger, drot, dsymv, dsyr, dtrsm, dtrsv, sdot  ! BLAS
-   public :: dgels, dgeqp3, dgglse, dlarfg, dorgqr, dpotrf, dsyev     ! LAPACK
+   public :: ddot, dgemm, dgemv, drot, dtrsv, sdot                   ! BLAS
+   public :: dgels, dgeqp3, dgglse, dorgqr, dpotrf, dsyev     ! LAPACK
 
    interface
       pure subroutine dgemv(trans, m, n, alpha, a, lda, x, incx, beta, y, incy)
@@ -16,29 +16,6 @@ module wavycon_lapack
          real(dp), intent(inout) :: y(*)
       end subroutine dgemv
 
-      pure subroutine dger(m, n, alpha, x, incx, y, incy, a, lda)
-         import :: dp
-         integer, intent(in) :: m, n, incx, incy, lda
-         real(dp), intent(in) :: alpha, x(*), y(*)
-         real(dp), intent(inout) :: a(lda, *)
-      end subroutine dger
-
-      pure subroutine dsymv(uplo, n, alpha, a, lda, x, incx, beta, y, incy)
-         import :: dp
-         character, intent(in) :: uplo
-         integer, intent(in) :: n, lda, incx, incy
-         real(dp), intent(in) :: alpha, beta, a(lda, *), x(*)
-         real(dp), intent(inout) :: y(*)
-      end subroutine dsymv
-
-      pure subroutine dsyr(uplo, n, alpha, x, incx, a, lda)
-         import :: dp
-         character, intent(in) :: uplo
-         integer, intent(in) :: n, incx, lda
-         real(dp), intent(in) :: alpha, x(*)
-         real(dp), intent(inout) :: a(lda, *)
-      end subroutine dsyr
-
       pure subroutine dtrsv(uplo, trans, diag, n, a, lda, x, incx)
          import :: dp
          character, intent(in) :: uplo, trans, diag
@@ -46,14 +23,6 @@ module wavycon_lapack
          real(dp), intent(in) :: a(lda, *)
          real(dp), intent(inout) :: x(*)
       end subroutine dtrsv
-
-      pure subroutine dtrsm(side, uplo, transa, diag, m, n, alpha, a, lda, b, ldb)
-         import :: dp
-         character, intent(in) :: side, uplo, transa, diag
-         integer, intent(in) :: m, n, lda, ldb
-         real(dp), intent(in) :: alpha, a(lda, *)
-         real(dp), intent(inout) :: b(ldb, *)
-      end subroutine dtrsm
 
       pure subroutine dgemm(transa, transb, m, n, k, alpha, a, lda, b, ldb, beta, c, ldc)
          import :: dp
@@ -116,13 +85,6 @@ module wavycon_lapack
          real(dp), intent(inout) :: x(*), y(*)
          real(dp), intent(in) :: c, s
       end subroutine drot
-
-      pure subroutine dlarfg(n, alpha, x, incx, tau)
-         import :: dp
-         integer, intent(in) :: n, incx
-         real(dp), intent(inout) :: alpha, x(*)
-         real(dp), intent(out) :: tau
-      end subroutine dlarfg
 
       pure subroutine dgels(trans, m, n, nrhs, a, lda, b, ldb, work, lwork, info)
          import :: dp

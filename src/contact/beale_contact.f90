@@ -3,7 +3,6 @@
 !> Idnani's dual method or, as in the paper, by Beale's.
 module wavycon_beale_contact
    use wavycon_assertion, only: assert
-   use wavycon_beale, only: beale_solver
    use wavycon_complementary_energy, only: bounds_at, energy_problem
    use wavycon_contact_measures, only: measure_series
    use wavycon_contact_solution, only: contact_solution
@@ -37,7 +36,7 @@ module wavycon_beale_contact
       type(series_source) :: series                    !! without amplitudes
       type(qp_problem) :: problem                      !! at zero load, or that of the last cold start
       logical :: by_beale = .false.                    !! whether Beale's method solves each load
-      class(dual_solver), allocatable, private :: solver   !! after the first load
+      type(dual_solver), allocatable, private :: solver   !! after the first load
    contains
       procedure :: start
       procedure :: solve_partial_contact
@@ -96,18 +95,14 @@ contains
       solution%residual = programme%kkt_residual
       open_gap = 0.0_dp
       residual_indentation = 0.0_dp
-      if (allocated(programme%x)) then
-         solution%active_constraints = size(programme%active)
-         if (self%surface%has_hardness()) then
-            ! The energy per area is P plus the programme's objective times the mean square of the surface's wave.
-            associate (at_hardness => programme%active > size(self%problem%bounds)/2, &
-                       gaps => programme%multipliers/2**self%surface%dimension)
-               open_gap = sum(gaps, .not. at_hardness)
-               residual_indentation = sum(gaps, at_hardness)
-            end associate
-         end if
-      else
-         allocate (programme%x(self%series%terms%count()), source=0.0_dp)
+      solution%active_constraints = size(programme%active)
+      if (self%surface%has_hardness()) then
+         ! The energy per area is P plus the programme's objective times the mean square of the surface's wave.
+         associate (at_hardness => programme%active > size(self%problem%bounds)/2, &
+                    gaps => programme%multipliers/2**self%surface%dimension)
+            open_gap = sum(gaps, .not. at_hardness)
+            residual_indentation = sum(gaps, at_hardness)
+         end associate
       end if
       allocate (source)
       source = self%series
@@ -117,7 +112,7 @@ contains
                           solution%measures, merge(self%surface%hardness, huge(1.0_dp), residual_indentation > 0.0_dp))
       associate (x => source%x, n => self%surface%dimension)
          ! The mean square of the surface's own wave is 2^-n.
-         solution%measures%elastic_energy = 0.5_dp*dot_product(x, matmul(self%problem%hessian, x))/2**n
+         solution%measures%elastic_energy = 0.5_dp*dot_product(x, self%problem%hessian*x)/2**n
       end associate
       ! The crest, from which the approach follows otherwise, is then not in elastic contact.
       if (residual_indentation > 0.0_dp) then
@@ -129,7 +124,7 @@ contains
 
    !> Solves the quadratic programme (17), (18) or (26), (27) of the paper, with p <= H where the surface has a
    !> hardness. Its pivots are those since the last load; its x are the amplitudes of the Fourier terms of
-   !> (p - pbar)/p*, not allocated if no minimum was found.
+   !> (p - pbar)/p*.
    subroutine solve_programme(self, pbar_over_pstar, programme)
       class(beale_contact), intent(inout) :: self
       real(dp), intent(in) :: pbar_over_pstar       !! 0 < P < 1 or H
@@ -142,24 +137,18 @@ contains
       pivots = 0
       solved = .false.
       if (self%by_beale .or. .not. allocated(self%solver)) then
-         if (allocated(self%solver)) deallocate (self%solver)
-         if (self%by_beale) then
-            allocate (beale_solver :: self%solver)
-            start = pbar_over_pstar
-         else
-            allocate (dual_solver :: self%solver)
-            start = max(pbar_over_pstar, min(lightest_start, 0.5_dp*self%surface%hardness))
-         end if
+         if (.not. allocated(self%solver)) allocate (self%solver)
+         start = pbar_over_pstar
+         if (.not. self%by_beale) start = max(start, min(lightest_start, 0.5_dp*self%surface%hardness))
          self%problem%bounds = bounds_at(self%problem, start, self%surface%hardness)
-         call self%solver%solve(self%problem, programme)
+         call self%solver%solve(self%problem, programme, self%by_beale)
          pivots = programme%pivots
-         solved = pbar_over_pstar >= start .or. .not. allocated(programme%x)
+         solved = pbar_over_pstar >= start
       end if
       if (.not. solved) then
          call self%solver%pass_to(bounds_at(self%problem, pbar_over_pstar, self%surface%hardness), programme)
          programme%pivots = programme%pivots + pivots
       end if
-      if (.not. allocated(programme%x)) deallocate (self%solver)
    end subroutine solve_programme
 
    type(solver_traits) function traits(self)

@@ -11,13 +11,12 @@ module wavycon_closed_form_contact
    use wavycon_field_source, only: field_source
    use wavycon_kinds, only: dp
    use wavycon_load_derivatives, only: load_derivatives
-   use wavycon_kuznetsov, only: kuznetsov_mean_gap_over_amplitude
+   use wavycon_westergaard, only: kuznetsov_mean_gap_over_amplitude, westergaard_contact_area_fraction, &
+      westergaard_displacement_over_amplitude, westergaard_gap_over_amplitude, westergaard_peak_pressure_over_pstar, &
+      westergaard_pressure_over_pstar
    use wavycon_solution_record, only: by_closed_form, solution_record
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type
-   use wavycon_westergaard, only: westergaard_contact_area_fraction, westergaard_displacement_over_amplitude, &
-                                  westergaard_gap_over_amplitude, westergaard_peak_pressure_over_pstar, &
-                                  westergaard_pressure_over_pstar
    implicit none (type, external)
    private
 

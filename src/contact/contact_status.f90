@@ -1,7 +1,6 @@
 !> The statuses of a solution: codes, and their names in tables.
 module wavycon_contact_status
-   use wavycon_qp_problem, only: qp_converged, qp_inaccurate, qp_infeasible, qp_infeasible_start, qp_iteration_limit, &
-      qp_not_convex, qp_not_finite
+   use wavycon_qp_problem, only: qp_converged, qp_inaccurate, qp_iteration_limit
    implicit none (type, external)
    private
 
@@ -32,10 +31,10 @@ module wavycon_contact_status
    !> All of them, and their names in tables.
    integer, parameter :: statuses(*) = [converged, closed_form, full_contact, no_load, unresolved, not_accurate, &
       not_found, no_memory, not_finite, above_hardness, interrupted, &
-      other_failure + [qp_iteration_limit, qp_infeasible, qp_infeasible_start, qp_not_convex, qp_inaccurate]]
+      other_failure + [qp_iteration_limit, qp_inaccurate]]
    character(16), parameter :: names(*) = [character(16) :: 'converged', 'closed_form', 'full_contact', 'no_load', &
       'unresolved', 'not_accurate', 'not_found', 'no_memory', 'not_finite', 'above_hardness', 'interrupted', &
-      'iteration_limit', 'infeasible', 'infeasible_start', 'not_convex', 'inaccurate']
+      'iteration_limit', 'inaccurate']
 
 contains
 
@@ -57,14 +56,8 @@ contains
    elemental integer function status_of_programme(qp_status) result(status)
       integer, intent(in) :: qp_status   !! of wavycon_qp_problem
 
-      select case (qp_status)
-      case (qp_converged)
-         status = converged
-      case (qp_not_finite)
-         status = not_finite
-      case default
-         status = other_failure + qp_status
-      end select
+      status = converged
+      if (qp_status /= qp_converged) status = other_failure + qp_status
    end function status_of_programme
 
    !> The name of a status in tables.

@@ -9,7 +9,6 @@ module wavycon_grid_source
    use wavycon_contact_measures, only: or_nan
    use wavycon_field_source, only: field_source
    use wavycon_fourier_series, only: fourier_series
-   use wavycon_free_stress, only: free_stress, start_free_stress
    use wavycon_grid_area, only: grid_strip_edges
    use wavycon_grid_derivatives, only: differentiate_on_grid
    use wavycon_grid_edge, only: grid_edge, make_grid_edge
@@ -180,7 +179,7 @@ contains
       class(stress_fields), allocatable, intent(out) :: answer
 
       type(fourier_series) :: pressure
-      type(free_stress), allocatable :: own
+      type(series_stress), allocatable :: own
       type(grid_transform) :: transform
       integer :: i, j
       real(dp) :: centre(2), load, spread, x(self%edge%slab%points(1)), y(self%edge%slab%points(2))
@@ -202,8 +201,9 @@ contains
       end associate
       call transform%start(shape(values), .false., whole=.true.)
       call transform%series(values, pressure)
-      call start_free_stress(own, surface, pressure, [x(1), y(1)], centre, spread, record%pbar_over_pstar, &
-                             or_nan(record%measures%peak_pressure_error))
+      call start_series_stress(own, surface, pressure, record%pbar_over_pstar/4, &
+                               or_nan(record%measures%peak_pressure_error), is_sampled=.true.)
+      call own%remove_images([x(1), y(1)], centre, spread)
       call move_alloc(own, answer)
    end subroutine stresses_with_free_edges
 

@@ -151,7 +151,7 @@ contains
       integer, parameter :: block = 64
       type(qp_problem) :: problem
       integer :: i, info, m, n
-      real(dp), allocatable :: constraints(:, :), energy(:), minus_one(:), root(:, :), work(:), x(:), zero(:)
+      real(dp), allocatable :: constraints(:, :), minus_one(:), root(:, :), work(:), x(:), zero(:)
 
       if (surface%has_hardness()) return
       problem = energy_problem(self%terms, self%constraint_points, self%symmetry)
@@ -162,16 +162,15 @@ contains
       n = size(self%x)
       m = size(constraints, 1)
       if (m > n) return
-      energy = [(problem%hessian(i, i), i=1, n)]
       allocate (root(n, n), zero(n), source=0.0_dp)
       do i = 1, n
-         root(i, i) = sqrt(energy(i))
+         root(i, i) = sqrt(problem%hessian(i))
       end do
       allocate (minus_one(m), source=-1.0_dp)
       allocate (x(n), work(block*(2*n + m)))
       call dgglse(n, n, m, root, n, constraints, max(1, m), zero, minus_one, x, work, size(work), info)
       ! The energy is in units of the mean square of the surface's own wave.
-      if (info == 0) answer%gap_slope = -sum(energy*x**2)/2**surface%dimension
+      if (info == 0) answer%gap_slope = -sum(problem%hessian*x**2)/2**surface%dimension
    end subroutine derivatives
 
 end module wavycon_series_source

@@ -36,11 +36,10 @@ contains
       integer :: t, n
 
       n = terms%count()
-      allocate (problem%hessian(n, n), problem%linear(n), source=0.0_dp)
+      allocate (problem%hessian(n), problem%linear(n), source=0.0_dp)
       do t = 1, n
-         problem%hessian(t, t) = terms%weight(t)*terms%compliance(t)
+         problem%hessian(t) = terms%weight(t)*terms%compliance(t)
       end do
-      problem%linear = 0.0_dp
       problem%linear(terms%fundamental()) = 1.0_dp
       call choose_points(terms%dimension, points_per_side, symmetry, k, l)
       problem%normals = term_values(terms, points_per_side, k, l)

@@ -6,7 +6,7 @@ module wavycon_adhesive_curve
    use wavycon_contact_measures, only: contact_measures, is_known
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver
-   use wavycon_hertz_ball, only: hertz_ball, hertz_of_force
+   use wavycon_hertz_ball, only: hertz_ball, hertz_contact
    use wavycon_kinds, only: dp
    use wavycon_load_derivatives, only: load_derivatives
    implicit none (type, external)
@@ -199,8 +199,8 @@ contains
 
       associate (surface => solver%surface)
          ! Over p* and Delta the modulus does not matter.
-         contact = hertz_of_force(surface%radii(), 1.0_dp, &
-                                  p1*surface%full_contact_pressure(1.0_dp)*surface%nominal_area())
+         contact = hertz_contact(surface%radii(), 1.0_dp, &
+                                 force=p1*surface%full_contact_pressure(1.0_dp)*surface%nominal_area())
          measures%approach_over_amplitude = contact%approach/surface%amplitude
          measures%contact_area_fraction = contact%contact_area()/surface%nominal_area()
       end associate

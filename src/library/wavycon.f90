@@ -26,17 +26,12 @@ module wavycon
    use wavycon_fourier_series, only: fourier_series
    use wavycon_fourier_terms, only: symmetry_diagonal, symmetry_full, symmetry_none
    use wavycon_grid_contact, only: grid_contact, grid_options
-   use wavycon_hertz_line
-   use wavycon_hertz_point
    use wavycon_hexagonal, only: hexagonal
    use wavycon_key_json, only: key_json
    use wavycon_kinds, only: dp
-   use wavycon_kuznetsov
    use wavycon_largest_stress, only: find_largest_stresses, largest_stress
    use wavycon_light_load
-   use wavycon_line_crack
    use wavycon_memory_table, only: memory_table, of_integers, of_reals, of_words
-   use wavycon_near_closure
    use wavycon_penny_crack
    use wavycon_session_fields, only: fields_at, fields_on_grid, own_points, stresses_at, stresses_on_plane
    use wavycon_solver_progress, only: solver_progress

@@ -1,4 +1,4 @@
-!> Minimises 1/2 x'Dx - c'x subject to Cx >= b by Beale's method, D positive definite, b <= 0.
+!> Beale's method for  minimise 1/2 x'Dx - c'x  subject to  Cx >= b,  D diagonal and positive, b <= 0.
 !>
 !> E. M. L. Beale, J. R. Statist. Soc. B 17 (1955) 173-184; Naval Res. Logist. Quart. 6 (1959) 227-243. Numbers (Q..)
 !> are the equations of README.md in this directory.
@@ -9,136 +9,121 @@
 !> a variable that was changed; (b) the derivative reaches zero and a new free variable u, proportional to that
 !> derivative, takes the place.
 !>
-!> N.B. Three departures from Beale. The free variables are changed together (see the table). An active slack is
-!> exchanged for its u before the step, not after it: the path is the same. And the table, which he carries in exact
-!> arithmetic, is used only to find the set of active constraints, from which the dual pass finishes and checks. The
-!> pass has exchanges left to make only where the table has lost digits or Beale's method takes many steps.
+!> N.B. Beale carries the objective and the basic slacks in a table. Here the factors of the active constraints give
+!> the numbers of that table which decide on the exchanges: the path from set to set of active constraints is his.
+!> The free variables are changed together, towards the minimum on the active constraints.
 module wavycon_beale
-   use wavycon_beale_table, only: table_type
-   use wavycon_dual_solver, only: default_pivot_limit, dual_solver
    use wavycon_kinds, only: dp
-   use wavycon_qp_problem, only: qp_problem, qp_solution, qp_converged, qp_infeasible_start
+   use wavycon_lapack, only: dgemv, dtrsv
+   use wavycon_qp_problem, only: qp_problem
+   use wavycon_working_set, only: working_set
    implicit none (type, external)
    private
 
-   public :: beale_solver
+   public :: descend
 
    !> A slack that falls slower than this fraction of the fastest does not limit a step: its constraint depends on
    !> active ones, and the rate is rounding.
    real(dp), parameter :: pivot_tolerance = 1e-11_dp
    !> Slacks within this fraction of the first to reach zero tie with it; the fastest of them is taken.
    real(dp), parameter :: tie_tolerance = 1e-13_dp
-   !> After so many steps of length zero in a row the least index decides all choices, so that no set of active
-   !> constraints recurs (Chang & Cottle, Math. Program. 18 (1980) 127-138), until a step is longer than zero.
-   integer, parameter :: most_zero_steps = 12
-   !> Beale's method ends after so many pivots times n, and the dual pass continues from its active constraints: a path
-   !> that long passes through vertices of nearly dependent constraints, which cost digits.
-   integer, parameter :: pivots_per_unknown = 8
-
-   !> Other bounds are solved by the dual pass from the last solution (`pass_to`).
-   type, extends(dual_solver) :: beale_solver
-   contains
-      procedure :: solve
-   end type beale_solver
+   !> A derivative counts as zero if it is less than this fraction of that at x = 0, both over the root of the second
+   !> derivative: rounding.
+   real(dp), parameter :: derivative_tolerance = 64*epsilon(1.0_dp)
+   !> Beale's method ends after so many exchanges times n, and the dual pass continues from its active constraints. A
+   !> path that long passes through vertices of nearly dependent constraints, or does not move at all.
+   integer, parameter :: pivots_per_unknown = 4
 
 contains
 
-   !> Solves (Q1). Ends in any case: `solution%status` is one of the statuses of wavycon_qp_problem.
-   subroutine solve(self, problem, solution, pivot_limit)
-      class(beale_solver), intent(out) :: self
+   !> Changes the active constraints from none until no change of non-basic variables lowers the objective.
+   subroutine descend(problem, set, pivots)
       type(qp_problem), intent(in) :: problem
-      type(qp_solution), intent(out) :: solution    !! only `status` is set if the problem is refused
-      integer, intent(in), optional :: pivot_limit  !! > 0; `default_pivot_limit` if absent
+      type(working_set), intent(inout) :: set   !! the empty set on entry
+      integer, intent(inout) :: pivots          !! exchanges, counted up
 
-      type(table_type) :: table
-      integer :: limit
+      real(dp), dimension(size(problem%linear)) :: components, move, rest, x
+      real(dp) :: rates(size(problem%bounds)), slacks(size(problem%bounds)), step, zero_descent
+      integer :: leaving, m, n, released
 
-      limit = default_pivot_limit(problem)
-      if (present(pivot_limit)) limit = pivot_limit
-      call self%start(problem, solution%status)
-      if (solution%status /= qp_converged) return
-      if (any(problem%bounds > 0.0_dp)) then
-         solution%status = qp_infeasible_start
-         return
-      end if
-
-      call table%start(self%problem, self%set)
-      call descend(table, min(limit, pivots_per_unknown*size(problem%linear)), solution%pivots)
-      call self%set%assign_active(self%problem, table%active(:table%active_count))
-      call self%finish(limit, solution)
-   end subroutine solve
-
-   !> Beale's method: changes non-basic variables until none lowers the objective. At the pivot limit, or where the
-   !> table has lost digits, it stops where the free variables change no more: the point is then the minimum on the
-   !> active constraints.
-   subroutine descend(table, pivot_limit, pivots)
-      type(table_type), intent(inout) :: table
-      integer, intent(in) :: pivot_limit
-      integer, intent(inout) :: pivots
-
-      integer :: zero_steps, leaving, released
-      real(dp) :: step
-
-      zero_steps = 0
-      do
-         do while (norm2(table%gradient(table%active_count + 1:)) > table%zero_descent)
-            call move_free(table, zero_steps > most_zero_steps, step, leaving)
-            if (leaving == 0) exit
-            zero_steps = merge(0, zero_steps + 1, step > 0.0_dp)
-            call table%exchange_with_slack(leaving)
-            pivots = pivots + 1
-         end do
-         table%gradient(table%active_count + 1:) = 0.0_dp
-
-         released = table%steepest_slack(zero_steps > most_zero_steps)
-         if (released == 0 .or. pivots >= pivot_limit) return
-         call table%exchange_with_derivative(released)
-         if (table%drifted) return
+      n = size(x)
+      m = size(slacks)
+      x = 0.0_dp
+      slacks = -problem%bounds
+      zero_descent = derivative_tolerance*norm2(set%inverse*problem%linear)
+      do while (pivots < pivots_per_unknown*n)
+         move = set%inverse*(problem%linear - problem%hessian*x)
+         call set%split(move, components(:set%count))
+         if (set%count < n .and. norm2(move) > zero_descent) then
+            move = set%inverse*move
+            call dgemv('T', n, m, 1.0_dp, problem%normals, n, move, 1, 0.0_dp, rates, 1)
+            call find_limit(set%active(:set%count), slacks, rates, step, leaving)
+            x = x + step*move
+            slacks = slacks + step*rates
+            if (leaving > 0) then
+               rest = set%inverse*problem%normals(:, leaving)
+               call set%split(rest, components(:set%count))
+               call set%add(leaving, components(:set%count), rest)
+               pivots = pivots + 1
+               cycle
+            end if
+            move = set%inverse*(problem%linear - problem%hessian*x)
+            call set%split(move, components(:set%count))
+         end if
+         released = steepest_slack(set, components(:set%count), zero_descent)
+         if (released == 0) return
+         call set%remove(released)
          pivots = pivots + 1
       end do
    end subroutine descend
 
-   !> Changes the free variables towards their minimum, up to the first slack that vanishes.
-   subroutine move_free(table, least_index, step, leaving)
-      type(table_type), intent(inout) :: table
-      logical, intent(in) :: least_index  !! of slacks that vanish together, take that of the first constraint
-      real(dp), intent(out) :: step       !! fraction of the distance to the minimum, 0 .. 1
-      integer, intent(out) :: leaving     !! the place in `basic` of the slack that vanishes, 0 if none does
+   !> The first slack that vanishes on the way to the minimum on the active constraints, event (a).
+   pure subroutine find_limit(active, slacks, rates, step, leaving)
+      integer, intent(in) :: active(:)
+      real(dp), intent(in) :: slacks(:), rates(:)   !! shape (m)
+      real(dp), intent(out) :: step                 !! fraction of the way, 0 .. 1
+      integer, intent(out) :: leaving               !! its constraint, 0 if none vanishes
 
-      real(dp) :: rates(table%basic_count), slowest, fastest
-      integer :: i
+      real(dp) :: parts(size(slacks))
+      logical :: falls(size(slacks))
 
-      associate (values => table%values(:table%basic_count), &
-                 free_gradient => table%gradient(table%active_count + 1:))
-         ! The Hessian of the free variables is the unit matrix: the minimum lies at minus the gradient.
-         call table%free_rates(-free_gradient, rates)
-         slowest = pivot_tolerance*maxval(abs(rates))
-         step = 1.0_dp
-         do i = 1, size(rates)
-            if (-rates(i) > slowest) then
-               if (max(values(i), 0.0_dp) < -step*rates(i)) step = max(values(i), 0.0_dp)/(-rates(i))
-            end if
-         end do
+      falls = -rates > pivot_tolerance*maxval(abs(rates))
+      falls(active) = .false.
+      parts = 1.0_dp
+      where (falls) parts = max(slacks, 0.0_dp)/(-rates)
+      step = min(1.0_dp, minval(parts))
+      leaving = 0
+      if (step < 1.0_dp) leaving = minloc(rates, dim=1, &
+                                          mask=falls .and. slacks <= -step*(1.0_dp + tie_tolerance)*rates)
+   end subroutine find_limit
 
-         leaving = 0
-         fastest = 0.0_dp
-         do i = 1, size(rates)
-            if (step >= 1.0_dp) exit
-            if (-rates(i) <= slowest) cycle
-            if (values(i) > -step*(1.0_dp + tie_tolerance)*rates(i)) cycle
-            if (least_index) then
-               if (leaving /= 0) then
-                  if (table%basic(i) > table%basic(leaving)) cycle
-               end if
-               leaving = i
-            else if (-rates(i) > fastest) then
-               leaving = i
-               fastest = -rates(i)
-            end if
-         end do
-         values = values + step*rates
-         free_gradient = (1.0_dp - step)*free_gradient
-      end associate
-   end subroutine move_free
+   !> The place of the active slack whose growth lowers the objective most, exchange (b), measured by (Q7), which has no
+   !> unit of the slack; 0 if there is none.
+   integer function steepest_slack(set, components, zero_descent) result(steepest)
+      type(working_set), intent(in) :: set
+      real(dp), intent(in) :: components(:)   !! Q'U^-1 (c - Dx), shape (k)
+      real(dp), intent(in) :: zero_descent    !! less is rounding
+
+      real(dp) :: largest, multipliers(size(components)), row(size(components))
+      integer :: i, k, n
+
+      n = size(set%active)
+      k = size(components)
+      steepest = 0
+      if (k == 0) return
+      largest = zero_descent
+      multipliers = -components
+      call dtrsv('U', 'N', 'N', k, set%triangle, n, multipliers, 1)
+      do i = 1, k
+         if (multipliers(i) >= 0.0_dp) cycle
+         ! A row of R^-1, from its diagonal element on.
+         row(i:) = 0.0_dp
+         row(i) = 1.0_dp
+         call dtrsv('U', 'T', 'N', k - i + 1, set%triangle(i, i), n, row(i), 1)
+         if (-multipliers(i) <= largest*norm2(row(i:))) cycle
+         largest = -multipliers(i)/norm2(row(i:))
+         steepest = i
+      end do
+   end function steepest_slack
 
 end module wavycon_beale

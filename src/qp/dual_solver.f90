@@ -1,195 +1,251 @@
-!> Minimises 1/2 x'Dx - c'x subject to Cx >= b by the dual pass, D positive definite.
+!> Minimises 1/2 x'Dx - c'x subject to Cx >= b by the dual method of Goldfarb & Idnani (Math. Program. 27 (1983) 1-33),
+!> D diagonal and positive.
 !>
-!> It starts from the minimum without constraints, or on a given set of active constraints. The factors that are
-!> changed from exchange to exchange are used to find the set of active constraints. The solution on that set is
-!> computed from D, c, C and b, and its Karush-Kuhn-Tucker conditions are checked. Where the factors have lost digits
-!> the set is factorised afresh and the pass continues. Numbers (Q..) are the equations of README.md in this
-!> directory.
+!> It starts from the minimum without constraints, or on a given set of active constraints. Constraints with negative
+!> multipliers are released. Then violated constraints are made active one by one, while no multiplier may change sign:
+!> equations (Q11), (Q12) of README.md in this directory. Beale's method keeps the slacks >= 0 and lowers the objective;
+!> the dual method keeps the multipliers >= 0 and raises it. Each full step raises the objective, and between two full
+!> steps the active set shrinks, so the method ends.
 !>
-!> Constraints in different units are multiplied by powers of two that bring their normals to order one: slacks are
-!> compared with each other, and the rounding of a large one would hide the violation of a small one.
+!> The factors that are changed from exchange to exchange are used to find the set of active constraints. The solution
+!> on that set is computed from D, c, C and b, and its Karush-Kuhn-Tucker conditions are checked. Where the factors have
+!> lost digits the set is factorised afresh and the pass continues.
 module wavycon_dual_solver
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use wavycon_dual_pass, only: dual_obstacle, restore_optimum
+   use wavycon_beale, only: descend
    use wavycon_kinds, only: dp
-   use wavycon_kkt, only: check_on_active_set, kkt_tolerance
-   use wavycon_lapack, only: dasum
-   use wavycon_qp_problem, only: qp_problem, qp_solution, qp_converged, qp_infeasible, &
-                                 qp_iteration_limit, qp_not_convex, qp_not_finite
-   use wavycon_working_set, only: working_set
+   use wavycon_kkt, only: kkt_residual, kkt_tolerance
+   use wavycon_lapack, only: ddot, dgemv, dtrsv
+   use wavycon_qp_problem, only: qp_problem, qp_solution, qp_converged, qp_inaccurate, qp_iteration_limit
+   use wavycon_working_set, only: dependence, working_set
    implicit none (type, external)
    private
 
-   public :: dual_solver, default_pivot_limit
+   public :: dual_solver
 
    !> A solution by factors that were changed from exchange to exchange is kept if its KKT residual is at most this;
    !> otherwise fresh factors give a better one.
    real(dp), parameter :: fresh_residual = 0.01_dp*kkt_tolerance
+   !> A solver that needs more exchanges than this times n + m gives up.
+   integer, parameter :: most_pivots = 20
+   !> A negative slack smaller than this fraction of its terms, or of the largest slack, is rounding.
+   real(dp), parameter :: zero_slack = 32*epsilon(1.0_dp)
+   real(dp), parameter :: candidate_part = 0.3_dp
+   !> So many constraints in a row with small violations, n, suggest that the violations are rounding, which makes the
+   !> active set cycle.
+   real(dp), parameter :: small_slack = sqrt(epsilon(1.0_dp))
 
    !> Keeps its active constraints, so that a problem that differs in the bounds alone starts from the last solution.
    type :: dual_solver
-      type(qp_problem) :: problem                         !! with scaled constraints
+      type(qp_problem) :: problem
       type(working_set) :: set
-      integer, allocatable, private :: row_powers(:)      !! constraint i was multiplied by 2**row_powers(i), shape (m)
    contains
-      procedure :: start
       procedure :: solve
       procedure :: pass_to
-      procedure :: finish
    end type dual_solver
 
 contains
 
-   !> Starts with a problem and no active constraint.
-   subroutine start(self, problem, status)
+   !> Solves (Q1).
+   subroutine solve(self, problem, solution, by_beale)
       class(dual_solver), intent(out) :: self
       type(qp_problem), intent(in) :: problem
-      integer, intent(out) :: status             !! qp_converged, or why it is refused: qp_not_finite, qp_not_convex
+      type(qp_solution), intent(out) :: solution
+      logical, intent(in), optional :: by_beale   !! start by Beale's method, with b <= 0; absent: no
 
-      real(dp) :: sums(size(problem%bounds))
-      logical :: positive_definite
-
-      ! Sums are finite only if all elements of C and b are.
-      call problem%slacks(spread(1.0_dp, 1, size(problem%linear)), sums)
-      status = qp_not_finite
-      if (.not. (all(ieee_is_finite(problem%hessian)) .and. all(ieee_is_finite(problem%linear)) &
-                 .and. all(ieee_is_finite(sums)))) return
-      status = qp_not_convex
-      call self%set%start(problem, positive_definite)
-      if (.not. positive_definite) return
-      status = qp_converged
       self%problem = problem
-      allocate (self%row_powers(size(problem%bounds)), source=0)
-      if (.not. are_similar(problem%normals)) call scale_constraints(self%problem, self%row_powers)
-   end subroutine start
-
-   !> Solves (Q1). Ends in any case: `solution%status` is one of the statuses of wavycon_qp_problem.
-   subroutine solve(self, problem, solution, pivot_limit)
-      class(dual_solver), intent(out) :: self
-      type(qp_problem), intent(in) :: problem
-      type(qp_solution), intent(out) :: solution    !! only `status` is set if the problem is refused
-      integer, intent(in), optional :: pivot_limit  !! > 0; `default_pivot_limit` if absent
-
-      integer :: limit
-
-      limit = default_pivot_limit(problem)
-      if (present(pivot_limit)) limit = pivot_limit
-      call self%start(problem, solution%status)
-      if (solution%status == qp_converged) call self%finish(limit, solution)
+      call self%set%start(problem)
+      if (present(by_beale)) then
+         if (by_beale) call descend(problem, self%set, solution%pivots)
+      end if
+      call finish(self, solution)
    end subroutine solve
 
    !> Solves the last problem with other bounds, from its active constraints.
    subroutine pass_to(self, bounds, solution)
-      class(dual_solver), intent(inout) :: self       !! after a call of `solve` that has not refused the problem
+      class(dual_solver), intent(inout) :: self       !! after a call of `solve`
       real(dp), intent(in) :: bounds(:)               !! b, shape (m)
       type(qp_solution), intent(out) :: solution
 
-      self%problem%bounds = scale(bounds, self%row_powers)
-      call self%finish(default_pivot_limit(self%problem), solution)
+      self%problem%bounds = bounds
+      call finish(self, solution)
    end subroutine pass_to
 
    !> The pass from the active constraints of `set`, whatever they are, to the solution, which is checked (Q3). While
-   !> the check fails the set is factorised afresh, then solved with extended residuals, and the pass continues, as
-   !> long as that changes anything.
-   subroutine finish(self, pivot_limit, solution)
+   !> the check fails the set is factorised afresh, and the pass continues, as long as that changes anything.
+   subroutine finish(self, solution)
       class(dual_solver), intent(inout) :: self
-      integer, intent(in) :: pivot_limit
       type(qp_solution), intent(inout) :: solution   !! `pivots` counts on, all else is set
 
-      type(dual_obstacle) :: obstacle
-      integer :: pivots_before, status
+      integer :: limit, pivots_before
       logical :: was_fresh
 
-      self%set%extended_residuals = .false.
+      limit = most_pivots*(size(self%problem%linear) + size(self%problem%bounds))
       was_fresh = .false.
       do
          pivots_before = solution%pivots
-         call restore_optimum(self%problem, self%set, pivot_limit, solution%pivots, status, obstacle)
+         call restore_optimum(self%problem, self%set, limit, solution%pivots)
          call check_on_active_set(self%problem, self%set, solution)
-         if (status == qp_infeasible) then
-            if (is_infeasible(self%problem, obstacle, solution%x)) then
-               solution%status = qp_infeasible
-               exit
-            end if
-         end if
-         if (solution%status == qp_converged .and. solution%kkt_residual <= fresh_residual) exit
-         call self%set%factorise_afresh(self%problem)
+         if (solution%kkt_residual <= fresh_residual) return
+         call self%set%assign_active(self%problem, solution%active)
          call check_on_active_set(self%problem, self%set, solution)
-         if (solution%status == qp_converged) exit
-         ! Which constraints are violated may depend on the last digits of the slacks.
-         self%set%extended_residuals = .true.
-         call check_on_active_set(self%problem, self%set, solution)
-         if (solution%status == qp_converged) exit
-         if (solution%pivots >= pivot_limit) solution%status = qp_iteration_limit
-         if (solution%pivots >= pivot_limit .or. was_fresh .and. solution%pivots == pivots_before) exit
+         if (solution%status == qp_converged) return
+         if (solution%pivots >= limit) solution%status = qp_iteration_limit
+         if (solution%pivots >= limit .or. was_fresh .and. solution%pivots == pivots_before) return
          was_fresh = .true.
       end do
-      solution%multipliers = scale(solution%multipliers, self%row_powers(solution%active))
    end subroutine finish
 
-   !> Whether the normals' sizes are within 2**10: no violation above rounding is hidden, and scaling costs pivots.
-   pure logical function are_similar(normals)
-      real(dp), intent(in), contiguous :: normals(:, :)   !! shape (n, m)
-
-      integer, parameter :: similar_powers = 10
-      real(dp) :: sizes(size(normals, 2))
-      integer :: i
-
-      do i = 1, size(sizes)
-         sizes(i) = dasum(size(normals, 1), normals(:, i), 1)
-      end do
-      are_similar = scale(maxval(sizes), -similar_powers) <= minval(sizes, mask=sizes > 0.0_dp)
-   end function are_similar
-
-   !> Brings the largest component of each normal to between 1/2 and 1.
-   subroutine scale_constraints(problem, powers)
-      type(qp_problem), intent(inout) :: problem
-      integer, intent(inout) :: powers(:)  !! of two by which the constraints are multiplied, 0 on entry, shape (m)
-
-      integer, parameter :: most_power = maxexponent(1.0_dp)/2   ! bounds up to 2**most_power stay finite
-      real(dp) :: largest(size(problem%bounds))
-      integer :: i
-
-      do i = 1, size(largest)
-         largest(i) = maxval(abs(problem%normals(:, i)))
-      end do
-      if (allocated(problem%rows)) deallocate (problem%rows)
-      where (largest > 0.0_dp) powers = min(most_power, -exponent(largest))
-      do i = 1, size(largest)
-         problem%normals(:, i) = scale(1.0_dp, powers(i))*problem%normals(:, i)
-         problem%bounds(i) = scale(problem%bounds(i), powers(i))
-      end do
-   end subroutine scale_constraints
-
-   !> Whether no x satisfies the obstacle's constraint i together with the active ones, checked with the problem's data.
-   !> With weights w >= 0 every allowed x satisfies  (C_i + sum_j w_j C_j) x >= b_i + sum_j w_j b_j.  If the left side
-   !> vanishes but for rounding and the right side is positive, there is no such x (Farkas' lemma), or only one that is
-   !> far larger than the present x.
-   pure logical function is_infeasible(problem, obstacle, x)
+   !> Computes the minimum on the active constraints (Q5) and its KKT residual (Q3). The status is `qp_converged` if the
+   !> residual is within `kkt_tolerance`, otherwise `qp_inaccurate`.
+   subroutine check_on_active_set(problem, set, solution)
       type(qp_problem), intent(in) :: problem
-      type(dual_obstacle), intent(in) :: obstacle
-      real(dp), intent(in) :: x(:)   !! the minimiser on the active constraints, for its size
+      type(working_set), intent(in) :: set
+      type(qp_solution), intent(inout) :: solution   !! all but `pivots` is set
 
-      real(dp), parameter :: far_larger = 1000.0_dp
-      real(dp) :: normal(size(x)), bound, bound_terms
-      integer :: j
+      if (allocated(solution%x)) deallocate (solution%x, solution%active, solution%multipliers)
+      allocate (solution%x(size(problem%linear)), solution%multipliers(set%count))
+      allocate (solution%active, source=set%active(:set%count))
+      call set%solve(problem, solution%x, solution%multipliers)
+      solution%kkt_residual = kkt_residual(problem, solution%x, solution%active, solution%multipliers)
+      solution%status = merge(qp_converged, qp_inaccurate, solution%kkt_residual <= kkt_tolerance)
+   end subroutine check_on_active_set
 
-      normal = problem%normals(:, obstacle%constraint)
-      bound = problem%bounds(obstacle%constraint)
-      bound_terms = abs(bound)
-      do j = 1, size(obstacle%active)
-         normal = normal + obstacle%weights(j)*problem%normals(:, obstacle%active(j))
-         bound = bound + obstacle%weights(j)*problem%bounds(obstacle%active(j))
-         bound_terms = bound_terms + abs(obstacle%weights(j)*problem%bounds(obstacle%active(j)))
-      end do
-      is_infeasible = bound > far_larger*max(sum(abs(normal))*maxval(abs(x)), epsilon(1.0_dp)*bound_terms)
-   end function is_infeasible
-
-   !> A solver that needs more exchanges than this gives up.
-   pure integer function default_pivot_limit(problem)
+   !> Changes the active constraints to those of the programme's minimum, but for rounding.
+   subroutine restore_optimum(problem, set, pivot_limit, pivots)
       type(qp_problem), intent(in) :: problem
+      type(working_set), intent(inout) :: set       !! any set of active constraints; on return that of the minimum
+      integer, intent(in) :: pivot_limit
+      integer, intent(inout) :: pivots              !! constraints made active and released, counted up
 
-      default_pivot_limit = 20*(size(problem%linear) + size(problem%bounds))
-   end function default_pivot_limit
+      real(dp) :: x(size(problem%linear)), multipliers(size(problem%linear)), slacks(size(problem%bounds))
+      real(dp) :: slack, slack_terms, kept_slack
+      real(dp), allocatable :: normals(:, :)       ! those of the candidates
+      integer :: candidates(size(problem%bounds))
+      integer :: count, i, n, place, violated, small_steps
+      logical :: is_active
+
+      n = size(x)
+      allocate (normals(n, 0))
+      small_steps = 0
+      count = 0
+      kept_slack = 0.0_dp
+      call release_negative(problem, set, x, multipliers, pivots)
+      do while (pivots < pivot_limit)
+         ! The most violated constraint of the candidates, or of all if none of these is violated by much.
+         slack = 0.0_dp
+         place = 0
+         if (count > 0) then
+            slacks(:count) = -problem%bounds(candidates(:count))
+            call dgemv('T', n, count, 1.0_dp, normals, n, x, 1, 1.0_dp, slacks, 1)
+            place = minloc(slacks(:count), dim=1)
+            slack = slacks(place)
+         end if
+         if (slack < kept_slack) then
+            violated = candidates(place)
+            candidates(place) = candidates(count)
+            normals(:, place) = normals(:, count)
+            count = count - 1
+         else
+            call problem%slacks(x, slacks)
+            slacks(set%active(:set%count)) = 0.0_dp
+            violated = minloc(slacks, dim=1)
+            if (violated == 0) return
+            slack = slacks(violated)
+            kept_slack = candidate_part*slack
+            count = 0
+            do i = 1, size(slacks)
+               if (slacks(i) > kept_slack .or. i == violated) cycle
+               count = count + 1
+               candidates(count) = i
+            end do
+            normals = problem%normals(:, candidates(:count))
+         end if
+         slack_terms = abs(problem%bounds(violated)) + maxval(abs(x))*maxval(abs(problem%normals(:, violated)))
+         if (slack >= -zero_slack*slack_terms) return
+         small_steps = merge(small_steps + 1, 0, -slack < small_slack*slack_terms)
+         if (small_steps > n) return
+         call make_active(problem, set, violated, slack, x, multipliers, pivots, is_active)
+         if (.not. is_active) return
+      end do
+   end subroutine restore_optimum
+
+   !> Computes the minimum on the set, and releases the constraints with negative multipliers until there are none.
+   subroutine release_negative(problem, set, x, multipliers, pivots)
+      type(qp_problem), intent(in) :: problem
+      type(working_set), intent(inout) :: set
+      real(dp), intent(out), contiguous :: x(:), multipliers(:)   !! shape (n)
+      integer, intent(inout) :: pivots
+
+      integer :: i, count_before
+
+      do
+         call set%solve(problem, x, multipliers(:set%count))
+         count_before = set%count
+         do i = count_before, 1, -1
+            if (multipliers(i) < 0.0_dp) call set%remove(i)
+         end do
+         pivots = pivots + count_before - set%count
+         if (set%count == count_before) return
+      end do
+   end subroutine release_negative
+
+   !> Raises the multiplier of a violated constraint until its slack is zero (Q12). Active constraints whose multipliers
+   !> vanish before are released.
+   subroutine make_active(problem, set, constraint, first_slack, x, multipliers, pivots, is_active)
+      type(qp_problem), intent(in) :: problem
+      type(working_set), intent(inout) :: set
+      integer, intent(in) :: constraint
+      real(dp), intent(in) :: first_slack                !! its slack at x, < 0
+      real(dp), intent(inout), contiguous :: x(:), multipliers(:)   !! shape (n)
+      integer, intent(inout) :: pivots
+      logical, intent(out) :: is_active                  !! false: the active ones exclude it, or rounding makes it seem so
+
+      real(dp) :: components(size(x)), rest(size(x)), rates(size(x))
+      real(dp) :: multiplier, slack, full_step, step, stiffness, zero, zero_rate
+      integer :: released, i, k, n
+
+      ! With the multiplier mu the point moves along U^-1 of the rest of the normal, and the multipliers of the active
+      ! constraints fall by mu R^-1 of its components.
+      n = size(x)
+      multiplier = 0.0_dp
+      slack = first_slack
+      rest = set%inverse*problem%normals(:, constraint)
+      zero = dependence*norm2(rest)
+      call set%split(rest, components(:set%count))
+      do
+         k = set%count
+         rates(:k) = components(:k)
+         call dtrsv('U', 'N', 'N', k, set%triangle, n, rates, 1)
+         stiffness = ddot(n, rest, 1, rest, 1)
+         full_step = huge(full_step)
+         if (k < n .and. sqrt(stiffness) > zero) full_step = -slack/stiffness
+
+         step = full_step
+         released = 0
+         zero_rate = dependence*maxval(abs(rates(:k)))
+         do i = 1, k
+            if (rates(i) <= zero_rate) cycle
+            if (multipliers(i)/rates(i) < step) then
+               step = multipliers(i)/rates(i)
+               released = i
+            end if
+         end do
+         is_active = step < huge(step)
+         if (.not. is_active) return
+
+         pivots = pivots + 1
+         multiplier = multiplier + step
+         multipliers(:k) = max(multipliers(:k) - step*rates(:k), 0.0_dp)
+         if (full_step < huge(full_step)) then
+            slack = slack + step*stiffness
+            x = x + step*(set%inverse*rest)
+         end if
+         if (released == 0) exit
+         call set%remove(released, components(:k), rest)
+         multipliers(released:k - 1) = multipliers(released + 1:k)
+      end do
+      call set%add(constraint, components(:set%count), rest)
+      multipliers(set%count) = multiplier
+   end subroutine make_active
 
 end module wavycon_dual_solver

@@ -1,33 +1,17 @@
-!> The minimum on a set of active constraints, and the Karush-Kuhn-Tucker conditions of a solution.
+!> The Karush-Kuhn-Tucker conditions of a solution.
 module wavycon_kkt
    use wavycon_kinds, only: dp
-   use wavycon_lapack, only: dgemv, dsymv
-   use wavycon_qp_problem, only: gradient_terms, qp_problem, qp_solution, qp_converged, qp_inaccurate
-   use wavycon_working_set, only: working_set
+   use wavycon_lapack, only: dgemv
+   use wavycon_qp_problem, only: qp_problem
    implicit none (type, external)
    private
 
-   public :: check_on_active_set, kkt_residual
+   public :: kkt_residual
 
    !> A solution is accepted if its relative KKT residual (Q3) is at most this, some thousand roundings.
    real(dp), parameter, public :: kkt_tolerance = 1e-12_dp
 
 contains
-
-   !> Computes the minimum on the active constraints (Q5) and its KKT residual (Q3). The status is `qp_converged` if the
-   !> residual is within `kkt_tolerance`, otherwise `qp_inaccurate`.
-   subroutine check_on_active_set(problem, set, solution)
-      type(qp_problem), intent(in) :: problem
-      type(working_set), intent(in) :: set
-      type(qp_solution), intent(inout) :: solution   !! all but `pivots` is set
-
-      if (allocated(solution%x)) deallocate (solution%x, solution%active, solution%multipliers)
-      allocate (solution%x(size(problem%linear)), solution%multipliers(set%count))
-      allocate (solution%active, source=set%active(:set%count))
-      call set%solve(problem, solution%x, solution%multipliers)
-      solution%kkt_residual = kkt_residual(problem, solution%x, solution%active, solution%multipliers)
-      solution%status = merge(qp_converged, qp_inaccurate, solution%kkt_residual <= kkt_tolerance)
-   end subroutine check_on_active_set
 
    !> Largest relative violation (Q3) of the Karush-Kuhn-Tucker conditions (Q2)
    !>
@@ -48,8 +32,8 @@ contains
       n = size(x)
       m = size(problem%bounds)
 
-      call dsymv('U', n, 1.0_dp, problem%hessian, n, x, 1, 0.0_dp, gradient, 1)
-      gradient_scale = gradient_terms(problem, x)
+      gradient = problem%hessian*x
+      gradient_scale = max(maxval(abs(gradient)), maxval(abs(problem%linear)))
       gradient = gradient - problem%linear
       do i = 1, size(active)
          term = multipliers(i)*problem%normals(:, active(i))

@@ -1,20 +1,17 @@
-!> The convex quadratic programme  minimise 1/2 x'Dx - c'x  subject to  Cx >= b,  and its solution.
+!> The convex quadratic programme  minimise 1/2 x'Dx - c'x  subject to  Cx >= b,  D diagonal, and its
+!> solution.
 module wavycon_qp_problem
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgemv
    implicit none (type, external)
    private
 
-   public :: qp_problem, qp_solution, row_products, gradient_terms
+   public :: qp_problem, qp_solution, row_products
 
    !> How a solver ended.
    integer, parameter, public :: qp_converged = 0
    integer, parameter, public :: qp_iteration_limit = 1
-   integer, parameter, public :: qp_infeasible = 2        !! no point satisfies the constraints
-   integer, parameter, public :: qp_infeasible_start = 3  !! x = 0 does not satisfy Cx >= b
-   integer, parameter, public :: qp_not_convex = 4        !! D is not positive definite
-   integer, parameter, public :: qp_not_finite = 5        !! NaN or infinity in the problem
-   integer, parameter, public :: qp_inaccurate = 6        !! the KKT residual exceeds its tolerance
+   integer, parameter, public :: qp_inaccurate = 2   !! the KKT residual exceeds its tolerance
 
    !> A faster way to Cx than by the elements of C.
    type, abstract :: row_products
@@ -34,7 +31,7 @@ module wavycon_qp_problem
 
    !> A problem of n unknowns and m constraints.
    type :: qp_problem
-      real(dp), allocatable :: hessian(:, :)  !! D, symmetric positive definite, shape (n, n)
+      real(dp), allocatable :: hessian(:)     !! the diagonal of D, all > 0, shape (n)
       real(dp), allocatable :: linear(:)      !! c, shape (n)
       real(dp), allocatable :: normals(:, :)  !! C': column i is the gradient of constraint i, shape (n, m)
       real(dp), allocatable :: bounds(:)      !! b, shape (m)
@@ -69,21 +66,5 @@ contains
          call dgemv('T', size(x), size(values), 1.0_dp, self%normals, size(x), x, 1, 1.0_dp, values, 1)
       end if
    end subroutine slacks
-
-   !> The largest of the terms D_ij x_j and c_i that cancel in the gradient Dx - c: max(|D||x|, |c|). Where D is
-   !> ill-conditioned they cancel within Dx too.
-   pure real(dp) function gradient_terms(problem, x) result(largest)
-      type(qp_problem), intent(in) :: problem
-      real(dp), intent(in) :: x(:)   !! shape (n)
-
-      real(dp) :: terms(size(x))
-      integer :: j
-
-      terms = 0.0_dp
-      do j = 1, size(x)
-         terms = terms + abs(problem%hessian(:, j)*x(j))
-      end do
-      largest = max(maxval(terms), maxval(abs(problem%linear)))
-   end function gradient_terms
 
 end module wavycon_qp_problem

@@ -1,16 +1,16 @@
 !> The minimum on a set of active constraints taken as equations, by factorisations of LAPACK.
 !>
-!> For the active rows C_W the factorisation is  D = U'U,  U^-T C_W' = QR,  Q'Q = I of k columns, R upper triangular
+!> For the active rows C_W the factorisation is  D = U^2,  U^-1 C_W' = QR,  Q'Q = I of k columns, R upper triangular
 !> (Q4). With x = U^-1 w the minimum on C_W x = b_W is (Q5)
 !>
-!>     v = R^-T b_W - Q'U^-T c,   w = U^-T c + Qv,   multipliers = R^-1 v.
+!>     v = R^-T b_W - Q'U^-1 c,   w = U^-1 c + Qv,   multipliers = R^-1 v.
 !>
 !> A constraint is added by Gram-Schmidt's method with reorthogonalisation and removed by rotations, without a new
 !> factorisation (Daniel, Gragg, Kaufman & Stewart, Math. Comp. 30 (1976) 772-795). Numbers (Q..) are the equations of
 !> README.md in this directory.
 module wavycon_working_set
    use wavycon_kinds, only: dp
-   use wavycon_lapack, only: ddot, dgemv, dgeqp3, dorgqr, dpotrf, drot, dsymv, dtrsm, dtrsv
+   use wavycon_lapack, only: ddot, dgemv, dgeqp3, dorgqr, drot, dtrsv
    use wavycon_qp_problem, only: qp_problem
    implicit none (type, external)
    private
@@ -19,30 +19,20 @@ module wavycon_working_set
 
    !> A constraint counts as dependent on other active ones if the part of its normal outside their span is less than
    !> this fraction of it: such a part is rounding.
-   real(dp), parameter :: dependence = 1e-13_dp
+   real(dp), parameter, public :: dependence = 1e-13_dp
    !> A vector is projected once if this part of its square remains [DGKS]. With 1e-4 so much orthogonality is lost that
    !> the pass finds n + 1 independent constraints.
    real(dp), parameter :: square_kept = 0.5_dp
-   !> The kind of extended residuals: quadruple precision where the compiler has it.
-   integer, parameter :: long = merge(selected_real_kind(30), dp, selected_real_kind(30) > 0)
-   !> Refinement ends earlier, when a step is more than half of the one before: no digits are left to gain.
-   integer, parameter :: most_refinements = 10
 
    type :: working_set
       integer :: count = 0                           !! k
       integer, allocatable :: active(:)              !! the active constraints, active(:k), shape (n)
       real(dp), allocatable :: span(:, :)            !! Q in span(:, :k), shape (n, n)
       real(dp), allocatable :: triangle(:, :)        !! R in the upper triangle of triangle(:k, :k), shape (n, n)
-      real(dp), allocatable :: root(:, :)            !! U in the upper triangle, shape (n, n)
-      real(dp), allocatable :: inverse(:)            !! U^-1, if it is diagonal, shape (n)
-      real(dp) :: inverse_size = 0.0_dp              !! estimate of |U^-1|: one over the least diagonal element
-      logical :: extended_residuals = .false.        !! whether `solve` refines with residuals of the kind `long`
+      real(dp), allocatable :: inverse(:)            !! U^-1, the factor of normals and unknowns, shape (n)
    contains
       procedure :: start
       procedure :: assign_active
-      procedure :: factorise_afresh
-      procedure :: scaled
-      procedure :: unscale
       procedure :: split
       procedure :: add
       procedure :: remove
@@ -51,37 +41,19 @@ module wavycon_working_set
 
 contains
 
-   !> Factorises D for the empty set of active constraints.
-   subroutine start(self, problem, positive_definite)
+   !> The empty set of active constraints.
+   subroutine start(self, problem)
       class(working_set), intent(out) :: self
       type(qp_problem), intent(in) :: problem
-      logical, intent(out) :: positive_definite  !! false: D is not, and the set cannot be used
 
-      integer :: i, n, info
-      logical :: diagonal
-
-      n = size(problem%linear)
-      allocate (self%active(n), self%triangle(n, n), self%span(n, n))
-      self%root = problem%hessian
-      diagonal = .true.
-      do i = 2, n
-         diagonal = diagonal .and. all(abs(self%root(:i - 1, i)) <= 0.0_dp)
-      end do
-      if (diagonal) then
-         info = count([(self%root(i, i) <= 0.0_dp, i=1, n)])
-         do i = 1, n
-            self%root(i, i) = sqrt(max(self%root(i, i), 0.0_dp))
-         end do
-      else
-         call dpotrf('U', n, self%root, n, info)
-      end if
-      positive_definite = info == 0
-      if (.not. positive_definite) return
-      self%inverse_size = 1.0_dp/minval([(self%root(i, i), i=1, n)])
-      if (diagonal) self%inverse = [(1.0_dp/self%root(i, i), i=1, n)]
+      associate (n => size(problem%linear))
+         allocate (self%active(n), self%triangle(n, n), self%span(n, n))
+      end associate
+      self%inverse = 1.0_dp/sqrt(problem%hessian)
    end subroutine start
 
-   !> Factorises a set of active constraints (Q4), without those that depend on the others. `start` comes first.
+   !> Factorises a set of active constraints (Q4), without those that depend on the others and without the rounding of
+   !> past changes. `start` comes first.
    subroutine assign_active(self, problem, list)
       class(working_set), intent(inout) :: self
       type(qp_problem), intent(in) :: problem
@@ -93,8 +65,9 @@ contains
       integer :: i, n, k, info
 
       n = size(problem%linear)
-      columns = problem%normals(:, list)
-      call dtrsm('L', 'U', 'T', 'N', n, size(list), 1.0_dp, self%root, n, columns, n)
+      do i = 1, size(list)
+         columns(:, i) = self%inverse*problem%normals(:, list(i))
+      end do
       size_of = norm2(columns, dim=1)
       order = 0
       call dgeqp3(n, size(list), columns, n, order, tau, work, size(work), info)
@@ -112,43 +85,6 @@ contains
       call dorgqr(n, k, k, columns, n, tau, work, size(work), info)
       self%span(:, :k) = columns(:, :k)
    end subroutine assign_active
-
-   !> Factorises the active constraints anew, without the rounding of past changes.
-   subroutine factorise_afresh(self, problem)
-      class(working_set), intent(inout) :: self
-      type(qp_problem), intent(in) :: problem
-
-      integer :: list(self%count)
-
-      list = self%active(:self%count)
-      call self%assign_active(problem, list)
-   end subroutine factorise_afresh
-
-   !> U^-T v of a normal or another gradient v.
-   function scaled(self, v) result(w)
-      class(working_set), intent(in) :: self
-      real(dp), intent(in) :: v(:)   !! shape (n)
-      real(dp) :: w(size(v))
-
-      if (allocated(self%inverse)) then
-         w = self%inverse*v
-      else
-         w = v
-         call dtrsv('U', 'T', 'N', size(v), self%root, size(v), w, 1)
-      end if
-   end function scaled
-
-   !> x = U^-1 w, in place.
-   subroutine unscale(self, x)
-      class(working_set), intent(in) :: self
-      real(dp), intent(inout), contiguous :: x(:)   !! w on entry, shape (n)
-
-      if (allocated(self%inverse)) then
-         x = self%inverse*x
-      else
-         call dtrsv('U', 'N', 'N', size(x), self%root, size(x), x, 1)
-      end if
-   end subroutine unscale
 
    !> Splits a vector w into Q components + rest, the rest orthogonal to Q to rounding: where it is much shorter than w
    !> it is projected again.
@@ -176,7 +112,7 @@ contains
    subroutine add(self, constraint, components, rest)
       class(working_set), intent(inout) :: self
       integer, intent(in) :: constraint
-      real(dp), intent(in) :: components(:), rest(:)   !! U^-T C_i' split, shapes (k) and (n)
+      real(dp), intent(in) :: components(:), rest(:)   !! U^-1 C_i' split, shapes (k) and (n)
 
       integer :: k
       real(dp) :: length
@@ -224,32 +160,19 @@ contains
 
    !> The minimum on the active constraints and their multipliers (Q5).
    !>
+   !> One step of refinement removes what the factors have lost by past changes, and what cancels in (Q5) where x is
+   !> much smaller than the minimum without constraints.
    subroutine solve(self, problem, x, multipliers)
       class(working_set), intent(in) :: self
       type(qp_problem), intent(in) :: problem
       real(dp), intent(out), contiguous :: x(:)            !! shape (n)
       real(dp), intent(out), contiguous :: multipliers(:)  !! y of the active constraints in their order, shape (k)
 
-      call solve_equations(self, problem%linear, problem%bounds(self%active(:self%count)), x, multipliers)
-      if (self%extended_residuals) then
-         call refine(self, problem, x, multipliers)
-      else
-         call correct(self, problem, x, multipliers)
-      end if
-   end subroutine solve
-
-   !> One step of refinement with residuals in working precision: it removes what the factors have lost by past changes,
-   !> and what cancels in (Q5) where x is much smaller than the minimum without constraints.
-   subroutine correct(self, problem, x, multipliers)
-      class(working_set), intent(in) :: self
-      type(qp_problem), intent(in) :: problem
-      real(dp), intent(inout), contiguous :: x(:), multipliers(:)
-
       real(dp) :: forces(size(x)), gap(size(multipliers)), x_change(size(x)), change(size(multipliers))
       integer :: i
 
-      forces = problem%linear
-      call dsymv('U', size(x), -1.0_dp, problem%hessian, size(x), x, 1, 1.0_dp, forces, 1)
+      call solve_equations(self, problem%linear, problem%bounds(self%active(:self%count)), x, multipliers)
+      forces = problem%linear - problem%hessian*x
       do i = 1, size(multipliers)
          associate (normal => problem%normals(:, self%active(i)))
             forces = forces + multipliers(i)*normal
@@ -259,39 +182,7 @@ contains
       call solve_equations(self, forces, gap, x_change, change)
       x = x + x_change
       multipliers = multipliers + change
-   end subroutine correct
-
-   !> Iterative refinement (Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., chapter 12): the residuals
-   !> of the equations are computed from D, c, C and b with more digits, and solved for, while the steps get shorter.
-   subroutine refine(self, problem, x, multipliers)
-      class(working_set), intent(in) :: self
-      type(qp_problem), intent(in) :: problem
-      real(dp), intent(inout), contiguous :: x(:), multipliers(:)
-
-      real(long) :: forces(size(x)), gap(size(multipliers))
-      real(dp) :: x_change(size(x)), change(size(multipliers)), step, step_before
-      integer :: i, j, round
-
-      step_before = huge(step_before)
-      do round = 1, most_refinements
-         forces = problem%linear
-         do j = 1, size(x)
-            forces = forces - real(x(j), long)*problem%hessian(:, j)
-         end do
-         do i = 1, size(multipliers)
-            associate (normal => problem%normals(:, self%active(i)))
-               forces = forces + real(multipliers(i), long)*normal
-               gap(i) = problem%bounds(self%active(i)) - sum(real(x, long)*normal)
-            end associate
-         end do
-         call solve_equations(self, real(forces, dp), real(gap, dp), x_change, change)
-         step = maxval(abs(x_change))
-         if (step > step_before/2) exit
-         x = x + x_change
-         multipliers = multipliers + change
-         step_before = step
-      end do
-   end subroutine refine
+   end subroutine solve
 
    !> Solves  Dx - C_W'y = c,  C_W x = b_W  by the factors.
    subroutine solve_equations(self, linear, bounds, x, multipliers)
@@ -306,22 +197,19 @@ contains
 
       n = size(x)
       k = self%count
-      x = self%scaled(linear)
+      x = self%inverse*linear
       if (k > 0) then
          call dgemv('T', n, k, 1.0_dp, self%span, n, x, 1, 0.0_dp, components, 1)
+         ! If k = n the constraints alone determine x, which may be many orders smaller than U^-1 c.
+         if (k == n) x = 0.0_dp
          multipliers = bounds
          call dtrsv('U', 'T', 'N', k, self%triangle, n, multipliers, 1)
-         if (k < n) then
-            multipliers = multipliers - components
-            call dgemv('N', n, k, 1.0_dp, self%span, n, multipliers, 1, 1.0_dp, x, 1)
-         else
-            ! The constraints alone determine x, which may be many orders smaller than U^-T c.
-            call dgemv('N', n, k, 1.0_dp, self%span, n, multipliers, 1, 0.0_dp, x, 1)
-            multipliers = multipliers - components
-         end if
+         if (k < n) multipliers = multipliers - components
+         call dgemv('N', n, k, 1.0_dp, self%span, n, multipliers, 1, 1.0_dp, x, 1)
+         if (k == n) multipliers = multipliers - components
          call dtrsv('U', 'N', 'N', k, self%triangle, n, multipliers, 1)
       end if
-      call self%unscale(x)
+      x = self%inverse*x
    end subroutine solve_equations
 
 end module wavycon_working_set

@@ -6,18 +6,18 @@
 module wavycon_theory_lines_table
    use wavycon_constants, only: pi
    use wavycon_dundurs, only: dundurs_coefficients, dundurs_pressure_over_pstar
-   use wavycon_hertz_point, only: hertz_point_pressure_over_pstar
+   use wavycon_light_load, only: hertz_point_pressure_over_pstar
    use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
    use wavycon_penny_crack, only: penny_crack_opening_over_amplitude, penny_crack_pressure_over_pstar, &
-                                  penny_crack_radius_over_wavelength
+      penny_crack_radius_over_wavelength
    use wavycon_results, only: not_a_number, results_type
    use wavycon_scene, only: scene_type
    use wavycon_surface_lines, only: put_surface_line, start_surface_line, surface_line
    use wavycon_table, only: table_type
    use wavycon_theory_table, only: refuse_other_waves
    use wavycon_westergaard, only: westergaard_displacement_over_amplitude, westergaard_gap_over_amplitude, &
-                                  westergaard_pressure_over_pstar
+      westergaard_pressure_over_pstar
    implicit none (type, external)
    private
 

@@ -7,24 +7,20 @@
 !> contact spot at light load and of the crack at heavy load.
 module wavycon_theory_table
    use wavycon_contact_solver, only: solver_traits
-   use wavycon_hertz_ball, only: hertz_ball, hertz_of_force, hertz_roller
-   use wavycon_hertz_line, only: hertz_line_contact_area_fraction
-   use wavycon_hertz_point, only: hertz_point_contact_area_fraction, hertz_point_peak_pressure_over_pstar, &
-                                  hertz_point_radius_over_wavelength
+   use wavycon_hertz_ball, only: hertz_ball, hertz_contact, hertz_roller
+   use wavycon_westergaard, only: hertz_line_contact_area_fraction, kuznetsov_mean_gap_over_amplitude, &
+      line_crack_contact_area_fraction, westergaard_contact_area_fraction, westergaard_peak_pressure_over_pstar
+   use wavycon_light_load, only: hertz_point_contact_area_fraction, hertz_point_peak_pressure_over_pstar, &
+      hertz_point_radius_over_wavelength, light_load_contact_area_longer, light_load_mean_gap_lattice, &
+      light_load_mean_gap_longer, light_load_mean_gap_one_square
    use wavycon_kinds, only: dp
-   use wavycon_kuznetsov, only: kuznetsov_mean_gap_over_amplitude
-   use wavycon_light_load, only: light_load_contact_area_longer, light_load_mean_gap_lattice, &
-                                 light_load_mean_gap_longer, light_load_mean_gap_one_square
-   use wavycon_line_crack, only: line_crack_contact_area_fraction
-   use wavycon_near_closure, only: near_closure_contact_area_fraction, near_closure_mean_gap_over_amplitude
+   use wavycon_penny_crack, only: near_closure_contact_area_fraction, near_closure_mean_gap_over_amplitude, &
+      penny_crack_contact_area_fraction, penny_crack_mean_gap_over_amplitude, penny_crack_radius_over_wavelength
    use wavycon_output_file, only: output_file
-   use wavycon_penny_crack, only: penny_crack_contact_area_fraction, penny_crack_mean_gap_over_amplitude, &
-                                  penny_crack_radius_over_wavelength
    use wavycon_results, only: not_a_number, results_type
    use wavycon_surface, only: surface_type
    use wavycon_wave_kinds, only: paper_waves
    use wavycon_table, only: table_type
-   use wavycon_westergaard, only: westergaard_contact_area_fraction, westergaard_peak_pressure_over_pstar
    implicit none (type, external)
    private
 
@@ -134,7 +130,7 @@ contains
             roller = hertz_roller(radii(1), results%scene%e_star, force)
             values([1, 3, 4]) = [2*roller(1), roller(2), roller(1)]
          else
-            contact = hertz_of_force(radii, results%scene%e_star, force)
+            contact = hertz_contact(radii, results%scene%e_star, force=force)
             values = [contact%contact_area(), contact%approach, contact%peak_pressure, contact%half_axis]
          end if
       end associate

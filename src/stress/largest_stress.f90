@@ -16,10 +16,10 @@ module wavycon_largest_stress
    implicit none (type, external)
    private
 
-   public :: largest_stress, find_largest_stress, find_largest_stresses
+   public :: largest_stress, find_largest_stresses
 
    !> The quantities that can be searched for.
-   integer, parameter, public :: by_von_mises = 1, by_shear = 2
+   integer, parameter :: by_von_mises = 1, by_shear = 2
 
    type :: largest_stress
       real(dp) :: value = 0.0_dp        !! [p*]
@@ -35,36 +35,17 @@ contains
    subroutine find_largest_stresses(fields, body, yielding, shear)
       class(stress_fields), intent(inout) :: fields
       type(elastic_body), intent(in) :: body
-      type(largest_stress), intent(out) :: yielding, shear
+      type(largest_stress), intent(out), optional :: yielding, shear
 
       real(dp), allocatable :: places(:, :), stresses(:, :), widths(:)
 
-      if (fields%exist) then
-         call fields%start_places(body, places, widths, stresses)
-         call search(fields, body, by_von_mises, places, widths, stresses, yielding)
-         call search(fields, body, by_shear, places, widths, stresses, shear)
-      else
-         yielding = no_stress()
-         shear = no_stress()
-      end if
+      if (present(yielding)) yielding = no_stress()
+      if (present(shear)) shear = no_stress()
+      if (.not. fields%exist) return
+      call fields%start_places(body, places, widths, stresses)
+      if (present(yielding)) call search(fields, body, by_von_mises, places, widths, stresses, yielding)
+      if (present(shear)) call search(fields, body, by_shear, places, widths, stresses, shear)
    end subroutine find_largest_stresses
-
-   !> Finds the largest value of one of the two. NaN if there is no solution.
-   subroutine find_largest_stress(fields, body, quantity, answer)
-      class(stress_fields), intent(inout) :: fields
-      type(elastic_body), intent(in) :: body
-      integer, intent(in) :: quantity                   !! by_von_mises or by_shear
-      type(largest_stress), intent(out) :: answer
-
-      real(dp), allocatable :: places(:, :), stresses(:, :), widths(:)
-
-      if (fields%exist) then
-         call fields%start_places(body, places, widths, stresses)
-         call search(fields, body, quantity, places, widths, stresses, answer)
-      else
-         answer = no_stress()
-      end if
-   end subroutine find_largest_stress
 
    !> The place over the sides of the cell, X and Y from 0 to 1, and Z over L_x. Of a mirrored height map that of the
    !> point of the map whose image it is. NaN if there is no solution.

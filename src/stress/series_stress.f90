@@ -7,10 +7,11 @@ module wavycon_series_stress
    use wavycon_constants, only: pi
    use wavycon_elastic_body, only: elastic_body
    use wavycon_fourier_series, only: fourier_series
+   use wavycon_image_stress, only: image_stress, images_of
    use wavycon_kinds, only: dp
    use wavycon_plane_scan, only: scan_plane
    use wavycon_stress_fields, only: stress_fields
-   use wavycon_stress_tensor, only: xx, xy, xz, yy, yz, zz
+   use wavycon_stress_tensor, only: combined, xx, xy, xz, yy, yz, zz
    use wavycon_stress_tuning, only: centre_part, coarsest, expansion_order, octave_factor, plane_points, &
       plane_ratio, pressure_part, waves_in_depth
    use wavycon_stress_waves, only: deepest, octave_weights, stress_waves
@@ -29,7 +30,10 @@ module wavycon_series_stress
       real(dp) :: pressure_error = 0.0_dp       !! of the pressure [p*]; NaN if there is no estimate
       complex(dp), allocatable :: moment(:, :, :, :)   !! of the Taylor series in use
       real(dp) :: centre(3) = 0.0_dp            !! of that series [rad]
+      real(dp) :: first(3) = 0.0_dp             !! X, Y, 0 of the first point of the series on the surface [rad]
+      type(image_stress), allocatable :: images   !! of the load, whose stresses do not count
    contains
+      procedure :: remove_images
       procedure :: at
       procedure :: expand
       procedure :: near
@@ -60,6 +64,18 @@ contains
          stress%waves%faintest = log(pressure_part/min(max(pressure_error, pressure_part*exp(-deepest)), coarsest))
    end subroutine start_series_stress
 
+   !> Leaves out the images of a surface with free edges, whose series is that of a cell of twice its sides.
+   subroutine remove_images(self, first, centre, spread)
+      class(series_stress), intent(inout) :: self   !! just started, with the mean pressure of the cell
+      real(dp), intent(in) :: first(2)              !! X, Y of the first point of the series on the surface [rad]
+      real(dp), intent(in) :: centre(2)             !! of the load, X, Y [rad]
+      real(dp), intent(in) :: spread                !! root mean square distance of the load from it, in x [rad]
+
+      self%first(:2) = first
+      self%images = images_of(self%pbar_over_pstar, self%side_ratio, centre, spread)
+      self%pressure_error = self%pressure_error + self%images%error
+   end subroutine remove_images
+
    !> The sums (S4) at one point.
    subroutine at(self, x, y, depth, parts, error)
       class(series_stress), intent(inout) :: self
@@ -79,14 +95,14 @@ contains
       end if
       sets = 1
       if (present(error) .and. .not. ieee_is_nan(self%pressure_error) .and. self%waves%octave_reaches(depth)) sets = 2
-      call self%waves%find_moments([x, y, depth], 0, sets, moment)
+      call self%waves%find_moments([x, y, depth] - self%first, 0, sets, moment)
       parts = parts_of(sums_near(moment(:, :, :, 1), [0.0_dp, 0.0_dp, 0.0_dp], depth))
-      if (.not. present(error)) return
       octave = 0.0_dp
       if (sets == 2) octave = [real(moment(0, 0, 0, 2) + depth*moment(0, 0, 1, 2)), &
                                -aimag(moment(1, 0, -1, 2) + depth*moment(1, 0, 0, 2)), &
                                -aimag(moment(0, 1, -1, 2) + depth*moment(0, 1, 0, 2))]
-      error = error_of(self, parts, octave)
+      if (present(error)) error = error_of(self, parts, octave)
+      if (allocated(self%images)) parts = parts + self%images%correction([x, y, depth])
    end subroutine at
 
    !> Prepares the Taylor series (S9) about a place, unless that of the last call is close enough.
@@ -103,7 +119,7 @@ contains
       if (distance > centre_part*reach) then
          self%centre = place
          distance = 0.0_dp
-         call self%waves%find_moments(place, expansion_order, 1, self%moment)
+         call self%waves%find_moments(place - self%first, expansion_order, 1, self%moment)
       end if
       noise = ((distance + reach)/min(width, max(place(3), least_width(self))))**(expansion_order + 1)/8
    end subroutine expand
@@ -124,6 +140,7 @@ contains
       associate (move => (place - self%centre)*[1.0_dp, self%side_ratio, 1.0_dp])
          parts = parts_of(sums_near(self%moment(:, :, :, 1), move, place(3)))
       end associate
+      if (allocated(self%images)) parts = parts + self%images%correction(place)
    end subroutine near
 
    !> The sums (S4) by the Taylor series (S9) about a point.
@@ -198,12 +215,12 @@ contains
          return
       end if
       last = self%waves%last_waves(depth)
-      turn_x(:last(1)) = [(exp(cmplx(0.0_dp, k*start(1), dp)), k=0, last(1))]
+      turn_x(:last(1)) = [(exp(cmplx(0.0_dp, k*(start(1) - self%first(1)), dp)), k=0, last(1))]
       m = dot_product(abs(direction), last)
       allocate (along(number_of_sums, -m:m), source=(0.0_dp, 0.0_dp))
       do l = -last(2), last(2)
          q_y = l/self%side_ratio
-         associate (turn_y => exp(cmplx(0.0_dp, l*start(2), dp)))
+         associate (turn_y => exp(cmplx(0.0_dp, l*(start(2) - self%first(2)), dp)))
             do k = merge(1, 0, l <= 0), last(1)
                if (max(abs(self%waves%wave(k, l)%re), abs(self%waves%wave(k, l)%im)) <= 0.0_dp) cycle
                q = sqrt(k**2 + q_y**2)
@@ -228,6 +245,8 @@ contains
          end do
          parts(:, :, i) = parts_of(sums(:8))
          error(i) = error_of(self, parts(:, :, i), sums(9:))
+         if (allocated(self%images)) parts(:, :, i) = parts(:, :, i) &
+                                                      + self%images%correction([start + direction*t(i), depth])
       end do
    end subroutine on_line
 
@@ -253,7 +272,8 @@ contains
       real(dp), allocatable, intent(out) :: error(:, :)
 
       real(dp), allocatable :: fields(:, :, :)
-      integer :: i, number
+      real(dp) :: step(2)
+      integer :: i, k, l, number
 
       if (.not. self%exist) then
          allocate (stress(points(1), points(2), 6), error(points(1), points(2)))
@@ -262,7 +282,9 @@ contains
          return
       end if
       number = merge(9, 6, self%waves%octave_reaches(depth))
-      call self%waves%transform(self%parts*points, offset, depth, body, self%pbar_over_pstar, number, fields)
+      step = 2*pi/(self%parts*points)
+      call self%waves%transform(self%parts*points, offset - self%first(:2)/step, depth, body, self%pbar_over_pstar, &
+                                number, fields)
       if (any(self%parts > 1)) fields = fields(:points(1), :points(2), :)
       allocate (error(points(1), points(2)), source=0.0_dp)
       do i = 7, number
@@ -275,6 +297,13 @@ contains
       else
          allocate (stress, source=fields(:, :, :6))
       end if
+      if (.not. allocated(self%images)) return
+      do l = 1, points(2)
+         do k = 1, points(1)
+            stress(k, l, :) = stress(k, l, :) &
+                              + combined(self%images%correction([([k, l] - 1 + offset)*step, depth]), body%nu)
+         end do
+      end do
    end subroutine on_plane
 
    !> The places of the largest von Mises stress and of the largest shear on planes from the surface down, each at about
@@ -312,6 +341,11 @@ contains
          places(:, 2*i) = [2*pi*place(:, 2)/points, depth(i)]
          stresses(:, 2*i - 1:2*i) = stress
          widths(2*i - 1:2*i) = max(depth(i), step)
+      end do
+      do i = 1, size(widths)
+         places(:, i) = places(:, i) + self%first
+         if (allocated(self%images)) stresses(:, i) = stresses(:, i) &
+                                                      + combined(self%images%correction(places(:, i)), body%nu)
       end do
 
    contains

@@ -3,7 +3,7 @@ module wavycon_stress_setting
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_elastic_body, only: elastic_body
    use wavycon_kinds, only: dp
-   use wavycon_largest_stress, only: by_shear, by_von_mises, find_largest_stress, largest_stress
+   use wavycon_largest_stress, only: find_largest_stresses, largest_stress
    use wavycon_stress_fields, only: stress_fields
    implicit none (type, external)
    private
@@ -45,7 +45,11 @@ contains
       ratio = 0.0_dp
       error = 0.0_dp
       do i = 1, size(self%body)
-         call find_largest_stress(fields, self%body(i), merge(by_shear, by_von_mises, self%by_shear), largest)
+         if (self%by_shear) then
+            call find_largest_stresses(fields, self%body(i), shear=largest)
+         else
+            call find_largest_stresses(fields, self%body(i), yielding=largest)
+         end if
          of_body = self%over_yield_stress(i, largest%value, largest%value)
          ! A build that traps exceptions does not survive a comparison with NaN, which is the stress without a solution.
          if (.not. ieee_is_nan(of_body)) then

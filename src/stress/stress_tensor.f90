@@ -35,14 +35,6 @@ contains
          + 3*(s(xy)**2 + s(xz)**2 + s(yz)**2))
    end function von_mises
 
-   !> Principal stresses s1 >= s2 >= s3, each to rounding of the largest, also where two are equal.
-   pure function principal_stresses(s) result(principal)
-      real(dp), intent(in) :: s(6)  !! stress
-      real(dp) :: principal(3)
-
-      principal = eigenvalues(s)
-   end function principal_stresses
-
    !> Largest shear stress of all planes, (s1 - s3)/2; Tresca's criterion is that it reaches half of the yield stress.
    !>
    !> From the deviator, which is formed of differences: a large pressure does not cost digits.
@@ -55,7 +47,7 @@ contains
       deviator(yy) = ((s(yy) - s(zz)) + (s(yy) - s(xx)))/3
       deviator(zz) = ((s(zz) - s(xx)) + (s(zz) - s(yy)))/3
       deviator(xy:) = s(xy:)
-      principal = eigenvalues(deviator)
+      principal = principal_stresses(deviator)
       largest_shear = (principal(1) - principal(3))/2
    end function largest_shear
 
@@ -66,18 +58,19 @@ contains
       stress_pressure = -(s(xx) + s(yy) + s(zz))/3
    end function stress_pressure
 
-   !> Eigenvalues of a symmetric tensor, in descending order; NaN if a component is not finite.
+   !> Principal stresses s1 >= s2 >= s3, each to rounding of the largest, also where two are equal. NaN if a component is
+   !> not finite.
    !>
    !> N.B. The formula with arccos loses half of the digits where two eigenvalues are equal, as on every axis of
    !> symmetry.
-   pure function eigenvalues(s) result(values)
-      real(dp), intent(in) :: s(6)
-      real(dp) :: values(3)
+   pure function principal_stresses(s) result(principal)
+      real(dp), intent(in) :: s(6)  !! stress
+      real(dp) :: principal(3)
 
       real(dp) :: ascending(3), matrix(3, 3), work(8)
       integer :: info
 
-      values = ieee_value(values, ieee_quiet_nan)
+      principal = ieee_value(principal, ieee_quiet_nan)
       ! LAPACK compares numbers, which a build that traps exceptions does not survive with NaN.
       if (.not. all(ieee_is_finite(s))) return
       ! The lower triangle.
@@ -86,7 +79,7 @@ contains
       matrix(2:, 2) = s([yy, yz])
       matrix(3, 3) = s(zz)
       call dsyev('N', 'L', 3, matrix, 3, ascending, work, size(work), info)
-      if (info == 0) values = ascending(3:1:-1)
-   end function eigenvalues
+      if (info == 0) principal = ascending(3:1:-1)
+   end function principal_stresses
 
 end module wavycon_stress_tensor

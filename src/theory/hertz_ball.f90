@@ -13,7 +13,7 @@ module wavycon_hertz_ball
    implicit none (type, external)
    private
 
-   public :: hertz_ball, hertz_of_approach, hertz_of_area, hertz_of_force, hertz_of_peak_pressure, hertz_roller
+   public :: hertz_ball, hertz_contact, hertz_roller
 
    !> A contact, in any unit of length and of pressure.
    type :: hertz_ball
@@ -27,36 +27,26 @@ module wavycon_hertz_ball
 
 contains
 
-   !> The contact under a force.
-   pure type(hertz_ball) function hertz_of_force(radii, e_star, force) result(contact)
+   !> The contact under a force, at an approach, of an area or of a peak pressure, one of which is given, >= 0.
+   !>
+   !> Peak pressure and axes are proportional to each other, the approach goes with their square and the force with
+   !> their cube.
+   pure type(hertz_ball) function hertz_contact(radii, e_star, force, approach, area, peak_pressure) result(contact)
       real(dp), intent(in) :: radii(2)   !! along x and y [length], > 0; up to 1e8 times one another
       real(dp), intent(in) :: e_star     !! [pressure], > 0
-      real(dp), intent(in) :: force      !! >= 0
+      real(dp), intent(in), optional :: force, approach, area, peak_pressure
 
-      contact = scaled(unit_contact(radii, e_star), 3, force)
-   end function hertz_of_force
-
-   !> The contact at an approach [length], >= 0.
-   pure type(hertz_ball) function hertz_of_approach(radii, e_star, approach) result(contact)
-      real(dp), intent(in) :: radii(2), e_star, approach
-
-      contact = scaled(unit_contact(radii, e_star), 2, approach)
-   end function hertz_of_approach
-
-   !> The contact of an area [length^2], >= 0.
-   pure type(hertz_ball) function hertz_of_area(radii, e_star, area) result(contact)
-      real(dp), intent(in) :: radii(2), e_star, area
+      real(dp) :: factor
 
       contact = unit_contact(radii, e_star)
-      contact = scaled(contact, 1, sqrt(area/contact%contact_area())*contact%peak_pressure)
-   end function hertz_of_area
-
-   !> The contact of a peak pressure [pressure], >= 0.
-   pure type(hertz_ball) function hertz_of_peak_pressure(radii, e_star, peak_pressure) result(contact)
-      real(dp), intent(in) :: radii(2), e_star, peak_pressure
-
-      contact = scaled(unit_contact(radii, e_star), 1, peak_pressure)
-   end function hertz_of_peak_pressure
+      factor = 1.0_dp
+      if (present(force)) factor = (force/contact%force)**(1.0_dp/3)
+      if (present(approach)) factor = sqrt(approach/contact%approach)
+      if (present(area)) factor = sqrt(area/contact%contact_area())
+      if (present(peak_pressure)) factor = peak_pressure/contact%peak_pressure
+      contact = hertz_ball(factor*contact%half_axis, factor**3*contact%force, factor**2*contact%approach, &
+                           factor*contact%peak_pressure)
+   end function hertz_contact
 
    !> Half width [length] and peak pressure [pressure] of a roller under a force a depth, Johnson (1985), eqs. (4.43),
    !> (4.45).
@@ -75,21 +65,6 @@ contains
       contact_area = pi*product(self%half_axis)
    end function contact_area
 
-   !> A contact of the same bodies: peak pressure and axes are proportional to each other, the approach goes with their
-   !> square and the force with their cube.
-   pure type(hertz_ball) function scaled(contact, power, value) result(other)
-      type(hertz_ball), intent(in) :: contact
-      integer, intent(in) :: power   !! 1, 2, 3: `value` is the peak pressure, the approach, the force
-      real(dp), intent(in) :: value
-
-      real(dp) :: factor, present(3)
-
-      present = [contact%peak_pressure, contact%approach, contact%force]
-      factor = (value/present(power))**(1.0_dp/power)
-      other = hertz_ball(factor*contact%half_axis, factor**3*contact%force, factor**2*contact%approach, &
-                         factor*contact%peak_pressure)
-   end function scaled
-
    !> The contact whose longer half axis is the larger radius.
    pure type(hertz_ball) function unit_contact(radii, e_star) result(contact)
       real(dp), intent(in) :: radii(2), e_star
@@ -104,7 +79,7 @@ contains
       high = 0.0_dp
       do step = 1, most_steps
          middle = 0.5_dp*(low + high)
-         if (high - low <= epsilon(middle)*abs(middle) .or. middle <= low .or. middle >= high) exit
+         if (middle <= low .or. middle >= high) exit
          call integrals(exp(middle), k1, d)
          if ((k1 - d)/(d*exp(2*middle)) > maxval(radii)/minval(radii)) then
             low = middle

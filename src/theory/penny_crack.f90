@@ -4,15 +4,25 @@
 !> Sneddon. Pressures are in p* = sqrt(2) pi E* Delta/lambda, openings and gaps in Delta, lengths in lambda.
 !> The radius, the contact area and the mean gap apply near pbar = p* and are those of full contact (0, 1,
 !> 0) above; below they return their formula's value.
+!>
+!> The longer asymptotes `near_closure_...` extend (24) and (30) in powers of e = 1 - pbar/p*. They are useful down to
+!> pbar = 0.8 p* or so.
+!>
+!> Derivation, with lengths in s = lambda/sqrt(2) and a trough at r = 0: the pressure that opens the crack is
+!> e - pi^2 r^2 + (pi^4/4) r^4 + terms in cos(4 theta), and the volume G of each other crack adds the tension
+!> G/(4 pi^2 |n|^3). With y = pi^2 b^2 the stress intensity factor vanishes for 2 y/3 - 2 y^2/15 = e + k G,
+!> k = S_3/(4 pi^2), S_3 the lattice's sum of 1/|n|^3.
 module wavycon_penny_crack
    use wavycon_constants, only: pi, sqrt2
    use wavycon_kinds, only: dp
+   use wavycon_lattice_sums, only: inverse_cube_sum
    implicit none (type, external)
    private
 
    public :: penny_crack_pressure_over_pstar, penny_crack_opening_over_amplitude
    public :: penny_crack_radius_over_wavelength, penny_crack_contact_area_fraction
    public :: penny_crack_mean_gap_over_amplitude
+   public :: near_closure_contact_area_fraction, near_closure_mean_gap_over_amplitude
 
 contains
 
@@ -76,5 +86,34 @@ contains
 
       gap = 16/(15*pi**2)*1.5_dp**1.5_dp*max(0.0_dp, 1 - pbar_over_pstar)**2.5_dp
    end function penny_crack_mean_gap_over_amplitude
+
+   !> Fraction of the nominal area in contact, 1 - (3/(2 pi)) [e + 0.3 e^2 + k G_30], with (30) for
+   !> G_30, which goes as e^(5/2). The error is O(e^3).
+   elemental real(dp) function near_closure_contact_area_fraction(pbar_over_pstar) result(fraction)
+      real(dp), intent(in) :: pbar_over_pstar  !! mean pressure [p*]
+
+      real(dp) :: e
+
+      e = max(0.0_dp, 1 - pbar_over_pstar)
+      fraction = 1 - 3/(2*pi) &
+         *(e + 0.3_dp*e**2 + interaction()*penny_crack_mean_gap_over_amplitude(pbar_over_pstar))
+   end function near_closure_contact_area_fraction
+
+   !> Mean gap, (30) times 1 + (9/28) e + (5/2) k G_30/e; the error is O(e^2) of it.
+   elemental real(dp) function near_closure_mean_gap_over_amplitude(pbar_over_pstar) result(gap)
+      real(dp), intent(in) :: pbar_over_pstar  !! mean pressure [p*]
+
+      real(dp) :: e, g_30
+
+      e = max(0.0_dp, 1 - pbar_over_pstar)
+      g_30 = penny_crack_mean_gap_over_amplitude(pbar_over_pstar)
+      gap = 0
+      if (e > 0) gap = g_30*(1 + 9*e/28 + 2.5_dp*interaction()*g_30/e)
+   end function near_closure_mean_gap_over_amplitude
+
+   !> Tension at one trough for unit mean gap at all the others, k [p*/Delta].
+   pure real(dp) function interaction()
+      interaction = inverse_cube_sum()/(4*pi**2)
+   end function interaction
 
 end module wavycon_penny_crack

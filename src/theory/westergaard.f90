@@ -1,7 +1,8 @@
-!> Westergaard's exact solution for the one-dimensional wave h/Delta = 1 - cos(2 psi), psi = pi x/lambda.
+!> Westergaard's exact solution for the one-dimensional wave h/Delta = 1 - cos(2 psi), psi = pi x/lambda, Kuznetsov's
+!> exact mean gap, and the limits of light and of heavy loads.
 !>
-!> Equations (4), (5) and (7) of Johnson, Greenwood & Higginson (1985), with p* = pi E* Delta/lambda.
-!> All hold for every mean pressure: a negative one is taken as 0 (no contact), and from pbar = p* on contact
+!> Equations (4), (5), (7), (8), (11) and (20) of Johnson, Greenwood & Higginson (1985), with p* = pi E* Delta/lambda.
+!> The exact ones hold for every mean pressure: a negative one is taken as 0 (no contact), and from pbar = p* on contact
 !> is full. All are even in psi and have the period pi. Pressures are in p*, displacements and gaps in Delta,
 !> lengths in lambda.
 !>
@@ -9,13 +10,15 @@
 module wavycon_westergaard
    use wavycon_constants, only: pi
    use wavycon_kinds, only: dp
-   use wavycon_kuznetsov, only: kuznetsov_mean_gap_over_amplitude
    implicit none (type, external)
    private
 
    public :: westergaard_pressure_over_pstar, westergaard_peak_pressure_over_pstar
    public :: westergaard_displacement_over_amplitude, westergaard_gap_over_amplitude
    public :: westergaard_half_width_over_wavelength, westergaard_contact_area_fraction
+   public :: kuznetsov_mean_gap_over_amplitude
+   public :: hertz_line_half_width_over_wavelength, hertz_line_contact_area_fraction
+   public :: hertz_line_peak_pressure_over_pstar, line_crack_contact_area_fraction
 
 contains
 
@@ -86,5 +89,56 @@ contains
 
       fraction = 2*westergaard_half_width_over_wavelength(pbar_over_pstar)
    end function westergaard_contact_area_fraction
+
+   !> Mean gap G = 1 - P (1 - ln P), P = pbar/p*: equation (20).
+   !>
+   !> Exact for 0 <= P <= 1; 1 below and 0 above.
+   elemental real(dp) function kuznetsov_mean_gap_over_amplitude(pbar_over_pstar) result(gap)
+      real(dp), intent(in) :: pbar_over_pstar  !! mean pressure [p*]
+
+      if (pbar_over_pstar <= 0) then
+         gap = 1
+      else if (pbar_over_pstar >= 1) then
+         gap = 0
+      else
+         ! In this order the difference loses few digits near P = 1, where G is (1 - P)^2/2.
+         gap = max(0.0_dp, (1 - pbar_over_pstar) + pbar_over_pstar*log(pbar_over_pstar))
+      end if
+   end function kuznetsov_mean_gap_over_amplitude
+
+   !> Half width of a contact strip where each crest is a separate Hertzian line contact, the limit pbar -> 0, equation
+   !> (8): a/lambda = (pbar/p*)^(1/2)/pi. A crest has the curvature 1/R = 4 pi^2 Delta/lambda^2 and bears the load pbar
+   !> lambda per unit length. As the next two this returns the formula's value for any pbar >= 0, also where it does not
+   !> apply.
+   elemental real(dp) function hertz_line_half_width_over_wavelength(pbar_over_pstar) result(a)
+      real(dp), intent(in) :: pbar_over_pstar  !! mean pressure [p*]
+
+      a = sqrt(max(0.0_dp, pbar_over_pstar))/pi
+   end function hertz_line_half_width_over_wavelength
+
+   !> Fraction of the nominal area in contact, 2 a/lambda: only 0.64 at pbar = p*, and 1 at 2.5 p*.
+   elemental real(dp) function hertz_line_contact_area_fraction(pbar_over_pstar) result(fraction)
+      real(dp), intent(in) :: pbar_over_pstar  !! mean pressure [p*]
+
+      fraction = 2*hertz_line_half_width_over_wavelength(pbar_over_pstar)
+   end function hertz_line_contact_area_fraction
+
+   !> Pressure at the crest, p0 = 2 pbar lambda/(pi a) = 2 (pbar p*)^(1/2), which is Westergaard's at any load.
+   elemental real(dp) function hertz_line_peak_pressure_over_pstar(pbar_over_pstar) result(p0)
+      real(dp), intent(in) :: pbar_over_pstar  !! mean pressure [p*]
+
+      p0 = 2*sqrt(max(0.0_dp, pbar_over_pstar))
+   end function hertz_line_peak_pressure_over_pstar
+
+   !> Fraction of the nominal area in contact where each open strip is a separate pressurised crack, the limit pbar ->
+   !> p*. The crack opens until its stress intensity factor is zero: 1 - 2 b/lambda with its half width, equation (11),
+   !> b/lambda = (1 - pbar/p*)^(1/2)/pi; 1 from pbar = p* on.
+   !>
+   !> Applies near pbar = p*; elsewhere the formula's value is returned: 0.36 at pbar = 0, where 0 is exact.
+   elemental real(dp) function line_crack_contact_area_fraction(pbar_over_pstar) result(fraction)
+      real(dp), intent(in) :: pbar_over_pstar  !! mean pressure [p*]
+
+      fraction = 1 - 2*(sqrt(max(0.0_dp, 1 - pbar_over_pstar))/pi)
+   end function line_crack_contact_area_fraction
 
 end module wavycon_westergaard

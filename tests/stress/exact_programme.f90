@@ -3,7 +3,7 @@
 !> All numbers are small integers times powers of two, so that D, c, C and b are computed without rounding: the x from
 !> which a programme is made solves it exactly, whatever its condition number.
 !>
-!>     D = blocks of H diag(2^k) H', H a Hadamard matrix: the condition number is 2^(greatest k - least k)
+!>     D = diag(2^k): the condition number is 2^(greatest k - least k)
 !>     c = D x - C'y,   b = C x - slack,   y > 0 where the slack is 0
 module stress_exact_programme
    use, intrinsic :: iso_fortran_env, only: real128
@@ -16,10 +16,9 @@ module stress_exact_programme
    public :: recipe_type, programme_type, random_recipe, make_programme, kind_names
 
    !> Kinds of constraints.
-   integer, parameter, public :: plain = 1, degenerate = 2, repeated = 3, nearly_parallel = 4, scaled = 5, &
-      moved_origin = 6, contradictory = 7, bad_start = 8
-   character(*), parameter :: kind_names(*) = [character(16) :: 'plain', 'degenerate', 'repeated', &
-      'nearly parallel', 'scaled', 'moved origin', 'contradictory', 'bad start']
+   integer, parameter, public :: plain = 1, degenerate = 2, repeated = 3, nearly_parallel = 4, moved_origin = 5
+   character(*), parameter :: kind_names(*) = [character(16) :: 'plain', 'degenerate', 'repeated', 'nearly parallel', &
+      'moved origin']
 
    !> Properties of the programme to make.
    type :: recipe_type
@@ -35,14 +34,9 @@ module stress_exact_programme
    type :: programme_type
       type(qp_problem) :: problem
       logical :: exact = .true.           !! no sum was rounded
-      logical :: feasible = .true.
-      logical :: starts_feasible = .true. !! whether x = 0 satisfies the constraints
       real(dp) :: condition = 1.0_dp      !! of D
-      real(dp), allocatable :: x(:)       !! the answer, if feasible
+      real(dp), allocatable :: x(:)       !! the answer
    end type programme_type
-
-   !> Largest order of the Hadamard matrices; their sums need log2 of it of the 53 bits.
-   integer, parameter :: largest_block_bits = 4
 
 contains
 
@@ -91,7 +85,9 @@ contains
          allocate (programme%x(n))
          programme%x = [(real(stream%whole(-3, 3), dp), j=1, n)]
          if (.not. any(abs(programme%x) > 0.0_dp)) programme%x(stream%whole(1, n)) = 1.0_dp
-         call make_hessian(stream, recipe, problem%hessian, programme%condition)
+         problem%hessian = [(scale(1.0_dp, stream%whole(0, recipe%condition_bits)), j=1, n)]
+         problem%hessian(stream%whole(1, n)) = scale(1.0_dp, recipe%condition_bits)
+         programme%condition = maxval(problem%hessian)/minval(problem%hessian)
          allocate (problem%normals(n, m))
          do i = 1, m
             problem%normals(:, i) = random_normal(stream, n)
@@ -115,64 +111,8 @@ contains
 
          call set_linear(programme, multipliers)
          call set_bounds(programme, slack)
-         programme%starts_feasible = all(problem%bounds <= 0.0_dp)
-         if (recipe%kind == scaled) call scale_rows(stream, problem)
-         if (recipe%kind == contradictory) call contradict(stream, programme)
-         if (recipe%kind == bad_start) then
-            problem%bounds(stream%whole(1, m)) = scale(1.0_dp, -stream%whole(0, 60))
-            programme%starts_feasible = .false.
-         end if
       end associate
    end subroutine make_programme
-
-   !> D = H diag(2^k) H' on blocks of the unknowns in random order.
-   subroutine make_hessian(stream, recipe, hessian, condition)
-      type(random_stream), intent(inout) :: stream
-      type(recipe_type), intent(in) :: recipe
-      real(dp), allocatable, intent(out) :: hessian(:, :)
-      real(dp), intent(out) :: condition
-
-      integer :: order(recipe%n), power(recipe%n)
-      integer :: bits, first, i, j, k, last
-      real(dp) :: eigenvalue, greatest, least
-
-      allocate (hessian(recipe%n, recipe%n), source=0.0_dp)
-      order = stream%shuffled(recipe%n)
-      power = [(stream%whole(0, recipe%condition_bits), i=1, recipe%n)]
-      power(order(1)) = recipe%condition_bits
-      power(order(recipe%n)) = 0
-      greatest = 0.0_dp
-      least = huge(least)
-      first = 1
-      do while (first <= recipe%n)
-         bits = stream%whole(0, largest_block_bits)
-         do while (first + 2**bits - 1 > recipe%n)
-            bits = bits - 1
-         end do
-         last = first + 2**bits - 1
-         do k = first, last
-            ! HH' = 2^bits I: divided by 2^bits, so that the eigenvalues of D are 2^k in every block.
-            eigenvalue = scale(1.0_dp, power(order(k)) - bits)
-            greatest = max(greatest, scale(eigenvalue, bits))
-            least = min(least, scale(eigenvalue, bits))
-            do j = first, last
-               do i = first, last
-                  hessian(order(i), order(j)) = hessian(order(i), order(j)) + &
-                     eigenvalue*hadamard(i - first, k - first)*hadamard(j - first, k - first)
-               end do
-            end do
-         end do
-         first = last + 1
-      end do
-      condition = greatest/least
-   end subroutine make_hessian
-
-   !> Element of Sylvester's Hadamard matrix, both indices counted from 0.
-   pure real(dp) function hadamard(i, j)
-      integer, intent(in) :: i, j
-
-      hadamard = 1.0_dp - 2.0_dp*poppar(iand(i, j))
-   end function hadamard
 
    !> Small integers, at least one of them not zero; sometimes few of them.
    function random_normal(stream, n) result(normal)
@@ -221,10 +161,7 @@ contains
       real(real128) :: total(size(programme%x))
       integer :: i
 
-      total = 0.0_real128
-      do i = 1, size(programme%x)
-         total = total + real(programme%problem%hessian(:, i), real128)*programme%x(i)
-      end do
+      total = real(programme%problem%hessian, real128)*programme%x
       do i = 1, size(multipliers)
          if (multipliers(i) > 0.0_dp) total = total - real(programme%problem%normals(:, i), real128)*multipliers(i)
       end do
@@ -247,42 +184,5 @@ contains
          programme%exact = programme%exact .and. .not. abs(programme%problem%bounds(i) - total) > 0.0_real128
       end do
    end subroutine set_bounds
-
-   !> Scales every constraint by a power of two of its own.
-   subroutine scale_rows(stream, problem)
-      type(random_stream), intent(inout) :: stream
-      type(qp_problem), intent(inout) :: problem
-
-      integer :: i, power
-
-      do i = 1, size(problem%bounds)
-         power = stream%whole(-30, 30)
-         problem%normals(:, i) = scale(problem%normals(:, i), power)
-         problem%bounds(i) = scale(problem%bounds(i), power)
-      end do
-   end subroutine scale_rows
-
-   !> Makes the last constraint the opposite of the sum of a few others, with a bound that the sum of theirs excludes.
-   subroutine contradict(stream, programme)
-      type(random_stream), intent(inout) :: stream
-      type(programme_type), intent(inout) :: programme
-
-      real(real128) :: bound, normal(size(programme%x))
-      integer :: chosen, i, m
-
-      m = size(programme%problem%bounds)
-      normal = 0.0_real128
-      bound = 0.0_real128
-      do i = 1, stream%whole(1, min(4, m - 1))
-         chosen = stream%whole(1, m - 1)
-         normal = normal + programme%problem%normals(:, chosen)
-         bound = bound + programme%problem%bounds(chosen)
-      end do
-      ! y = 1 for the chosen ones and the last: C'y = 0, b'y > 0, so that no x satisfies them all.
-      programme%problem%normals(:, m) = real(-normal, dp)
-      programme%problem%bounds(m) = real(-bound + scale(1.0_real128, -stream%whole(0, 6)), dp)
-      programme%feasible = .false.
-      programme%starts_feasible = .false.
-   end subroutine contradict
 
 end module stress_exact_programme

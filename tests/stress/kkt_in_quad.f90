@@ -42,12 +42,8 @@ contains
       if (.not. kkt%well_formed) return
 
       x = solution%x
-      gradient = -real(problem%linear, qp)
-      terms = abs(gradient)
-      do j = 1, size(x)
-         gradient = gradient + problem%hessian(:, j)*x(j)
-         terms = terms + abs(problem%hessian(:, j)*x(j))
-      end do
+      gradient = problem%hessian*x - problem%linear
+      terms = abs(problem%hessian*x) + abs(problem%linear)
       do i = 1, size(solution%active)
          associate (push => real(solution%multipliers(i), qp)*problem%normals(:, solution%active(i)))
             gradient = gradient - push

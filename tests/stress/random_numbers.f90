@@ -15,7 +15,6 @@ module stress_random_numbers
       procedure :: uniform
       procedure :: whole
       procedure :: chance
-      procedure :: shuffled
    end type random_stream
 
 contains
@@ -63,22 +62,5 @@ contains
 
       chance = self%uniform() < probability
    end function chance
-
-   !> The numbers 1 to n in random order.
-   function shuffled(self, n) result(order)
-      class(random_stream), intent(inout) :: self
-      integer, intent(in) :: n
-      integer :: order(n)
-
-      integer :: i, j, kept
-
-      order = [(i, i=1, n)]
-      do i = n, 2, -1
-         j = self%whole(1, i)
-         kept = order(i)
-         order(i) = order(j)
-         order(j) = kept
-      end do
-   end function shuffled
 
 end module stress_random_numbers

@@ -69,7 +69,7 @@ program stress_loads
       end if
       if (verdict /= 'passed') then
          write (name, '(3(i0, "-"), i0, ".qp")') dimension, harmonics, points, i
-         call write_problem(word(5)//'/case-'//word(4)//'-'//trim(name), problem, problem%bounds)
+         call write_problem(word(5)//'/case-'//word(4)//'-'//trim(name), problem)
       end if
       write (*, '(es24.16, 4("|", i0), 2("|", a), 5("|", es10.2e3), "|", i0, "|", f0.3)') loads(i), dimension, &
             harmonics, &

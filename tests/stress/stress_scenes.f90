@@ -1,19 +1,16 @@
-!> Solves the loads of a deck as the program does, and checks the contact conditions of every solution. Prints a line
-!> for each load, of a grid, of an expansion, or of neither if no solution was needed or found.
+!> Solves the loads of a deck on grids as the program does, and checks the contact conditions of every solution. Prints a
+!> line for each load, also if no solution was needed or found.
 !>
-!> usage: stress_scenes DECK SEED SAMPLES [HARDNESS]   expansions are checked at so many random points; the hardness,
-!> over the mean pressure of each load, takes the place of that of the deck
+!> usage: stress_scenes DECK [HARDNESS]   the hardness, over the mean pressure of each load, takes the place of that of
+!> the deck
 program stress_scenes
-   use command_words, only: number, word
-   use stress_kkt_of_expansion, only: check_expansion, expansion_kkt
+   use command_words, only: word
    use stress_kkt_of_grid, only: check_grid, grid_kkt
-   use stress_random_numbers, only: random_stream
    use wavycon_contact_solver, only: contact_solver
    use wavycon_contact_status, only: status_name
    use wavycon_contact_solution, only: contact_solution
    use wavycon_deck, only: deck_type
    use wavycon_error, only: error_type
-   use wavycon_fitted_source, only: fitted_source
    use wavycon_grid_source, only: grid_source
    use wavycon_kinds, only: dp
    use wavycon_read_deck, only: read_deck
@@ -22,11 +19,9 @@ program stress_scenes
    use wavycon_scene, only: scene_type
    implicit none (type, external)
 
-   type(random_stream) :: stream
    type(contact_solution) :: solution
    type(deck_type) :: deck
    type(error_type), allocatable :: error
-   type(expansion_kkt) :: of_expansion
    type(grid_kkt) :: of_grid
    type(scene_type) :: scene
    class(contact_solver), allocatable :: solver
@@ -34,14 +29,14 @@ program stress_scenes
    real(dp) :: ratio
    integer :: i
 
-   if (all(command_argument_count() /= [3, 4])) error stop 'usage: stress_scenes DECK SEED SAMPLES [HARDNESS]'
+   if (all(command_argument_count() /= [1, 2])) error stop 'usage: stress_scenes DECK [HARDNESS]'
    call read_deck(word(1), deck, error)
    call stop_on(error)
    call make_scene(deck, scene)
    call start_solver(scene%surface, scene%method, .true., solver)
    do i = 1, size(scene%target)
-      if (command_argument_count() > 3) then
-         ratio_word = word(4)
+      if (command_argument_count() > 1) then
+         ratio_word = word(2)
          read (ratio_word, *) ratio
          scene%surface%hardness = ratio*scene%target(i)
          call start_solver(scene%surface, scene%method, .true., solver)
@@ -52,15 +47,6 @@ program stress_scenes
          cycle
       end if
       select type (source => solution%source)
-      type is (fitted_source)
-         call stream%start(number(2), i)
-         of_expansion = check_expansion(source%lattice, source%answer, stream, number(3))
-         associate (measures => solution%measures)
-            write (*, '(a, "|", es24.16, "|", a, 9("|", es10.2e3))') 'expansion', scene%target(i), &
-               trim(status_name(solution%status)), of_expansion%contact, of_expansion%noise, of_expansion%tension, &
-               of_expansion%overlap, of_expansion%balance, solution%residual, &
-               measures%mean_gap_error, measures%contact_area_error, measures%peak_pressure_error
-         end associate
       type is (grid_source)
          of_grid = check_grid(scene%surface, solution%solution_record, source)
          write (*, '(a, "|", es24.16, "|", a, 8("|", es23.15e3), "|", i0)') 'grid', scene%target(i), &

@@ -19,7 +19,7 @@ module wavycon_hertz_stress
 contains
 
    !> On the axis of a point contact, Johnson (3.45): s_zz = -1/(1 + z^2) and
-   !> s_xx = s_yy = -(1 + nu) (1 - z arctan(1/z)) + 1/(2 (1 + z^2)).
+   !> s_xx = s_yy = -(1 + nu) (1 - z arctan(1/z)) + 1/(2 (1 + z^2)). At depth the terms of the bracket cancel.
    pure subroutine hertz_point_axis_stress(z, parts)
       real(dp), intent(in) :: z             !! depth, >= 0 [a]; far down digits are lost
       real(dp), intent(out) :: parts(6, 2)  !! stress in two parts [p0]

@@ -2,7 +2,7 @@
 module wavycon_ball_kind
    use wavycon_constants, only: pi
    use wavycon_group_values, only: group_values
-   use wavycon_hertz_ball, only: hertz_ball, hertz_of_approach, hertz_of_area, hertz_of_force, hertz_of_peak_pressure
+   use wavycon_hertz_ball, only: hertz_ball, hertz_contact
    use wavycon_key_relations, only: alternative_type
    use wavycon_key_table, only: integer_key, real_key
    use wavycon_kinds, only: dp
@@ -48,13 +48,13 @@ contains
       radii = radii_of(values, 'radius')
       select case (key)
       case ('force')
-         contact = hertz_of_force(radii, e_star, largest)
+         contact = hertz_contact(radii, e_star, force=largest)
       case ('approach')
-         contact = hertz_of_approach(radii, e_star, largest)
+         contact = hertz_contact(radii, e_star, approach=largest)
       case ('contact_area')
-         contact = hertz_of_area(radii, e_star, largest)
+         contact = hertz_contact(radii, e_star, area=largest)
       case default
-         contact = hertz_of_peak_pressure(radii, e_star, largest)
+         contact = hertz_contact(radii, e_star, peak_pressure=largest)
       end select
       half_axis = contact%half_axis
       if (hardness < huge(hardness)) half_axis = half_axis &
