@@ -8,8 +8,7 @@ program bench_grids
    use wavycon_kinds, only: dp
    use wavycon_kuznetsov, only: kuznetsov_mean_gap_over_amplitude
    use wavycon_surface, only: surface_type
-   use wavycon_wave_1d, only: wave_1d
-   use wavycon_wave_2d, only: wave_2d
+   use wavycon_wave_surfaces, only: wave_1d, wave_2d
    use wavycon_westergaard, only: westergaard_contact_area_fraction, westergaard_peak_pressure_over_pstar
    implicit none (type, external)
 

@@ -9,10 +9,8 @@ program bench_maps
    use wavycon_contact_solver, only: contact_solver
    use wavycon_fitted_contact, only: fitted_contact, fitted_options
    use wavycon_grid_contact, only: grid_contact, grid_options
-   use wavycon_hexagonal, only: hexagonal
    use wavycon_kinds, only: dp
-   use wavycon_wave_1d, only: wave_1d
-   use wavycon_wave_2d, only: wave_2d
+   use wavycon_wave_surfaces, only: hexagonal, wave_1d, wave_2d
    implicit none (type, external)
 
    integer, parameter :: sides(*) = [128, 257, 1025]

@@ -15,7 +15,7 @@ program bench_paper_method
    use wavycon_kinds, only: dp
    use wavycon_qp_problem, only: qp_converged, qp_solution
    use wavycon_series_source, only: series_source
-   use wavycon_wave_2d, only: wave_2d
+   use wavycon_wave_surfaces, only: wave_2d
    implicit none (type, external)
 
    !> A method to solve for one load, its times at that load and its last solution.

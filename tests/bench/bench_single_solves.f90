@@ -13,7 +13,7 @@ program bench_single_solves
    use wavycon_beale_contact, only: beale_contact, qp_options
    use wavycon_kinds, only: dp
    use wavycon_qp_problem, only: qp_solution
-   use wavycon_wave_2d, only: wave_2d
+   use wavycon_wave_surfaces, only: wave_2d
    implicit none (type, external)
 
    character(*), parameter :: numbers = '(*(es26.17e3))'

@@ -10,14 +10,12 @@ program bench_stresses
    use wavycon_elastic_body, only: elastic_body
    use wavycon_fitted_contact, only: fitted_contact, fitted_options
    use wavycon_grid_contact, only: grid_contact, grid_options
-   use wavycon_hexagonal, only: hexagonal
    use wavycon_kinds, only: dp
    use wavycon_largest_stress, only: find_largest_stresses, largest_stress
-   use wavycon_self_affine_heights, only: make_heights, self_affine_spectrum
+   use wavycon_self_affine, only: make_heights, self_affine_spectrum
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_of_points, surface_type
-   use wavycon_wave_1d, only: wave_1d
-   use wavycon_wave_2d, only: wave_2d
+   use wavycon_wave_surfaces, only: hexagonal, wave_1d, wave_2d
    implicit none (type, external)
 
    !> Repetitions, of which the median is reported, and their time limit [ms].
@@ -127,10 +125,9 @@ contains
       integer, intent(in) :: side   !! points of a side
 
       real(dp), allocatable :: height(:, :)
-      logical :: is_made
 
       allocate (height(side, side))
-      call make_heights(self_affine_spectrum(longest=1/8.0_dp, rolloff=1/8.0_dp, shortest=1/64.0_dp), height, is_made)
+      call make_heights(self_affine_spectrum(longest=1/8.0_dp, rolloff=1/8.0_dp, shortest=1/64.0_dp), height)
       surface = surface_of_points([1.0_dp, 1.0_dp], height)
    end function rough_surface
 

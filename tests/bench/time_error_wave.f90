@@ -17,7 +17,7 @@ program time_error_wave
    use wavycon_grid_sequence, only: sequence_answer, solve_by_sequence
    use wavycon_kinds, only: dp
    use wavycon_surface, only: surface_type
-   use wavycon_wave_2d, only: wave_2d
+   use wavycon_wave_surfaces, only: wave_2d
    implicit none (type, external)
 
    !> The first accuracy of the grids; each is half of the last one.

@@ -11,7 +11,7 @@ program distributed_maps
    use wavycon_roughness, only: roughness_type
    use wavycon_surface, only: surface_of_points, surface_type, whole_surface
    use wavycon_undeformed_gap, only: sample_undeformed_gap
-   use wavycon_wave_2d, only: wave_2d
+   use wavycon_wave_surfaces, only: wave_2d
    implicit none (type, external)
 
    call start_mpi()

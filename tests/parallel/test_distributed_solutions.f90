@@ -22,8 +22,7 @@ program test_distributed_solutions
    use wavycon_mpi_ranks, only: start_mpi
    use wavycon_ranks, only: is_first_rank, rank_count, work_alone
    use wavycon_surface, only: surface_of_points, surface_type
-   use wavycon_wave_2d, only: wave_2d
-   use wavycon_wave_sum, only: wave_sum
+   use wavycon_wave_surfaces, only: wave_2d, wave_sum
    implicit none (type, external)
 
    !> Grids that are distributed over two ranks or more.

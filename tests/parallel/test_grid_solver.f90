@@ -12,7 +12,7 @@ program test_grid_solver
    use wavycon_mpi_ranks, only: start_mpi
    use wavycon_ranks, only: any_rank, end_ranks, is_first_rank, work_alone
    use wavycon_surface, only: surface_of_points, surface_type
-   use wavycon_wave_2d, only: wave_2d
+   use wavycon_wave_surfaces, only: wave_2d
    implicit none (type, external)
 
    !> The last is distributed over a few ranks only.

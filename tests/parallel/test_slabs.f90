@@ -16,7 +16,7 @@ program test_slabs
    use wavycon_mpi_ranks, only: start_mpi
    use wavycon_ranks, only: add_over_ranks, comm, rank_count, row_exchange, this_rank, work_alone
    use wavycon_surface, only: surface_of_points, surface_type
-   use wavycon_wave_2d, only: wave_2d
+   use wavycon_wave_surfaces, only: wave_2d
    implicit none (type, external)
 
    !> Those that are distributed over two ranks or more, and two that never are: one too narrow, one too small.

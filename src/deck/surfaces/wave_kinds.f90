@@ -1,16 +1,13 @@
 !> The kinds of surface that are one, two or three cosine waves: 'wave_1d', 'wave_2d', 'crossed_1d' and 'hexagonal'.
 module wavycon_wave_kinds
-   use wavycon_crossed_1d, only: crossed_1d
    use wavycon_error, only: error_type
    use wavycon_group_values, only: group_values
-   use wavycon_hexagonal, only: hexagonal
    use wavycon_key_table, only: key_type, real_key
    use wavycon_kinds, only: dp
    use wavycon_map_statistics, only: map_statistics
    use wavycon_surface, only: surface_type
    use wavycon_surface_kind, only: surface_kind
-   use wavycon_wave_1d, only: wave_1d
-   use wavycon_wave_2d, only: wave_2d
+   use wavycon_wave_surfaces, only: crossed_1d, hexagonal, wave_1d, wave_2d
    implicit none (type, external)
    private
 

@@ -10,7 +10,7 @@ module wavycon_wave_sum_kind
    use wavycon_problems, only: problem_list_type
    use wavycon_surface, only: surface_type
    use wavycon_surface_kind, only: length_x_key, length_y_key, surface_kind
-   use wavycon_wave_sum, only: wave_sum
+   use wavycon_wave_surfaces, only: wave_sum
    implicit none (type, external)
    private
 
