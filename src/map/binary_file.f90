@@ -6,8 +6,7 @@ module wavycon_binary_file
    use wavycon_file_bytes, only: open_file
    use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp, sp
-   use wavycon_map_size, only: check_map_size, check_room
-   use wavycon_measured_map, only: measured_map
+   use wavycon_measured_map, only: check_map_size, check_room, measured_map
    use wavycon_plain_text, only: escaped, integer_text, system_words
    implicit none (type, external)
    private

@@ -3,8 +3,7 @@ module wavycon_npy_map
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_binary_file, only: binary_file
    use wavycon_error, only: error_type
-   use wavycon_map_size, only: laid_along_x
-   use wavycon_measured_map, only: measured_map
+   use wavycon_measured_map, only: laid_along_x, measured_map
    use wavycon_plain_text, only: excerpt
    implicit none (type, external)
    private

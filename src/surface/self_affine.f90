@@ -8,7 +8,7 @@ module wavycon_self_affine
    use wavycon_grid_transform, only: grid_transform
    use wavycon_gsl, only: gsl_rng_alloc, gsl_rng_free, gsl_rng_mt19937, gsl_rng_set, gsl_rng_uniform
    use wavycon_kinds, only: dp
-   use wavycon_map_size, only: check_room
+   use wavycon_measured_map, only: check_room
    use wavycon_map_statistics, only: map_statistics, statistics_of
    use wavycon_own_waves, only: wave_slab
    use wavycon_plain_text, only: short_number
@@ -68,7 +68,7 @@ contains
                           short_number(largest_number))
          return
       end if
-      map = statistics_of(height, 'made', '', points, spectrum%length/points)
+      map = statistics_of(height, 'made', points, spectrum%length/points)
       surface = surface_of_points(spectrum%length, height, points=points, has_free_edges=has_free_edges, radii=radii)
    end subroutine self_affine_surface
 
@@ -102,34 +102,28 @@ contains
       has_waves = .true.
       do m = 0, highest(1)
          do n = 0, highest(2)
-            if (is_within(spectrum, frequency(spectrum, m, n))) return
+            if (mean_square(spectrum, frequency(spectrum, m, n)) > 0.0_dp) return
          end do
       end do
       has_waves = .false.
    end function has_waves
 
    !> The frequency of a wave (G2) [1/length].
-   elemental real(dp) function frequency(spectrum, m, n)
+   pure real(dp) function frequency(spectrum, m, n)
       type(self_affine_spectrum), intent(in) :: spectrum
       integer, intent(in) :: m, n   !! wave numbers
 
       frequency = hypot(m/spectrum%length(1), n/spectrum%length(2))
    end function frequency
 
-   !> Whether a wave is within the cut-offs.
-   elemental logical function is_within(spectrum, frequency)
+   !> The mean square of a wave (G3), in units of that at the roll-off; 0 beyond the cut-offs.
+   pure real(dp) function mean_square(spectrum, frequency)
       type(self_affine_spectrum), intent(in) :: spectrum
       real(dp), intent(in) :: frequency   !! [1/length]
 
-      is_within = frequency*spectrum%longest >= 1 - rounding .and. frequency*spectrum%shortest <= 1 + rounding
-   end function is_within
-
-   !> The mean square of a wave within the cut-offs (G3), in units of that at the roll-off.
-   elemental real(dp) function mean_square(spectrum, frequency)
-      type(self_affine_spectrum), intent(in) :: spectrum
-      real(dp), intent(in) :: frequency   !! [1/length]
-
-      mean_square = max(1.0_dp, frequency*spectrum%rolloff)**(-spectrum%dimension - 2*spectrum%hurst)
+      mean_square = 0.0_dp
+      if (frequency*spectrum%longest >= 1 - rounding .and. frequency*spectrum%shortest <= 1 + rounding) &
+         mean_square = max(1.0_dp, frequency*spectrum%rolloff)**(-spectrum%dimension - 2*spectrum%hurst)
    end function mean_square
 
    !> Makes the heights at the own columns of a grid of the cell (G1), from the waves of own wave numbers along x. They
@@ -199,8 +193,8 @@ contains
          uniform = gsl_rng_uniform(generator) + half_step
          if (any(abs([m, n]) > highest) .or. m < first .or. m > last) return
          f = frequency(spectrum, m, n)
-         if (.not. is_within(spectrum, f)) return
          square = mean_square(spectrum, f)
+         if (square <= 0.0_dp) return
          if (spectrum%random_amplitudes) square = -log(uniform)*square
          moments(1, m) = moments(1, m) + square*merge((2*pi*f)**2, 1.0_dp, spectrum%by_slope)
          ! cos(mX + nY + turn), in the sines and cosines of each angle.

@@ -6,7 +6,6 @@ module wavycon_surface
    use wavycon_grid_points, only: point_angle
    use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
-   use wavycon_own_waves, only: gather_series
    use wavycon_roughness, only: roughness_of, roughness_type
    use wavycon_series_peak, only: find_peak
    use wavycon_series_samples, only: sample_series
@@ -15,7 +14,7 @@ module wavycon_surface
    implicit none (type, external)
    private
 
-   public :: surface_type, surface_of_ball, surface_of_series, surface_of_points, whole_surface
+   public :: surface_type, surface_of_ball, surface_of_series, surface_of_points
 
    !> Which wave of Johnson, Greenwood & Higginson (1985) a surface is, and in which angles. Straight: eq. (3) or (21)
    !> with phi = X, theta = Y. Rotated: eq. (21) with phi = (X + Y)/2, theta = (X - Y)/2.
@@ -136,14 +135,10 @@ contains
       if (lbound(surface%shape%c, 1) == 0) surface%shape%c(0, 0) = 0.0_dp
       mean = transform%slab%column_totals(reshape(sum(height, dim=1), [1, size(height, 2)]))/product(real(grid, dp))
       if (present(radii)) surface%form = half_curvatures(surface, radii)
-      if (any(surface%form > 0.0_dp)) then
-         values = height
-         call surface%subtract_form(values, [transform%x_angle(1), transform%y_angle(transform%slab%first)], &
-                                    2*pi/surface%points)
-         call transform%slab%find_largest(values, surface%amplitude, crest)
-      else
-         call transform%slab%find_largest(height, surface%amplitude, crest)
-      end if
+      allocate (values, source=height)
+      call surface%subtract_form(values, [transform%x_angle(1), transform%y_angle(transform%slab%first)], &
+                                 2*pi/surface%points)
+      call transform%slab%find_largest(values, surface%amplitude, crest)
       surface%amplitude = surface%amplitude - mean(1)
       surface%crest = point_angle(crest, transform%points, transform%even)
       if (surface%dimension == 1) surface%crest(2) = 0.0_dp
@@ -151,7 +146,6 @@ contains
       call divide_series(surface%shape, surface%amplitude)
       surface%form = surface%form/surface%amplitude
       per_wave = 1.0_dp/surface%length
-      if (.not. allocated(values)) allocate (values, mold=height)
       if (.not. surface%has_free_edges) then
          call transform%sample(surface%shape, values, 1, per_wave)
          extremes = [maxval(values), -minval(values)]
@@ -242,15 +236,6 @@ contains
       end do
    end subroutine subtract_form
 
-   !> Gathers a distributed surface, on the rank that writes the tables or on all; on other ranks it stays distributed.
-   !> The shape has 8 bytes a point, and takes twice as much for a moment.
-   subroutine whole_surface(surface, first_only)
-      type(surface_type), intent(inout) :: surface
-      logical, intent(in) :: first_only
-
-      call gather_series(surface%shape, first_only)
-   end subroutine whole_surface
-
    !> How often the cell contains, along x and y, the part that decks and tables refer to: 2 for a mirrored map,
    !> otherwise 1.
    pure function parts(self)
@@ -303,7 +288,7 @@ contains
    end function radii
 
    !> Whether the shape has the coefficients of own wave numbers in X only, see wavycon_own_waves. Then only
-   !> wavycon_undeformed_gap can evaluate it; `whole_surface` gathers it. All other components are those of the whole
+   !> wavycon_undeformed_gap can evaluate it; `gather_series` gathers the shape. All other components are those of the whole
    !> surface.
    pure logical function is_distributed(self)
       class(surface_type), intent(in) :: self

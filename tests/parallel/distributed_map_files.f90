@@ -50,13 +50,13 @@ contains
       type(measured_map) :: alone, spread
 
       call prepared(detrend, edges, spread, changes(2))
-      statistics(2) = statistics_of(spread%height, 'npy', '', spread%points())
+      statistics(2) = statistics_of(spread%height, 'npy', spread%points())
       call slab%start(points)
       call check(slab%is_distributed .eqv. rank_count() > 1, 'maps of this size are spread')
       call check(size(spread%height, 2) == slab%columns(), 'own columns')
       call work_alone(.true.)
       call prepared(detrend, edges, alone, changes(1))
-      statistics(1) = statistics_of(alone%height, 'npy', '')
+      statistics(1) = statistics_of(alone%height, 'npy')
       call work_alone(.false.)
       call check(same([alone%height(:, slab%first:slab%last)], [spread%height]), 'heights '//detrend//edges)
       call check(same([changes(1)%rise, changes(1)%tapered], [changes(2)%rise, changes(2)%tapered]), 'changes')

@@ -7,9 +7,10 @@ program distributed_maps
    use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp
    use wavycon_mpi_ranks, only: start_mpi
+   use wavycon_own_waves, only: gather_series
    use wavycon_ranks, only: rank_count, this_rank, work_alone
    use wavycon_roughness, only: roughness_type
-   use wavycon_surface, only: surface_of_points, surface_type, whole_surface
+   use wavycon_surface, only: surface_of_points, surface_type
    use wavycon_undeformed_gap, only: sample_undeformed_gap
    use wavycon_wave_surfaces, only: wave_2d
    implicit none (type, external)
@@ -59,9 +60,9 @@ contains
       call compare_gaps(alone, spread, 2*points)
       call compare_gaps(alone, spread, [257, 301])
       call compare_gaps(alone, spread, [64, 7])
-      call whole_surface(spread, first_only=.true.)
+      call gather_series(spread%shape, first_only=.true.)
       if (this_rank() == 0) call check(same_shapes(alone, spread), 'shape on the first rank')
-      call whole_surface(spread, first_only=.true.)
+      call gather_series(spread%shape, first_only=.true.)
    end subroutine compare_maps
 
    !> Waves, which are whole on all ranks, on grids that are distributed.

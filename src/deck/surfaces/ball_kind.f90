@@ -6,7 +6,7 @@ module wavycon_ball_kind
    use wavycon_hertz_ball, only: hertz_ball, hertz_of_approach, hertz_of_area, hertz_of_force, hertz_of_peak_pressure
    use wavycon_key_table, only: integer_key, real_key
    use wavycon_kinds, only: dp
-   use wavycon_map_size, only: most_points
+   use wavycon_measured_map, only: most_points
    use wavycon_map_statistics, only: map_statistics
    use wavycon_problems, only: problem_list_type
    use wavycon_surface, only: surface_of_ball, surface_type

@@ -4,7 +4,7 @@ module wavycon_self_affine_kind
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: choice_key, integer_key, real_key
    use wavycon_kinds, only: dp
-   use wavycon_map_size, only: most_points
+   use wavycon_measured_map, only: most_points
    use wavycon_map_statistics, only: map_statistics
    use wavycon_plain_text, only: escaped, integer_text, short_number
    use wavycon_problems, only: problem_list_type
