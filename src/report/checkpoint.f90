@@ -101,7 +101,7 @@ contains
       call date_and_time(values=clock)
       call system_clock(self%run(3))
       self%run(:2) = [int(process_id(), int64), checksum(int(clock, int64))]
-      call remove_when_interrupted(self%name_now)
+      call remove_when_interrupted(self%name_now//c_null_char)
       open (newunit=self%unit, file=self%name_now, access='stream', form='unformatted', status='replace', &
             action='write', iostat=status)
       self%opened = status == 0

@@ -5,12 +5,10 @@ module wavycon_closing_notes
    use wavycon_contact_tuning, only: border, least_concentration
    use wavycon_error, only: exit_fine, exit_not_converged
    use wavycon_kinds, only: dp
-   use wavycon_method_list, only: method_of
    use wavycon_plain_text, only: escaped, integer_text, listed, percent, short_number
    use wavycon_results, only: results_type
    use wavycon_run_log, only: run_log
    use wavycon_scene, only: by_contact_area, by_yield
-   use wavycon_solver_method, only: solver_method
    implicit none (type, external)
    private
 
@@ -24,8 +22,7 @@ contains
       type(run_log), intent(inout) :: log
       integer, intent(out) :: status
 
-      character(:), allocatable :: loads, words
-      type(solver_method) :: method
+      character(:), allocatable :: loads
       integer :: bad, i, unreached, without_area
 
       bad = count([(.not. results%loads(i)%is_good(), i=1, size(results%loads))])
@@ -39,10 +36,8 @@ contains
          call note_images(results, log)
          call note_free_edges(results, log)
          if (without_area > 0) then
-            method = method_of(scene%method)
-            call method%why_no_area(scene%method, words)
-            call log%say('note: at '//integer_text(without_area)//' loads '//words// &
-                         ', so that their contact area shows as 0')
+            call log%say('note: at '//integer_text(without_area)//' loads no pressure reaches edge_level = '// &
+                         short_number(scene%method%real('edge_level'))//' p*, so that their contact area shows as 0')
          end if
          if (scene%loads_by == by_yield .and. .not. results%traits%has_errors) call log%say( &
             "note: solver = '"//scene%method%text('solver')// &

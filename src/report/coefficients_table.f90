@@ -7,7 +7,7 @@ module wavycon_coefficients_table
    use wavycon_results, only: results_type
    use wavycon_solution_record, only: solver_names
    use wavycon_surface, only: surface_type
-   use wavycon_method_list, only: solvers_with_coefficients
+   use wavycon_method_list, only: solvers_with
    use wavycon_table, only: table_type
    implicit none (type, external)
    private
@@ -36,7 +36,7 @@ contains
       associate (unused => surface); end associate
       words = ''
       if (.not. traits%has_coefficients) words = "solver = '"//trim(solver_names(traits%solver))// &
-         "' has no series of given length; "//solvers_with_coefficients()//' has'
+         "' has no series of given length; "//solvers_with('coefficients')//' has'
    end subroutine refuse
 
    subroutine put_coefficients(results, load, file)

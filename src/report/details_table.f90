@@ -10,7 +10,7 @@ module wavycon_details_table
    use wavycon_results, only: not_a_number, results_type
    use wavycon_solution_record, only: solver_names
    use wavycon_surface, only: surface_type
-   use wavycon_method_list, only: solvers_with_details
+   use wavycon_method_list, only: solvers_with
    use wavycon_table, only: table_type
    implicit none (type, external)
    private
@@ -52,7 +52,7 @@ contains
       associate (unused => surface); end associate
       words = ''
       if (.not. traits%has_details) words = "solver = '"//trim(solver_names(traits%solver))// &
-         "' does not compute them for every load; "//solvers_with_details()//' does'
+         "' does not compute them for every load; "//solvers_with('details')//' does'
    end subroutine refuse
 
    subroutine put_details(results, load, file)

@@ -22,7 +22,7 @@ module wavycon_theory_table
                                   penny_crack_radius_over_wavelength
    use wavycon_results, only: not_a_number, results_type
    use wavycon_surface, only: surface_type
-   use wavycon_surface_kinds, only: paper_waves
+   use wavycon_wave_kinds, only: paper_waves
    use wavycon_table, only: table_type
    use wavycon_westergaard, only: westergaard_contact_area_fraction, westergaard_peak_pressure_over_pstar
    implicit none (type, external)
@@ -81,7 +81,7 @@ contains
 
       associate (unused => traits); end associate
       words = ''
-      if (.not. surface%is_paper_wave()) words = 'closed forms exist only for the waves of the paper: '//paper_waves()
+      if (.not. surface%is_paper_wave()) words = 'closed forms exist only for the waves of the paper: '//paper_waves
    end subroutine refuse_other_waves
 
    subroutine put_theory(results, load, file)
