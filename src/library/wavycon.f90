@@ -14,7 +14,6 @@ module wavycon
    use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_contact_spots, only: contact_region, contact_spots
    use wavycon_contact_status
-   use wavycon_crossed_1d, only: crossed_1d
    use wavycon_deck_run, only: run_deck
    use wavycon_deck_session, only: deck_session, solved_load
    use wavycon_dundurs, only: dundurs_coefficients, dundurs_pressure_over_pstar
@@ -26,7 +25,6 @@ module wavycon
    use wavycon_fourier_series, only: fourier_series
    use wavycon_fourier_terms, only: symmetry_diagonal, symmetry_full, symmetry_none
    use wavycon_grid_contact, only: grid_contact, grid_options
-   use wavycon_hexagonal, only: hexagonal
    use wavycon_key_json, only: key_json
    use wavycon_kinds, only: dp
    use wavycon_largest_stress, only: find_largest_stresses, largest_stress
@@ -41,10 +39,8 @@ module wavycon
    use wavycon_threads, only: set_threads
    use wavycon_unit_scale, only: scale_of, unit_scale
    use wavycon_version, only: revision, version
-   use wavycon_wave_1d, only: wave_1d
-   use wavycon_wave_2d, only: wave_2d
-   use wavycon_wave_sum, only: wave_sum
    use wavycon_westergaard
+   use wavycon_wave_surfaces, only: crossed_1d, hexagonal, wave_1d, wave_2d, wave_sum
    implicit none (type, external)
    public
 end module wavycon

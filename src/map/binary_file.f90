@@ -6,8 +6,7 @@ module wavycon_binary_file
    use wavycon_file_bytes, only: open_file
    use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp, sp
-   use wavycon_map_size, only: check_map_size, check_room
-   use wavycon_measured_map, only: measured_map
+   use wavycon_measured_map, only: check_map_size, check_room, measured_map
    use wavycon_plain_text, only: escaped, integer_text, system_words
    implicit none (type, external)
    private
@@ -88,10 +87,16 @@ contains
 
       real(dp), allocatable :: line(:)   ! heights of one x or one y
       integer(int64) :: before           ! heights of the file before these
+      integer(int64) :: expected         ! bytes of the file
       integer :: infinite, k, lines, place(2)
       type(grid_slab) :: slab
 
-      call check_length(self, start, points, error)
+      call check_map_size(self%path, points, error)
+      expected = start + self%number_bytes*product(int(points, int64))
+      if (self%bytes /= expected .and. .not. allocated(error)) &
+         call self%refuse('its head announces '//integer_text(points(1))//' x '//integer_text(points(2))// &
+                          ' heights, which make a file of '//integer_text(expected)//' bytes, but it has '// &
+                          integer_text(self%bytes)//': was it copied in full, as binary data?', error)
       call slab%start(points, whole=.not. self%in_slabs)
       if (.not. allocated(error)) call check_room(self%path, points, error, slab)
       lines = 0
@@ -116,25 +121,6 @@ contains
       call slab%share_error(error)
       if (slab%is_distributed .and. .not. allocated(error)) call map%distribute_over(slab)
    end subroutine read_heights
-
-   !> Checks the size of the map and of the file. Errors: exit_bad_input.
-   subroutine check_length(self, start, points, error)
-      type(binary_file), intent(in) :: self
-      integer(int64), intent(in) :: start
-      integer, intent(in) :: points(2)
-      type(error_type), allocatable, intent(out) :: error
-
-      integer(int64) :: expected
-
-      call check_map_size(self%path, points, error)
-      if (allocated(error)) return
-      expected = start + self%number_bytes*product(int(points, int64))
-      if (self%bytes /= expected) then
-         call self%refuse('its head announces '//integer_text(points(1))//' x '//integer_text(points(2))// &
-                          ' heights, which make a file of '//integer_text(expected)//' bytes, but it has '// &
-                          integer_text(self%bytes)//': was it copied in full, as binary data?', error)
-      end if
-   end subroutine check_length
 
    !> Reads numbers. A NaN of any kind becomes a quiet one, and so does an infinity. Errors: exit_file_trouble.
    !>

@@ -13,13 +13,6 @@ module wavycon_detrend
    !> mean square on the whole grid. Below it rounding would decide the coefficient.
    real(dp), parameter :: least_part = 1.0e-10_dp
 
-   !> The terms P_a(x) P_b(y) of a polynomial (M1) on the points of a map.
-   type :: polynomial
-      real(dp), allocatable :: x(:, :), y(:, :)   !! P_a at the points, shapes (M, 0:.), (N, 0:.)
-      integer, allocatable :: a(:), b(:)          !! of each term
-      real(dp), allocatable :: coefficient(:)     !! of each term [height]
-   end type polynomial
-
 contains
 
    !> Subtracts the polynomial of least squares over the points that are there. Missing points keep their zeros.
@@ -31,33 +24,72 @@ contains
       !> .false. if the points that are there do not determine the polynomial: the map is then unchanged.
       logical, intent(out) :: is_determined
 
-      type(polynomial) :: trend
-      integer :: pass
+      type(grid_slab) :: slab
+      integer, allocatable :: a(:), b(:)                         ! degrees of each term P_a(x) P_b(y) (M1)
+      real(dp), allocatable :: coefficient(:), x(:, :), y(:, :)  ! of each term; P_a and P_b at the points from P_0 on
+      integer :: i, j, k, pass
 
-      call start(trend, map%points(), degree)
+      slab = map%columns()
+      call make_polynomials(slab%points(1), degree, x)
+      call make_polynomials(slab%points(2), degree, y)
+      a = [((i, i=0, min(ubound(x, 2), degree - j)), j=0, ubound(y, 2))]
+      b = [((j, i=0, min(ubound(x, 2), degree - j)), j=0, ubound(y, 2))]
       rise = 0.0_dp
       ! The second pass removes what rounding left of a large mean or tilt in the first.
       do pass = 1, 2
-         call fit(trend, map, is_determined)
+         call fit(coefficient, is_determined)
          if (.not. is_determined) return
-         call subtract(trend, map)
-         rise = rise + rise_of(trend)
+         do j = 1, size(map%height, 2)
+            map%height(:, j) = map%height(:, j) - matmul(terms_of_column(j), coefficient)
+            if (allocated(map%missing)) map%height(:, j) = merge(0.0_dp, map%height(:, j), map%missing(:, j))
+         end do
+         do k = 1, size(a)
+            if (a(k) == 1 .and. b(k) == 0) rise(1) = rise(1) + 2*coefficient(k)*x(size(x, 1), 1)
+            if (a(k) == 0 .and. b(k) == 1) rise(2) = rise(2) + 2*coefficient(k)*y(size(y, 1), 1)
+         end do
       end do
+
+   contains
+
+      !> The coefficients of least squares, by the normal equations (M2).
+      subroutine fit(coefficient, is_determined)
+         real(dp), allocatable, intent(out) :: coefficient(:)
+         logical, intent(out) :: is_determined
+
+         real(dp), allocatable :: parts(:, :), terms(:, :)   ! parts of each column: of the coefficients, of the matrix
+         real(dp) :: gram(size(a), size(a)), totals(size(a)*(size(a) + 1))
+         integer :: info, j, k
+
+         allocate (parts(size(totals), size(map%height, 2)))
+         do j = 1, size(map%height, 2)
+            terms = terms_of_column(j)
+            if (allocated(map%missing)) terms = merge(0.0_dp, terms, spread(map%missing(:, j), 2, size(a)))
+            parts(:, j) = [matmul(map%height(:, j), terms), matmul(transpose(terms), terms)]
+         end do
+         totals = slab%column_totals(parts)/product(real(slab%points, dp))
+         coefficient = totals(:size(a))
+         gram = reshape(totals(size(a) + 1:), [size(a), size(a)])
+         call dpotrf('L', size(a), gram, size(a), info)
+         is_determined = info == 0
+         if (is_determined) is_determined = all([(gram(k, k)**2 > least_part, k=1, size(a))])
+         if (.not. is_determined) return
+         call dtrsv('L', 'N', 'N', size(a), gram, size(a), coefficient, 1)
+         call dtrsv('L', 'T', 'N', size(a), gram, size(a), coefficient, 1)
+      end subroutine fit
+
+      !> All terms at the points of an own column.
+      pure function terms_of_column(j) result(terms)
+         integer, intent(in) :: j
+         real(dp) :: terms(size(x, 1), size(a))
+
+         integer :: k
+
+         do k = 1, size(a)
+            terms(:, k) = x(:, a(k))*y(slab%first - 1 + j, b(k))
+         end do
+      end function terms_of_column
+
    end subroutine detrend_map
-
-   !> The terms up to a degree, as many as the points determine.
-   pure subroutine start(trend, points, degree)
-      type(polynomial), intent(out) :: trend
-      integer, intent(in) :: points(2), degree
-
-      integer :: a, b
-
-      call make_polynomials(points(1), degree, trend%x)
-      call make_polynomials(points(2), degree, trend%y)
-      trend%a = [((a, a=0, min(ubound(trend%x, 2), degree - b)), b=0, ubound(trend%y, 2))]
-      trend%b = [((b, a=0, min(ubound(trend%x, 2), degree - b)), b=0, ubound(trend%y, 2))]
-      allocate (trend%coefficient(size(trend%a)))
-   end subroutine start
 
    !> P_0 .. P_degree of (M1) at the points of one direction, fewer if there are fewer points.
    pure subroutine make_polynomials(points, degree, values)
@@ -69,90 +101,17 @@ contains
       allocate (values(points, 0:min(degree, points - 1)), source=1.0_dp)
       if (ubound(values, 2) >= 1) values(:, 1) = of_unit_rms([(real(2*i - points - 1, dp), i=1, points)])
       if (ubound(values, 2) >= 2) values(:, 2) = of_unit_rms(values(:, 1)**2 - 1.0_dp)
+
+   contains
+
+      !> Values over their root mean square.
+      pure function of_unit_rms(values)
+         real(dp), intent(in) :: values(:)
+         real(dp) :: of_unit_rms(size(values))
+
+         of_unit_rms = values/sqrt(sum(values**2)/size(values))
+      end function of_unit_rms
+
    end subroutine make_polynomials
-
-   !> Values over their root mean square.
-   pure function of_unit_rms(values)
-      real(dp), intent(in) :: values(:)
-      real(dp) :: of_unit_rms(size(values))
-
-      of_unit_rms = values/sqrt(sum(values**2)/size(values))
-   end function of_unit_rms
-
-   !> The coefficients of least squares, by the normal equations (M2).
-   subroutine fit(trend, map, is_determined)
-      type(polynomial), intent(inout) :: trend
-      type(measured_map), intent(in) :: map
-      logical, intent(out) :: is_determined
-
-      type(grid_slab) :: slab
-      real(dp) :: gram(size(trend%a), size(trend%a)), moments(0:ubound(trend%x, 2))
-      real(dp) :: products(0:ubound(trend%x, 2), 0:ubound(trend%x, 2)), x_there(size(trend%x, 1), 0:ubound(trend%x, 2))
-      real(dp), allocatable :: parts(:, :)   ! of each column: of the coefficients, then of the matrix
-      real(dp) :: totals(size(trend%a)*(size(trend%a) + 1))
-      integer :: info, j, k, l, terms
-
-      terms = size(trend%a)
-      slab = map%columns()
-      allocate (parts(size(totals), size(map%height, 2)), source=0.0_dp)
-      do j = 1, size(map%height, 2)
-         x_there = trend%x
-         if (allocated(map%missing)) &
-            x_there = merge(0.0_dp, x_there, spread(map%missing(:, j), 2, size(x_there, 2)))
-         moments = matmul(map%height(:, j), x_there)
-         products = matmul(transpose(x_there), trend%x)
-         do k = 1, terms
-            associate (a => trend%a(k), of_column => trend%y(slab%first - 1 + j, :))
-               parts(k, j) = of_column(trend%b(k) + 1)*moments(a)
-               do l = 1, k
-                  parts(l*terms + k, j) = of_column(trend%b(k) + 1)*of_column(trend%b(l) + 1)*products(a, trend%a(l))
-               end do
-            end associate
-         end do
-      end do
-      totals = slab%column_totals(parts)/product(real(slab%points, dp))
-      trend%coefficient = totals(:terms)
-      gram = reshape(totals(terms + 1:), [terms, terms])
-      call dpotrf('L', terms, gram, terms, info)
-      is_determined = info == 0
-      if (is_determined) is_determined = all([(gram(k, k)**2 > least_part, k=1, terms)])
-      if (.not. is_determined) return
-      call dtrsv('L', 'N', 'N', terms, gram, terms, trend%coefficient, 1)
-      call dtrsv('L', 'T', 'N', terms, gram, terms, trend%coefficient, 1)
-   end subroutine fit
-
-   !> Subtracts a polynomial at the points that are there.
-   subroutine subtract(trend, map)
-      type(polynomial), intent(in) :: trend
-      type(measured_map), intent(inout) :: map
-
-      type(grid_slab) :: slab
-      real(dp) :: of_row(0:ubound(trend%x, 2))
-      integer :: j, k
-
-      slab = map%columns()
-      do j = 1, size(map%height, 2)
-         of_row = 0.0_dp
-         do k = 1, size(trend%a)
-            of_row(trend%a(k)) = of_row(trend%a(k)) + trend%coefficient(k)*trend%y(slab%first - 1 + j, trend%b(k))
-         end do
-         map%height(:, j) = map%height(:, j) - matmul(trend%x, of_row)
-         if (allocated(map%missing)) map%height(:, j) = merge(0.0_dp, map%height(:, j), map%missing(:, j))
-      end do
-   end subroutine subtract
-
-   !> The linear part of a polynomial: its rise from the first point to the last along x and y.
-   pure function rise_of(trend) result(rise)
-      type(polynomial), intent(in) :: trend
-      real(dp) :: rise(2)
-
-      integer :: k
-
-      rise = 0.0_dp
-      do k = 1, size(trend%a)
-         if (trend%a(k) == 1 .and. trend%b(k) == 0) rise(1) = 2*trend%coefficient(k)*trend%x(size(trend%x, 1), 1)
-         if (trend%a(k) == 0 .and. trend%b(k) == 1) rise(2) = 2*trend%coefficient(k)*trend%y(size(trend%y, 1), 1)
-      end do
-   end function rise_of
 
 end module wavycon_detrend

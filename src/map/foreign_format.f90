@@ -9,8 +9,37 @@ module wavycon_foreign_format
    character(*), parameter :: by_gwyddion = 'open it in Gwyddion and save it as .gsf (File > Save As), or read it '// &
       'in Python with SurfaceTopography and write numpy.save(file, z.T), z = numpy.ma.filled(topography.heights(), '// &
       'numpy.nan), of a profile numpy.savetxt(file, numpy.c_[topography.positions(), z])'
-   character(*), parameter :: by_spreadsheet = 'save the heights as text (.csv)'
-   character(*), parameter :: by_numpy = 'read it in Python and write its heights by numpy.save'
+
+   !> Kinds of formats.
+   integer, parameter :: picture = 1, instrument = 2, numbers = 3, compressed = 4, spreadsheet = 5, arrays = 6, wide = 7
+
+   !> What a file of each kind is, and how to convert it.
+   character(*), parameter :: remedies(*) = [character(400) :: &
+      'a picture, whose colours are no lengths: '//by_gwyddion, &
+      'a file of an instrument or of Gwyddion: '//by_gwyddion, &
+      'a file of HDF5, NetCDF or MATLAB: read it in Python and write its heights by numpy.save', &
+      'a compressed file: expand it first', &
+      'a spreadsheet: save the heights as text (.csv)', &
+      'an archive of arrays: write the heights alone, by numpy.save', &
+      'a text of two bytes a character (UTF-16): save it as UTF-8 or ASCII']
+
+   !> Endings of the names of their files.
+   character(*), parameter :: endings(*) = [character(160) :: &
+      ' png jpg jpeg tif tiff bmp gif ', &
+      ' sdf x3p plux al3d plu opd opdx sur vk4 vk6 gwy spm ibw nid mi mnt zmg os3d stp xyzgz gxyzf nms tmd frt '// &
+      'bcrf hfm top ', &
+      ' mat h5 hdf5 nc ', ' zip gz bz2 xz ', ' xls xlsx ods ', ' npz ']
+
+   !> First bytes of files, and their kinds. The last of an instrument are those of a family of containers.
+   character(*), parameter :: magics(*) = [character(18) :: char(137)//'PNG', char(255)//char(216)//char(255), 'GIF8', &
+      'II*'//char(0), 'MM'//char(0)//'*', &
+      'GWYP', 'Gwyddion XYZ Field', 'AliconaImaging', 'DIGITAL SURF', 'DSCOMPRESSED', 'aISO-1.0', 'bISO-1.0', 'aBCR-', &
+      'bBCR-', 'VK4_', 'VK6', '\*File list', char(208)//char(207)//char(17)//char(224), &
+      char(137)//'HDF', 'CDF', 'MATLAB', &
+      char(31)//char(139), 'BZh', char(253)//'7zXZ', &
+      char(255)//char(254), char(254)//char(255)]
+   integer, parameter :: kinds(*) = [spread(picture, 1, 5), spread(instrument, 1, 13), spread(numbers, 1, 3), &
+                                     spread(compressed, 1, 3), spread(wide, 1, 2)]
 
 contains
 
@@ -21,45 +50,21 @@ contains
       character(*), intent(in) :: path
       character(:), allocatable :: words
 
-      !> First bytes of files of instruments and their programs; the last is that of a family of containers.
-      character(*), parameter :: instruments(*) = [character(18) :: 'GWYP', 'Gwyddion XYZ Field', 'AliconaImaging', &
-         'DIGITAL SURF', 'DSCOMPRESSED', 'aISO-1.0', 'bISO-1.0', 'aBCR-', 'bBCR-', 'VK4_', 'VK6', '\*File list', &
-         char(208)//char(207)//char(17)//char(224)]
       !> Bytes that no text has.
       character(*), parameter :: no_text = char(0)//char(1)//char(2)//char(3)//char(4)//char(5)//char(6)//char(127)
+      logical :: is_archive
       integer :: i
 
       words = ''
-      if (begins(char(137)//'PNG') .or. begins(char(255)//char(216)//char(255)) .or. begins('GIF8') .or. &
-          begins('II*'//char(0)) .or. begins('MM'//char(0)//'*')) then
-         words = 'this is a picture, whose colours are no lengths: '//by_gwyddion
-      else if (begins(char(255)//char(254)) .or. begins(char(254)//char(255))) then
-         words = 'this is a text of two bytes a character (UTF-16): save it as UTF-8 or ASCII'
-      else if (begins(char(31)//char(139)) .or. begins('BZh') .or. begins(char(253)//'7zXZ')) then
-         words = 'this is a compressed file: expand it first'
-      else if (begins(char(137)//'HDF') .or. begins('CDF')) then
-         words = 'this is a file of HDF5 or NetCDF: '//by_numpy
-      else if (begins('MATLAB')) then
-         words = 'this is a file of MATLAB: '//by_numpy//', or write them there by writematrix'
-      else if (begins('PK'//char(3)//char(4))) then
-         ! Archives, which differ by their names.
-         words = remedy_of_name(path)
-         if (words == '') words = 'this is an archive: '//by_gwyddion
-      else if (any([(begins(trim(instruments(i))), i=1, size(instruments))])) then
-         words = 'this is a file of an instrument or of Gwyddion: '//by_gwyddion
-      else if (scan(head, no_text) > 0) then
-         words = remedy_of_name(path)
-         if (words == '') words = 'this is no text, and no binary format that is read: '//by_gwyddion
-      end if
-
-   contains
-
-      pure logical function begins(magic)
-         character(*), intent(in) :: magic
-
-         begins = index(head, magic) == 1
-      end function begins
-
+      do i = 1, size(magics)
+         if (index(head, trim(magics(i))) == 1) words = 'this is '//trim(remedies(kinds(i)))
+      end do
+      is_archive = index(head, 'PK'//char(3)//char(4)) == 1
+      if (words /= '' .or. .not. (is_archive .or. scan(head, no_text) > 0)) return
+      words = remedy_of_name(path)
+      if (words /= '') return
+      words = 'this is no text, and no binary format that is read: '//by_gwyddion
+      if (is_archive) words = 'this is an archive: '//by_gwyddion
    end function remedy_of_content
 
    !> Recognises such a file by the ending of its name.
@@ -67,23 +72,13 @@ contains
       character(*), intent(in) :: path
       character(:), allocatable :: words
 
-      select case (lower_case(path(index(path, '.', back=.true.) + 1:)))
-      case ('png', 'jpg', 'jpeg', 'tif', 'tiff', 'bmp', 'gif')
-         words = 'by its name this is a picture, whose colours are no lengths: '//by_gwyddion
-      case ('sdf', 'x3p', 'plux', 'al3d', 'plu', 'opd', 'opdx', 'sur', 'vk4', 'vk6', 'gwy', 'spm', 'ibw', 'nid', 'mi', &
-            'mnt', 'zmg', 'os3d', 'stp', 'xyzgz', 'gxyzf', 'nms', 'tmd', 'frt', 'bcrf', 'hfm', 'top')
-         words = 'by its name this is a file of an instrument or of Gwyddion: '//by_gwyddion
-      case ('mat', 'h5', 'hdf5', 'nc')
-         words = 'by its name this is a file of MATLAB, HDF5 or NetCDF: '//by_numpy
-      case ('npz')
-         words = 'this is an archive of arrays: write the heights alone, by numpy.save'
-      case ('xls', 'xlsx', 'ods')
-         words = 'by its name this is a spreadsheet: '//by_spreadsheet
-      case ('zip', 'gz', 'bz2', 'xz')
-         words = 'by its name this is a compressed file: expand it first'
-      case default
-         words = ''
-      end select
+      integer :: i
+
+      words = ''
+      do i = 1, size(endings)
+         if (index(endings(i), ' '//lower_case(path(index(path, '.', back=.true.) + 1:))//' ') > 0) &
+            words = 'by its name this is '//trim(remedies(i))
+      end do
    end function remedy_of_name
 
 end module wavycon_foreign_format

@@ -5,8 +5,7 @@ module wavycon_gsf_map
    use wavycon_error, only: error_type
    use wavycon_file_head, only: entry_of, read_positive
    use wavycon_kinds, only: dp
-   use wavycon_map_size, only: laid_along_x
-   use wavycon_measured_map, only: measured_map
+   use wavycon_measured_map, only: laid_along_x, measured_map
    use wavycon_plain_text, only: excerpt
    implicit none (type, external)
    private

@@ -43,26 +43,21 @@ contains
       type(measured_map), intent(inout) :: map   !! with the unit converted to
       type(error_type), allocatable, intent(out) :: error
 
+      character(:), allocatable :: target
       real(dp) :: factor
       logical :: is_known
 
       if (.not. allocated(map%length_unit)) return
-      if (unit == '') then
-         call find_factor(map%length_unit, 'm', factor, is_known)
-         if (.not. is_known) then
-            call trouble("its unit of length is '"//excerpt(map%length_unit)//"', which is none of "// &
-                         listed(units, ' and ')//': give it as length_unit in &scene to go on in this unit, or set '// &
-                         'another one in the program that wrote the file')
-            return
-         end if
-      else
-         call find_factor(map%length_unit, unit, factor, is_known)
-         if (.not. is_known) then
-            call trouble("its lengths are in '"//excerpt(map%length_unit)//"' and cannot be converted to "// &
-                         "length_unit = '"//escaped(unit)//"' of &scene: both must be one of "// &
-                         listed(units, ' and ')//", or the same; without length_unit the unit is the file's")
-            return
-         end if
+      target = unit
+      if (unit == '') target = 'm'
+      call find_factor(map%length_unit, target, factor, is_known)
+      if (.not. is_known) then
+         call trouble("its lengths are in '"//excerpt(map%length_unit)//"' and cannot be converted to '"// &
+                      escaped(target)//"': both must be one of "//listed(units, ' and ')// &
+                      ', or length_unit in &scene the same as in the file')
+         return
+      end if
+      if (unit /= '') then
          map%step = factor*map%step
          map%uneven_steps = factor*map%uneven_steps
          map%length_unit = unit

@@ -10,8 +10,7 @@ module wavycon_map_file
    use wavycon_grid_slab, only: grid_slab
    use wavycon_gsf_map, only: is_gsf, read_gsf_map
    use wavycon_kinds, only: dp, sp
-   use wavycon_map_size, only: check_map_size, check_room, laid_along_x
-   use wavycon_measured_map, only: measured_map
+   use wavycon_measured_map, only: check_map_size, check_room, laid_along_x, measured_map
    use wavycon_npy_map, only: is_npy, read_npy_map
    use wavycon_number_table, only: number_table, read_number_table
    use wavycon_plain_text, only: escaped, integer_text, lower_case, newline

@@ -27,7 +27,7 @@ module wavycon_map_statistics
       character(:), allocatable :: assumed_sides   !! sides that neither deck nor file gives, in words; empty if none
       character(:), allocatable :: length_unit                      !! that the file names, or the deck in its place
       type(map_changes) :: changes                                  !! of the measured map
-      character(:), allocatable :: path                             !! absolute
+      character(:), allocatable :: path                             !! absolute; empty if there is no file
    contains
       procedure :: is_broken_along
    end type map_statistics
@@ -35,10 +35,9 @@ module wavycon_map_statistics
 contains
 
    !> The statistics of a map. The last digit of largest_step(1) may depend on how the map is distributed.
-   type(map_statistics) function statistics_of(height, format, path, points, step, repeats) result(statistics)
+   type(map_statistics) function statistics_of(height, format, points, step, repeats) result(statistics)
       real(dp), intent(in) :: height(:, :)   !! over the mean [length], shape (M, N) or (M, columns of the grid's slab)
       character(*), intent(in) :: format     !! as of measured_map
-      character(*), intent(in) :: path       !! absolute
       integer, intent(in), optional :: points(2)   !! M, N if the map may be distributed; shape of height if absent
       real(dp), intent(in), optional :: step(2)    !! between the points [length]; absent: 1
       logical, intent(in), optional :: repeats     !! whether opposite borders are neighbours; absent: they are
@@ -61,7 +60,7 @@ contains
       is_periodic = .true.
       if (present(repeats)) is_periodic = repeats
       call take_steps(slab, height, steps, is_periodic, statistics)
-      statistics%path = path
+      statistics%path = ''
       statistics%assumed_sides = ''
    end function statistics_of
 

@@ -3,8 +3,7 @@ module wavycon_npy_map
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_binary_file, only: binary_file
    use wavycon_error, only: error_type
-   use wavycon_map_size, only: laid_along_x
-   use wavycon_measured_map, only: measured_map
+   use wavycon_measured_map, only: laid_along_x, measured_map
    use wavycon_plain_text, only: excerpt
    implicit none (type, external)
    private
@@ -78,7 +77,8 @@ contains
       character(*), intent(in) :: head
       integer, intent(out) :: first, last
 
-      integer :: bytes, i, length, version
+      integer :: bytes, i, version
+      integer(int64) :: length
 
       first = 1
       last = 0
@@ -86,15 +86,10 @@ contains
       version = iachar(head(before_version + 1:before_version + 1))
       if (version < 1 .or. version > 3) return
       bytes = merge(2, 4, version == 1)
-      length = 0
-      do i = bytes, 1, -1
-         ! The length must not overflow. The head that is kept is shorter than 256**3 bytes.
-         if (length > 256**2) return
-         length = 256*length + iachar(head(before_length + i:before_length + i))
-      end do
+      length = sum([(iachar(head(before_length + i:before_length + i))*256_int64**(i - 1), i=1, bytes)])
       if (length > len(head) - before_length - bytes) return
       first = before_length + bytes + 1
-      last = before_length + bytes + length
+      last = before_length + bytes + int(length)
    end subroutine find_words
 
    !> The entry of a key in a Python dictionary, without the blanks around it; empty if it is not there.

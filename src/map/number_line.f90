@@ -41,7 +41,7 @@ contains
          if (behind == 1) then
             holes = separators
             ! A line with blanks between its numbers may be indented by tabs.
-            if (are_tabs .and. .not. is_before_tab(line, last + 1)) holes = 0
+            if (are_tabs .and. index(adjustl(line(last + 1:)), tab) /= 1) holes = 0
          else
             if (commas == 1 .and. first - behind == 1) tight = first
             is_loose = is_loose .or. commas == 0
@@ -111,18 +111,6 @@ contains
       end do
       last = last - 1
    end subroutine next_word
-
-   !> Whether a tab is the next separator behind a word.
-   pure logical function is_before_tab(line, place)
-      character(*), intent(in) :: line
-      integer, intent(in) :: place   !! behind the word
-
-      integer :: i
-
-      i = verify(line(place:), ' ')
-      is_before_tab = i > 0
-      if (is_before_tab) is_before_tab = line(place + i - 1:place + i - 1) == tab
-   end function is_before_tab
 
    !> Reads a word as a number.
    subroutine read_number(word, value, trouble)

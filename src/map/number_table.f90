@@ -12,7 +12,7 @@ module wavycon_number_table
    implicit none (type, external)
    private
 
-   public :: number_table, read_number_table, next_line
+   public :: number_table, read_number_table
 
    type :: number_table
       character(:), allocatable :: path         !! as the user named the file

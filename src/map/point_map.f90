@@ -5,8 +5,7 @@ module wavycon_point_map
    use wavycon_constants, only: smallest_number
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_kinds, only: dp
-   use wavycon_map_size, only: check_map_size, check_room, laid_along_x
-   use wavycon_measured_map, only: measured_map
+   use wavycon_measured_map, only: check_map_size, check_room, laid_along_x, measured_map
    use wavycon_number_table, only: number_table
    use wavycon_plain_text, only: escaped, integer_text, short_number
    implicit none (type, external)
@@ -102,40 +101,27 @@ contains
 
       !> Four to a step of 65536 points, more than texts have along a side.
       integer, parameter :: bins = 262144
-      real(dp), allocatable :: lowest(:)
-      logical, allocatable :: is_filled(:)
+      real(dp), allocatable :: lowest(:)   ! in each bin
       real(dp) :: extent, gap, largest, last, step, steps
       integer :: b, k, number, pass
 
       axis%first = minval(coordinate)
       extent = maxval(coordinate) - axis%first
       if (.not. extent > smallest_number) return
-      allocate (lowest(0:bins), source=0.0_dp)
-      allocate (is_filled(0:bins), source=.false.)
+      allocate (lowest(bins + 1), source=huge(1.0_dp))
       do k = 1, size(coordinate)
-         b = int((coordinate(k) - axis%first)/extent*bins)
-         if (is_filled(b)) then
-            lowest(b) = min(lowest(b), coordinate(k))
-         else
-            lowest(b) = coordinate(k)
-            is_filled(b) = .true.
-         end if
+         b = 1 + int((coordinate(k) - axis%first)/extent*bins)
+         lowest(b) = min(lowest(b), coordinate(k))
       end do
-      largest = 0.0_dp
-      last = axis%first
-      do b = 1, bins
-         if (.not. is_filled(b)) cycle
-         largest = max(largest, lowest(b) - last)
-         last = lowest(b)
-      end do
+      lowest = pack(lowest, lowest < huge(1.0_dp))
+      largest = maxval(lowest(2:) - lowest(:size(lowest) - 1))
       ! First the least step, then the mean of the equal steps, whose rounding error is smaller.
       step = extent
       do pass = 1, 2
          number = 0
          steps = 0.0_dp
          last = axis%first
-         do b = 1, bins
-            if (.not. is_filled(b)) cycle
+         do b = 2, size(lowest)
             gap = lowest(b) - last
             if (gap <= max(2*extent/bins, 2*tolerance*largest)) cycle
             last = lowest(b)

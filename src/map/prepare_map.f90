@@ -6,11 +6,10 @@ module wavycon_prepare_map
    use wavycon_grid_slab, only: grid_slab
    use wavycon_fill_missing, only: fill_holes
    use wavycon_kinds, only: dp
+   use wavycon_map_filters, only: find_spikes, taper_borders
    use wavycon_map_tuning, only: usual_window_width
    use wavycon_measured_map, only: measured_map
    use wavycon_plain_text, only: escaped, integer_text, percent
-   use wavycon_spikes, only: find_spikes
-   use wavycon_window, only: taper_borders
    implicit none (type, external)
    private
 
@@ -33,19 +32,16 @@ module wavycon_prepare_map
    end type map_preparation
 
    !> What was done to it.
-   type :: map_changes
+   type, extends(map_preparation) :: map_changes
       real(dp) :: step = 0.0_dp             !! along x [length]
       real(dp) :: uneven_steps(2) = 0.0_dp  !! as of measured_map
-      character(9) :: detrend = 'none'      !! as of map_preparation
       real(dp) :: rise(2) = 0.0_dp          !! of the linear part that was removed, from border to border [length]
       integer :: points(2) = 0              !! of the map along x and y
       integer :: head_lines = 0             !! as of measured_map
       integer :: cropped_from(2) = 0        !! points of the map before it was cropped; 0: it was not
       integer :: spikes = 0                 !! number of heights that were replaced
       integer :: filled = 0                 !! number of points that were missing
-      real(dp) :: short_wavelength = 0.0_dp !! as of map_preparation
       real(dp) :: rms_of_short = 0.0_dp     !! of the waves that were left out [length]
-      character(8) :: edges = 'periodic'    !! as of map_preparation
       real(dp) :: tapered = 0.0_dp          !! part of the points that the window changed
    end type map_changes
 
@@ -68,6 +64,7 @@ contains
       type(grid_slab) :: slab
       real(dp) :: extremes(2), largest(1), step(2)
 
+      changes%map_preparation = preparation
       slab = map%columns()
       largest = maxval(abs(map%height))
       call slab%largest(largest)
@@ -91,14 +88,12 @@ contains
                              "determine detrend = '"//trim(preparation%detrend)//"': give detrend = 'mean'")
             return
          end if
-         changes%detrend = preparation%detrend
          where (abs(changes%rise) <= rounding*largest(1)) changes%rise = 0.0_dp
       end if
       if (changes%filled > 0) then
          call fill_holes(source, step, preparation%edges == 'periodic', map, error)
          if (allocated(error)) return
       end if
-      changes%edges = preparation%edges
       if (preparation%edges == 'window') call taper_borders(preparation%window_width, slab, map%height, changes%tapered)
       if (degree < 0 .and. changes%filled == 0 .and. preparation%edges /= 'window') return
       extremes = [maxval(map%height), -minval(map%height)]

@@ -6,8 +6,7 @@ module wavycon_profile_map
    use wavycon_gsl, only: gsl_interp_alloc, gsl_interp_eval, gsl_interp_free, gsl_interp_init, gsl_interp_steffen, &
       return_gsl_errors
    use wavycon_kinds, only: dp
-   use wavycon_map_size, only: check_map_size
-   use wavycon_measured_map, only: measured_map
+   use wavycon_measured_map, only: check_map_size, measured_map
    use wavycon_number_table, only: number_table
    use wavycon_plain_text, only: escaped, integer_text, short_number
    use wavycon_point_map, only: tolerance

@@ -5,7 +5,7 @@ module wavycon_spectrum_table
    use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
    use wavycon_plain_text, only: short_number
-   use wavycon_power_spectrum, only: line_spectrum, power_spectrum, radial_spectrum
+   use wavycon_roughness, only: line_spectrum, power_spectrum, radial_spectrum
    use wavycon_results, only: not_a_number, results_type
    use wavycon_surface, only: surface_type
    use wavycon_table, only: table_type

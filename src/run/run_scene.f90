@@ -9,12 +9,12 @@ module wavycon_run_scene
    use wavycon_kinds, only: dp
    use wavycon_methods, only: start_solver
    use wavycon_output_file, only: output_file
+   use wavycon_own_waves, only: gather_series
    use wavycon_plain_text, only: escaped, integer_text, short_number
    use wavycon_results, only: results_type
    use wavycon_run_log, only: run_log
    use wavycon_scene, only: by_pressure, by_yield, scene_type
    use wavycon_solve_loads, only: order_loads, solve_loads
-   use wavycon_surface, only: whole_surface
    use wavycon_system, only: has_memory_for, make_directories
    use wavycon_table, only: table_type
    use wavycon_tables, only: add_table, all_tables
@@ -181,7 +181,7 @@ contains
       end associate
       deallocate (results%scene%surface)
       if (results%sharing%kind /= distributed_grids) &
-         call whole_surface(results%solver%surface, first_only=.not. results%sharing%is_shared())
+         call gather_series(results%solver%surface%shape, first_only=.not. results%sharing%is_shared())
    end subroutine start_results
 
    !> The tables that a deck requests; for a flat surface, whose p* and Delta are zero, only those that allow it.
@@ -294,7 +294,7 @@ contains
             call results%loads(load)%collect_fields()
          end do
       end if
-      if (surface) call whole_surface(results%solver%surface, first_only=.true.)
+      if (surface) call gather_series(results%solver%surface%shape, first_only=.true.)
    end subroutine collect
 
    !> Checks that the first rank has the memory for what is distributed over the ranks. Its error is that of all.

@@ -1,17 +1,15 @@
 !> The surface of a height map.
 module wavycon_height_map
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use wavycon_constants, only: largest_number, smallest_number
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp
-   use wavycon_low_pass, only: leave_out_short_waves
+   use wavycon_map_filters, only: find_spikes, leave_out_short_waves
    use wavycon_map_statistics, only: map_statistics, statistics_of
    use wavycon_map_tuning, only: spiky_kurtosis
    use wavycon_measured_map, only: measured_map
    use wavycon_plain_text, only: escaped, short_number
    use wavycon_prepare_map, only: map_changes, map_preparation, prepare_map
-   use wavycon_spikes, only: find_spikes
    use wavycon_surface, only: surface_of_points, surface_type
    implicit none (type, external)
    private
@@ -20,8 +18,8 @@ module wavycon_height_map
 
 contains
 
-   !> Prepares a map and makes its surface. Errors: exit_bad_input for heights that are not finite or out of range, for
-   !> missing ones that are not to be filled, and for too few to determine a trend; exit_file_trouble without memory.
+   !> Prepares a map and makes its surface. Errors: exit_bad_input for heights out of range, for missing
+   !> ones that are not to be filled, and for too few to determine a trend; exit_file_trouble without memory.
    subroutine surface_of_map(source, preparation, scale, sides, map, surface, statistics, error, radii)
       character(*), intent(in) :: source            !! of the heights, for messages
       type(map_preparation), intent(in) :: preparation
@@ -40,33 +38,27 @@ contains
 
       length = sides/map%points()
       slab = map%columns()
-      if (.not. all(ieee_is_finite(map%height))) &
-         call fatal_error(error, exit_bad_input, escaped(source)//': not all heights are finite numbers')
-      call slab%share_error(error)
-      if (allocated(error)) return
-      ! Larger heights, which scale_heights refuses, would overflow here.
       largest = maxval(abs(map%height))
       call slab%largest(largest)
-      if (largest(1) <= largest_number) then
-         call prepare_map(source, preparation, sides, map, changes, error)
-         call slab%share_error(error)
-         if (allocated(error)) return
-      end if
+      if (largest(1) > largest_number) &
+         call fatal_error(error, exit_bad_input, escaped(source)//': heights are up to '//short_number(largest(1))// &
+                          ' in size: they may be up to '//short_number(largest_number))
+      if (.not. allocated(error)) call prepare_map(source, preparation, sides, map, changes, error)
+      call slab%share_error(error)
+      if (allocated(error)) return
       ! Steps stay if the map is cropped.
       length = length*map%points()
       call map%keep_own_columns()
       slab = map%columns()
-      if (preparation%short_wavelength > 0.0_dp .and. largest(1) <= largest_number) then
-         ! The points of a map with free edges are those of a mirrored one: its opposite borders are no neighbours.
+      ! The points of a map with free edges are those of a mirrored one: its opposite borders are no neighbours.
+      if (preparation%short_wavelength > 0.0_dp) &
          call leave_out_short_waves(map%points(), length, any(preparation%edges == ['mirror', 'free  ']), &
                                     preparation%short_wavelength, map%height, changes%rms_of_short)
-         changes%short_wavelength = preparation%short_wavelength
-      end if
       call scale_heights(source, scale, slab, map%height, error)
       if (allocated(error)) return
       changes%rise = scale*changes%rise
       changes%rms_of_short = scale*changes%rms_of_short
-      statistics = statistics_of(map%height, map%format, '', map%points(), length/map%points(), &
+      statistics = statistics_of(map%height, map%format, map%points(), length/map%points(), &
                                  all(changes%edges /= ['mirror', 'free  ']))
       surface = surface_of_points(length, map%height, changes%edges == 'mirror', map%points(), changes%edges == 'free', &
                                   radii)
@@ -87,14 +79,12 @@ contains
 
       extremes = [maxval(height), -minval(height)]
       call slab%largest(extremes)
-      if (maxval(abs(extremes)) <= largest_number) then
-         if (sum(extremes) <= 0.0_dp) then
-            ! Equal heights less their rounded mean would not be zero.
-            height = 0.0_dp
-         else
-            mean = slab%column_totals(reshape(sum(height, dim=1), [1, size(height, 2)]))/product(real(slab%points, dp))
-            height = scale*(height - mean(1))
-         end if
+      if (sum(extremes) <= 0.0_dp) then
+         ! Equal heights less their rounded mean would not be zero.
+         height = 0.0_dp
+      else
+         mean = slab%column_totals(reshape(sum(height, dim=1), [1, size(height, 2)]))/product(real(slab%points, dp))
+         height = scale*(height - mean(1))
       end if
       largest = maxval(abs(height))
       call slab%largest(largest)

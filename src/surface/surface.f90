@@ -6,8 +6,6 @@ module wavycon_surface
    use wavycon_grid_points, only: point_angle
    use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
-   use wavycon_own_waves, only: gather_series
-   use wavycon_paper_wave, only: no_paper_wave, paper_wave_of, rounding, straight_paper_wave, rotated_paper_wave
    use wavycon_roughness, only: roughness_of, roughness_type
    use wavycon_series_peak, only: find_peak
    use wavycon_series_samples, only: sample_series
@@ -16,8 +14,14 @@ module wavycon_surface
    implicit none (type, external)
    private
 
-   public :: surface_type, surface_of_ball, surface_of_series, surface_of_points, whole_surface
-   public :: no_paper_wave, straight_paper_wave, rotated_paper_wave
+   public :: surface_type, surface_of_ball, surface_of_series, surface_of_points
+
+   !> Which wave of Johnson, Greenwood & Higginson (1985) a surface is, and in which angles. Straight: eq. (3) or (21)
+   !> with phi = X, theta = Y. Rotated: eq. (21) with phi = (X + Y)/2, theta = (X - Y)/2.
+   integer, parameter, public :: no_paper_wave = 0, straight_paper_wave = 1, rotated_paper_wave = 2
+
+   !> Coefficients of a shape that differ by less than this are equal.
+   real(dp), parameter :: rounding = 1e-13_dp
 
    !> h/Delta = 1 - shape(X, Y),  X = 2 pi x/L_x,  Y = 2 pi y/L_y. The shape has mean 0 and peak 1: the surfaces first
    !> touch at its peaks. Delta is the mean gap before load, which is the amplitude of the paper's waves.
@@ -52,14 +56,11 @@ module wavycon_surface
       procedure :: is_distributed
       procedure :: has_hardness
       procedure :: full_contact_pressure
-      procedure :: undeformed_gap_over_amplitude
       procedure :: shape_at
       procedure :: sample_shape
       procedure :: form_gap
       procedure :: subtract_form
       procedure :: roughness
-      procedure :: rms_slope
-      procedure :: frequency
       procedure :: pressure_of
       procedure :: displacement_of
       procedure :: full_contact_energy
@@ -134,14 +135,10 @@ contains
       if (lbound(surface%shape%c, 1) == 0) surface%shape%c(0, 0) = 0.0_dp
       mean = transform%slab%column_totals(reshape(sum(height, dim=1), [1, size(height, 2)]))/product(real(grid, dp))
       if (present(radii)) surface%form = half_curvatures(surface, radii)
-      if (any(surface%form > 0.0_dp)) then
-         values = height
-         call surface%subtract_form(values, [transform%x_angle(1), transform%y_angle(transform%slab%first)], &
-                                    2*pi/surface%points)
-         call transform%slab%find_largest(values, surface%amplitude, crest)
-      else
-         call transform%slab%find_largest(height, surface%amplitude, crest)
-      end if
+      allocate (values, source=height)
+      call surface%subtract_form(values, [transform%x_angle(1), transform%y_angle(transform%slab%first)], &
+                                 2*pi/surface%points)
+      call transform%slab%find_largest(values, surface%amplitude, crest)
       surface%amplitude = surface%amplitude - mean(1)
       surface%crest = point_angle(crest, transform%points, transform%even)
       if (surface%dimension == 1) surface%crest(2) = 0.0_dp
@@ -149,7 +146,6 @@ contains
       call divide_series(surface%shape, surface%amplitude)
       surface%form = surface%form/surface%amplitude
       per_wave = 1.0_dp/surface%length
-      if (.not. allocated(values)) allocate (values, mold=height)
       if (.not. surface%has_free_edges) then
          call transform%sample(surface%shape, values, 1, per_wave)
          extremes = [maxval(values), -minval(values)]
@@ -240,15 +236,6 @@ contains
       end do
    end subroutine subtract_form
 
-   !> Gathers a distributed surface, on the rank that writes the tables or on all; on other ranks it stays distributed.
-   !> The shape has 8 bytes a point, and takes twice as much for a moment.
-   subroutine whole_surface(surface, first_only)
-      type(surface_type), intent(inout) :: surface
-      logical, intent(in) :: first_only
-
-      call gather_series(surface%shape, first_only)
-   end subroutine whole_surface
-
    !> How often the cell contains, along x and y, the part that decks and tables refer to: 2 for a mirrored map,
    !> otherwise 1.
    pure function parts(self)
@@ -301,7 +288,7 @@ contains
    end function radii
 
    !> Whether the shape has the coefficients of own wave numbers in X only, see wavycon_own_waves. Then only
-   !> wavycon_undeformed_gap can evaluate it; `whole_surface` gathers it. All other components are those of the whole
+   !> wavycon_undeformed_gap can evaluate it; `gather_series` gathers the shape. All other components are those of the whole
    !> surface.
    pure logical function is_distributed(self)
       class(surface_type), intent(in) :: self
@@ -324,14 +311,6 @@ contains
 
       full_contact_pressure = pi*e_star*self%amplitude/self%stiffness
    end function full_contact_pressure
-
-   !> h/Delta.
-   elemental real(dp) function undeformed_gap_over_amplitude(self, x, y) result(gap)
-      class(surface_type), intent(in) :: self
-      real(dp), intent(in) :: x, y   !! X, Y [rad]
-
-      gap = 1.0_dp - self%shape_at(x, y)
-   end function undeformed_gap_over_amplitude
 
    !> 1 - h/Delta, of mean zero.
    elemental real(dp) function shape_at(self, x, y)
@@ -359,24 +338,6 @@ contains
 
       roughness = roughness_of(self%shape, self%amplitude, self%length, self%points)
    end function roughness
-
-   !> The root mean square of the slope, the size of the gradient of h: sqrt2 pi Delta/lambda for the paper's waves.
-   real(dp) function rms_slope(self)
-      class(surface_type), intent(in) :: self
-
-      type(roughness_type) :: roughness
-
-      roughness = self%roughness()
-      rms_slope = roughness%slope
-   end function rms_slope
-
-   !> One over the wavelength of a harmonic [1/length].
-   elemental real(dp) function frequency(self, m, n)
-      class(surface_type), intent(in) :: self
-      integer, intent(in) :: m, n   !! wave numbers in X and Y
-
-      frequency = hypot(m/self%length(1), n/self%length(2))
-   end function frequency
 
    !> The pressure (p - pbar)/p* of a displacement (u - ubar)/Delta: Johnson, Greenwood & Higginson (1985), App. 1.
    type(fourier_series) function pressure_of(self, displacement) result(pressure)
@@ -419,9 +380,29 @@ contains
       class(surface_type), intent(in) :: self
 
       paper_wave = no_paper_wave
-      if (self%is_distributed() .or. self%has_free_edges) return
-      paper_wave = paper_wave_of(self%shape, self%dimension, is_square(self))
+      if (self%is_distributed() .or. self%has_free_edges .or. .not. self%shape%is_even()) return
+      if (self%dimension == 1) then
+         if (is_mean_of_waves(self%shape%c, [1, 0], [1, 0])) paper_wave = straight_paper_wave
+      else if (is_square(self)) then
+         if (is_mean_of_waves(self%shape%c, [1, 1], [1, 1])) paper_wave = straight_paper_wave
+         if (is_mean_of_waves(self%shape%c, [1, 0], [0, 1])) paper_wave = rotated_paper_wave
+      end if
    end function paper_wave
+
+   !> Whether a shape is the mean of two waves cos kX cos lY, which may be the same.
+   pure logical function is_mean_of_waves(c, first, second) result(is_mean)
+      real(dp), intent(in) :: c(0:, 0:)               !! coefficients of the shape
+      integer, intent(in) :: first(2), second(2)      !! k and l of each
+
+      real(dp) :: expected(0:ubound(c, 1), 0:ubound(c, 2))
+
+      is_mean = all(max(first, second) <= ubound(c))
+      if (.not. is_mean) return
+      expected = 0.0_dp
+      expected(first(1), first(2)) = 0.5_dp
+      expected(second(1), second(2)) = expected(second(1), second(2)) + 0.5_dp
+      is_mean = all(abs(c - expected) <= rounding)
+   end function is_mean_of_waves
 
    !> Whether the surface is a wave of the paper. A flat surface that is not a height map counts as one of amplitude 0
    !> in 1-D and on a square cell.

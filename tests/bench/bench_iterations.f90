@@ -40,8 +40,7 @@ program bench_iterations
    use wavycon_grid_sequence, only: sequence_answer, solve_by_sequence
    use wavycon_kinds, only: dp
    use wavycon_map_statistics, only: map_statistics
-   use wavycon_self_affine, only: self_affine_surface
-   use wavycon_self_affine_heights, only: self_affine_spectrum
+   use wavycon_self_affine, only: self_affine_spectrum, self_affine_surface
    use wavycon_surface, only: surface_type
    implicit none (type, external)
 

@@ -14,7 +14,7 @@ program bench_programmes
    use wavycon_fourier_terms, only: symmetry_diagonal, symmetry_full
    use wavycon_kinds, only: dp
    use wavycon_qp_problem, only: qp_solution
-   use wavycon_wave_2d, only: wave_2d
+   use wavycon_wave_surfaces, only: wave_2d
    implicit none (type, external)
 
    character(*), parameter :: numbers = '(*(es26.17e3))'

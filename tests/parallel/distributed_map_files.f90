@@ -14,7 +14,7 @@ program distributed_map_files
    use wavycon_mpi_ranks, only: start_mpi
    use wavycon_prepare_map, only: map_changes, map_preparation, prepare_map
    use wavycon_ranks, only: any_rank, is_first_rank, rank_count, work_alone
-   use wavycon_self_affine_heights, only: make_heights, self_affine_spectrum
+   use wavycon_self_affine, only: make_heights, self_affine_spectrum
    implicit none (type, external)
 
    character(*), parameter :: path = 'distributed_map_files.tmp.npy'
@@ -50,13 +50,13 @@ contains
       type(measured_map) :: alone, spread
 
       call prepared(detrend, edges, spread, changes(2))
-      statistics(2) = statistics_of(spread%height, 'npy', '', spread%points())
+      statistics(2) = statistics_of(spread%height, 'npy', spread%points())
       call slab%start(points)
       call check(slab%is_distributed .eqv. rank_count() > 1, 'maps of this size are spread')
       call check(size(spread%height, 2) == slab%columns(), 'own columns')
       call work_alone(.true.)
       call prepared(detrend, edges, alone, changes(1))
-      statistics(1) = statistics_of(alone%height, 'npy', '')
+      statistics(1) = statistics_of(alone%height, 'npy')
       call work_alone(.false.)
       call check(same([alone%height(:, slab%first:slab%last)], [spread%height]), 'heights '//detrend//edges)
       call check(same([changes(1)%rise, changes(1)%tapered], [changes(2)%rise, changes(2)%tapered]), 'changes')
@@ -98,15 +98,14 @@ contains
       type(grid_slab) :: slab
       type(self_affine_spectrum) :: spectrum
       real(dp), allocatable :: alone(:, :), height(:, :)
-      logical :: is_made
 
       spectrum = self_affine_spectrum(length=[1.0_dp, length_y], shortest=0.02_dp, random_amplitudes=.true., &
                                       by_slope=.true., seed=7)
       call slab%start(grid)
       allocate (height(grid(1), slab%columns()), alone(grid(1), grid(2)))
-      call make_heights(spectrum, height, is_made, grid)
+      call make_heights(spectrum, height, grid)
       call work_alone(.true.)
-      call make_heights(spectrum, alone, is_made)
+      call make_heights(spectrum, alone)
       call work_alone(.false.)
       call check(same([alone(:, slab%first:slab%last)], [height]), 'self-affine')
    end subroutine compare_self_affine

@@ -19,10 +19,10 @@ program test_distributed_solutions
    use wavycon_kept_solution, only: pack_solution, unpack_solution
    use wavycon_kinds, only: dp
    use wavycon_mpi_ranks, only: start_mpi
+   use wavycon_own_waves, only: gather_series
    use wavycon_ranks, only: is_first_rank, rank_count, work_alone
-   use wavycon_surface, only: surface_of_points, surface_type, whole_surface
-   use wavycon_wave_2d, only: wave_2d
-   use wavycon_wave_sum, only: wave_sum
+   use wavycon_surface, only: surface_of_points, surface_type
+   use wavycon_wave_surfaces, only: wave_2d, wave_sum
    implicit none (type, external)
 
    !> Grids that are distributed over two ranks or more.
@@ -187,7 +187,7 @@ contains
          call compare(surface, 0.05_dp, points(:, k), spread_surface)
          call compare(surface, 0.6_dp, points(:, k)/2, spread_surface)
          call compare(surface, 0.6_dp, 2*points(:, k), spread_surface)
-         call whole_surface(spread_surface, first_only=.true.)
+         call gather_series(spread_surface%shape, first_only=.true.)
          if (is_first_rank()) call check(same([spread_surface%shape%c], [surface%shape%c]))
       end do
       call report('maps')

@@ -284,7 +284,7 @@ class Misuse(PackageTest):
         self.refuse("", wc.heights, ragged)
         for words, surface in {"3 to 1048576": wc.heights(numpy.zeros((2, 2))),
                                "missing": wc.heights([[1.0, numpy.nan]*4]*4),
-                               "not all heights are finite": wc.heights([[1.0, numpy.inf]*4]*4),
+                               "heights are up to Infinity in size": wc.heights([[1.0, numpy.inf]*4]*4),
                                "there is no key": wc.wave_2d(amplitud=1),
                                "must be": wc.wave_2d(amplitude="x"), "length_x": wc.heights(numpy.eye(8), length_x=-1),
                                "there is no such file": wc.file(file="none.txt"), "kind": wc.Surface({})}.items():

@@ -99,7 +99,7 @@ contains
 
       call edge%angles(i, j, phi, theta)
       if (surface%dimension == 1) theta = 0.0_dp
-      h = surface%undeformed_gap_over_amplitude(phi, theta)
+      h = 1 - surface%shape_at(phi, theta)
    end function undeformed_gap
 
    !> u - ubar [Delta] of a pressure [p*] on the points of the whole cell.

@@ -11,6 +11,7 @@ module unit_support
    use wavycon_measured_map, only: measured_map
    use wavycon_plain_text, only: integer_text
    use wavycon_read_deck, only: parse_deck
+   use wavycon_roughness, only: roughness_type
    use wavycon_system, only: process_id, remove_file
    implicit none (type, external)
    private
@@ -24,9 +25,8 @@ module unit_support
       end function integrand
    end interface
 
-   public :: deck_trouble, errors_of, good_deck, integral_of, lines, map_trouble, read_map, spread_number, unit_wave, &
-         values_of, &
-      write_file
+   public :: deck_trouble, errors_of, good_deck, integral_of, lines, map_trouble, read_map, rms_slope_of, &
+      spread_number, unit_wave, values_of, write_file
 
 contains
 
@@ -126,6 +126,15 @@ contains
       call remove_file(made_up_file())
       if (allocated(error)) error stop error%message
    end subroutine read_map
+
+   real(dp) function rms_slope_of(surface)
+      type(surface_type), intent(in) :: surface
+
+      type(roughness_type) :: roughness
+
+      roughness = surface%roughness()
+      rms_slope_of = roughness%slope
+   end function rms_slope_of
 
    !> What is said of a file with this content, behind the name of the file; '' if it is a height map.
    function map_trouble(content, format) result(words)

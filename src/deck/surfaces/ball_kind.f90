@@ -6,7 +6,7 @@ module wavycon_ball_kind
    use wavycon_key_relations, only: alternative_type
    use wavycon_key_table, only: integer_key, real_key
    use wavycon_kinds, only: dp
-   use wavycon_map_size, only: most_points
+   use wavycon_measured_map, only: most_points
    use wavycon_surface, only: surface_of_ball, surface_type
    use wavycon_surface_keys, only: length_x_key, length_y_key, radii_of, radius_keys
    implicit none (type, external)

@@ -9,10 +9,9 @@ module wavycon_height_map_kind
    use wavycon_kinds, only: dp
    use wavycon_length_unit, only: convert_lengths
    use wavycon_map_file, only: read_height_map
-   use wavycon_map_size, only: check_map_size, check_room
    use wavycon_map_statistics, only: map_statistics
    use wavycon_map_tuning, only: usual_window_width
-   use wavycon_measured_map, only: measured_map
+   use wavycon_measured_map, only: check_map_size, check_room, measured_map
    use wavycon_plain_text, only: clauses, escaped, integer_text, short_number
    use wavycon_prepare_map, only: map_preparation
    use wavycon_surface, only: surface_type

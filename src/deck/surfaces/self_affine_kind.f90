@@ -5,12 +5,11 @@ module wavycon_self_affine_kind
    use wavycon_key_relations, only: alternative_type
    use wavycon_key_table, only: choice_key, integer_key, real_key
    use wavycon_kinds, only: dp
-   use wavycon_map_size, only: most_points
+   use wavycon_measured_map, only: most_points
    use wavycon_map_statistics, only: map_statistics
    use wavycon_plain_text, only: escaped, integer_text, short_number
    use wavycon_problems, only: problem_list_type
-   use wavycon_self_affine, only: self_affine_surface
-   use wavycon_self_affine_heights, only: has_waves, least_points_of, self_affine_spectrum
+   use wavycon_self_affine, only: has_waves, least_points_of, self_affine_spectrum, self_affine_surface
    use wavycon_surface, only: surface_type
    use wavycon_surface_keys, only: form_radius_keys, length_x_key, length_y_key, radii_of
    implicit none (type, external)

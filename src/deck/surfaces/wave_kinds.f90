@@ -2,9 +2,7 @@
 !> and 'sum' of any.
 module wavycon_wave_kinds
    use wavycon_constants, only: pi
-   use wavycon_crossed_1d, only: crossed_1d
    use wavycon_group_values, only: group_values
-   use wavycon_hexagonal, only: hexagonal
    use wavycon_key_relations, only: alternative_type
    use wavycon_key_table, only: integer_key, key_type, real_key
    use wavycon_kinds, only: dp
@@ -12,9 +10,7 @@ module wavycon_wave_kinds
    use wavycon_problems, only: problem_list_type
    use wavycon_surface, only: surface_type
    use wavycon_surface_keys, only: length_x_key, length_y_key
-   use wavycon_wave_1d, only: wave_1d
-   use wavycon_wave_2d, only: wave_2d
-   use wavycon_wave_sum, only: wave_sum
+   use wavycon_wave_surfaces, only: crossed_1d, hexagonal, wave_1d, wave_2d, wave_sum
    implicit none (type, external)
    private
 
