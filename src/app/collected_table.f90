@@ -1,15 +1,13 @@
-!> The table of --table: a row for each load of each deck, with the columns of the summary.
+!> The table of --table: a row for each load of each deck, with the columns of the summary. Its rows are read from the
+!> summaries that the runs have written.
 module wavycon_collected_table
-   use, intrinsic :: iso_fortran_env, only: int8
-   use wavycon_deck_jobs, only: send_bytes, take_bytes
    use wavycon_deck_keys, only: deck_key
    use wavycon_error, only: error_type, exit_file_trouble, fatal_error
-   use wavycon_memory_table, only: column_name, column_unit, memory_table
+   use wavycon_memory_table, only: column_name, column_unit
    use wavycon_output_file, only: output_file
-   use wavycon_plain_text, only: escaped
-   use wavycon_results, only: results_type
+   use wavycon_plain_text, only: escaped, system_words
    use wavycon_settings, only: setting_type
-   use wavycon_summary_table, only: put_summary_row, summary_columns
+   use wavycon_summary_table, only: summary_columns
    use wavycon_system, only: make_directories, path_directory, path_kind
    use wavycon_version, only: revision, version
    implicit none (type, external)
@@ -17,26 +15,24 @@ module wavycon_collected_table
 
    public :: collected_table
 
-   integer, parameter :: longest_name = 49, longest_unit = 24
+   integer, parameter :: longest_name = 49, longest_word = 32
 
-   !> The rows of one deck.
-   type :: deck_rows
+   !> A deck that was run.
+   type :: collected_deck
       character(:), allocatable :: deck, case
+      character(:), allocatable :: summary     !! path of its summary table
       type(deck_key), allocatable :: keys(:)   !! the same of each deck
-      character(longest_unit) :: units(size(summary_columns)) = ''
-      type(memory_table) :: summary
-   end type deck_rows
+      character(longest_word) :: units(size(summary_columns)) = ''   !! of the columns of the summary
+   end type collected_deck
 
    type :: collected_table
       private
-      type(deck_rows), allocatable :: decks(:)
+      type(collected_deck), allocatable :: decks(:)
       integer :: number = 0                    !! of decks that have been added
       character(:), allocatable :: failed      !! lines of the head, for the decks that were not run
    contains
       procedure :: start
       procedure :: add
-      procedure :: send
-      procedure :: take
       procedure :: note_failure
       procedure :: write => write_table
    end type collected_table
@@ -63,87 +59,21 @@ contains
       end if
    end subroutine start
 
-   !> Adds the loads of a deck.
-   subroutine add(self, results, keys)
-      class(collected_table), intent(inout), target :: self
-      type(results_type), intent(in) :: results   !! with a solution for each load
+   !> Adds a deck whose summary has been written.
+   subroutine add(self, deck, case, summary, keys)
+      class(collected_table), intent(inout) :: self
+      character(*), intent(in) :: deck, case      !! its path; the name of its case
+      character(*), intent(in) :: summary         !! path of its summary table
       type(deck_key), intent(in) :: keys(:)       !! of the deck
 
-      type(output_file) :: file
-      integer :: i
-
       self%number = self%number + 1
-      associate (rows => self%decks(self%number))
-         rows%deck = without_blanks(results%scene%deck_path)
-         rows%case = results%scene%case
-         rows%keys = keys
-         do i = 1, size(summary_columns)
-            rows%units(i) = results%unit_in_words(trim(column_unit(summary_columns(i))))
-         end do
+      associate (added => self%decks(self%number))
+         added%deck = without_blanks(deck)
+         added%case = case
+         added%summary = summary
+         added%keys = keys
       end associate
-      call file%open_in_memory(self%decks(self%number)%summary)
-      call file%put_columns(column_name(summary_columns), column_unit(summary_columns))
-      do i = 1, size(results%loads)
-         call put_summary_row(results, i, file)
-      end do
    end subroutine add
-
-   !> Sends the rows of the last deck, in the process of a job.
-   subroutine send(self)
-      class(collected_table), intent(in) :: self
-
-      integer(int8), parameter :: byte(1) = 0_int8
-
-      associate (rows => self%decks(self%number), summary => self%decks(self%number)%summary)
-         call send_bytes(transfer([len(rows%deck), len(rows%case), summary%rows, size(summary%words)], byte))
-         call send_bytes(transfer(rows%deck//rows%case, byte))
-         call send_bytes(transfer(rows%units, byte))
-         call send_bytes(transfer(summary%kinds, byte))
-         call send_bytes(transfer(summary%values(:, :summary%rows), byte))
-         call send_bytes(transfer(summary%words, byte))
-      end associate
-   end subroutine send
-
-   !> Takes the rows that a job has sent. Errors: exit_file_trouble if they are not all there.
-   subroutine take(self, job, keys, error)
-      class(collected_table), intent(inout), target :: self
-      integer, intent(in) :: job
-      type(deck_key), intent(in) :: keys(:)       !! of its deck
-      type(error_type), allocatable, intent(out) :: error
-
-      character(:), allocatable :: names
-      integer :: numbers(4)
-      integer(int8), allocatable :: bytes(:)
-      type(output_file) :: file
-
-      call take_bytes(job, storage_size(numbers)*4/8, bytes)
-      if (size(bytes) == 0) then
-         call fatal_error(error, exit_file_trouble, 'the rows of a deck for the table are not there')
-         return
-      end if
-      numbers = transfer(bytes, numbers)
-      self%number = self%number + 1
-      call file%open_in_memory(self%decks(self%number)%summary)
-      call file%put_columns(column_name(summary_columns), column_unit(summary_columns))
-      associate (rows => self%decks(self%number), summary => self%decks(self%number)%summary)
-         rows%keys = keys
-         call take_bytes(job, numbers(1) + numbers(2), bytes)
-         names = transfer(bytes, repeat(' ', size(bytes)))
-         rows%deck = names(:numbers(1))
-         rows%case = names(numbers(1) + 1:)
-         call take_bytes(job, longest_unit*size(rows%units), bytes)
-         rows%units = transfer(bytes, rows%units)
-         call take_bytes(job, storage_size(summary%kinds)/8*size(summary%kinds), bytes)
-         summary%kinds = transfer(bytes, summary%kinds)
-         summary%rows = numbers(3)
-         deallocate (summary%values, summary%words)
-         allocate (summary%values(size(summary%kinds), numbers(3)), summary%words(numbers(4)))
-         call take_bytes(job, storage_size(summary%values)/8*size(summary%values), bytes)
-         summary%values = reshape(transfer(bytes, summary%values), shape(summary%values))
-         call take_bytes(job, len(summary%words)*size(summary%words), bytes)
-         summary%words = transfer(bytes, summary%words)
-      end associate
-   end subroutine take
 
    !> Notes a deck that was not run to its end, for the head of the table.
    pure subroutine note_failure(self, deck)
@@ -156,36 +86,96 @@ contains
    !> Writes the table. Columns of keys are those that are set on the command line, and those that a deck gives and that
    !> differ between decks. A deck without such a key has NaN there, or '-' in place of a word.
    !>
-   !> Errors: exit_file_trouble.
+   !> Errors: exit_file_trouble, also for a summary that cannot be read.
    subroutine write_table(self, path, settings, error)
-      class(collected_table), intent(in) :: self
+      class(collected_table), intent(inout) :: self
       character(*), intent(in) :: path
       type(setting_type), intent(in) :: settings(:)   !! of the command line
       type(error_type), allocatable, intent(out) :: error
 
       integer, allocatable :: columns(:)
       type(output_file) :: file
-      integer :: d, i, k
+      integer :: d
 
+      do d = 1, self%number
+         call read_summary(self%decks(d), error)
+         if (allocated(error)) return
+      end do
       call choose_columns(self, settings, columns)
       call file%open(directory_of(path), path(index(path, '/', back=.true.) + 1:))
       call file%put('# wavycon '//version//' ('//revision//')'//self%failed)
       call put_columns(self, columns, file)
       do d = 1, self%number
-         associate (rows => self%decks(d))
-            do i = 1, rows%summary%rows
-               call file%add(rows%deck)
-               call file%add(rows%case)
-               do k = 1, size(columns)
-                  call file%add(rows%keys(columns(k))%word)
-               end do
-               call file%add_row_of(rows%summary, i)
-               call file%end_row()
-            end do
-         end associate
+         call read_summary(self%decks(d), error, columns, file)
+         if (allocated(error)) return
       end do
       call file%finish(error)
    end subroutine write_table
+
+   !> Reads the units of a summary, or adds its rows to the table. Errors: exit_file_trouble.
+   subroutine read_summary(deck, error, columns, file)
+      type(collected_deck), intent(inout) :: deck
+      type(error_type), allocatable, intent(out) :: error
+      integer, intent(in), optional :: columns(:)              !! the keys that have a column
+      type(output_file), intent(inout), optional :: file       !! present with `columns`: rows are added to it
+
+      character(longest_word) :: words(size(summary_columns) + 1)   ! the line of the units begins with a '#'
+      character(2*longest_word*size(words)) :: line
+      character(200) :: message
+      integer :: k, status, unit
+      logical :: in_head
+
+      open (newunit=unit, file=deck%summary, status='old', action='read', iostat=status, iomsg=message)
+      if (status /= 0) then
+         call fatal_error(error, exit_file_trouble, escaped(deck%summary)//': cannot be read: '//system_words(message))
+         return
+      end if
+      in_head = .true.
+      do
+         read (unit, '(a)', iostat=status) line
+         if (status /= 0) exit
+         if (line(1:1) == '#') then
+            call split(line, words)
+            cycle
+         else if (in_head) then
+            ! The line of the names, behind that of the units.
+            in_head = .false.
+            deck%units = words(2:)
+            if (.not. present(file)) exit
+            cycle
+         end if
+         call split(line, words)
+         call file%add(deck%deck)
+         call file%add(deck%case)
+         do k = 1, size(columns)
+            call file%add(deck%keys(columns(k))%word)
+         end do
+         do k = 1, size(summary_columns)
+            call file%add(trim(words(k)))
+         end do
+         call file%end_row()
+      end do
+      close (unit)
+   end subroutine read_summary
+
+   !> The first words of a line, without the brackets of units.
+   pure subroutine split(line, words)
+      character(*), intent(in) :: line
+      character(*), intent(out) :: words(:)
+
+      integer :: first, k, length
+
+      words = ''
+      first = 1
+      do k = 1, size(words)
+         first = first + verify(line(first:), ' ') - 1
+         length = scan(line(first:), ' ') - 1
+         if (length <= 0) return
+         words(k) = line(first:first + length - 1)
+         if (words(k)(1:1) == '[') words(k) = words(k)(2:length - 1)
+         first = first + length
+      end do
+   end subroutine split
 
    !> Sets the names, units and widths of all columns.
    subroutine put_columns(table, columns, file)
@@ -195,7 +185,7 @@ contains
 
       integer, parameter :: before = 2   !! columns before those of the keys
       character(longest_name) :: names(before + size(columns) + size(summary_columns))
-      character(longest_unit) :: units(size(names))
+      character(longest_word) :: units(size(names))
       integer :: d, k, longest(size(names))
 
       names(:before) = [character(4) :: 'deck', 'case']
@@ -267,7 +257,7 @@ contains
    pure function common_unit(table, column) result(unit)
       type(collected_table), intent(in) :: table
       integer, intent(in) :: column
-      character(longest_unit) :: unit
+      character(longest_word) :: unit
 
       unit = column_unit(summary_columns(column))
       if (table%number == 0) return

@@ -51,7 +51,6 @@ module wavycon_output_file
       procedure :: add_word
       generic :: add => add_real, add_reals, add_integer, add_integers, add_long_integer, &
          add_word
-      procedure :: add_row_of
       procedure :: end_row
       procedure :: put_rows
       procedure :: note_trouble
@@ -271,26 +270,6 @@ contains
       last = self%column_end(self%columns_filled)
       self%row(last - len(word) + 1:last) = word
    end subroutine add_word
-
-   !> Fills the next columns of a row with a row of a table in memory.
-   subroutine add_row_of(self, table, row)
-      class(output_file), intent(inout) :: self
-      type(memory_table), intent(in) :: table
-      integer, intent(in) :: row
-
-      integer :: k
-
-      do k = 1, size(table%kinds)
-         select case (table%kinds(k))
-         case (of_words)
-            call self%add(trim(table%words(nint(table%values(k, row)))))
-         case (of_integers)
-            call self%add(nint(table%values(k, row), int64))
-         case default
-            call self%add(table%values(k, row))
-         end select
-      end do
-   end subroutine add_row_of
 
    !> Writes the row that was filled.
    subroutine end_row(self)

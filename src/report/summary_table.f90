@@ -10,7 +10,7 @@ module wavycon_summary_table
    implicit none (type, external)
    private
 
-   public :: summary_table, put_summary_row
+   public :: summary_table
 
    !> With free edges numbers in p* are NaN. The errors are estimates, NaN if unknown or if the solver has none. NaN
    !> too: what is at the hardness without a hardness, areas by points without a grid, the linear law if the surface is
