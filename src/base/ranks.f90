@@ -50,7 +50,6 @@ module wavycon_ranks
       procedure(move_blocks), deferred :: move
       procedure(make_row_exchange), deferred :: new_row_exchange
       procedure(send_text), deferred :: share_text
-      procedure(put_columns), deferred :: write_columns
       procedure(end_run), deferred :: finish
       procedure(get_text), deferred :: library                 !! name and version
    end type communicator
@@ -132,19 +131,6 @@ module wavycon_ranks
          integer, intent(in) :: from
          character(:), allocatable, intent(inout) :: text
       end subroutine send_text
-
-      !> All ranks write their columns of a matrix, one after the other, to a file that exists.
-      subroutine put_columns(self, path, start, number_bytes, rows, first, columns, values, failure)
-         import :: int64, communicator
-         class(communicator), intent(in) :: self
-         character(*), intent(in) :: path
-         integer(int64), intent(in) :: start       !! bytes before the first column of all
-         integer, intent(in) :: number_bytes       !! of a number
-         integer, intent(in) :: rows               !! numbers of a column
-         integer, intent(in) :: first, columns     !! of this rank; columns may be 0
-         type(*), intent(inout), target :: values(*)    !! shape (rows, columns)
-         character(:), allocatable, intent(out) :: failure   !! the system's words on this rank; allocated if it failed
-      end subroutine put_columns
 
       subroutine end_run(self, status)
          import :: communicator

@@ -3,11 +3,9 @@ module wavycon_mpi_ranks
    use, intrinsic :: iso_fortran_env, only: error_unit, int64
    use mpi_f08, only: mpi_abort, mpi_allgatherv, mpi_allreduce, mpi_alltoallv, mpi_bcast, mpi_byte, mpi_character, &
       mpi_comm, mpi_comm_free, mpi_comm_rank, mpi_comm_size, mpi_comm_split_type, mpi_comm_type_shared, &
-      mpi_comm_world, mpi_datatype, mpi_double_precision, mpi_error_string, mpi_file, mpi_file_close, mpi_file_open, &
-      mpi_file_write_at_all, mpi_finalize, mpi_gatherv, mpi_get_count, mpi_get_library_version, &
+      mpi_comm_world, mpi_datatype, mpi_double_precision, mpi_finalize, mpi_gatherv, mpi_get_library_version, &
       mpi_ibarrier, mpi_in_place, mpi_info_null, mpi_init_thread, mpi_integer, mpi_integer8, mpi_irecv, mpi_isend, &
-      mpi_logical, mpi_lor, mpi_max, mpi_max_error_string, mpi_max_library_version_string, &
-      mpi_mode_wronly, mpi_offset_kind, mpi_request, mpi_status, mpi_status_ignore, mpi_statuses_ignore, mpi_success, &
+      mpi_max, mpi_max_library_version_string, mpi_request, mpi_status_ignore, mpi_statuses_ignore, &
       mpi_sum, mpi_test, mpi_thread_funneled, mpi_type_commit, mpi_type_contiguous, mpi_type_free, mpi_waitall
    use wavycon_error, only: exit_bad_input, exit_file_trouble
    use wavycon_kinds, only: dp
@@ -17,8 +15,6 @@ module wavycon_mpi_ranks
    private
 
    public :: start_mpi
-
-   integer, parameter :: message_length = 512   !! of the compiler's messages
 
    type, extends(communicator) :: mpi_communicator
       integer :: this = 0, number = 1, on_machine = 1
@@ -34,7 +30,6 @@ module wavycon_mpi_ranks
       procedure :: move
       procedure :: new_row_exchange
       procedure :: share_text
-      procedure :: write_columns
       procedure :: finish
       procedure :: library
    end type mpi_communicator
@@ -200,78 +195,6 @@ contains
       end if
       call mpi_bcast(text, length, mpi_character, from, mpi_comm_world)
    end subroutine share_text
-
-   !> Writes the columns of all ranks at a time.
-   !>
-   !> N.B. Files report their errors by default, other procedures of MPI end the program. Counts are numbers of columns,
-   !> as in `gather`.
-   subroutine write_columns(self, path, start, number_bytes, rows, first, columns, values, failure)
-      class(mpi_communicator), intent(in) :: self
-      character(*), intent(in) :: path
-      integer(int64), intent(in) :: start
-      integer, intent(in) :: number_bytes, rows, first, columns
-      type(*), intent(inout), target :: values(*)
-      character(:), allocatable, intent(out) :: failure
-
-      integer :: code, written
-      integer(mpi_offset_kind) :: place
-      logical :: is_missing
-      type(mpi_datatype) :: column
-      type(mpi_file) :: file
-      type(mpi_status) :: status
-
-      associate (unused => self); end associate
-      call check_access(path, failure)
-      call mpi_allreduce(allocated(failure), is_missing, 1, mpi_logical, mpi_lor, mpi_comm_world)
-      if (is_missing) return
-      call mpi_file_open(mpi_comm_world, path, mpi_mode_wronly, mpi_info_null, file, code)
-      if (code /= mpi_success) then
-         failure = words_of(code)
-         return
-      end if
-      call mpi_type_contiguous(rows*number_bytes, mpi_byte, column)
-      call mpi_type_commit(column)
-      place = start + int(first - 1, int64)*rows*number_bytes
-      call mpi_file_write_at_all(file, place, values, columns, column, status, code)
-      if (code /= mpi_success) then
-         failure = words_of(code)
-      else
-         call mpi_get_count(status, column, written)
-         if (written /= columns) failure = 'the disk may be full'
-      end if
-      call mpi_type_free(column)
-      call mpi_file_close(file, code)
-      if (code /= mpi_success .and. .not. allocated(failure)) failure = words_of(code)
-   end subroutine write_columns
-
-   !> Whether this rank can write to a file that exists. If one rank cannot, as on a machine that does not share the
-   !> disk, Open MPI 4 opens the file on the others, and these would wait for it for ever.
-   subroutine check_access(path, failure)
-      character(*), intent(in) :: path
-      character(:), allocatable, intent(out) :: failure   !! the system's words; not allocated: it can
-
-      character(message_length) :: words
-      integer :: status, unit
-
-      open (newunit=unit, file=path, status='old', access='stream', action='write', iostat=status, iomsg=words)
-      if (status == 0) then
-         close (unit)
-      else
-         failure = trim(words)
-      end if
-   end subroutine check_access
-
-   !> MPI's words for an error.
-   function words_of(code) result(words)
-      integer, intent(in) :: code
-      character(:), allocatable :: words
-
-      character(mpi_max_error_string) :: buffer
-      integer :: length
-
-      call mpi_error_string(code, buffer, length)
-      words = buffer(:length)
-   end function words_of
 
    !> Ends MPI on all ranks. A rank that ends by an error which the others do not know of would wait for them, as they
    !> do for it: after a while it ends them too.

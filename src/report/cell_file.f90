@@ -25,6 +25,7 @@ module wavycon_cell_file
       integer :: points(2) = 0                !! along x and y
       real(dp) :: offset(2) = 0.0_dp          !! of the first point, in steps
       real(dp), private :: side(2) = 0.0_dp   !! of the cell [length]
+      logical :: is_here = .true.             !! whether this rank writes it
    contains
       procedure :: open => open_cell_file
       procedure :: put_row
@@ -32,7 +33,8 @@ module wavycon_cell_file
 
 contains
 
-   !> Opens <case>.<kind>.dat or <case>.<kind>.npy. `file%is_open` says whether there is the memory too.
+   !> Opens <case>.<kind>.dat or <case>.<kind>.npy, on the first rank. `file%is_open` says whether there is the memory
+   !> too.
    subroutine open_cell_file(self, results, kind, columns, numbers, planes, numbers_a_point, what)
       class(cell_file), intent(out) :: self
       type(results_type), intent(in) :: results
@@ -47,6 +49,10 @@ contains
       ! A table with more than one plane a load counts all of them.
       self%as_text = is_text(results%scene%output%text('map_format'), &
                              self%points*[1, merge(product(planes), 1, size(planes) > 1)])
+      self%side = results%solver%surface%sides()
+      self%offset = map_offset(results, self%points)
+      self%is_here = results%sharing%is_first()
+      if (.not. self%is_here) return
       if (self%as_text) then
          call results%open_table(kind, columns, self%file)
       else
@@ -54,9 +60,6 @@ contains
                              npy_header([planes, self%points([2, 1])], column_name(columns(numbers + 1:))))
       end if
       call check_memory(self%file, self%points, numbers_a_point, what)
-      if (.not. self%file%is_open()) return
-      self%side = results%solver%surface%sides()
-      self%offset = map_offset(results, self%points)
    end subroutine open_cell_file
 
    !> Notes trouble if there is not the memory for a grid.
@@ -81,6 +84,7 @@ contains
       real(dp), allocatable :: rows(:, :)
       integer :: k
 
+      if (.not. self%is_here) return
       allocate (rows(size(values, 1) + 2, size(values, 2)))
       do k = 1, size(rows, 2)
          rows(:2, k) = self%side*([k, row] - 1 + self%offset)/self%points

@@ -6,13 +6,9 @@ module wavycon_map_table
    use wavycon_contact_fields, only: contact_fields
    use wavycon_error, only: error_type
    use wavycon_grid_points, only: image_of_point
-   use wavycon_grid_slab, only: grid_slab
    use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
-   use wavycon_memory_table, only: column_name
-   use wavycon_npy_header, only: npy_header
    use wavycon_results, only: results_type
-   use wavycon_shared_file, only: shared_file
    use wavycon_table, only: table_type
    implicit none (type, external)
    private
@@ -69,108 +65,78 @@ contains
 
       type(cell_file) :: map
       class(contact_fields), allocatable :: fields
-      real(dp), allocatable :: gap(:, :), p(:, :), shape(:, :), u(:, :), values(:, :)
+      real(dp), allocatable :: gap(:, :), p(:, :), shape(:, :), u(:, :)
       integer :: l, load
+      logical :: by_all
 
-      if (results%loads(1)%distributed_points() > 0) then
-         call write_by_all(results, map_points(results), error)
-         return
-      end if
-      call map%open(results, 'map', columns, 1, [size(results%loads)], numbers_a_point, '')
-      associate (surface => results%solver%surface, p_star => results%scene%p_star)
+      by_all = results%loads(1)%distributed_points() > 0
+      call map%open(results, 'map', columns, 1, [size(results%loads)], merge(0, numbers_a_point, by_all), '')
+      associate (surface => results%solver%surface)
          do load = 1, size(results%loads)
-            if (.not. map%file%is_open()) exit
+            if (.not. (map%file%is_open() .or. by_all)) exit
             if (map%as_text) call results%begin_block(map%file, load)
             call results%loads(load)%fields(surface, fields)
+            if (by_all) then
+               call put_distributed(results, load, fields, map)
+               cycle
+            end if
             call fields%on_grid(map%points, map%offset, p, u, gap)
             call surface%sample_shape(map%points, map%offset, shape)
             do l = 1, map%points(2)
-               values = transpose(reshape([p_star*p(:, l), surface%amplitude*gap(:, l), surface%amplitude*u(:, l), &
-                                           surface%amplitude*(1.0_dp - shape(:, l))], [map%points(1), 4]))
-               call map%put_row([load], l, values)
+               call map%put_row([load], l, row_of(results, p(:, l), gap(:, l), u(:, l), shape(:, l)))
             end do
          end do
       end associate
-      call map%file%finish(error)
+      if (map%is_here) call map%file%finish(error)
    end subroutine write_map_table
 
-   !> Writes the file of numpy by all ranks, each from its columns of the grids. Errors: exit_file_trouble.
-   subroutine write_by_all(results, points, error)
-      type(results_type), intent(in) :: results
-      integer, intent(in) :: points(2)
-      type(error_type), allocatable, intent(out) :: error
-
-      class(contact_fields), allocatable :: fields
-      type(grid_slab) :: slab
-      type(shared_file) :: file
-      integer :: image, load
-      real(dp), allocatable :: shape(:, :)
-      type(grid_transform) :: transform
-
-      call results%loads(1)%fields(results%solver%surface, fields)
-      slab = fields%own_slab
-      allocate (shape(slab%points(1), slab%columns()))
-      associate (series => results%solver%surface%shape)
-         call transform%start(slab%points, series%is_even())
-         call transform%sample(series, shape)
-      end associate
-      call file%open(results%scene%directory, results%scene%case//'.map.npy', &
-                     npy_header([size(results%loads), points(2), points(1)], column_name(columns(2:))))
-      do load = 1, size(results%loads)
-         if (load > 1) call results%loads(load)%fields(results%solver%surface, fields)
-         ! The mirror images of the columns follow those of a quarter of the cell.
-         do image = 1, points(2)/slab%points(2)
-            call put_columns(results, load, points, slab, fields, shape, image == 2, file)
-         end do
-      end do
-      call file%finish(error)
-   end subroutine write_by_all
-
-   !> Writes the own columns of a load or their mirror images, some at a time.
-   subroutine put_columns(results, load, points, slab, fields, shape, is_image, file)
+   !> Writes a load whose columns are distributed over the ranks: the first rank takes them one by one.
+   subroutine put_distributed(results, load, fields, map)
       type(results_type), intent(in) :: results
       integer, intent(in) :: load
-      integer, intent(in) :: points(2)
-      type(grid_slab), intent(in) :: slab
       class(contact_fields), intent(in) :: fields
-      real(dp), intent(in) :: shape(:, :)     !! 1 - h/Delta, shape (M, slab%columns())
-      logical, intent(in) :: is_image
-      type(shared_file), intent(inout) :: file
+      type(cell_file), intent(inout) :: map
 
-      !> Numbers that are written at a time: 64 MB of them.
-      integer, parameter :: most_numbers = 2**23
-      integer :: block, c, first, k, l, last, numbers, place, step
-      real(dp) :: side(2)
-      real(dp), allocatable :: gap(:), p(:), rows(:, :, :), u(:)
+      integer :: column, k, l
+      integer :: image(map%points(1))
+      logical :: is_own
+      real(dp), dimension(fields%own_slab%points(1)) :: gap, p, u
+      real(dp), allocatable :: shape(:, :)
+      real(dp) :: values(size(columns) - 3, map%points(1))
+      type(grid_transform) :: transform
 
-      numbers = size(columns) - 1
-      block = max(1, most_numbers/(numbers*points(1)))
-      allocate (rows(numbers, points(1), block))
-      allocate (gap(slab%points(1)), p(slab%points(1)), u(slab%points(1)))
-      associate (surface => results%solver%surface, p_star => results%scene%p_star)
-         side = surface%sides()
-         ! Ranks with fewer columns take part with none.
-         do step = 1, (slab%width - 1)/block + 1
-            first = slab%first + (step - 1)*block
-            last = min(first + block - 1, slab%last)
-            place = first
-            if (is_image) place = points(2) + 1 - last
-            do l = first, last
-               associate (own => shape(:, l - slab%first + 1))
-                  call fields%at_own_column(l, own, p, u, gap)
-                  c = merge(last - l, l - first, is_image)
-                  do k = 1, points(1)
-                     associate (row => image_of_point(k, slab%points(1), points(1) > slab%points(1)))
-                        rows(:, k, c + 1) = [side*([k, place + c] - 1 + fields%own_offset)/points, p_star*p(row), &
-                                             surface%amplitude*[gap(row), u(row), 1.0_dp - own(row)]]
-                     end associate
-                  end do
+      associate (slab => fields%own_slab, series => results%solver%surface%shape)
+         allocate (shape(slab%points(1), slab%columns()))
+         call transform%start(slab%points, series%is_even())
+         call transform%sample(series, shape)
+         ! Of a quarter of the cell the mirror images follow.
+         image = image_of_point([(k, k=1, size(image))], slab%points(1), size(image) > slab%points(1))
+         do l = 1, map%points(2)
+            column = image_of_point(l, slab%points(2), map%points(2) > slab%points(2))
+            is_own = column >= slab%first .and. column <= slab%last
+            if (is_own) then
+               associate (own => shape(:, column - slab%first + 1))
+                  call fields%at_own_column(column, own, p, u, gap)
+                  values = row_of(results, p(image), gap(image), u(image), own(image))
                end associate
-            end do
-            call file%put_columns(int(load - 1, int64)*numbers*points(1)*points(2), numbers*points(1), place, &
-                                  max(last - first + 1, 0), rows)
+            end if
+            call results%sharing%share_numbers(is_own, values)
+            call map%put_row([load], l, values)
          end do
       end associate
-   end subroutine put_columns
+   end subroutine put_distributed
+
+   !> The numbers of a row of points, in the deck's units.
+   pure function row_of(results, p, gap, u, shape) result(values)
+      type(results_type), intent(in) :: results
+      real(dp), intent(in) :: p(:), gap(:), u(:)   !! p/p*, gap/Delta and u/Delta
+      real(dp), intent(in) :: shape(:)             !! 1 - h/Delta
+      real(dp) :: values(size(columns) - 3, size(p))
+
+      values(1, :) = results%scene%p_star*p
+      values(2, :) = results%solver%surface%amplitude*gap
+      values(3, :) = results%solver%surface%amplitude*u
+      values(4, :) = results%solver%surface%amplitude*(1.0_dp - shape)
+   end function row_of
 
 end module wavycon_map_table

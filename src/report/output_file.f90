@@ -54,7 +54,6 @@ module wavycon_output_file
       procedure :: end_row
       procedure :: put_rows
       procedure :: note_trouble
-      procedure :: share
       procedure :: finish
    end type output_file
 
@@ -331,29 +330,13 @@ contains
       if (.not. allocated(self%trouble)) self%trouble = system_words(message)
    end subroutine note_trouble
 
-   !> Brings to the file what was written so far, for other processes that write to the file too.
-   subroutine share(self, path)
-      class(output_file), intent(inout) :: self
-      character(:), allocatable, intent(out) :: path   !! its temporary name
-
-      character(200) :: message
-      integer :: status
-
-      path = self%working_name
-      if (allocated(self%trouble)) return
-      flush (self%unit, iostat=status, iomsg=message)
-      call check(self, status, message)
-   end subroutine share
-
    !> Closes the file and renames it to its final name; after an error the file is removed instead. Errors:
    !> exit_file_trouble.
-   subroutine finish(self, error, bytes_of_others)
+   subroutine finish(self, error)
       class(output_file), intent(inout) :: self
       type(error_type), allocatable, intent(out) :: error
-      integer(int64), intent(in), optional :: bytes_of_others   !! that other processes wrote behind the own ones
 
       character(:), allocatable :: failure
-      integer(int64) :: further
 
       if (associated(self%memory)) then
          if (self%memory%is_full) call self%note_trouble('there is not the memory for all rows')
@@ -361,9 +344,7 @@ contains
          return
       end if
       if (allocated(self%names) .and. .not. self%has_names) call put_names(self)
-      further = 0
-      if (present(bytes_of_others)) further = bytes_of_others
-      if (self%opened) call close_file(self, further)
+      if (self%opened) call close_file(self)
       if (.not. allocated(self%trouble)) then
          call rename_file(self%working_name, self%name, failure)
          if (allocated(failure)) call self%note_trouble(failure)
@@ -377,9 +358,8 @@ contains
    !> Closes the file and compares its size with the number of bytes written.
    !>
    !> N.B. On a full disk neither write, flush nor close reports an error with gfortran 12: the file is only too short.
-   subroutine close_file(self, further)
+   subroutine close_file(self)
       type(output_file), intent(inout) :: self
-      integer(int64), intent(in) :: further   !! bytes of other processes
 
       character(200) :: message
       integer(int64) :: bytes_there, next_byte
@@ -391,7 +371,7 @@ contains
       close (self%unit, iostat=status, iomsg=message)
       call check(self, status, message)
       inquire (file=self%working_name, size=bytes_there)
-      if (bytes_there /= next_byte - 1 + further) &
+      if (bytes_there /= next_byte - 1) &
          call self%note_trouble('it is cut short: the disk is full, or over a quota or a limit on file sizes')
    end subroutine close_file
 

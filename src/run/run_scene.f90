@@ -129,7 +129,7 @@ contains
       by_first = results%sharing%kind == distributed_grids
       by_all = .false.
       if (by_first) by_all = [(tables(i)%is_written_by_all(results), i=1, size(tables))]
-      call write_tables(results, tables, by_all, error)
+      call write_tables(results, tables, by_all, by_first, error)
       if (allocated(error)) return
       if (by_first) then
          call collect(results, any(tables%needs_fields .and. .not. by_all) .or. asks_for_largest(results%scene), &
@@ -145,7 +145,7 @@ contains
          end if
          if (allocated(results%scene%interface_setting)) call find_interface(results, log)
       end if
-      if (results%sharing%is_first()) call write_tables(results, tables, .not. by_all, error)
+      if (results%sharing%is_first()) call write_tables(results, tables, .not. by_all, .false., error)
       if (by_first) call results%sharing%work_alone(.false.)
       call results%sharing%share_error(error)
    end subroutine write_results
@@ -260,10 +260,11 @@ contains
    end subroutine prepare_directory
 
    !> Writes tables. Errors: exit_file_trouble.
-   subroutine write_tables(results, tables, selected, error)
+   subroutine write_tables(results, tables, selected, by_all, error)
       type(results_type), intent(in) :: results
       type(table_type), intent(in) :: tables(:)
       logical, intent(in) :: selected(:)   !! of each table
+      logical, intent(in) :: by_all        !! whether all ranks write them together: an error of one is that of all
       type(error_type), allocatable, intent(out) :: error
 
       integer :: i
@@ -271,6 +272,7 @@ contains
       do i = 1, size(tables)
          if (.not. selected(i)) cycle
          call tables(i)%write(results, error)
+         if (by_all) call results%sharing%share_error(error)
          if (allocated(error)) return
       end do
    end subroutine write_tables
