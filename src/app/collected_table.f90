@@ -3,11 +3,11 @@
 module wavycon_collected_table
    use wavycon_deck_keys, only: deck_key
    use wavycon_error, only: error_type, exit_file_trouble, fatal_error
-   use wavycon_memory_table, only: column_name, column_unit
+   use wavycon_memory_table, only: column_list, column_name, column_unit
    use wavycon_output_file, only: output_file
    use wavycon_plain_text, only: escaped, system_words
    use wavycon_settings, only: setting_type
-   use wavycon_summary_table, only: summary_columns
+   use wavycon_summary_tables, only: summary_columns
    use wavycon_system, only: make_directories, path_directory, path_kind
    use wavycon_version, only: revision, version
    implicit none (type, external)
@@ -22,12 +22,13 @@ module wavycon_collected_table
       character(:), allocatable :: deck, case
       character(:), allocatable :: summary     !! path of its summary table
       type(deck_key), allocatable :: keys(:)   !! the same of each deck
-      character(longest_word) :: units(size(summary_columns)) = ''   !! of the columns of the summary
+      character(longest_word), allocatable :: units(:)   !! of the columns of the summary
    end type collected_deck
 
    type :: collected_table
       private
       type(collected_deck), allocatable :: decks(:)
+      character(longest_name), allocatable :: columns(:)   !! name[unit] of those of the summary
       integer :: number = 0                    !! of decks that have been added
       character(:), allocatable :: failed      !! lines of the head, for the decks that were not run
    contains
@@ -50,6 +51,7 @@ contains
       character(:), allocatable :: failure
 
       allocate (self%decks(most_decks))
+      self%columns = column_list(summary_columns)
       self%failed = ''
       call make_directories(directory_of(path), failure)
       if (allocated(failure)) then
@@ -98,7 +100,7 @@ contains
       integer :: d
 
       do d = 1, self%number
-         call read_summary(self%decks(d), error)
+         call read_summary(self%decks(d), size(self%columns), error)
          if (allocated(error)) return
       end do
       call choose_columns(self, settings, columns)
@@ -106,20 +108,21 @@ contains
       call file%put('# wavycon '//version//' ('//revision//')'//self%failed)
       call put_columns(self, columns, file)
       do d = 1, self%number
-         call read_summary(self%decks(d), error, columns, file)
+         call read_summary(self%decks(d), size(self%columns), error, columns, file)
          if (allocated(error)) return
       end do
       call file%finish(error)
    end subroutine write_table
 
    !> Reads the units of a summary, or adds its rows to the table. Errors: exit_file_trouble.
-   subroutine read_summary(deck, error, columns, file)
+   subroutine read_summary(deck, number, error, columns, file)
       type(collected_deck), intent(inout) :: deck
+      integer, intent(in) :: number   !! of the columns of the summary
       type(error_type), allocatable, intent(out) :: error
       integer, intent(in), optional :: columns(:)              !! the keys that have a column
       type(output_file), intent(inout), optional :: file       !! present with `columns`: rows are added to it
 
-      character(longest_word) :: words(size(summary_columns) + 1)   ! the line of the units begins with a '#'
+      character(longest_word) :: words(number + 1)   ! the line of the units begins with a '#'
       character(2*longest_word*size(words)) :: line
       character(200) :: message
       integer :: k, status, unit
@@ -150,7 +153,7 @@ contains
          do k = 1, size(columns)
             call file%add(deck%keys(columns(k))%word)
          end do
-         do k = 1, size(summary_columns)
+         do k = 1, number
             call file%add(trim(words(k)))
          end do
          call file%end_row()
@@ -184,7 +187,7 @@ contains
       type(output_file), intent(inout) :: file
 
       integer, parameter :: before = 2   !! columns before those of the keys
-      character(longest_name) :: names(before + size(columns) + size(summary_columns))
+      character(longest_name) :: names(before + size(columns) + size(table%columns))
       character(longest_word) :: units(size(names))
       integer :: d, k, longest(size(names))
 
@@ -194,8 +197,8 @@ contains
       do k = 1, size(columns)
          names(before + k) = table%decks(1)%keys(columns(k))%name
       end do
-      do k = 1, size(summary_columns)
-         names(before + size(columns) + k) = column_name(summary_columns(k))
+      do k = 1, size(table%columns)
+         names(before + size(columns) + k) = column_name(table%columns(k))
          units(before + size(columns) + k) = common_unit(table, k)
       end do
       do d = 1, table%number
@@ -259,10 +262,13 @@ contains
       integer, intent(in) :: column
       character(longest_word) :: unit
 
-      unit = column_unit(summary_columns(column))
-      if (table%number == 0) return
-      if (all(table%decks(:table%number)%units(column) == table%decks(1)%units(column))) &
-         unit = table%decks(1)%units(column)
+      integer :: d
+
+      unit = column_unit(table%columns(column))
+      do d = 1, table%number
+         if (table%decks(d)%units(column) /= table%decks(1)%units(column)) return
+      end do
+      if (table%number > 0) unit = table%decks(1)%units(column)
    end function common_unit
 
    !> A text as one word of a table.

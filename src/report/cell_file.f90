@@ -4,7 +4,7 @@ module wavycon_cell_file
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_fields, only: contact_fields
    use wavycon_kinds, only: dp
-   use wavycon_memory_table, only: column_name
+   use wavycon_memory_table, only: column_list, column_name, longest_column
    use wavycon_npy_header, only: npy_header
    use wavycon_output_file, only: output_file
    use wavycon_plain_text, only: integer_text
@@ -39,11 +39,13 @@ contains
       class(cell_file), intent(out) :: self
       type(results_type), intent(in) :: results
       character(*), intent(in) :: kind          !! name of the table
-      character(*), intent(in) :: columns(:)    !! name[unit]: integers, x, y and others
+      character(*), intent(in) :: columns       !! name[unit] of each: integers, x, y and others
       integer, intent(in) :: numbers            !! of columns of integers, which the file of numpy does not have
       integer, intent(in) :: planes(:)          !! their number along each of the first indices of the file of numpy
       integer, intent(in) :: numbers_a_point    !! that are in memory at a time
       character(*), intent(in) :: what          !! before the number of points, for the message on memory
+
+      character(longest_column), allocatable :: names(:)
 
       self%points = map_points(results)
       ! A table with more than one plane a load counts all of them.
@@ -56,8 +58,9 @@ contains
       if (self%as_text) then
          call results%open_table(kind, columns, self%file)
       else
+         names = column_name(column_list(columns))
          call self%file%open(results%scene%directory, results%scene%case//'.'//kind//'.npy', &
-                             npy_header([planes, self%points([2, 1])], column_name(columns(numbers + 1:))))
+                             npy_header([planes, self%points([2, 1])], names(numbers + 1:)))
       end if
       call check_memory(self%file, self%points, numbers_a_point, what)
    end subroutine open_cell_file

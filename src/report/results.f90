@@ -8,7 +8,7 @@ module wavycon_results
    use wavycon_contact_status, only: status_code, status_name
    use wavycon_kinds, only: dp
    use wavycon_largest_stress, only: largest_stress
-   use wavycon_memory_table, only: column_name, column_unit, memory_table
+   use wavycon_memory_table, only: column_list, column_name, column_unit, longest_column, memory_table
    use wavycon_output_file, only: output_file
    use wavycon_partial_slip, only: partial_slip
    use wavycon_plain_text, only: escaped, exact_number, integer_text
@@ -56,18 +56,22 @@ contains
    subroutine open_table(self, kind, columns, file)
       class(results_type), intent(in) :: self
       character(*), intent(in) :: kind         !! name of the table, such as 'summary'
-      character(*), intent(in) :: columns(:)   !! name[unit]; the units of `unit_in_words` are replaced
+      character(*), intent(in) :: columns      !! name[unit] of each; the units of `unit_in_words` are replaced
       type(output_file), intent(out) :: file
 
-      character(longest_unit) :: units(size(columns))
+      character(longest_column), allocatable :: names(:)
+      character(longest_unit), allocatable :: units(:)
       integer :: i
 
-      do i = 1, size(columns)
-         units(i) = self%unit_in_words(trim(column_unit(columns(i))))
+      names = column_list(columns)
+      allocate (units(size(names)))
+      do i = 1, size(names)
+         units(i) = self%unit_in_words(trim(column_unit(names(i))))
       end do
+      names = column_name(names)
       if (associated(self%memory)) then
          call file%open_in_memory(self%memory)
-         call file%put_columns(column_name(columns), units)
+         call file%put_columns(names, units)
          return
       end if
       call file%open(self%scene%directory, self%scene%case//'.'//kind//'.dat')
@@ -81,7 +85,7 @@ contains
          call file%put('# material: e_star['//pressure//'] = '//exact_number(self%scene%e_star)//closing_pressure())
          call file%put('# method: '//self%method)
       end associate
-      call file%put_columns(column_name(columns), units)
+      call file%put_columns(names, units)
 
    contains
 

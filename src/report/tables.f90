@@ -1,28 +1,15 @@
 !> The list of all tables. A new table adds its line to `all_tables`.
 module wavycon_tables
-   use wavycon_adhesion_table, only: adhesion_table
-   use wavycon_coefficients_table, only: coefficients_table
-   use wavycon_contour_table, only: contour_table
-   use wavycon_details_table, only: details_table
-   use wavycon_height_table, only: height_table
-   use wavycon_histogram_table, only: histogram_table
-   use wavycon_interface_table, only: interface_table
-   use wavycon_largest_stress_table, only: largest_stress_table
-   use wavycon_lines_table, only: lines_table
-   use wavycon_map_table, only: map_table
-   use wavycon_partial_slip_table, only: partial_slip_table, slip_loop_table
+   use wavycon_interface_tables, only: adhesion_table, interface_table, partial_slip_table, slip_loop_table
+   use wavycon_line_tables, only: lines_table
+   use wavycon_map_tables, only: map_table, slip_map_table
    use wavycon_plain_text, only: listed
-   use wavycon_slip_map_table, only: slip_map_table
-   use wavycon_spectrum_table, only: spectrum_table
-   use wavycon_spot_sizes_table, only: spot_sizes_table
-   use wavycon_spots_table, only: spots_table
-   use wavycon_stress_line_table, only: stress_line_table
-   use wavycon_stress_planes_table, only: stress_planes_table
-   use wavycon_stress_section_table, only: stress_section_table
-   use wavycon_summary_table, only: summary_table
+   use wavycon_spot_tables, only: contour_table, histogram_table, spot_sizes_table, spots_table
+   use wavycon_stress_tables, only: largest_stress_table, stress_line_table, stress_planes_table, stress_section_table
+   use wavycon_summary_tables, only: coefficients_table, details_table, summary_table
+   use wavycon_surface_tables, only: height_table, spectrum_table
    use wavycon_table, only: table_type
-   use wavycon_theory_lines_table, only: theory_lines_table
-   use wavycon_theory_table, only: theory_table
+   use wavycon_theory_tables, only: theory_lines_table, theory_table
    implicit none (type, external)
    private
 

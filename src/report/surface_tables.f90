@@ -1,5 +1,8 @@
-!> <case>.height.npy: the heights of the surface that was solved, for numpy and for kind = 'file'.
-module wavycon_height_table
+!> Tables of the surface that was solved.
+!>
+!> <case>.spectrum.dat: its power spectra, a block for the isotropic one and one for lines along x and y.
+!> <case>.height.npy: its heights, for numpy and for kind = 'file'.
+module wavycon_surface_tables
    use wavycon_cell_file, only: check_memory, map_points
    use wavycon_error, only: error_type
    use wavycon_grid_slab, only: grid_slab
@@ -7,28 +10,78 @@ module wavycon_height_table
    use wavycon_kinds, only: dp
    use wavycon_npy_header, only: npy_header
    use wavycon_output_file, only: output_file
-   use wavycon_results, only: results_type
+   use wavycon_power_spectrum, only: line_spectrum, power_spectrum, radial_spectrum
+   use wavycon_results, only: not_a_number, results_type
    use wavycon_table, only: table_type
    implicit none (type, external)
    private
 
-   public :: height_table
+   public :: height_table, spectrum_table
 
-   !> Numbers for each point: the height and its spectrum.
+   !> Numbers in memory for each point: the height and its spectrum.
    integer, parameter :: numbers_a_point = 2
 
-   !> Columns of the table in memory.
-   character(16), parameter :: columns(*) = [character(16) :: 'x[length]', 'y[length]', 'height[length]']
+   !> Those of the heights are for the table in memory.
+   character(*), parameter :: height_columns = 'x[length] y[length] height[length]'
+   character(*), parameter :: spectrum_columns = &
+      'direction[-] wave_number[rad/length] waves[-] spectrum_2d[length^4] spectrum_1d[length^3] '// &
+      'rms_height_up_to[length] rms_slope_up_to[-] rms_curvature_up_to[1/length]'
 
 contains
 
+   type(table_type) function spectrum_table() result(table)
+      table = table_type('spectrum', 'spectrum', write_all=write_spectrum_table, columns=spectrum_columns, &
+                         meaning='The power spectrum of the surface.')
+   end function spectrum_table
+
+   !> Errors: exit_file_trouble.
+   subroutine write_spectrum_table(results, error)
+      type(results_type), intent(in) :: results
+      type(error_type), allocatable, intent(out) :: error
+
+      type(output_file) :: file
+
+      call results%open_table('spectrum', spectrum_columns, file)
+      associate (surface => results%solver%surface)
+         associate (shape => surface%shape, unit => surface%amplitude, length => surface%length, &
+                    points => surface%points)
+            if (surface%dimension == 2) &
+               call put_spectrum(file, 'radial', radial_spectrum(shape, unit, length, points), is_radial=.true.)
+            call put_spectrum(file, 'x', line_spectrum(shape, unit, length, points, 1), is_radial=.false.)
+            if (surface%dimension == 2) &
+               call put_spectrum(file, 'y', line_spectrum(shape, unit, length, points, 2), is_radial=.false.)
+         end associate
+      end associate
+      call file%finish(error)
+   end subroutine write_spectrum_table
+
+   !> Writes the block of a spectrum.
+   subroutine put_spectrum(file, direction, spectrum, is_radial)
+      type(output_file), intent(inout) :: file
+      character(*), intent(in) :: direction
+      type(power_spectrum), intent(in) :: spectrum
+      logical, intent(in) :: is_radial
+
+      real(dp) :: densities(2)
+      integer :: i
+
+      call file%begin_block('direction: '//direction)
+      do i = 1, size(spectrum%waves)
+         densities = not_a_number()
+         densities(merge(1, 2, is_radial)) = spectrum%density(i)
+         call file%add(direction)
+         call file%add(spectrum%wave_number(i))
+         call file%add(spectrum%waves(i))
+         call file%add(densities)
+         call file%add([spectrum%height(i), spectrum%slope(i), spectrum%curvature(i)])
+         call file%end_row()
+      end do
+   end subroutine put_spectrum
+
    type(table_type) function height_table() result(table)
-      table%file = 'height'
-      table%key = 'height'
-      table%meaning = "The heights that are solved, as a file of numpy that kind = 'file' reads."
-      call table%set_columns(columns)
-      table%written_by_all => is_written_by_all
-      table%write_all => write_height_table
+      table = table_type('height', 'height', written_by_all=is_written_by_all, write_all=write_height_table, &
+                         columns=height_columns, &
+                         meaning="The heights that are solved, as a file of numpy that kind = 'file' reads.")
    end function height_table
 
    !> All ranks write the heights of a map that is distributed over them.
@@ -58,7 +111,7 @@ contains
          points = surface%points/surface%parts()
          if (all(points == 0)) points = map_points(results)
          if (associated(results%memory)) then
-            call results%open_table('height', columns, file)
+            call results%open_table('height', height_columns, file)
          else if (is_here) then
             call file%open(results%scene%directory, results%scene%case//'.height.npy', npy_header(points([2, 1])))
          end if
@@ -104,4 +157,4 @@ contains
       end do
    end subroutine put_places
 
-end module wavycon_height_table
+end module wavycon_surface_tables

@@ -1,6 +1,10 @@
-!> <case>.map.dat: the fields over one cell, a block for each load with a blank line between rows (gnuplot's grid
-!> format). Or <case>.map.npy: the same as an array of records for numpy.
-module wavycon_map_table
+!> Tables over one cell, for each load a block with a blank line between rows (gnuplot's grid format), or the same as an
+!> array of records for numpy.
+!>
+!> <case>.map.dat or .npy: the fields.
+!> <case>.slip_map.dat or .npy: the tangential tractions, and where the contact sticks and slips, of each load and
+!> tangential load.
+module wavycon_map_tables
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_cell_file, only: cell_file, is_text, map_points
    use wavycon_contact_fields, only: contact_fields
@@ -8,30 +12,32 @@ module wavycon_map_table
    use wavycon_grid_points, only: image_of_point
    use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
-   use wavycon_results, only: results_type
+   use wavycon_plain_text, only: exact_number, integer_text
+   use wavycon_results, only: not_a_number, results_type
    use wavycon_table, only: table_type
    implicit none (type, external)
    private
 
-   public :: map_table
+   public :: map_table, slip_map_table
 
-   !> Numbers for each point of a map: three fields and the surface, the spectrum of one, and those of the solution.
-   integer, parameter :: numbers_a_point = 7
+   !> Numbers in memory for each point of a map: three fields and the surface, the spectrum of one, and those of the
+   !> solution; of a slip map: three fields of two contacts.
+   integer, parameter :: numbers_a_point = 7, numbers_a_slip_point = 6
 
-   character(40), parameter :: columns(*) = [character(40) :: &
-      'load[-]', 'x[length]', 'y[length]', 'pressure[pressure]', 'gap[length]', 'displacement[length]', &
-      'undeformed_gap[length]']
+   character(*), parameter :: map_columns = &
+      'load[-] x[length] y[length] pressure[pressure] gap[length] displacement[length] undeformed_gap[length]'
+   !> Of a map, without load and place.
+   integer, parameter :: numbers_of_map = 4
+
+   character(*), parameter :: slip_columns = &
+      'load[-] tangential[-] x[length] y[length] traction[pressure] pressure[pressure] slip_state[-]'
 
 contains
 
    type(table_type) function map_table() result(table)
-      table%file = 'map'
-      table%key = 'map'
-      table%meaning = 'Pressures and gaps over the whole cell.'
-      call table%set_columns(columns)
-      table%needs_fields = .true.
-      table%written_by_all => is_written_by_all
-      table%write_all => write_map_table
+      table = table_type('map', 'map', needs_fields=.true., written_by_all=is_written_by_all, &
+                         write_all=write_map_table, columns=map_columns, &
+                         meaning='Pressures and gaps over the whole cell.')
    end function map_table
 
    !> All ranks write a map in numpy's format at the points of the grid that all loads are solved on.
@@ -70,7 +76,7 @@ contains
       logical :: by_all
 
       by_all = results%loads(1)%distributed_points() > 0
-      call map%open(results, 'map', columns, 1, [size(results%loads)], merge(0, numbers_a_point, by_all), '')
+      call map%open(results, 'map', map_columns, 1, [size(results%loads)], merge(0, numbers_a_point, by_all), '')
       associate (surface => results%solver%surface)
          do load = 1, size(results%loads)
             if (.not. (map%file%is_open() .or. by_all)) exit
@@ -102,7 +108,7 @@ contains
       logical :: is_own
       real(dp), dimension(fields%own_slab%points(1)) :: gap, p, u
       real(dp), allocatable :: shape(:, :)
-      real(dp) :: values(size(columns) - 3, map%points(1))
+      real(dp) :: values(numbers_of_map, map%points(1))
       type(grid_transform) :: transform
 
       associate (slab => fields%own_slab, series => results%solver%surface%shape)
@@ -131,7 +137,7 @@ contains
       type(results_type), intent(in) :: results
       real(dp), intent(in) :: p(:), gap(:), u(:)   !! p/p*, gap/Delta and u/Delta
       real(dp), intent(in) :: shape(:)             !! 1 - h/Delta
-      real(dp) :: values(size(columns) - 3, size(p))
+      real(dp) :: values(numbers_of_map, size(p))
 
       values(1, :) = results%scene%p_star*p
       values(2, :) = results%solver%surface%amplitude*gap
@@ -139,4 +145,57 @@ contains
       values(4, :) = results%solver%surface%amplitude*(1.0_dp - shape)
    end function row_of
 
-end module wavycon_map_table
+   type(table_type) function slip_map_table() result(table)
+      table = table_type('slip_map', 'slip_map', 'interface', needs_fields=.true., write_all=write_slip_map, &
+                         columns=slip_columns)
+   end function slip_map_table
+
+   !> Errors: exit_file_trouble.
+   subroutine write_slip_map(results, error)
+      type(results_type), intent(in) :: results
+      type(error_type), allocatable, intent(out) :: error
+
+      type(cell_file) :: map
+      class(contact_fields), allocatable :: fields
+      real(dp), allocatable :: gap(:, :), p(:, :), p_of_stick(:, :), u(:, :), values(:, :)
+      integer :: i, l, load
+
+      call map%open(results, 'slip_map', slip_columns, 2, [size(results%loads), size(results%slip, 1)], &
+                    numbers_a_slip_point, '')
+      associate (surface => results%solver%surface, p_star => results%scene%p_star, &
+                 friction => results%scene%interface_setting%friction)
+         do load = 1, size(results%loads)
+            do i = 1, size(results%slip, 1)
+               if (.not. map%file%is_open()) exit
+               associate (slip => results%slip(i, load))
+                  if (map%as_text) call map%file%begin_block( &
+                     'load '//integer_text(load)//', tangential load '//exact_number(p_star*slip%tangential))
+                  call results%loads(load)%fields(surface, fields)
+                  call fields%on_grid(map%points, map%offset, p, u, gap)
+                  call slip%stick%fields(surface, fields)
+                  call fields%on_grid(map%points, map%offset, p_of_stick, u, gap)
+               end associate
+               do l = 1, map%points(2)
+                  if (results%slip(i, load)%stick%is_good()) then
+                     values = transpose(reshape([friction*p_star*max(p(:, l) - p_of_stick(:, l), 0.0_dp), &
+                                                 p_star*p(:, l), state(p(:, l), p_of_stick(:, l))], &
+                                                [map%points(1), 3]))
+                  else
+                     values = spread([not_a_number(), not_a_number(), not_a_number()], 2, map%points(1))
+                  end if
+                  call map%put_row([load, i], l, values)
+               end do
+            end do
+         end do
+      end associate
+      call map%file%finish(error)
+   end subroutine write_slip_map
+
+   !> 0 open, 1 slip, 2 stick.
+   elemental real(dp) function state(pressure, pressure_of_stick)
+      real(dp), intent(in) :: pressure, pressure_of_stick
+
+      state = merge(1.0_dp, 0.0_dp, pressure > 0.0_dp) + merge(1.0_dp, 0.0_dp, pressure_of_stick > 0.0_dp)
+   end function state
+
+end module wavycon_map_tables
