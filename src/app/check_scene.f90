@@ -7,6 +7,7 @@ module wavycon_check_scene
    use wavycon_grid_slab, only: grid_slab
    use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
+   use wavycon_notes, only: show_scene
    use wavycon_plain_text, only: escaped, integer_text, short_number
    use wavycon_results, only: results_type
    use wavycon_run_log, only: duration, run_log
@@ -32,15 +33,15 @@ contains
 
       call log%start(quiet)
       call start_results(scene, results, tables)
-      call log%show_scene(results)
-      if (reason(results) /= '') call log%say('because   '//reason(results))
+      call show_scene(results, log)
+      if (reason(results) /= '') call log%say('because: '//reason(results))
       if (all(results%traits%finest_grid > 0)) then
-         call log%say('memory    '//memory(results, keep_fields(results%scene, tables)))
-         call log%say('time      some '// &
+         call log%say('memory: '//memory(results, keep_fields(results%scene, tables)))
+         call log%say('time: some '// &
             duration(max(1.0_dp, seconds_of_load(results%traits%finest_grid)*size(results%scene%target)))// &
             ' if all loads need that grid, by its transforms as measured now')
       end if
-      call log%say('tables    '//names_of(tables)//' in '//escaped(results%scene%directory))
+      call log%say('tables: '//names_of(tables)//' in '//escaped(results%scene%directory))
       call log%say(escaped(results%scene%deck_path)//': the deck is fine')
    end subroutine check_scene
 

@@ -2,14 +2,15 @@
 module wavycon_run_scene
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_checkpoint, only: checkpoint_file, checkpoint_name, read_checkpoints
-   use wavycon_closing_notes, only: sum_up
    use wavycon_error, only: error_type, exit_file_trouble, exit_fine, fatal_error
    use wavycon_find_interface, only: find_interface
    use wavycon_find_stresses, only: find_stresses
    use wavycon_kinds, only: dp
    use wavycon_method_list, only: start_solver
+   use wavycon_notes, only: show_scene, sum_up
    use wavycon_output_file, only: output_file
    use wavycon_plain_text, only: escaped, integer_text, short_number
+   use wavycon_result_lines, only: show_loads, show_stresses
    use wavycon_results, only: results_type
    use wavycon_run_log, only: run_log
    use wavycon_scene, only: by_pressure, by_yield, scene_type
@@ -44,7 +45,7 @@ contains
       status = exit_fine
       call log%start(quiet)
       call start_results(scene, results, tables)
-      call log%show_scene(results)
+      call show_scene(results, log)
       call check_sharing(results, tables, error)
       if (allocated(error)) return
       if (results%sharing%is_shared()) then
@@ -106,7 +107,7 @@ contains
       if (results%sharing%any(.not. checkpoint%is_complete())) &
          call log%say('note: not all loads could be written to '//escaped(checkpoint_name(results))//', to resume from')
       call log%say_timed('solved and measured')
-      call log%show_loads(results)
+      call show_loads(results, log)
       call write_results(results, tables, log, error)
       if (allocated(error)) return
       call checkpoint%remove()
@@ -141,7 +142,7 @@ contains
          if (asks_for_largest(results%scene)) then
             call find_stresses(results, log)
             call log%say_timed('largest stresses found')
-            call log%show_stresses(results)
+            call show_stresses(results, log)
          end if
          if (allocated(results%scene%interface_setting)) call find_interface(results, log)
       end if
@@ -229,7 +230,7 @@ contains
          known = ranks_that_know > 0
       end if
       if (allocated(name)) then
-         call log%say('resumed   '//integer_text(count(ranks_that_know > 0))//' of '//integer_text(size(known))// &
+         call log%say('resumed: '//integer_text(count(ranks_that_know > 0))//' of '//integer_text(size(known))// &
                       ' loads are in '//escaped(name))
       else
          call log%say('note: there is no '//escaped(checkpoint_name(results))// &

@@ -206,7 +206,7 @@ class Pages(ProgramTest):
 
     def test_the_log_in_readme(self):
         text = read("README.md")
-        shown = re.findall(r"^```\n(deck .*?)^```$", text, re.MULTILINE | re.DOTALL)
+        shown = re.findall(r"^```\n(deck: .*?)^```$", text, re.MULTILINE | re.DOTALL)
         self.assertEqual(1, len(shown))
         (self.folder/"first.nml").write_text(decks(text)[0])
         log = self.run_program("first.nml", folder=self.folder).stdout

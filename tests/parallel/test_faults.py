@@ -129,7 +129,7 @@ class Faults(ProgramTest):
         # Another number of ranks goes on from the checkpoints of all.
         outcome = run(self.mpiexec, 2, self.command("--resume"), self.folder)
         self.assertEqual((0, ""), (outcome.status, outcome.stderr))
-        self.assertRegex(outcome.stdout, r"(?m)^resumed +[1-9]")
+        self.assertRegex(outcome.stdout, r"(?m)^resumed: [1-9]")
         resumed = (self.folder/"results"/"deck.summary.dat").read_text()
         self.assertEqual([], [name for name in self.results() if "checkpoint" in name])
         run(self.mpiexec, RANKS, self.command(), self.folder)

@@ -86,7 +86,7 @@ def logs(text):
     parts = re.findall(r"^(wavycon .*\ndeck +(\w+)\.nml\n(?:(?!wavycon |\d+ decks: ).*\n)*)", text, re.MULTILINE)
     lines = {name: [re.sub(r"^\[ *[\d.]+ s\]", "[]", line) for line in part.rstrip().splitlines()]
              for part, name in parts}
-    return {name: [line for line in own if not line.startswith("ranks ")] for name, own in lines.items()}, lines
+    return {name: [line for line in own if not line.startswith("ranks: ")] for name, own in lines.items()}, lines
 
 
 def columns(text):

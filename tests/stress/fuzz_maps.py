@@ -527,9 +527,9 @@ def odd_files(program, work, failures):
                           ("a mark alone", b"\xef\xbb\xbf"), ("line ends alone", "\r\r\n\n\r")):
         attempt(name, content, 1, "heights.dat: there are no numbers in this file")
     attempt("one point", "1", 1, "a map of 1 x 1 points")
-    attempt("one column", "1\n2\n1\n0\n", 0, "map       4 x 1 points")
+    attempt("one column", "1\n2\n1\n0\n", 0, "map: points_x[-] = 4, points_y[-] = 1")
     attempt("two rows", "1 2 3 4\n"*2, 1, "a map of 4 x 2 points")
-    attempt("one row", "1 2 1 0\n", 0, "map       4 x 1 points")
+    attempt("one row", "1 2 1 0\n", 0, "map: points_x[-] = 4, points_y[-] = 1")
     attempt("one row of points", "0 0 1\n1 0 2\n2 0 1\n3 0 0\n", 0, "map       4 x 1 points (xyz)")
     attempt("1048577 columns", "1 "*1048577 + "\n", 1, "a map of 1048577 x 1 points")
     attempt("text", "The quick brown fox\n", 1, "heights.dat: there are no numbers in this file")
