@@ -6,7 +6,7 @@ module wavycon_run_program
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use wavycon_check_scene, only: check_scene
    use wavycon_collected_table, only: collected_table
-   use wavycon_command_line, only: command_line_type, command_to_resume, help_text, read_command_line, usage
+   use wavycon_command_line, only: command_line_type, command_to_resume, help_text, read_command_line
    use wavycon_deck, only: deck_type
    use wavycon_deck_jobs, only: await_job, begin_job, job_has_ended, most_waiting, show_job, signal_status
    use wavycon_deck_keys, only: deck_key, list_keys
@@ -57,7 +57,7 @@ contains
       call read_command_line(command_line, error)
       if (library /= '' .and. command_line%jobs > 1 .and. .not. allocated(error)) &
          call fatal_error(error, exit_bad_input, '--jobs is an option of wavycon: mpirun starts the processes here')
-      if (allocated(error)) error%message = error%message//new_line('a')//usage(library /= '')
+      if (allocated(error)) error%message = error%message//new_line('a')//'wavycon --help shows all options'
       call share_error(error)
       call stop_on(error)
       if (command_line%help) then
