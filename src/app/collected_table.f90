@@ -125,6 +125,7 @@ contains
       character(longest_word) :: words(number + 1)   ! the line of the units begins with a '#'
       character(2*longest_word*size(words)) :: line
       character(200) :: message
+      character(:), allocatable :: head   ! of rows: deck, case, keys
       integer :: k, status, unit
       logical :: in_head
 
@@ -132,6 +133,13 @@ contains
       if (status /= 0) then
          call fatal_error(error, exit_file_trouble, escaped(deck%summary)//': cannot be read: '//system_words(message))
          return
+      end if
+      head = ''
+      if (present(columns)) then
+         head = deck%deck//' '//deck%case
+         do k = 1, size(columns)
+            head = head//' '//deck%keys(columns(k))%word
+         end do
       end if
       in_head = .true.
       do
@@ -147,16 +155,7 @@ contains
             if (.not. present(file)) exit
             cycle
          end if
-         call split(line, words)
-         call file%add(deck%deck)
-         call file%add(deck%case)
-         do k = 1, size(columns)
-            call file%add(deck%keys(columns(k))%word)
-         end do
-         do k = 1, number
-            call file%add(trim(words(k)))
-         end do
-         call file%end_row()
+         call file%put_words(head//' '//trim(line))
       end do
       close (unit)
    end subroutine read_summary

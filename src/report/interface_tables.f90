@@ -65,7 +65,7 @@ contains
                                *[abs(slopes%gap_slope), or_nan(slopes%gap_slope_error)]
             end associate
          end if
-         call file%add(load)
+         call file%add([load])
          call file%add([results%in_p_star(solution%pbar_over_pstar), results%mean_pressure(load), &
                         stiffness*scene%p_star/surface%amplitude, results%in_p_star([stiffness, &
                         or_nan(slopes%area_slope), or_nan(slopes%area_slope_error), &
@@ -121,7 +121,7 @@ contains
                               slip%tangential/(setting%friction*solution%pbar_over_pstar), &
                               of_stick(1), solution%measures%contact_area_fraction, of_stick(2:), &
                               setting%kappa(1)*displacement, setting%kappa(2:)*displacement(1), stiffness, energy])
-               call file%add(status_code(stick%status))
+               call file%add([status_code(stick%status)])
                call file%add(trim(status_name(stick%status)))
                call file%end_row()
             end associate
@@ -206,7 +206,7 @@ contains
 
       associate (surface => results%solver%surface, mean_pressure => results%scene%p_star*point%load)
          gap = results%in_p_star([1.0_dp - point%approach, point%approach_error])
-         call file%add(point%number)
+         call file%add([point%number])
          if (point%exists) then
             call file%add([results%in_p_star([point%p1, point%load, point%load_error]), mean_pressure, &
                            mean_pressure*surface%nominal_area(), gap, surface%amplitude*point%approach, point%area, &

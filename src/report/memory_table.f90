@@ -15,7 +15,8 @@ module wavycon_memory_table
 
    !> Bytes of name[unit].
    integer, parameter, public :: longest_column = 48
-   integer, parameter :: longest_word = 32, first_room = 64
+   integer, parameter, public :: longest_word = 32
+   integer, parameter :: first_room = 64
 
    type :: memory_table
       character(longest_column), allocatable :: names(:), units(:)   !! of the columns

@@ -131,7 +131,7 @@ contains
       type(output_file), intent(inout) :: file
       integer, intent(in) :: load    !! number in the deck's order
 
-      call file%add(status_code(self%loads(load)%status))
+      call file%add([status_code(self%loads(load)%status)])
       call file%add(trim(status_name(self%loads(load)%status)))
       call file%end_row()
    end subroutine end_row

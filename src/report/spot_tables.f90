@@ -79,16 +79,16 @@ contains
 
       associate (solution => results%loads(load))
          call solution%spots(results%solver%surface, regions)
-         call file%add(load)
+         call file%add([load])
          call file%add([results%in_p_star(solution%pbar_over_pstar), solution%measures%contact_area_fraction])
       end associate
       if (regions%known) then
          spots = regions%spots%area_fraction
          pools = regions%pools%area_fraction
          pools = pack(pools, regions%pools%is_closed())
-         call file%add(size(spots))
+         call file%add([size(spots)])
          call file%add([sum(spots), max(0.0_dp, maxval(spots))])
-         call file%add(size(pools))
+         call file%add([size(pools)])
          call file%add([sum(pools), max(0.0_dp, maxval(pools)), regions%perimeter()])
          call file%add([(merge(1, 0, any(regions%spots%percolates(i))), i=1, 2), &
                         (merge(1, 0, any(regions%pools%percolates(i))), i=1, 2)])

@@ -63,7 +63,7 @@ contains
             if (results%traits%has_errors) &
                at_hardness(3:) = or_nan([measures%area_at_hardness_error, measures%load_at_hardness_error])
          end if
-         call file%add(load)
+         call file%add([load])
          call file%add([results%in_p_star(solution%pbar_over_pstar), &
                         measures%mean_gap_over_amplitude, approach(1), &
                         measures%contact_area_fraction, results%in_p_star(measures%peak_pressure_over_pstar), &
@@ -77,9 +77,8 @@ contains
                         surface%nominal_area()*[measures%contact_area_fraction, errors(2)], &
                         results%peak_pressure(load), scene%p_star*errors(3), results%in_p_star(energy), &
                         scene%p_star*surface%amplitude*surface%nominal_area()*energy])
-         call file%add(solution%active_constraints)
-         call file%add(solution%iterations)
-         call file%add(solution%residual)
+         call file%add([int(solution%active_constraints), solution%iterations])
+         call file%add([solution%residual])
          call file%add(trim(solver_names(solution%solver)))
       end associate
       call results%end_row(file, load)
@@ -116,11 +115,11 @@ contains
                                details%saddle_gap, details%saddle_gap_error, &
                                details%saddle_pressure, details%saddle_pressure_error, &
                                details%energy, details%energy_error, details%perimeter, details%perimeter_error]
-         call file%add(load)
+         call file%add([load])
          call file%add([solution%pbar_over_pstar, measures%mean_gap_over_amplitude, measures%mean_gap_error, &
                         measures%contact_area_fraction, measures%contact_area_error, &
                         measures%peak_pressure_over_pstar, measures%peak_pressure_error, numbers])
-         call file%add(details%degree)
+         call file%add([details%degree])
       end associate
       call results%end_row(file, load)
    end subroutine put_details
@@ -146,7 +145,7 @@ contains
          do j = 0, ubound(pressure%c, 2)
             if (i + j == 0) cycle
             call file%add([load, i, j])
-            call file%add(pressure%c(i, j))
+            call file%add([pressure%c(i, j)])
             call file%end_row()
          end do
       end do

@@ -82,7 +82,7 @@ contains
                 wavelength*hertz_point_radius_over_wavelength(p), &
                 wavelength*penny_crack_radius_over_wavelength(p)]
          end if
-         call file%add(load)
+         call file%add([load])
          call file%add([results%in_p_star(p), results%solver%surface%nominal_area()*results%mean_pressure(load), &
                         values])
       end associate

@@ -83,7 +83,7 @@ MAPS = {"odd": (263, 301, "f8"), "mirrored": (256, 384, "f4"), "coarse": (128, 1
 
 def logs(text):
     """The lines of each deck's log, by its name, without times and what only several ranks say; and with the latter."""
-    parts = re.findall(r"^(wavycon .*\ndeck +(\w+)\.nml\n(?:(?!wavycon |\d+ decks: ).*\n)*)", text, re.MULTILINE)
+    parts = re.findall(r"^(wavycon .*\ndeck: (\w+)\.nml\n(?:(?!wavycon |\d+ decks: ).*\n)*)", text, re.MULTILINE)
     lines = {name: [re.sub(r"^\[ *[\d.]+ s\]", "[]", line) for line in part.rstrip().splitlines()]
              for part, name in parts}
     return {name: [line for line in own if not line.startswith("ranks: ")] for name, own in lines.items()}, lines
