@@ -1,7 +1,6 @@
-!> The tables of the log: the solved loads, and the largest stresses.
+!> The table of the log: the solved loads.
 module wavycon_result_lines
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-   use wavycon_constants, only: pi
    use wavycon_contact_measures, only: or_nan
    use wavycon_contact_status, only: status_name
    use wavycon_kinds, only: dp
@@ -12,7 +11,7 @@ module wavycon_result_lines
    implicit none (type, external)
    private
 
-   public :: show_loads, show_stresses
+   public :: show_loads
 
    !> A line that grows column by column, together with that of the names.
    type :: log_line
@@ -73,45 +72,6 @@ contains
          end do
       end associate
    end subroutine show_loads
-
-   !> A line for each load and body: von Mises stress and shear stress, each followed by its error estimate, and the
-   !> depth of the first over the side of the cell along x; in the deck's units if it gives a modulus, with free edges in
-   !> these alone; if the deck gives a yield stress the ratio to it.
-   subroutine show_stresses(results, log)
-      type(results_type), intent(in) :: results   !! with the largest stresses
-      type(run_log), intent(inout) :: log
-
-      type(log_line) :: line
-      integer :: body, load
-
-      do load = 1, size(results%loads)
-         do body = 1, size(results%von_mises, 1)
-            associate (yielding => results%von_mises(body, load), shear => results%shear(body, load), &
-                       scene => results%scene)
-               call line%start(results, load)
-               call line%add('body', real(body, dp))
-               if (results%solver%surface%has_free_edges) then
-                  call line%add('vMises', scene%p_star*yielding%value, scene%pressure_unit)
-                  call line%add_error(scene%p_star*yielding%error)
-                  call line%add('depth', results%solver%surface%length(1)*yielding%place(3)/(2*pi), scene%length_unit)
-                  call line%add('shear', scene%p_star*shear%value, scene%pressure_unit)
-                  call line%add_error(scene%p_star*shear%error)
-               else
-                  call line%add('vMises/p*', yielding%value)
-                  call line%add_error(yielding%error)
-                  call line%add('depth/cell', yielding%place(3)/(2*pi))
-                  call line%add('shear/p*', shear%value)
-                  call line%add_error(shear%error)
-                  if (scene%gives_modulus) call line%add('vMises', scene%p_star*yielding%value, scene%pressure_unit)
-               end if
-               if (allocated(scene%stress_setting%yield_stress)) call line%add( &
-                  'over yield', scene%stress_setting%over_yield_stress(body, yielding%value, shear%value))
-            end associate
-            if (load == 1 .and. body == 1) call log%say(line%names)
-            call log%say(line%words)
-         end do
-      end do
-   end subroutine show_stresses
 
    !> Starts a line with the mean pressure or, with free edges, the force.
    subroutine start(self, results, load)
